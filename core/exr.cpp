@@ -1,0 +1,158 @@
+#include "core/exr.h"
+
+#include "core/error.h"
+#include "core/files.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace {
+
+std::string channel_name(const Layer& layer, size_t channel) {
+    const std::string letter(1, layer.channel_names[channel]);
+    return layer.name.empty() ? letter : layer.name + "." + letter;
+}
+
+Imf::PixelType file_type(PixelType type) {
+    return type == PixelType::half ? Imf::HALF : type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
+}
+
+/// RGBA and XYZ before all else, so that an interleaved image has the order which its user expects.
+int channel_rank(char letter) {
+    const size_t rank = std::string_view("RGBAXYZ").find(letter);
+    return rank == std::string_view::npos ? 1000 + letter : int(rank);
+}
+
+}  // namespace
+
+const Layer* LayeredImage::find(const std::string& name) const {
+    const auto found = std::ranges::find(layers, name, &Layer::name);
+    return found == layers.end() ? nullptr : &*found;
+}
+
+void write_exr(const std::filesystem::path& file, const LayeredImage& image) {
+    if (image.layers.empty()) fail("nothing to write into ", file.string());
+    const glm::uvec2 extent = image.layers.front().image.extent;
+    if (extent.x == 0 || extent.y == 0) fail("cannot write ", file.string(), ": the image has zero size");
+
+    Imf::Header header{int(extent.x), int(extent.y)};
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const auto& [name, value] : image.attributes) header.insert(name, Imf::StringAttribute(value));
+
+    // Values are converted from interleaved float32 once per channel that is stored as something else.
+    Imf::FrameBuffer frame;
+    std::vector<std::vector<half>> halves;
+    std::vector<std::vector<uint32_t>> integers;
+    for (const Layer& layer : image.layers) {
+        const HostImage& source = layer.image;
+        if (source.extent != extent) fail("cannot write ", file.string(), ": layer '", layer.name, "' has another size");
+        if (layer.channel_names.size() != source.channels)
+            fail("cannot write ", file.string(), ": layer '", layer.name, "' names ", layer.channel_names.size(), " channels but has ", source.channels);
+        for (size_t c = 0; c < source.channels; ++c) {
+            const std::string name = channel_name(layer, c);
+            header.channels().insert(name, Imf::Channel(file_type(layer.type)));
+            const auto value = [&](size_t i) { return source.values[i * source.channels + c]; };
+            char* base;
+            size_t stride;
+            if (layer.type == PixelType::half) {
+                auto& converted = halves.emplace_back(source.pixel_count());
+                for (size_t i = 0; i < converted.size(); ++i) converted[i] = half(value(i));
+                base = reinterpret_cast<char*>(converted.data()), stride = sizeof(half);
+            } else if (layer.type == PixelType::uint32) {
+                auto& converted = integers.emplace_back(source.pixel_count());
+                for (size_t i = 0; i < converted.size(); ++i) converted[i] = uint32_t(value(i));
+                base = reinterpret_cast<char*>(converted.data()), stride = sizeof(uint32_t);
+            } else {
+                base = reinterpret_cast<char*>(const_cast<float*>(source.values.data() + c)), stride = source.channels * sizeof(float);
+            }
+            frame.insert(name, Imf::Slice(file_type(layer.type), base, stride, stride * extent.x));
+        }
+    }
+    write_atomically(file, [&](const std::filesystem::path& temporary) {
+        try {
+            errno = 0;
+            Imf::OutputFile out(temporary.c_str(), header);
+            out.setFrameBuffer(frame);
+            out.writePixels(int(extent.y));
+        } catch (const std::exception& e) {
+            fail_machine("cannot write ", file.string(), ": ", errno ? std::strerror(errno) : e.what());
+        }
+    });
+}
+
+LayeredImage read_exr(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) fail("cannot read ", file.string(), ": no such file");
+    try {
+        Imf::InputFile in(file.c_str());
+        const Imf::Header& header = in.header();
+        const auto window = header.dataWindow();
+        const glm::uvec2 extent(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+
+        LayeredImage image;
+        for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
+            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
+                image.attributes[attribute.name()] = text->value();
+
+        for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+            const std::string name = channel.name();
+            if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
+                fail("cannot read ", file.string(), ": channel '", name, "' is subsampled, which is not supported");
+            const size_t dot = name.rfind('.');
+            const std::string layer_name = dot == std::string::npos ? "" : name.substr(0, dot);
+            auto layer = std::ranges::find(image.layers, layer_name, &Layer::name);
+            if (layer == image.layers.end()) layer = image.layers.insert(layer, Layer{.name = layer_name, .channel_names = {}, .image = {}, .type = {}});
+            const std::string letter = dot == std::string::npos ? name : name.substr(dot + 1);
+            if (letter.size() != 1) fail("cannot read ", file.string(), ": channel '", name, "' does not end in a single letter");
+            layer->channel_names += letter;
+            const Imf::PixelType type = channel.channel().type;
+            layer->type = type == Imf::HALF ? PixelType::half : type == Imf::UINT ? PixelType::uint32 : PixelType::float32;
+        }
+
+        Imf::FrameBuffer frame;
+        for (Layer& layer : image.layers) {
+            std::ranges::sort(layer.channel_names, {}, channel_rank);
+            const unsigned channels = unsigned(layer.channel_names.size());
+            layer.image = HostImage(extent, channels);
+            const size_t stride = channels * sizeof(float);
+            const ptrdiff_t origin = ptrdiff_t(window.min.y) * ptrdiff_t(extent.x) + window.min.x;
+            for (size_t c = 0; c < channels; ++c)
+                frame.insert(channel_name(layer, c),
+                             Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(layer.image.values.data() + c) - origin * ptrdiff_t(stride), stride, stride * extent.x));
+        }
+        in.setFrameBuffer(frame);
+        in.readPixels(window.min.y, window.max.y);
+        return image;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& e) {
+        fail("cannot read ", file.string(), " as OpenEXR: ", e.what());
+    }
+}
+
+void write_exr(const std::filesystem::path& file, const HostImage& rgb, PixelType type) {
+    write_exr(file, LayeredImage{.layers = {{.name = "", .channel_names = "RGB", .image = rgb, .type = type}}, .attributes = {}});
+}
+
+HostImage read_exr_rgb(const std::filesystem::path& file) {
+    const LayeredImage all = read_exr(file);
+    const Layer* layer = all.find("");
+    if (!layer && all.layers.size() == 1) layer = &all.layers.front();
+    if (!layer) {
+        std::string names;
+        for (const Layer& l : all.layers) names += " " + l.name;
+        fail(file.string(), " has several layers and none without a name; it has:", names);
+    }
+    const HostImage& source = layer->image;
+    if (source.channels == 2) fail(file.string(), ": layer '", layer->name, "' has two channels, not a colour");
+    HostImage rgb(source.extent, 3);
+    for (size_t i = 0; i < rgb.pixel_count(); ++i)
+        for (unsigned c = 0; c < 3; ++c) rgb.values[i * 3 + c] = source.values[i * source.channels + (source.channels == 1 ? 0 : c)];
+    return rgb;
+}

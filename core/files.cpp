@@ -1,0 +1,68 @@
+#include "core/files.h"
+
+#include "core/error.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <unistd.h>
+#include <xxhash.h>
+
+void write_atomically(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write) {
+    static std::atomic<unsigned> counter = 0;
+    std::error_code error;
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+    if (error) fail_machine("cannot create the folder ", file.parent_path().string(), ": ", error.message());
+    std::filesystem::path temporary = file;
+    temporary += ".partial-" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+    try {
+        write(temporary);
+    } catch (...) {
+        std::filesystem::remove(temporary, error);
+        throw;
+    }
+    std::filesystem::rename(temporary, file, error);
+    if (error) {
+        const std::string reason = error.message();
+        std::filesystem::remove(temporary, error);
+        fail_machine("cannot write ", file.string(), ": ", reason);
+    }
+}
+
+void write_text(const std::filesystem::path& file, std::string_view text) {
+    write_atomically(file, [&](const std::filesystem::path& temporary) {
+        errno = 0;
+        std::ofstream out(temporary, std::ios::binary);
+        out.write(text.data(), std::streamsize(text.size()));
+        out.close();
+        if (!out) fail_machine("cannot write ", file.string(), ": ", errno ? std::strerror(errno) : "unknown reason");
+    });
+}
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file)) fail("cannot read ", file.string(), ": no such file, or no permission");
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+ContentHash::ContentHash() : state_(XXH3_createState()) { XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_)); }
+ContentHash::~ContentHash() { XXH3_freeState(static_cast<XXH3_state_t*>(state_)); }
+
+void ContentHash::add(std::span<const std::byte> bytes) {
+    XXH3_128bits_update(static_cast<XXH3_state_t*>(state_), bytes.data(), bytes.size());
+}
+
+void ContentHash::add(std::string_view text) {
+    add(text.size());  // so that "ab" + "c" differs from "a" + "bc"
+    add(std::as_bytes(std::span(text.data(), text.size())));
+}
+
+std::string ContentHash::hex() const {
+    XXH128_canonical_t canonical;
+    XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(static_cast<const XXH3_state_t*>(state_)));
+    std::string text;
+    for (const unsigned char byte : canonical.digest)
+        for (const int nibble : {byte >> 4, byte & 15}) text += "0123456789abcdef"[nibble];
+    return text;
+}

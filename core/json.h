@@ -1,0 +1,46 @@
+#pragma once
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+/// Parses the file; an Error names file, line and column of a syntax error.
+nlohmann::json read_json(const std::filesystem::path& file);
+
+/// Reads the members of one JSON object and remembers which were asked for, so that a misspelt key is an error instead of
+/// a silent default. `where` begins each message, e.g. "scenes/fence/scene.json: cameras[0]".
+class JsonObject {
+public:
+    JsonObject(const nlohmann::json& object, std::string where);
+
+    bool has(const std::string& key) const;
+
+    float number(const std::string& key, float min, float max);                  ///< required, within [min, max]
+    float number(const std::string& key, float min, float max, float fallback);  ///< optional
+    int integer(const std::string& key, int min, int max);
+    int integer(const std::string& key, int min, int max, int fallback);
+    bool boolean(const std::string& key, bool fallback);
+    std::string text(const std::string& key);
+    std::string text(const std::string& key, const std::string& fallback);
+    std::string choice(const std::string& key, const std::vector<std::string>& choices, const std::string& fallback);
+    glm::vec3 vector(const std::string& key);
+    glm::vec3 vector(const std::string& key, glm::vec3 fallback);
+    const nlohmann::json& any(const std::string& key);           ///< required, of any type
+    std::vector<JsonObject> objects(const std::string& key);     ///< an array of objects; empty if absent
+    JsonObject object(const std::string& key);                   ///< required
+
+    const std::string& where() const { return where_; }
+
+    /// Fails on the first member that nobody asked for, with the nearest known key. Call it when all has been read.
+    void finish() const;
+
+private:
+    const nlohmann::json* find(const std::string& key);
+    const nlohmann::json& need(const std::string& key);
+
+    const nlohmann::json* object_;
+    std::string where_;
+    std::set<std::string> known_;
+};

@@ -1,0 +1,41 @@
+#include "core/near_miss.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace {
+
+/// Insertions, deletions, substitutions and exchanges of neighbours cost 1 each.
+size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::vector<size_t>> cost(a.size() + 1, std::vector<size_t>(b.size() + 1));
+    for (size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
+    for (size_t j = 0; j <= b.size(); ++j) cost[0][j] = j;
+    for (size_t i = 1; i <= a.size(); ++i)
+        for (size_t j = 1; j <= b.size(); ++j) {
+            const size_t substitution = cost[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, substitution});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+        }
+    return cost[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view name, std::span<const std::string> choices) {
+    std::string best;
+    size_t best_distance = std::max<size_t>(1, name.size() / 3) + 1;
+    for (const std::string& choice : choices)
+        if (const size_t distance = edit_distance(name, choice); distance < best_distance) {
+            best_distance = distance;
+            best = choice;
+        }
+    return best;
+}
+
+std::string suggestion(std::string_view name, std::span<const std::string> choices) {
+    if (const std::string near = nearest_name(name, choices); !near.empty()) return "; did you mean '" + near + "'?";
+    std::string list = "; known are: ";
+    for (size_t i = 0; i < choices.size(); ++i) list += (i ? ", " : "") + choices[i];
+    return list;
+}

@@ -1,0 +1,41 @@
+#pragma once
+#include "core/scene/scene.h"
+#include "core/shared/camera.h"
+
+/// How depth is stored: precision is one of the things that ssrlab studies.
+enum class DepthFormat { d32f, d24, d16 };
+enum class DepthDirection { standard, reversed };
+
+/// A camera at one instant.
+struct CameraPose {
+    glm::mat4 world_from_view{1.0f};  ///< view looks along -z, y up
+    bool is_orthographic = false;
+    float vertical_fov = 0.87f;        ///< radians
+    float orthographic_height = 1.0f;  ///< m
+    float near = 0.1f, far = 100.0f;   ///< m
+};
+
+CameraPose pose_camera(const SceneCamera& camera, const ScenePose& scene_pose, float frame);
+
+struct FrameView {
+    glm::uvec2 extent{0, 0};
+    DepthDirection depth_direction = DepthDirection::standard;
+    unsigned frame = 0, seed = 0;
+    glm::vec2 jitter{0.0f}, previous_jitter{0.0f};  ///< pixels, y down
+};
+
+/// The block which shaders see. `previous` is the pose of the frame before, or nullptr for the first frame.
+CameraData camera_data(const CameraPose& pose, const CameraPose* previous, const FrameView& view);
+
+/// Vulkan clip space: y down, z in [0, 1], near plane at 0 (standard) or 1 (reversed).
+glm::mat4 clip_from_view(const CameraPose& pose, float aspect, DepthDirection direction);
+
+/// The ray through a point of the image (pixels, y down; the centre of the first pixel is (0.5, 0.5)), in world space.
+/// Perspective rays start at the eye, orthographic ones on the plane through it. `direction` has unit length.
+struct CameraRay {
+    glm::vec3 origin, direction;
+};
+CameraRay camera_ray(const CameraPose& pose, glm::uvec2 extent, glm::vec2 pixel);
+
+/// Distance along -z of a view-space point from its device depth.
+float view_distance(const CameraData& camera, float device_depth);

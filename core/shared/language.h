@@ -1,0 +1,12 @@
+// Lets the headers of this folder compile both as C++ (with GLM) and as GLSL, so that the path tracer, the G-buffer and
+// every variant evaluate the very same formulas.
+#ifdef __cplusplus
+#pragma once
+#include <glm/glm.hpp>
+#define SHARED inline
+#define OUT(type) type&
+using glm::mat3, glm::mat4, glm::uvec2, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
+#else
+#define SHARED
+#define OUT(type) out type
+#endif
