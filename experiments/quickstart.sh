@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# The main job in one command: installs what is missing (Debian 12), builds ssrlab, runs the quickstart study, and says
+# where its report is. Arguments are handed on to `ssrlab run`, e.g. --device NAME or --out DIR.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source experiments/setup.sh
+
+case "${1:-}" in -h | --help)
+    echo "usage: experiments/quickstart.sh [options of 'ssrlab run']"
+    echo "Installs packages, builds build/release/ssrlab and runs experiments/configs/quickstart.json."
+    exit ;;
+esac
+
+install_packages "${build_packages[@]}"
+build release ssrlab
+say "Running experiments/configs/quickstart.json"
+build/release/ssrlab run experiments/configs/quickstart.json "$@"

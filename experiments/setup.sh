@@ -1,0 +1,43 @@
+# Sourced by experiments/quickstart.sh and tests/run.sh: what a fresh Debian 12 needs, and how ssrlab is built.
+
+# What building and running needs.
+build_packages=(
+    g++ cmake ninja-build ccache pkg-config git ca-certificates
+    libvulkan-dev mesa-vulkan-drivers glslang-dev spirv-tools
+    libembree-dev libtbb-dev libopenexr-dev libpng-dev libglm-dev libtinygltf-dev
+    nlohmann-json3-dev libcli11-dev libxxhash-dev libbenchmark-dev libgtest-dev
+    python3 python3-numpy python3-matplotlib
+)
+# What only the tests need: the validation layer, and a browser for the report.
+test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium)
+
+say() { printf '\n== %s\n' "$*"; }
+die() { printf 'error: %s\n' "$*" >&2; exit 3; }
+
+# install_packages NAME...: installs with apt what dpkg does not know as installed; says so and does nothing if all is there.
+install_packages() {
+    local missing=() package root=()
+    for package in "$@"; do
+        [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+    done
+    if [ ${#missing[@]} -eq 0 ]; then say "All $# packages are installed"; return; fi
+    command -v apt-get >/dev/null || die "apt-get is not here: install these packages by hand (Debian names): ${missing[*]}"
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null || die "these packages are missing and neither root nor sudo is at hand: ${missing[*]}"
+        root=(sudo)
+    fi
+    say "Installing ${#missing[@]} packages: ${missing[*]}"
+    "${root[@]}" apt-get update -qq || true  # a stale list may do; if not, the next line says what is wrong
+    "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
+        die "apt could not install ${missing[*]}: is there a network connection, and a Debian 12 mirror in /etc/apt/sources.list?"
+}
+
+# build PRESET [TARGET...]: configures and builds into build/PRESET; all targets if none is named.
+build() {
+    local preset=$1 targets=()
+    shift
+    [ $# -eq 0 ] || targets=(--target "$@")
+    say "Building ($preset)"
+    cmake --preset "$preset" >/dev/null || die "cmake could not configure the preset '$preset'; its messages are above"
+    cmake --build --preset "$preset" "${targets[@]}" -- --quiet || die "the build failed; the compiler's messages are above"
+}
