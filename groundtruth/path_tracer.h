@@ -1,0 +1,91 @@
+#pragma once
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+/// How direct light is estimated at each vertex of a path. All four have the same mean; power is the one to use, the
+/// others exist so that tests can compare them (Veach and Guibas 1995, "Optimally Combining Sampling Techniques").
+enum class LightStrategy { power, balance, light_only, bsdf_only };
+
+/// `gltf` is the material model of every result. The other two have closed-form solutions in closed scenes: `lambert` reflects
+/// baseColor / pi and nothing specularly, `constant_fresnel` uses F90 = F0.
+enum class ReflectionModel { gltf, lambert, constant_fresnel };
+
+struct PathTracerSettings {
+    unsigned max_depth = 64;  ///< reflections per path, at most; light that needs more is missing from the estimate
+    LightStrategy strategy = LightStrategy::power;
+    bool russian_roulette = true;
+    ReflectionModel model = ReflectionModel::gltf;
+    bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
+    bool keep_all = false;                 ///< trace and evaluate also what left_out() names: the same image, slower
+};
+
+/// The surface that a camera ray through a pixel centre meets: what the G-buffer holds of it.
+struct FirstHit {
+    bool is_hit = false;
+    glm::vec3 position{0.0f};          ///< m, world space
+    float distance = 0.0f;             ///< along the ray (m)
+    float depth = 0.0f;                ///< along the view's -z (m)
+    glm::vec3 geometric_normal{0.0f};  ///< unit, towards the camera
+    glm::vec3 normal{0.0f};            ///< unit shading normal
+    glm::vec3 view{0.0f};              ///< unit, towards the camera
+    glm::vec3 base_color{0.0f};
+    float metalness = 0.0f, roughness = 0.0f, specular = 0.0f;
+    unsigned material = 0, instance = 0;  ///< indices into the scene
+    glm::vec3 emitted{0.0f};              ///< towards the camera; where nothing is hit, the environment
+    glm::vec3 position_error{0.0f};       ///< half extent of the box that holds the exact hit (m)
+    bool is_unlit = false;
+};
+
+/// Sums over the samples of one pixel, to be divided as written here.
+struct PixelEstimate {
+    glm::dvec3 diffuse{0.0};   ///< / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
+    glm::dvec3 specular{0.0};  ///< / samples: specularly reflected radiance
+    glm::dvec3 incident{0.0};  ///< / lobe_samples: mean incident radiance over the lobe above the horizon
+    uint64_t samples = 0;
+    uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
+    uint64_t non_finite = 0;    ///< samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0
+    uint64_t rays = 0;          ///< traced, of both kinds
+    uint64_t paths = 0;         ///< rays that left the first hit along a lobe
+};
+
+/// A feature that the scene does not need, so that it costs nothing: no image changes with it.
+struct LeftOut {
+    std::string what;  ///< "alpha tests"
+    std::string fact;  ///< of the scene: "no alpha masks"
+    std::string why;   ///< one sentence
+};
+
+/// Unbiased path tracer over Embree (next-event estimation and BSDF sampling combined by multiple importance sampling)
+/// for one frame of one camera. Building it builds the BVH, with all cores; afterwards all members are const and may be
+/// called from any number of threads, whose results do not depend on how the work is split.
+///
+/// `incident` leaves out punctual lights: they are deltas, which a mean over directions cannot hold; `diffuse` and
+/// `specular` include them.
+class PathTracer {
+public:
+    /// `scene` must outlive the tracer. Fails with MachineError if Embree runs out of memory.
+    PathTracer(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
+               const PathTracerSettings& settings);
+    ~PathTracer();
+    PathTracer(const PathTracer&) = delete;
+    PathTracer& operator=(const PathTracer&) = delete;
+
+    /// The hit of the ray through the centre of pixel (x, y), y down.
+    FirstHit first_hit(unsigned x, unsigned y) const;
+
+    /// Adds samples [first_sample, first_sample + count) of the Owen-scrambled Sobol' sequence that (x, y, seed) selects.
+    /// Different seeds give independent scrambles; the error falls fastest when count is a power of two that divides
+    /// first_sample. Unlit hits and the background have nothing to estimate: only `samples` grows.
+    void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
+               PixelEstimate& estimate) const;
+
+    const std::vector<LeftOut>& left_out() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
