@@ -1,0 +1,189 @@
+#include "experiments/config.h"
+
+#include "core/error.h"
+#include "core/json.h"
+#include "core/near_miss.h"
+#include "metrics/metric.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+
+namespace {
+
+constexpr int max_side = 16384;  // pixels; what Vulkan devices commonly allow for an image
+
+const std::vector<std::string> all_masks = {"all", "reflective", "hit", "miss", "edge"};
+const std::vector<std::string> all_targets = {"specular", "image", "incident"};
+
+/// A text, or an array of texts.
+std::vector<std::string> one_or_more(JsonObject& object, const std::string& key, const std::string& fallback) {
+    if (!object.has(key)) return {object.text(key, fallback)};
+    const nlohmann::json& value = object.any(key);
+    if (value.is_string()) return {value.get<std::string>()};
+    const bool fits = value.is_array() && !value.empty() && std::ranges::all_of(value, [](const auto& v) { return v.is_string(); });
+    if (!fits) fail(object.where(), ": '", key, "' must be a text or an array of texts, not ", value.dump());
+    return value.get<std::vector<std::string>>();
+}
+
+std::vector<std::string> known_names(JsonObject& object, const std::string& key, const std::vector<std::string>& known,
+                                     const std::vector<std::string>& fallback) {
+    if (!object.has(key)) {
+        object.text(key, "");  // makes the key known for near misses
+        return fallback;
+    }
+    const std::vector<std::string> names = one_or_more(object, key, "");
+    for (const std::string& name : names)
+        if (std::ranges::find(known, name) == known.end()) fail(object.where(), ": '", key, "' names \"", name, "\", which is not known", suggestion(name, known));
+    return names;
+}
+
+/// A count n, which stands for 0 .. n-1, or an array of whole numbers.
+std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsigned max, const std::vector<unsigned>& fallback) {
+    if (!object.has(key)) {
+        object.integer(key, 0, int(max), 0);
+        return fallback;
+    }
+    const nlohmann::json& value = object.any(key);
+    std::vector<unsigned> list;
+    if (!value.is_array()) {
+        const int count = object.integer(key, 1, int(max));
+        for (int i = 0; i < count; ++i) list.push_back(unsigned(i));
+        return list;
+    }
+    for (const auto& v : value) {
+        if (!v.is_number_integer() || v.get<long long>() < 0 || v.get<long long>() > max)
+            fail(object.where(), ": '", key, "' holds ", v.dump(), "; allowed are whole numbers in [0, ", max, "]");
+        list.push_back(v.get<unsigned>());
+    }
+    std::ranges::sort(list);
+    const bool repeats = std::ranges::adjacent_find(list) != list.end();
+    if (list.empty() || repeats) fail(object.where(), ": '", key, "' must hold at least one number, each once");
+    return list;
+}
+
+glm::uvec2 read_extent(JsonObject& shot) {
+    const nlohmann::json& value = shot.any("resolution");
+    const bool fits = value.is_array() && value.size() == 2 && value[0].is_number_integer() && value[1].is_number_integer();
+    if (!fits) fail(shot.where(), ": 'resolution' must be [width, height] in pixels, not ", value.dump());
+    const long long width = value[0], height = value[1];
+    if (width < 1 || height < 1 || width > max_side || height > max_side)
+        fail(shot.where(), ": 'resolution' ", value.dump(), " is outside [1, ", max_side, "] pixels");
+    return {width, height};
+}
+
+/// scene x camera; frames stay together, since a history runs through them.
+void read_shot(JsonObject shot, std::vector<ShotConfig>& shots) {
+    const std::vector<std::string> scenes = one_or_more(shot, "scene", ""), cameras = one_or_more(shot, "camera", "");
+    if (!shot.has("scene")) shot.text("scene");  // says that it is missing
+    const glm::uvec2 extent = shot.has("resolution") ? read_extent(shot) : glm::uvec2(480, 270);
+    const std::vector<unsigned> frames = numbers(shot, "frames", 100000, {0});
+    shot.finish();
+    for (const std::string& scene : scenes)
+        for (const std::string& camera : cameras) shots.push_back({scene, camera, extent, frames});
+}
+
+/// A value as it stands in a point's label: texts without their quotes.
+std::string label(const nlohmann::json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+/// All combinations of the swept values, in the order of the axes as written, the last axis fastest.
+std::vector<nlohmann::json> grid_points(const nlohmann::json& axes, const std::string& where) {
+    std::vector<nlohmann::json> points = {nlohmann::json::object()};
+    for (const auto& [name, values] : axes.items()) {
+        if (!values.is_array() || values.empty()) fail(where, ": sweep: '", name, "' must be an array of values, not ", values.dump());
+        std::vector<nlohmann::json> longer;
+        for (const nlohmann::json& point : points)
+            for (const nlohmann::json& value : values) {
+                longer.push_back(point);
+                longer.back()[name] = value;
+            }
+        points = std::move(longer);
+    }
+    return points;
+}
+
+void read_variant(JsonObject entry, std::vector<VariantConfig>& variants) {
+    const std::string name = entry.text("variant");
+    const std::vector<std::string> presets = one_or_more(entry, "preset", "");
+    const nlohmann::json parameters = entry.has("parameters") ? entry.any("parameters") : nlohmann::json::object();
+    const nlohmann::json sweep = entry.has("sweep") ? entry.any("sweep") : nlohmann::json::object();
+    entry.finish();
+    for (const nlohmann::json* part : {&parameters, &sweep})
+        if (!part->is_object()) fail(entry.where(), ": 'parameters' and 'sweep' must be objects, not ", part->dump());
+    for (const std::string& preset : presets)
+        for (const nlohmann::json& point : grid_points(sweep, entry.where())) {
+            VariantConfig variant{.variant = name, .preset = preset, .parameters = parameters, .point = preset};
+            variant.parameters.update(point);
+            for (const auto& [key, value] : point.items()) variant.point += (variant.point.empty() ? "" : " ") + key + "=" + label(value);
+            if (variant.point.empty()) variant.point = "default";
+            try {
+                make_variant(variant.variant, variant.preset, variant.parameters);
+            } catch (const Error& e) {
+                fail(entry.where(), ": ", e.what());
+            }
+            variants.push_back(std::move(variant));
+        }
+}
+
+ReferenceSettings read_reference(JsonObject object) {
+    ReferenceSettings settings;
+    settings.max_samples = unsigned(object.integer("samples", 16, 1 << 24, int(settings.max_samples)));
+    settings.max_seconds = object.number("seconds", 0.0f, 1e7f, 0.0f);
+    settings.target_relative_error = object.number("target_relative_error", 0.0f, 1.0f, 0.0f);
+    settings.max_depth = unsigned(object.integer("max_depth", 1, 1024, int(settings.max_depth)));
+    settings.seed = unsigned(object.integer("seed", 0, 1 << 30, int(settings.seed)));
+    object.finish();
+    return settings;
+}
+
+/// The pairs (variant, point) name cells and rows, so they must differ.
+void refuse_repetition(const std::vector<VariantConfig>& variants, const std::string& where) {
+    for (size_t i = 0; i < variants.size(); ++i)
+        for (size_t j = i + 1; j < variants.size(); ++j)
+            if (variants[i].variant == variants[j].variant && variants[i].point == variants[j].point)
+                fail(where, ": variants: '", variants[i].variant, "' comes twice with the point '", variants[i].point,
+                     "'; give the second a preset or a sweep that tells them apart");
+}
+
+}  // namespace
+
+Config read_config(const std::filesystem::path& file) {
+    Config config;
+    config.source = read_json(file);
+    JsonObject object(config.source, file.string());
+    config.title = object.text("title", file.stem().string());
+    if (object.has("$schema")) object.text("$schema");
+
+    for (JsonObject& shot : object.objects("shots")) read_shot(shot, config.shots);
+    for (JsonObject& variant : object.objects("variants")) read_variant(variant, config.variants);
+    config.seeds = numbers(object, "seeds", 100000, {0});
+    if (object.has("reference")) config.reference = read_reference(object.object("reference"));
+    config.direct_lit = object.choice("lit", {"path_traced", "direct"}, "path_traced") == "direct";
+
+    const std::vector<std::string> formats = {"d32f", "d24", "d16"};
+    const std::string format = object.choice("depth_format", formats, "d32f");
+    config.depth_format = format == "d16" ? DepthFormat::d16 : format == "d24" ? DepthFormat::d24 : DepthFormat::d32f;
+    const bool is_reversed = object.choice("depth_direction", {"standard", "reversed"}, "standard") == "reversed";
+    config.depth_direction = is_reversed ? DepthDirection::reversed : DepthDirection::standard;
+
+    if (object.has("timing")) {
+        JsonObject timing = object.object("timing");
+        config.timing.frames = unsigned(timing.integer("frames", 0, 100000, int(config.timing.frames)));
+        config.timing.warm_up = unsigned(timing.integer("warm_up", 1, 1000, int(config.timing.warm_up)));
+        timing.finish();
+        if (config.timing.frames > 0 && config.timing.frames < 15)
+            fail(file.string(), ": timing: 'frames' = ", config.timing.frames, " is too few for a median with an interval; allowed are 0 (no timing) or at least 15");
+    }
+    std::vector<std::string> metric_names;
+    for (const Metric& metric : all_metrics()) metric_names.push_back(metric.name);
+    config.metrics = known_names(object, "metrics", metric_names, {"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"});
+    config.masks = known_names(object, "masks", all_masks, all_masks);
+    config.targets = known_names(object, "targets", all_targets, {"specular", "image", "incident"});
+    config.reflective_max_roughness = object.number("reflective_max_roughness", 0.0f, 1.0f, config.reflective_max_roughness);
+    config.reflective_min_reflectance = object.number("reflective_min_reflectance", 0.0f, 1.0f, config.reflective_min_reflectance);
+    object.finish();
+
+    if (config.shots.empty()) fail(file.string(), ": 'shots' is missing or empty: name at least one scene");
+    if (config.variants.empty()) fail(file.string(), ": 'variants' is missing or empty: name at least one variant, e.g. \"none\"");
+    refuse_repetition(config.variants, file.string());
+    return config;
+}

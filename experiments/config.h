@@ -1,0 +1,53 @@
+#pragma once
+#include "core/scene/camera.h"
+#include "groundtruth/reference.h"
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+/// One camera of one scene at one resolution, over some frames.
+struct ShotConfig {
+    std::string scene;   ///< a scene's name, a path to a .json/.gltf/.glb, or a folder with a saved gbuffer.exr
+    std::string camera;  ///< "": the scene's first
+    glm::uvec2 extent{480, 270};
+    std::vector<unsigned> frames{0};  ///< ascending; variants see them in this order, so histories work
+};
+
+/// A variant and one point of its parameter grid.
+struct VariantConfig {
+    std::string variant;
+    std::string preset;         ///< "": none
+    nlohmann::json parameters;  ///< values that differ from the preset's or default ones
+    std::string point;          ///< its label in results: the preset and the swept values, or "default"
+};
+
+struct TimingConfig {
+    unsigned frames = 15;   ///< measured per variant, after the warm-up; 0: no timing
+    unsigned warm_up = 3;
+};
+
+/// A study: everything that `ssrlab run` is told.
+struct Config {
+    std::string title;
+    std::vector<ShotConfig> shots;
+    std::vector<VariantConfig> variants;
+    std::vector<unsigned> seeds{0};
+    ReferenceSettings reference;
+    bool direct_lit = false;  ///< SSR reads rasterised direct light in place of the path-traced lit colour
+    DepthFormat depth_format = DepthFormat::d32f;
+    DepthDirection depth_direction = DepthDirection::standard;
+    TimingConfig timing;
+    std::vector<std::string> metrics;  ///< names of metrics/metric.h
+    std::vector<std::string> masks;
+    std::vector<std::string> targets;
+    float reflective_max_roughness = 0.6f;   ///< the mask `reflective`: perceptual roughness at most this ...
+    float reflective_min_reflectance = 0.02f;  ///< ... and F0 A + F90 B (largest channel) at least this
+    nlohmann::json source;  ///< as read, for the manifest
+};
+
+/// Reads and checks a config; its keys are in experiments/README.md. Every mistake is an Error that names file and key.
+/// Scenes are only looked up later; variants, parameters, metrics and masks are checked here, before any work starts.
+Config read_config(const std::filesystem::path& file);
