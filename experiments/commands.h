@@ -1,0 +1,64 @@
+#pragma once
+#include "groundtruth/reference.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// The commands of `ssrlab`, as main.cpp parses them. Each throws Error for mistakes and MachineError for faults.
+
+struct CommonOptions {
+    std::vector<std::filesystem::path> scene_path;
+    std::string device;            ///< "": the default one
+    std::filesystem::path cache;   ///< "": the default folder
+};
+
+/// One frame of one camera.
+struct ShotOptions {
+    std::string scene, camera;
+    std::vector<unsigned> size{480, 270};
+    unsigned frame = 0;
+};
+
+struct RunOptions {
+    std::filesystem::path config, out;
+    bool keep_all = false;
+};
+void run_study_command(const RunOptions& options, const CommonOptions& common);
+
+struct FiguresOptions {
+    std::filesystem::path results, out;
+};
+int figures_command(const FiguresOptions& options);  ///< the exit code of the figure script
+
+struct CompareCommandOptions {
+    std::filesystem::path reference, test, map;
+    std::vector<std::string> metrics;
+    bool as_json = false;
+};
+void compare_images_command(const CompareCommandOptions& options);
+
+struct ReferenceCommandOptions {
+    ShotOptions shot;
+    ReferenceSettings settings;
+    std::filesystem::path out;
+};
+void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common);
+
+struct GBufferCommandOptions {
+    ShotOptions shot;
+    std::filesystem::path out;
+    std::string depth_format = "d32f";
+    bool is_reversed = false;
+};
+void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common);
+
+void needs_command(const ShotOptions& options, const CommonOptions& common);
+
+struct DescribeOptions {
+    std::string variant;  ///< "": all
+    bool as_schema = false;
+};
+void describe_command(const DescribeOptions& options);
+
+void list_command(const std::string& what, const CommonOptions& common);

@@ -1,0 +1,67 @@
+#include "experiments/results.h"
+
+#include "core/error.h"
+#include "core/files.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace {
+
+std::string text(double value) {
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+std::string text(const std::optional<double>& value) { return value ? text(*value) : ""; }
+std::string text(unsigned value) { return std::to_string(value); }
+std::string text(size_t value) { return std::to_string(value); }
+std::string text(bool value) { return value ? "1" : "0"; }
+
+/// RFC 4180.
+std::string text(const std::string& value) {
+    if (value.find_first_of(",\"\n") == std::string::npos) return value;
+    std::string quoted = "\"";
+    for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+
+template <class... Values>
+std::string csv_line(const Values&... values) {
+    std::string line;
+    ((line += text(values) + ","), ...);
+    line.back() = '\n';
+    return line;
+}
+
+}  // namespace
+
+void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& cells) {
+    std::string rows = "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,pixels,non_finite,negative\n";
+    std::string times = "shot,variant,point,seed,stage,frame,milliseconds,clock\n";
+    for (const Cell& cell : cells) {
+        for (const ResultRow& r : cell.rows)
+            rows += csv_line(r.shot, r.scene, r.camera, r.frame, r.width, r.height, r.variant, r.point, r.seed, r.target, r.metric, r.formula, r.mask,
+                             r.value, r.is_corrected, r.uncorrected, r.low, r.high, r.floor, r.pixels, r.non_finite, r.negative);
+        for (const TimeRow& t : cell.times) times += csv_line(t.shot, t.variant, t.point, t.seed, t.stage, t.frame, t.milliseconds, t.clock);
+    }
+    write_text(folder / "results.csv", rows);
+    write_text(folder / "times.csv", times);
+}
+
+MedianInterval median_interval(std::vector<double> values) {
+    if (values.empty()) fail("no values to take a median of");
+    std::ranges::sort(values);
+    const size_t n = values.size();
+    const double median = n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+    // The largest r for which P(Binomial(n, 1/2) < r) <= 2.5 %: then [x_r, x_(n+1-r)] covers the median with at least 95 %.
+    double probability = std::pow(0.5, double(n)), cumulative = 0.0;
+    size_t r = 0;
+    while (cumulative + probability <= 0.025) {
+        cumulative += probability;
+        probability *= double(n - r) / double(r + 1);
+        ++r;
+    }
+    r = std::max<size_t>(r, 1);
+    return {median, values[r - 1], values[n - r]};
+}

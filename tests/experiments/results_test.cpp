@@ -1,0 +1,42 @@
+#include "core/files.h"
+#include "experiments/results.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+TEST(MedianInterval, AgreesWithTheBinomialTable) {
+    std::vector<double> values;
+    for (int i = 15; i >= 1; --i) values.push_back(i);
+    const MedianInterval m = median_interval(values);  // n = 15: ranks 4 and 12 cover 96.5 %
+    EXPECT_EQ(m.median, 8.0);
+    EXPECT_EQ(m.low, 4.0);
+    EXPECT_EQ(m.high, 12.0);
+    EXPECT_EQ(median_interval({1, 2, 3, 4}).median, 2.5);
+    EXPECT_EQ(median_interval({1, 2, 3, 4}).low, 1.0);
+}
+
+TEST(Tables, QuoteWhatNeedsIt) {
+    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_tables_test";
+    Cell cell;
+    cell.times.push_back({.shot = "a.b.1x1", .variant = "v", .point = "x=\"1,2\"", .seed = 3, .stage = "s", .frame = 4, .milliseconds = 0.5, .clock = "host_fence"});
+    write_tables(folder, {cell});
+    EXPECT_EQ(read_text(folder / "times.csv"), "shot,variant,point,seed,stage,frame,milliseconds,clock\na.b.1x1,v,\"x=\"\"1,2\"\"\",3,s,4,0.5,host_fence\n");
+    std::filesystem::remove_all(folder);
+}
+
+TEST(CellStore, KeepsCellsAndIgnoresBrokenOnes) {
+    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_cells_test";
+    const CellStore store(folder);
+    EXPECT_FALSE(store.load("abc"));
+    Cell cell;
+    cell.rows.push_back({.shot = "s", .metric = "psnr", .value = {}, .low = 0.25, .pixels = 7});
+    store.save("abc", cell);
+    const auto back = store.load("abc");
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->rows.front().metric, "psnr");
+    EXPECT_FALSE(back->rows.front().value);
+    EXPECT_EQ(back->rows.front().low, 0.25);
+    write_text(folder / "abc.json", read_text(folder / "abc.json").substr(0, 20));
+    EXPECT_FALSE(store.load("abc"));
+    std::filesystem::remove_all(folder);
+}
