@@ -1,0 +1,151 @@
+"""Rough reflectors and none at all: roughness_gradient to furnace."""
+from .description import camera, scene_json, shifted
+from .gltf import Model
+from .normal_texture import normal_texture
+from .parts import BOX, add_box, add_checker_wall, hue
+from .shapes import floor, rectangle, unit_sphere
+
+SILVER = (0.9, 0.9, 0.9)
+DIM_LIGHT, DIM_DARK = (0.05, 0.05, 0.05), (0.02, 0.02, 0.02)
+
+
+def roughness_gradient():
+    model = Model()
+    for i in range(12):
+        x, roughness = -6 + i, 0.05 * i
+        metal = model.surface(f"metal_r{5 * i:02}", SILVER, 1.0, roughness)
+        dielectric = model.surface(f"dielectric_r{5 * i:02}", (0.05, 0.05, 0.05), 0.0, roughness)
+        model.add(f"metal{i:02}", floor(x, x + 1, -3, 0), metal)
+        model.add(f"dielectric{i:02}", floor(x, x + 1, 0, 3), dielectric)
+    bars = [model.flat(f"bar{i}", hue(i / 6)) for i in range(6)]
+    for i in range(25):
+        model.add(f"bar{i:02}", BOX, bars[i % 6], at=(-6 + 0.5 * i, 1, -4), scale=(0.05, 1, 0.05))
+    add_checker_wall(model, 16, 4, z=-6, cell=1, light=(0.3, 0.3, 0.3), dark=DIM_DARK)
+    return model, scene_json([camera("main", (0, 1.5, 5), (0, 0.6, -4), 55)])
+
+
+def metal_strips(model, roughnesses, width, z_min, z_max):
+    """Side by side, centred on x = 0; returns the x of their middles."""
+    left = -width * len(roughnesses) / 2
+    for i, roughness in enumerate(roughnesses):
+        material = model.surface(f"floor_r{round(100 * roughness)}", SILVER, 1.0, roughness)
+        model.add(f"floor{i}", floor(left + i * width, left + (i + 1) * width, z_min, z_max), material)
+    return [left + (i + 0.5) * width for i in range(len(roughnesses))]
+
+
+def add_sparks(model):
+    """The floors of both firefly scenes, their wall, and three squares of 2 x 2 cm; returns the nodes of the squares."""
+    middles = metal_strips(model, (0.15, 0.3, 0.5), 3, -9, 3)
+    square, light = rectangle((0, 0, 0), (0.01, 0, 0), (0, 0.01, 0)), model.flat("spark", (5000, 4000, 2500))
+    sparks = [(x, model.add(f"spark{i}", square, light, at=(x, 1, -3))) for i, x in enumerate(middles)]
+    add_checker_wall(model, 16, 4, z=-9, cell=1, light=DIM_LIGHT, dark=DIM_DARK)
+    return sparks
+
+
+FIREFLY_CAMERA = camera("main", (0, 1.5, 4), (0, 0.4, -3), 50)
+
+
+def firefly():
+    model = Model()
+    add_sparks(model)
+    return model, scene_json([FIREFLY_CAMERA])
+
+
+def firefly_moving():
+    model = Model()
+    for x, node in add_sparks(model):
+        # 120 frames: from the middle to the right, to the left and back, at one speed.
+        model.animate(node, "translation", (0, 1, 3, 4), [(x + offset, 1, -3) for offset in (0, 1, -1, 0)])
+    return model, scene_json([FIREFLY_CAMERA | {"frames": 120}], frame_count=120, frame_rate=30)
+
+
+def contact_hardening():
+    model = Model()
+    black, white = model.flat("stripe_dark", (0.02, 0.02, 0.02)), model.flat("stripe_light", (0.9, 0.9, 0.9))
+    for i, middle in enumerate(metal_strips(model, (0.1, 0.2, 0.35), 2, -6, 4)):
+        for stripe in range(4):
+            model.add(f"board{i}_{stripe}", BOX, white if stripe % 2 else black,
+                      at=(middle - 0.525 + 0.35 * stripe, 1, -3), scale=(0.175, 1, 0.1))
+    return model, scene_json([camera("main", (0, 1.3, 3), (0, 0.3, -2.2), 45)])
+
+
+def glossy_stretch():
+    model = Model()
+    ball, lamp = unit_sphere(24, 48), model.flat("lamp", (20, 16, 10))
+    for i, middle in enumerate(metal_strips(model, (0.1, 0.2, 0.3, 0.4), 3, -24, 4)):
+        for z in (-8, -16):
+            model.add(f"lamp{i}_{-z}", ball, lamp, at=(middle, 1, z), scale=(0.15, 0.15, 0.15))
+    add_checker_wall(model, 24, 4, z=-24, cell=1, light=DIM_LIGHT, dark=DIM_DARK)
+    return model, scene_json([camera("pitch3", (0, 0.9, 3), (0, 0.45, -6), 40), camera("pitch10", (0, 2, 3), (0, 0.4, -6), 40),
+                              camera("pitch30", (0, 6, 2), (0, 0, -8), 40)])
+
+
+def normal_mapped():
+    model = Model()
+    steepest = 0.3
+    texture = normal_texture(steepest)
+    for i, slope in enumerate((0.02, 0.1, 0.3)):
+        material = model.surface(f"wavy_{slope}", (0.02, 0.03, 0.04), 0.0, 0.02)
+        model.normal_map(material, texture, slope / steepest)
+        x = -4.5 + 3 * i
+        strip = floor(x, x + 3, -10, 4)
+        # u runs along x, v along z; so the bitangent cross(normal, tangent) runs along -z.
+        strip.uvs = [((px + 4.5) / 9, (pz + 10) / 14) for px, _, pz in strip.positions]
+        strip.tangents = [(1.0, 0.0, 0.0, 1.0)] * 4
+        model.add(f"strip{i}", strip, material)
+    for i in range(7):
+        add_box(model, f"pillar{i}", hue(i / 7, value=2.0), (-4.2 + 1.4 * i, 1.2, -6), (0.2, 1.2, 0.2))
+    add_checker_wall(model, 20, 6, z=-11, cell=1, light=(1.6, 1.6, 1.6), dark=(0.1, 0.1, 0.15))
+    main = camera("main", (0, 1.4, 5), (0, 0.6, -5), 45)
+    return model, scene_json([main, shifted(main, "dolly", (0, 0, -4), frames=120)])
+
+
+ALL_ROUGH = {"environment": (0.6, 0.7, 0.9), "lights": [{"type": "directional", "direction": [-0.4, -1, -0.3], "irradiance": 3}]}
+ALL_ROUGH_CAMERA = camera("main", (0, 1.6, 4), (0, 0.8, -5), 50)
+
+
+def add_rough_boxes(model):
+    model.add("floor", floor(-20, 20, -30, 10), model.surface("floor", (0.5, 0.5, 0.5), 0.0, 0.9))
+    for k in range(12):
+        material = model.surface(f"box{k:02}", hue(k / 12, value=0.7), 0.0, 1.0 if k % 2 else 0.8)
+        model.add(f"box{k:02}", BOX, material, at=(-5.5 + k, 0.5 + 0.1 * k, -5 - k % 3), scale=(0.35, 0.5 + 0.1 * k, 0.35))
+
+
+def all_rough():
+    model = Model()
+    add_rough_boxes(model)
+    return model, scene_json([ALL_ROUGH_CAMERA], **ALL_ROUGH)
+
+
+def all_rough_mirror_tile():
+    """The tile hangs 3 m before the camera, upright, and covers 32 x 32 of 1920 x 1080 pixels."""
+    model = Model()
+    add_rough_boxes(model)
+    pixel = 2 * 3 * 0.46630766 / 1080  # of 2 * 3 m * tan(50 / 2 degrees), the height of the view there
+    model.add("tile", rectangle((0, 1.6, 1), (16 * pixel, 0, 0), (0, 16 * pixel, 0)), model.mirror("tile"))
+    return model, scene_json([ALL_ROUGH_CAMERA], **ALL_ROUGH)
+
+
+def sky_only():
+    return Model(), scene_json([camera("main", (0, 1.6, 0), (0, 1.6, -1), 50)], environment=(0.3, 0.5, 0.9))
+
+
+WHITE = (1.0, 1.0, 1.0)
+FURNACE_CAMERA = camera("main", (0, 1.7, 3), (0, 1.3, -5), 50, exposure_ev=-1)
+
+
+def furnace():
+    model = Model()
+    ball = unit_sphere(32, 64)
+    for metalness, y in ((0.0, 0.8), (1.0, 2.3)):
+        for k in range(6):
+            name = f"{'metal' if metalness else 'dielectric'}_r{20 * k}"
+            model.add(name, ball, model.surface(name, WHITE, metalness, 0.2 * k), at=(-3.75 + 1.5 * k, y, -5), scale=(0.6, 0.6, 0.6))
+    model.add("floor", floor(-8, 8, -12, 0), model.surface("floor", WHITE, 1.0, 0.1))
+    return model, scene_json([FURNACE_CAMERA], environment=WHITE)
+
+
+def furnace_sphere():
+    model = Model()
+    model.add("ball", unit_sphere(32, 64), model.surface("metal_r20", WHITE, 1.0, 0.2), at=(0, 1.3, -5), scale=(0.6, 0.6, 0.6))
+    return model, scene_json([FURNACE_CAMERA], environment=WHITE)

@@ -1,0 +1,119 @@
+"""Triangle meshes as plain lists: positions, unit normals, and one list of indices per material.
+
+Front faces run counter-clockwise, as glTF wants. Sines and cosines are rounded to 1e-9, which hides the last bits in
+which the math libraries of two machines differ; all else is +, -, *, / and sqrt, which IEEE 754 fixes.
+"""
+import math
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Shape:
+    positions: list  # (x, y, z) in metres
+    normals: list
+    parts: list  # one list of triangle indices per material
+    uvs: list = field(default_factory=list)
+    tangents: list = field(default_factory=list)  # (x, y, z, w)
+
+
+def cosine(degrees):
+    return round(math.cos(math.radians(degrees)), 9)
+
+
+def sine(degrees):
+    return round(math.sin(math.radians(degrees)), 9)
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def normalized(v):
+    length = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    return (v[0] / length, v[1] / length, v[2] / length)
+
+
+def along(origin, *steps):
+    """origin plus the sum of factor * vector over `steps`."""
+    return tuple(origin[i] + sum(factor * vector[i] for factor, vector in steps) for i in range(3))
+
+
+def rectangle(center, half_u, half_v):
+    """Faces cross(half_u, half_v)."""
+    corners = [along(center, (s, half_u), (t, half_v)) for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    return Shape(corners, [normalized(cross(half_u, half_v))] * 4, [[0, 1, 2, 0, 2, 3]])
+
+
+def floor(x_min, x_max, z_min, z_max, y=0.0):
+    center = ((x_min + x_max) / 2, y, (z_min + z_max) / 2)
+    return rectangle(center, (0, 0, (z_max - z_min) / 2), ((x_max - x_min) / 2, 0, 0))
+
+
+def checker(corner, step_u, step_v, columns, rows):
+    """Cells of step_u x step_v, alternately of the first and the second material; they share their vertices, so no ray
+    slips between them. Faces cross(step_u, step_v)."""
+    positions = [along(corner, (i, step_u), (j, step_v)) for j in range(rows + 1) for i in range(columns + 1)]
+    parts = [[], []]
+    for j in range(rows):
+        for i in range(columns):
+            a = j * (columns + 1) + i
+            d = a + columns + 1
+            parts[(i + j) % 2] += [a, a + 1, d + 1, a, d + 1, d]
+    return Shape(positions, [normalized(cross(step_u, step_v))] * len(positions), parts)
+
+
+def checker_wall(width, height, z, cell, y=0.0):
+    """Upright, centred on x = 0, facing +z."""
+    return checker((-width / 2, y, z), (cell, 0, 0), (0, cell, 0), round(width / cell), round(height / cell))
+
+
+def unit_box():
+    """From -1 to 1 along each axis."""
+    shape = Shape([], [], [[]])
+    for axis in range(3):
+        for sign in (-1.0, 1.0):
+            normal, half_u, half_v = [0.0] * 3, [0.0] * 3, [0.0] * 3
+            normal[axis], half_u[(axis + 1) % 3], half_v[(axis + 2) % 3] = sign, sign, 1.0
+            face = rectangle(normal, half_u, half_v)
+            first = len(shape.positions)
+            shape.positions += face.positions
+            shape.normals += face.normals
+            shape.parts[0] += [first + i for i in face.parts[0]]
+    return shape
+
+
+def unit_pole(sides=16):
+    """Radius 1 about +y, from y = 0 to 1; open at the foot, which stands on a floor."""
+    ring = [(cosine(360 * i / sides), sine(360 * i / sides)) for i in range(sides)]
+    positions = [(x, y, z) for y in (0.0, 1.0) for x, z in ring]
+    normals = [(x, 0.0, z) for x, z in ring] * 2
+    indices = []
+    for a in range(sides):
+        b = (a + 1) % sides
+        indices += [a, a + sides, b + sides, a, b + sides, b]
+    for i in range(1, sides - 1):
+        indices += [2 * sides, 2 * sides + i + 1, 2 * sides + i]
+    return Shape(positions + [(x, 1.0, z) for x, z in ring], normals + [(0.0, 1.0, 0.0)] * sides, [indices])
+
+
+def unit_sphere(rings, segments):
+    """Radius 1, smooth normals: 2 * segments * (rings - 1) triangles."""
+    positions = [(0.0, 1.0, 0.0)]
+    for ring in range(1, rings):
+        y, radius = cosine(180 * ring / rings), sine(180 * ring / rings)
+        for segment in range(segments):
+            angle = 360 * segment / segments
+            positions.append((radius * cosine(angle), y, -radius * sine(angle)))
+    positions.append((0.0, -1.0, 0.0))
+
+    def vertex(ring, segment):
+        return 1 + (ring - 1) * segments + segment % segments
+
+    indices, bottom = [], len(positions) - 1
+    for s in range(segments):
+        indices += [0, vertex(1, s), vertex(1, s + 1)]
+        for ring in range(1, rings - 1):
+            a, b, c, d = vertex(ring, s), vertex(ring + 1, s), vertex(ring + 1, s + 1), vertex(ring, s + 1)
+            indices += [a, b, c, a, c, d]
+        indices += [vertex(rings - 1, s), bottom, vertex(rings - 1, s + 1)]
+    return Shape(positions, positions, [indices])
