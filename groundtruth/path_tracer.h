@@ -1,4 +1,5 @@
 #pragma once
+#include "core/left_out.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
@@ -50,13 +51,6 @@ struct PixelEstimate {
     uint64_t non_finite = 0;    ///< samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0
     uint64_t rays = 0;          ///< traced, of both kinds
     uint64_t paths = 0;         ///< rays that left the first hit along a lobe
-};
-
-/// A feature that the scene does not need, so that it costs nothing: no image changes with it.
-struct LeftOut {
-    std::string what;  ///< "alpha tests"
-    std::string fact;  ///< of the scene: "no alpha masks"
-    std::string why;   ///< one sentence
 };
 
 /// Unbiased path tracer over Embree (next-event estimation and BSDF sampling combined by multiple importance sampling)
