@@ -1,0 +1,26 @@
+#pragma once
+#include "groundtruth/reference.h"
+
+/// A render between its passes or within one: the pixels whose sample_count has not reached their goal are to be done.
+struct ReferenceState {
+    Reference reference;
+    ReferenceSettings settings;
+    HostImage sample_goal;      ///< one channel: sample_count at the end of the pass under way
+    HostImage rays_per_sample;  ///< one channel, of the pilot of a render with a target; else empty
+    bool is_pilot = false;
+};
+
+/// One multi-layer EXR: for each output `image`, `image.a`, `image.b`, `image.variance` and so on, and the layers sample_count,
+/// lobe_samples, depth, geometric_normal, normal, material_id. Header attributes "ssrlab.*" hold settings, keys, code version,
+/// seconds, rays, non-finite samples, and the policies that a user of the numbers must know.
+/// Images are moved into the file's layers and back, not copied, since they may fill the memory.
+void write_reference(const std::filesystem::path& file, Reference& reference, const ReferenceSettings& settings);
+
+/// Fails with Error if the file is missing, truncated, or lacks a layer or an attribute.
+Reference read_reference(const std::filesystem::path& file);
+
+/// As write_reference(), with the layers sample_goal and rays_per_sample.
+void write_reference_state(const std::filesystem::path& file, ReferenceState& state);
+
+/// Reads what either function wrote; a finished reference has an empty sample_goal.
+ReferenceState read_reference_state(const std::filesystem::path& file);
