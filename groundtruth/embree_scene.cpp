@@ -1,0 +1,197 @@
+#include "groundtruth/embree_scene.h"
+
+#include "core/error.h"
+#include "groundtruth/texture_lookup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace {
+
+/// Bound of the relative error of n float operations in a row (Higham 2002, section 3.1).
+constexpr float rounding_bound(int n) { return float(n) * 0x1p-24f / (1.0f - float(n) * 0x1p-24f); }
+
+glm::mat3 absolute(const glm::mat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
+
+/// Triangles of a mesh, moved by `world_from_object`; mirrored ones swap two corners to keep their front.
+std::vector<TriangleRecord> make_records(const Mesh& mesh, const InstanceRecord& instance) {
+    std::vector<TriangleRecord> records(mesh.indices.size() / 3);
+    tbb::parallel_for(size_t(0), records.size(), [&](size_t t) {
+        TriangleRecord& record = records[t];
+        for (int k = 0; k < 3; ++k) {
+            const int corner = instance.is_mirrored && k > 0 ? 3 - k : k;
+            const uint32_t index = mesh.indices[3 * t + corner];
+            const Vertex& vertex = mesh.vertices[index];
+            record.corner[k] = index;
+            record.position[k] = glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0f));
+            const glm::vec3 normal = instance.normal_matrix * vertex.normal;
+            const float length = glm::length(normal);
+            record.normal[k] = length > 0 ? normal / length : normal;
+            record.uv[k] = vertex.uv[0];
+        }
+        const glm::dvec3 p0(record.position[0]);
+        const glm::dvec3 normal = glm::cross(glm::dvec3(record.position[1]) - p0, glm::dvec3(record.position[2]) - p0);
+        const double length = glm::length(normal);
+        record.front_normal = length > 0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
+    });
+    return records;
+}
+
+}  // namespace
+
+/// What the intersection filter of one geometry reads.
+struct EmbreeScene::AlphaTest {
+    const std::vector<TriangleRecord>* records;
+    const Mesh* mesh;
+    const Material* material;
+    const Texture* texture;  ///< nullptr: none
+};
+
+void EmbreeScene::test_alpha(const RTCFilterFunctionNArguments* arguments) {
+    const AlphaTest& test = *static_cast<const AlphaTest*>(arguments->geometryUserPtr);
+    if (arguments->valid[0] != -1) return;
+    const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+    const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0), w = 1.0f - u - v;
+    const TriangleRecord& record = (*test.records)[triangle];
+    const Vertex &a = test.mesh->vertices[record.corner[0]], &b = test.mesh->vertices[record.corner[1]],
+                 &c = test.mesh->vertices[record.corner[2]];
+    float alpha = test.material->alpha * (w * a.color.a + u * b.color.a + v * c.color.a);
+    if (test.texture) {
+        const glm::vec2 uv[2] = {w * a.uv[0] + u * b.uv[0] + v * c.uv[0], w * a.uv[1] + u * b.uv[1] + v * c.uv[1]};
+        alpha *= sample_texture(*test.texture, slot_uv(test.material->base_color_texture, uv)).a;
+    }
+    if (test.material->alpha_mode == AlphaMode::mask && alpha < test.material->alpha_cutoff) arguments->valid[0] = 0;
+}
+
+RTCGeometry EmbreeScene::make_triangles(const std::vector<TriangleRecord>& records, const Scene& scene, const Mesh& mesh,
+                                        bool test_every_alpha) {
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                  3 * sizeof(float), std::max<size_t>(1, mesh.vertices.size())));
+    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                   3 * sizeof(uint32_t), std::max<size_t>(1, records.size())));
+    if (!positions || !indices) fail_machine("out of memory while Embree took over mesh '", mesh.name, "'");
+    for (size_t t = 0; t < records.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const uint32_t corner = records[t].corner[k];
+            indices[3 * t + k] = corner;
+            for (int axis = 0; axis < 3; ++axis) positions[3 * size_t(corner) + axis] = records[t].position[k][axis];
+        }
+    if (records.empty()) std::fill_n(indices, 3, 0u), std::fill_n(positions, 3, 0.0f);
+
+    const Material& material = scene.materials[mesh.material];
+    if (material.alpha_mode == AlphaMode::mask || test_every_alpha) {
+        const int texture = material.base_color_texture.texture;
+        alpha_tests_.push_back(std::make_unique<AlphaTest>(
+            AlphaTest{&records, &mesh, &material, texture < 0 ? nullptr : &scene.textures[size_t(texture)]}));
+        rtcSetGeometryUserData(geometry, alpha_tests_.back().get());
+        rtcSetGeometryIntersectFilterFunction(geometry, test_alpha);
+        rtcSetGeometryOccludedFilterFunction(geometry, test_alpha);
+    }
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
+EmbreeScene::EmbreeScene(const Scene& scene, const ScenePose& pose, bool test_every_alpha) {
+    device_ = rtcNewDevice(nullptr);
+    if (!device_) fail_machine("Embree found no usable processor (error ", int(rtcGetDeviceError(nullptr)), ")");
+    const auto new_scene = [&] {
+        RTCScene result = rtcNewScene(device_);
+        rtcSetSceneFlags(result, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(result, RTC_BUILD_QUALITY_HIGH);
+        return result;
+    };
+    const auto attach = [](RTCScene target, RTCGeometry geometry, unsigned id) {
+        rtcAttachGeometryByID(target, geometry, id);
+        rtcReleaseGeometry(geometry);
+    };
+
+    std::vector<unsigned> use_count(scene.meshes.size(), 0);
+    for (const Instance& instance : scene.instances) ++use_count[instance.mesh];
+
+    scene_ = new_scene();
+    instances_.resize(scene.instances.size());
+    triangles_.resize(scene.meshes.size());
+    mesh_scenes_.resize(scene.meshes.size(), nullptr);
+    for (unsigned i = 0; i < scene.instances.size(); ++i) {
+        const unsigned mesh_index = scene.instances[i].mesh;
+        const Mesh& mesh = scene.meshes[mesh_index];
+        const glm::mat4& transform = pose.world_from_instance[i];
+        InstanceRecord& record = instances_[i];
+        record.mesh = &mesh;
+        record.material = mesh.material;
+        record.world_from_object = transform;
+        record.normal_matrix = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(transform))));
+        record.is_mirrored = glm::determinant(glm::dmat3(transform)) < 0;
+        record.is_baked = use_count[mesh_index] == 1;
+
+        std::vector<TriangleRecord>& triangles = triangles_[mesh_index];
+        if (record.is_baked) {
+            triangles = make_records(mesh, record);
+            attach(scene_, make_triangles(triangles, scene, mesh, test_every_alpha), i);
+        } else {
+            if (!mesh_scenes_[mesh_index]) {
+                triangles = make_records(mesh, InstanceRecord{});
+                mesh_scenes_[mesh_index] = new_scene();
+                attach(mesh_scenes_[mesh_index], make_triangles(triangles, scene, mesh, test_every_alpha), 0);
+                rtcCommitScene(mesh_scenes_[mesh_index]);
+            }
+            RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+            rtcSetGeometryInstancedScene(geometry, mesh_scenes_[mesh_index]);
+            rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &transform);
+            rtcCommitGeometry(geometry);
+            attach(scene_, geometry, i);
+        }
+        record.triangles = triangles.data();
+    }
+    rtcCommitScene(scene_);
+    if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
+        fail_machine("Embree could not build the BVH of scene '", scene.name, "' with ", scene.triangle_count(),
+                     " triangles (error ", int(error), ")");
+}
+
+EmbreeScene::~EmbreeScene() {
+    for (RTCScene mesh_scene : mesh_scenes_)
+        if (mesh_scene) rtcReleaseScene(mesh_scene);
+    if (scene_) rtcReleaseScene(scene_);
+    if (device_) rtcReleaseDevice(device_);
+}
+
+SurfacePoint EmbreeScene::point(uint32_t instance_index, uint32_t triangle, float u, float v) const {
+    const InstanceRecord& instance = instances_[instance_index];
+    const TriangleRecord& record = instance.triangles[triangle];
+    const float w = 1.0f - u - v;
+    const glm::vec3 p0 = w * record.position[0], p1 = u * record.position[1], p2 = v * record.position[2];
+    SurfacePoint point;
+    point.position = p0 + p1 + p2;
+    point.error = rounding_bound(7) * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2));
+    point.normal = w * record.normal[0] + u * record.normal[1] + v * record.normal[2];
+    point.front_normal = record.front_normal;
+    point.uv = w * record.uv[0] + u * record.uv[1] + v * record.uv[2];
+    if (!instance.is_baked) {
+        const glm::mat3 linear(instance.world_from_object);
+        const glm::vec3 translation(instance.world_from_object[3]), local = point.position;
+        point.position = linear * local + translation;
+        // Embree meets the instance in its own space, to which it moves each ray with rounding errors of the same size.
+        point.error = absolute(linear) * point.error +
+                      2.0f * rounding_bound(4) * (absolute(linear) * glm::abs(local) + glm::abs(translation) + glm::abs(point.position));
+        point.normal = instance.normal_matrix * point.normal;
+        point.front_normal = glm::normalize(instance.normal_matrix * point.front_normal);
+    }
+    const float length = glm::length(point.normal);
+    point.normal = length > 0 ? point.normal / length : point.front_normal;
+    return point;
+}
+
+glm::vec3 offset_origin(glm::vec3 position, glm::vec3 error, glm::vec3 normal, glm::vec3 direction) {
+    float distance = glm::dot(glm::abs(normal), error);
+    if (glm::dot(normal, direction) < 0) distance = -distance;
+    glm::vec3 origin = position + distance * normal;
+    // Rounding must not undo the offset: one more step of the float grid, away from the surface.
+    for (int axis = 0; axis < 3; ++axis) {
+        const float offset = distance * normal[axis];
+        if (offset != 0) origin[axis] += std::copysign(std::abs(origin[axis]) * 0x1p-23f, offset);
+    }
+    return origin;
+}

@@ -1,0 +1,160 @@
+#include "groundtruth/light_sampler.h"
+
+#include "core/shared/punctual_light.h"
+#include "groundtruth/lobes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+/// Share of a textured emitter's choice that does not depend on what its probes of the texture found, so that no bright
+/// texel between them is ever missed.
+constexpr double unprobed_share = 0.1;
+constexpr int probes_per_side = 4;
+
+/// Barycentrics that are uniform over a triangle (Turk 1990).
+glm::vec2 triangle_barycentrics(glm::vec2 u) {
+    const float root = std::sqrt(u.x);
+    return {root * (1.0f - u.y), root * u.y};
+}
+
+double mean_emission(const MaterialTable& materials, uint32_t instance, uint32_t triangle) {
+    double sum = 0;
+    for (int y = 0; y < probes_per_side; ++y)
+        for (int x = 0; x < probes_per_side; ++x) {
+            const glm::vec2 at = triangle_barycentrics((glm::vec2(x, y) + 0.5f) / float(probes_per_side));
+            sum += luminance(materials.emission(instance, triangle, at.x, at.y));
+        }
+    return sum / (probes_per_side * probes_per_side);
+}
+
+double punctual_power(const PunctualLight& light, double scene_radius) {
+    const double intensity = luminance(light.intensity);
+    if (light.type == LightType::directional) return intensity * M_PI * scene_radius * scene_radius;
+    if (light.type == LightType::point) return intensity * 4 * M_PI;
+    return intensity * 2 * M_PI * (1 - 0.5 * (light.inner_cone_cos + light.outer_cone_cos));
+}
+
+}  // namespace
+
+LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry, const MaterialTable& materials,
+                           bool sample_environment, bool compensate)
+    : geometry_(geometry), materials_(materials), first_triangle_(scene.instances.size(), no_light) {
+    std::vector<double> powers;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i)
+        if (materials.emits(geometry.instance(i).material)) add_triangles(scene, i, powers);
+
+    const auto bounds = scene_bounds(scene, pose);
+    const double radius = 0.5 * glm::length(glm::dvec3(bounds[1]) - glm::dvec3(bounds[0]));
+    for (const PunctualLight& light : pose.lights) {
+        if (light.intensity == glm::vec3(0.0f)) continue;
+        lights_.push_back(light);
+        // A direction of no length scale, or a scene without extent, still needs a chance.
+        powers.push_back(std::max(punctual_power(light, radius), 1e-6 * luminance(light.intensity)));
+    }
+    if (sample_environment && !scene.environment.is_black()) {
+        environment_ = EnvironmentTable(scene.environment, compensate);
+        if (!environment_.empty()) {
+            environment_index_ = powers.size();
+            powers.push_back(std::max(environment_.mean_luminance(), 1e-30) * 4 * M_PI * M_PI * std::max(radius * radius, 1e-12));
+            environment_source_ = &scene.environment;
+        }
+    }
+    table_ = AliasTable(powers);
+    for (size_t i = 0; i < triangles_.size() && !table_.empty(); ++i) triangles_[i].area_pdf *= float(table_.probability(i));
+    if (environment_index_ != none) environment_probability_ = float(table_.probability(environment_index_));
+}
+
+void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, std::vector<double>& powers) {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    first_triangle_[instance_index] = uint32_t(triangles_.size());
+    const bool varies = materials_.emission_varies(instance.material), emits_behind = scene.materials[instance.material].is_double_sided;
+    for (uint32_t t = 0; t < instance.mesh->indices.size() / 3; ++t) {
+        Triangle& light = triangles_.emplace_back();
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 position = instance.triangles[t].position[k];
+            light.position[k] = instance.is_baked ? position : glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f));
+        }
+        const glm::dvec3 p0(light.position[0]), p1(light.position[1]), p2(light.position[2]);
+        const double area = 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0));
+        light.instance = instance_index;
+        light.triangle = t;
+        light.emission_varies = varies;
+        light.emits_behind = emits_behind;
+        light.radiance = materials_.emission(instance_index, t, 1.0f / 3, 1.0f / 3);
+        light.front_normal = geometry_.point(instance_index, t, 1.0f / 3, 1.0f / 3).front_normal;
+        light.area_pdf = area > 0 ? float(1 / area) : 0.0f;
+        double emission = luminance(light.radiance);
+        if (varies)
+            emission = (1 - unprobed_share) * mean_emission(materials_, instance_index, t) +
+                       unprobed_share * luminance(materials_.greatest_emission(instance.material));
+        powers.push_back(area * emission * M_PI * (emits_behind ? 2 : 1));
+    }
+}
+
+LightSample LightSampler::sample(glm::vec3 point, glm::uvec2 bits) const {
+    const auto [index, rest] = table_.sample(bits.x);
+    if (index < triangles_.size()) return sample_triangle(triangles_[index], point, glm::vec2(rest, bits.y) * 0x1p-32f);
+    if (index != environment_index_) {
+        const size_t light = index - triangles_.size();
+        return sample_punctual(lights_[light], point, float(table_.probability(index)));
+    }
+    LightSample sample;
+    sample.direction = environment_.sample({rest, bits.y}, sample.pdf);
+    sample.pdf *= environment_probability_;
+    sample.radiance = environment_source_->radiance(sample.direction);
+    sample.is_infinite = true;
+    return sample;
+}
+
+LightSample LightSampler::sample_triangle(const Triangle& light, glm::vec3 point, glm::vec2 u) const {
+    const glm::vec2 at = triangle_barycentrics(u);
+    const glm::vec3 p0 = (1.0f - at.x - at.y) * light.position[0], p1 = at.x * light.position[1], p2 = at.y * light.position[2];
+    LightSample sample;
+    sample.position = p0 + p1 + p2;
+    const glm::vec3 to_light = sample.position - point;
+    const float square = glm::dot(to_light, to_light);
+    if (!(square > 0)) return sample;
+    const float distance = std::sqrt(square);
+    sample.direction = to_light / distance;
+    const float cosine = -glm::dot(sample.direction, light.front_normal);
+    if (cosine == 0 || (cosine < 0 && !light.emits_behind)) return sample;
+    sample.normal = light.front_normal;
+    sample.error = 0x1p-21f * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2));  // 8 roundings, see rounding_bound()
+    sample.radiance = light.emission_varies ? materials_.emission(light.instance, light.triangle, at.x, at.y) : light.radiance;
+    sample.pdf = light.area_pdf * square / std::abs(cosine);
+    return sample;
+}
+
+LightSample LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, float probability) const {
+    LightSample sample;
+    sample.is_delta = true;
+    sample.pdf = probability;
+    sample.radiance = light.intensity;
+    sample.error = sample.normal = glm::vec3(0.0f);
+    if (light.type == LightType::directional) {
+        sample.direction = -light.direction;
+        sample.is_infinite = true;
+        return sample;
+    }
+    const glm::vec3 to_light = light.position - point;
+    const float distance = glm::length(to_light);
+    if (!(distance > 0)) return LightSample{};
+    sample.position = light.position;
+    sample.direction = to_light / distance;
+    sample.radiance *= punctual_falloff(distance, light.range);
+    if (light.type == LightType::spot)
+        sample.radiance *= spot_attenuation(-glm::dot(sample.direction, light.direction), light.inner_cone_cos, light.outer_cone_cos);
+    return sample;
+}
+
+float LightSampler::triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction, float distance) const {
+    if (first_triangle_[instance] == no_light) return 0.0f;
+    const float cosine = std::abs(glm::dot(normal, direction));
+    return cosine > 0 ? triangles_[first_triangle_[instance] + triangle].area_pdf * distance * distance / cosine : 0.0f;
+}
+
+float LightSampler::environment_pdf(glm::vec3 direction) const {
+    return environment_index_ == none ? 0.0f : environment_probability_ * environment_.pdf(direction);
+}

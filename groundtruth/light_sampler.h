@@ -1,0 +1,62 @@
+#pragma once
+#include "groundtruth/alias_table.h"
+#include "groundtruth/environment_table.h"
+#include "groundtruth/material_table.h"
+
+/// A direction in which light may arrive at a point, before visibility is known.
+struct LightSample {
+    glm::vec3 direction;     ///< unit, towards the light
+    glm::vec3 radiance;      ///< of a delta light: irradiance at normal incidence; W sr^-1 m^-2 else
+    float pdf = 0.0f;        ///< sr^-1, times the probability of the choice; of a delta light: that probability; 0: no sample
+    bool is_delta = false;
+    bool is_infinite = false;
+    glm::vec3 position, error, normal;  ///< of the point on the light, if not infinite; a punctual light has no error and no normal
+};
+
+/// Chooses among emissive triangles, punctual lights and the environment with probability proportional to their power.
+class LightSampler {
+public:
+    /// `sample_environment`: also where it is constant or a gradient, which BSDF sampling finds as well.
+    /// `compensate`: see EnvironmentTable.
+    LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry, const MaterialTable& materials,
+                 bool sample_environment, bool compensate);
+
+    bool empty() const { return table_.empty(); }
+    bool has_punctual_lights() const { return !lights_.empty(); }
+    bool has_emitters() const { return !triangles_.empty(); }
+    bool has_environment_table() const { return environment_index_ != none; }
+
+    /// `bits`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives.
+    LightSample sample(glm::vec3 point, glm::uvec2 bits) const;
+
+    /// Density (sr^-1) with which sample() finds a point of an emissive triangle along `direction` at `distance` (m).
+    float triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction, float distance) const;
+    float environment_pdf(glm::vec3 direction) const;
+
+private:
+    struct Triangle {
+        glm::vec3 position[3];
+        glm::vec3 front_normal;
+        glm::vec3 radiance;    ///< constant emission
+        float area_pdf;        ///< probability of the choice over the area (m^-2)
+        uint32_t instance, triangle;
+        bool emission_varies, emits_behind;
+    };
+    static constexpr size_t none = size_t(-1);
+    static constexpr uint32_t no_light = ~0u;
+
+    void add_triangles(const Scene& scene, uint32_t instance, std::vector<double>& powers);
+    LightSample sample_triangle(const Triangle& light, glm::vec3 point, glm::vec2 u) const;
+    LightSample sample_punctual(const PunctualLight& light, glm::vec3 point, float probability) const;
+
+    const EmbreeScene& geometry_;
+    const MaterialTable& materials_;
+    std::vector<Triangle> triangles_;
+    std::vector<uint32_t> first_triangle_;  ///< of each instance, or no_light
+    std::vector<PunctualLight> lights_;
+    EnvironmentTable environment_;
+    const Environment* environment_source_ = nullptr;
+    float environment_probability_ = 0;
+    size_t environment_index_ = none;
+    AliasTable table_;  ///< over triangles_, lights_, and the environment
+};

@@ -1,0 +1,71 @@
+#pragma once
+#include "core/shared/brdf.h"
+#include "groundtruth/path_tracer.h"
+
+/// The glTF BRDF at one point, seen from one direction: a specular and a diffuse lobe, with all that does not depend on the
+/// direction of light computed once.
+struct Lobes {
+    vec3 diffuse_over_pi;
+    vec3 f0, fresnel_rise;                 ///< F = f0 + fresnel_rise w, w = (1 - o.m)^5
+    float dielectric_f0, dielectric_rise;  ///< the same of Fd, which the diffuse lobe loses
+    float alpha;
+    vec3 o;                               ///< towards the viewer, local frame
+    float root_o, pdf_scale;              ///< smith_root(o.z); pdf = D pdf_scale
+    float specular_probability;           ///< with which a path continues along the specular lobe
+    bool has_diffuse, has_specular;
+};
+
+/// Both parts of f mu_i, and the densities of both lobes, for one direction of light.
+struct LobeValues {
+    vec3 diffuse, specular;
+    float diffuse_pdf, specular_pdf;
+};
+
+inline float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+/// o.z must be > 0. Both lobes vanish for an unlit surface (base colour 0 and specular 0 are its equivalent).
+inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float specular, vec3 o, ReflectionModel model) {
+    Lobes lobes;
+    lobes.o = o;
+    const bool is_lambert = model == ReflectionModel::lambert, has_rise = model == ReflectionModel::gltf;
+    lobes.diffuse_over_pi = base_color * ((is_lambert ? 1.0f : 1.0f - metalness) / pi);
+    lobes.f0 = is_lambert ? vec3(0.0f) : specular_f0(base_color, metalness, specular);
+    lobes.fresnel_rise = has_rise ? vec3(specular_f90(metalness, specular)) - lobes.f0 : vec3(0.0f);
+    lobes.dielectric_f0 = is_lambert ? 0.0f : 0.04f * specular;
+    lobes.dielectric_rise = has_rise ? 0.96f * specular : 0.0f;
+    lobes.alpha = ggx_alpha(roughness);
+    lobes.root_o = smith_root(o.z, lobes.alpha);
+    lobes.pdf_scale = 0.5f / (ggx_cap_bound(o.z, lobes.alpha) * o.z + lobes.root_o);
+
+    // Reflectances at the mirror direction stand in for the albedos of the lobes: only the variance depends on them.
+    const float w = schlick_weight(o.z);
+    const float specular_albedo = luminance(lobes.f0 + lobes.fresnel_rise * w);
+    const float diffuse_albedo = luminance(lobes.diffuse_over_pi) * pi * (1.0f - lobes.dielectric_f0 - lobes.dielectric_rise * w);
+    lobes.has_specular = lobes.f0 + lobes.fresnel_rise != vec3(0.0f);
+    lobes.has_diffuse = lobes.diffuse_over_pi != vec3(0.0f);
+    if (!lobes.has_specular) lobes.specular_probability = 0.0f;
+    else if (!lobes.has_diffuse) lobes.specular_probability = 1.0f;
+    else lobes.specular_probability = clamp(specular_albedo / (specular_albedo + diffuse_albedo), 0.1f, 0.9f);
+    return lobes;
+}
+
+/// i: towards the light, unit, local frame. All zero below the horizon.
+inline LobeValues evaluate(const Lobes& lobes, vec3 i) {
+    if (i.z <= 0.0f) return {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f};
+    const vec3 h = lobes.o + i;
+    const vec3 m = h * (1.0f / sqrt(dot(h, h)));
+    const float w = schlick_weight(dot(lobes.o, m));
+    LobeValues values;
+    values.diffuse = lobes.diffuse_over_pi * ((1.0f - lobes.dielectric_f0 - lobes.dielectric_rise * w) * i.z);
+    values.diffuse_pdf = i.z / pi;
+    values.specular = vec3(0.0f);
+    values.specular_pdf = 0.0f;
+    if (lobes.has_specular) {
+        const float d = ggx_distribution(m, lobes.alpha);
+        const float root_i = smith_root(i.z, lobes.alpha);
+        const vec3 fresnel = lobes.f0 + lobes.fresnel_rise * w;
+        values.specular = fresnel * (d * i.z * 0.5f / (lobes.o.z * root_i + i.z * lobes.root_o));
+        values.specular_pdf = d * lobes.pdf_scale;
+    }
+    return values;
+}

@@ -1,0 +1,114 @@
+#include "groundtruth/material_table.h"
+
+#include "groundtruth/texture_lookup.h"
+
+namespace {
+
+bool has_colors(const Scene& scene, unsigned material) {
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.material == material)
+            for (const Vertex& vertex : mesh.vertices)
+                if (glm::vec3(vertex.color) != glm::vec3(1.0f)) return true;
+    return false;
+}
+
+}  // namespace
+
+MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bool evaluate_everything)
+    : scene_(scene), geometry_(geometry) {
+    for (unsigned i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        const bool has_color = material.base_color_texture.texture >= 0 || has_colors(scene, i);
+        Constants& constants = constants_.emplace_back();
+        ShadedPoint& surface = constants.surface;
+        surface.is_unlit = material.is_unlit;
+        surface.base_color = material.base_color;
+        surface.metalness = material.metalness;
+        surface.roughness = material.roughness;
+        surface.specular = material.is_unlit ? 0.0f : material.specular;
+        surface.emitted = material.is_unlit ? material.base_color : material.emission;
+        constants.varies = evaluate_everything || has_color || material.metalness_roughness_texture.texture >= 0 ||
+                           material.normal_texture.texture >= 0 || material.emission_texture.texture >= 0;
+        constants.emission_varies = evaluate_everything || (material.is_unlit ? has_color : material.emission_texture.texture >= 0);
+        constants.emits = surface.emitted != glm::vec3(0.0f);
+        constants.emits_behind = material.is_double_sided;
+        constants.can_reflect_specularly = !material.is_unlit && (material.specular > 0 || material.metalness > 0);
+    }
+}
+
+MaterialTable::Corners MaterialTable::corners(uint32_t instance_index, uint32_t triangle, float u, float v) const {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    const TriangleRecord& record = instance.triangles[triangle];
+    const Vertex* vertices = instance.mesh->vertices.data();
+    return {{vertices + record.corner[0], vertices + record.corner[1], vertices + record.corner[2]}, {1.0f - u - v, u, v}};
+}
+
+glm::vec2 MaterialTable::Corners::uv(const TextureSlot& slot) const {
+    const unsigned set = slot.texcoord;
+    const glm::vec2 at = weight[0] * vertex[0]->uv[set] + weight[1] * vertex[1]->uv[set] + weight[2] * vertex[2]->uv[set];
+    return glm::vec2(slot.uv_transform * glm::vec3(at, 1.0f));
+}
+
+glm::vec4 MaterialTable::Corners::color() const {
+    return weight[0] * vertex[0]->color + weight[1] * vertex[1]->color + weight[2] * vertex[2]->color;
+}
+
+glm::vec4 MaterialTable::sample(const TextureSlot& slot, const Corners& corners) const {
+    const Texture* image = texture(slot);
+    return image ? sample_texture(*image, corners.uv(slot)) : glm::vec4(1.0f);
+}
+
+glm::vec3 MaterialTable::mapped_normal(const Material& material, const Corners& corners, const InstanceRecord& instance,
+                                       glm::vec3 normal) const {
+    const glm::vec4 texel = sample(material.normal_texture, corners);
+    const glm::vec3 local = (2.0f * glm::vec3(texel) - 1.0f) * glm::vec3(material.normal_scale, material.normal_scale, 1.0f);
+    const glm::vec3 tangent_sum = corners.weight[0] * glm::vec3(corners.vertex[0]->tangent) +
+                                  corners.weight[1] * glm::vec3(corners.vertex[1]->tangent) +
+                                  corners.weight[2] * glm::vec3(corners.vertex[2]->tangent);
+    glm::vec3 tangent = glm::mat3(instance.world_from_object) * tangent_sum;
+    const float length = glm::length(tangent);
+    if (!(length > 0)) return normal;
+    tangent /= length;
+    const float handedness = corners.vertex[0]->tangent.w * (instance.is_mirrored ? -1.0f : 1.0f);
+    const glm::vec3 bitangent = handedness * glm::cross(normal, tangent);
+    const glm::vec3 mapped = local.x * tangent + local.y * bitangent + local.z * normal;
+    const float mapped_length = glm::length(mapped);
+    return mapped_length > 0 ? mapped / mapped_length : normal;
+}
+
+void MaterialTable::vary(const Material& material, const Corners& corners, const InstanceRecord& instance, ShadedPoint& point) const {
+    point.base_color = material.base_color * glm::vec3(corners.color()) * glm::vec3(sample(material.base_color_texture, corners));
+    const glm::vec4 metalness_roughness = sample(material.metalness_roughness_texture, corners);
+    point.metalness = material.metalness * metalness_roughness.b;
+    point.roughness = material.roughness * metalness_roughness.g;
+    point.emitted = material.is_unlit ? point.base_color : material.emission * glm::vec3(sample(material.emission_texture, corners));
+    if (material.normal_texture.texture >= 0) point.normal = mapped_normal(material, corners, instance, point.normal);
+}
+
+ShadedPoint MaterialTable::shade(uint32_t instance_index, uint32_t triangle, float u, float v, glm::vec3 view) const {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    const SurfacePoint surface = geometry_.point(instance_index, triangle, u, v);
+    const Constants& constants = constants_[instance.material];
+    ShadedPoint point = constants.surface;
+    point.position = surface.position;
+    point.error = surface.error;
+    point.geometric_normal = surface.front_normal;
+    point.normal = surface.normal;
+    if (constants.varies) vary(scene_.materials[instance.material], corners(instance_index, triangle, u, v), instance, point);
+
+    if (glm::dot(surface.front_normal, view) < 0) {
+        point.geometric_normal = -point.geometric_normal;
+        point.normal = -point.normal;
+        if (!constants.emits_behind) point.emitted = glm::vec3(0.0f);
+    }
+    return point;
+}
+
+glm::vec3 MaterialTable::emission(uint32_t instance_index, uint32_t triangle, float u, float v) const {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    const Constants& constants = constants_[instance.material];
+    if (!constants.emission_varies) return constants.surface.emitted;
+    ShadedPoint point;
+    vary(scene_.materials[instance.material], corners(instance_index, triangle, u, v), instance, point);
+    return point.emitted;
+}
