@@ -1,7 +1,7 @@
 """scene.json: cameras, their paths, and the text of the file."""
 import json
 
-from .gltf import tidy_all
+from .gltf import tidy, tidy_all
 from .shapes import cosine, sine
 
 DIM = (0.02, 0.02, 0.02)  # radiance of the environment where a scene does not say otherwise
@@ -9,12 +9,14 @@ DIM = (0.02, 0.02, 0.02)  # radiance of the environment where a scene does not s
 
 def camera(name, position, target, vfov_deg, near=0.1, far=100.0, **more):
     """near, far in metres; `more`: path, exposure_ev."""
-    return {"name": name, "position": list(position), "target": list(target), "vfov_deg": vfov_deg, "near": near, "far": far} | more
+    place = {"name": name, "position": list(position), "target": list(target)}
+    return place | {"vfov_deg": vfov_deg, "near": near, "far": far} | more
 
 
 def moving(still, name, keys, frames):
     """The camera `still` along `keys`: (position, target) at equal distances in time, from frame 0 to the last."""
-    path = [{"frame": i * (frames - 1) / (len(keys) - 1), "position": tidy_all(position), "target": tidy_all(target)}
+    step = (frames - 1) / (len(keys) - 1)
+    path = [{"frame": tidy(i * step), "position": tidy_all(position), "target": tidy_all(target)}
             for i, (position, target) in enumerate(keys)]
     lens = {key: still[key] for key in ("vfov_deg", "near", "far", "exposure_ev") if key in still}
     return {"name": name, **lens, "frames": frames, "path": path}
@@ -41,7 +43,7 @@ def orbiting(still, name, degrees, frames):
 
 
 def pitching(still, name, degrees, frames):
-    """Turns up and down by `degrees` (even) about its own place: up, down, and back. The camera must look along x = 0."""
+    """Turns by `degrees` (even) about its own place: up, down, and back. The camera must look along x = 0."""
     _, y, z = [b - a for a, b in zip(still["position"], still["target"])]
     angles = [*range(0, degrees, 2), *range(degrees, -degrees, -2), *range(-degrees, 1, 2)]
     keys = []

@@ -34,7 +34,7 @@ def metal_strips(model, roughnesses, width, z_min, z_max):
 
 
 def add_sparks(model):
-    """The floors of both firefly scenes, their wall, and three squares of 2 x 2 cm; returns the nodes of the squares."""
+    """The floors and the wall of the firefly scenes, and three squares of 2 x 2 cm; returns (x, node) of each."""
     middles = metal_strips(model, (0.15, 0.3, 0.5), 3, -9, 3)
     square, light = rectangle((0, 0, 0), (0.01, 0, 0), (0, 0.01, 0)), model.flat("spark", (5000, 4000, 2500))
     sparks = [(x, model.add(f"spark{i}", square, light, at=(x, 1, -3))) for i, x in enumerate(middles)]
@@ -76,7 +76,8 @@ def glossy_stretch():
         for z in (-8, -16):
             model.add(f"lamp{i}_{-z}", ball, lamp, at=(middle, 1, z), scale=(0.15, 0.15, 0.15))
     add_checker_wall(model, 24, 4, z=-24, cell=1, light=DIM_LIGHT, dark=DIM_DARK)
-    return model, scene_json([camera("pitch3", (0, 0.9, 3), (0, 0.45, -6), 40), camera("pitch10", (0, 2, 3), (0, 0.4, -6), 40),
+    return model, scene_json([camera("pitch3", (0, 0.9, 3), (0, 0.45, -6), 40),
+                              camera("pitch10", (0, 2, 3), (0, 0.4, -6), 40),
                               camera("pitch30", (0, 6, 2), (0, 0, -8), 40)])
 
 
@@ -100,7 +101,8 @@ def normal_mapped():
     return model, scene_json([main, shifted(main, "dolly", (0, 0, -4), frames=120)])
 
 
-ALL_ROUGH = {"environment": (0.6, 0.7, 0.9), "lights": [{"type": "directional", "direction": [-0.4, -1, -0.3], "irradiance": 3}]}
+SUN = {"type": "directional", "direction": [-0.4, -1, -0.3], "irradiance": 3}
+ALL_ROUGH = {"environment": (0.6, 0.7, 0.9), "lights": [SUN]}
 ALL_ROUGH_CAMERA = camera("main", (0, 1.6, 4), (0, 0.8, -5), 50)
 
 
@@ -108,7 +110,8 @@ def add_rough_boxes(model):
     model.add("floor", floor(-20, 20, -30, 10), model.surface("floor", (0.5, 0.5, 0.5), 0.0, 0.9))
     for k in range(12):
         material = model.surface(f"box{k:02}", hue(k / 12, value=0.7), 0.0, 1.0 if k % 2 else 0.8)
-        model.add(f"box{k:02}", BOX, material, at=(-5.5 + k, 0.5 + 0.1 * k, -5 - k % 3), scale=(0.35, 0.5 + 0.1 * k, 0.35))
+        half_height = 0.5 + 0.1 * k
+        model.add(f"box{k:02}", BOX, material, at=(-5.5 + k, half_height, -5 - k % 3), scale=(0.35, half_height, 0.35))
 
 
 def all_rough():
@@ -140,12 +143,14 @@ def furnace():
     for metalness, y in ((0.0, 0.8), (1.0, 2.3)):
         for k in range(6):
             name = f"{'metal' if metalness else 'dielectric'}_r{20 * k}"
-            model.add(name, ball, model.surface(name, WHITE, metalness, 0.2 * k), at=(-3.75 + 1.5 * k, y, -5), scale=(0.6, 0.6, 0.6))
+            material = model.surface(name, WHITE, metalness, 0.2 * k)
+            model.add(name, ball, material, at=(-3.75 + 1.5 * k, y, -5), scale=(0.6, 0.6, 0.6))
     model.add("floor", floor(-8, 8, -12, 0), model.surface("floor", WHITE, 1.0, 0.1))
     return model, scene_json([FURNACE_CAMERA], environment=WHITE)
 
 
 def furnace_sphere():
     model = Model()
-    model.add("ball", unit_sphere(32, 64), model.surface("metal_r20", WHITE, 1.0, 0.2), at=(0, 1.3, -5), scale=(0.6, 0.6, 0.6))
+    metal = model.surface("metal_r20", WHITE, 1.0, 0.2)
+    model.add("ball", unit_sphere(32, 64), metal, at=(0, 1.3, -5), scale=(0.6, 0.6, 0.6))
     return model, scene_json([FURNACE_CAMERA], environment=WHITE)

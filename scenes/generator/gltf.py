@@ -2,6 +2,11 @@
 import json
 import struct
 
+# Numbers of OpenGL, as glTF uses them.
+UNSIGNED_SHORT, FLOAT = 5123, 5126
+VERTICES, INDICES = 34962, 34963
+LINEAR, CLAMP_TO_EDGE = 9729, 33071
+
 
 def tidy(value):
     """Seven significant digits: what a float32 holds."""
@@ -24,7 +29,8 @@ class Model:
 
     def surface(self, name, base_color, metalness, roughness):
         """glTF metallic-roughness; `roughness` is perceptual. Returns the material's index."""
-        pbr = {"baseColorFactor": tidy_all(base_color) + [1.0], "metallicFactor": metalness, "roughnessFactor": tidy(roughness)}
+        pbr = {"baseColorFactor": tidy_all(base_color) + [1.0], "metallicFactor": metalness,
+               "roughnessFactor": tidy(roughness)}
         self.materials.append({"name": name, "pbrMetallicRoughness": pbr})
         return len(self.materials) - 1
 
@@ -65,9 +71,10 @@ class Model:
         if (width, data) not in self.known_accessors:
             stored = struct.unpack(f"<{len(flat_values)}f", data)
             kind = "SCALAR" if width == 1 else f"VEC{width}"
-            self.accessors.append({"bufferView": self.add_bytes(data, target), "componentType": 5126, "count": len(values),
-                                   "type": kind, "min": [min(stored[i::width]) for i in range(width)],
-                                   "max": [max(stored[i::width]) for i in range(width)]})
+            self.accessors.append({
+                "bufferView": self.add_bytes(data, target), "componentType": FLOAT, "count": len(values), "type": kind,
+                "min": [min(stored[i::width]) for i in range(width)],
+                "max": [max(stored[i::width]) for i in range(width)]})
             self.known_accessors[width, data] = len(self.accessors) - 1
         return self.known_accessors[width, data]
 
@@ -75,17 +82,18 @@ class Model:
         assert max(indices) < 65535, "a mesh for 16-bit indices"
         data = struct.pack(f"<{len(indices)}H", *indices)
         if ("index", data) not in self.known_accessors:
-            self.accessors.append({"bufferView": self.add_bytes(data, 34963), "componentType": 5123, "count": len(indices),
-                                   "type": "SCALAR"})
+            self.accessors.append({"bufferView": self.add_bytes(data, INDICES), "componentType": UNSIGNED_SHORT,
+                                   "count": len(indices), "type": "SCALAR"})
             self.known_accessors["index", data] = len(self.accessors) - 1
         return self.known_accessors["index", data]
 
     def mesh(self, name, shape, materials):
-        attributes = {"POSITION": self.accessor(shape.positions, 3, 34962), "NORMAL": self.accessor(shape.normals, 3, 34962)}
+        attributes = {"POSITION": self.accessor(shape.positions, 3, VERTICES),
+                      "NORMAL": self.accessor(shape.normals, 3, VERTICES)}
         if shape.uvs:
-            attributes["TEXCOORD_0"] = self.accessor(shape.uvs, 2, 34962)
+            attributes["TEXCOORD_0"] = self.accessor(shape.uvs, 2, VERTICES)
         if shape.tangents:
-            attributes["TANGENT"] = self.accessor(shape.tangents, 4, 34962)
+            attributes["TANGENT"] = self.accessor(shape.tangents, 4, VERTICES)
         primitives = [{"attributes": attributes, "indices": self.index_accessor(part), "material": material}
                       for part, material in zip(shape.parts, materials, strict=True)]
         key = json.dumps(primitives)
@@ -95,7 +103,7 @@ class Model:
         return self.known_meshes[key]
 
     def add(self, name, shape, *materials, at=None, scale=None, rotation=None):
-        """A node that draws `shape`, one material per part; `rotation` is a quaternion xyzw. Returns the node's index."""
+        """A node that draws `shape`, one material per part; `rotation`: quaternion xyzw. Returns the node's index."""
         node = {"name": name, "mesh": self.mesh(name, shape, materials)}
         if at:
             node["translation"] = tidy_all(at)
@@ -123,7 +131,8 @@ class Model:
         gltf |= {key: value for key, value in members.items() if value}
         if self.images:
             # Clamped, so that the rim of a surface does not blend with the opposite one.
-            gltf["samplers"] = [{"magFilter": 9729, "minFilter": 9729, "wrapS": 33071, "wrapT": 33071}]
+            gltf["samplers"] = [{"magFilter": LINEAR, "minFilter": LINEAR,
+                                 "wrapS": CLAMP_TO_EDGE, "wrapT": CLAMP_TO_EDGE}]
             gltf["textures"] = [{"source": 0, "sampler": 0}]
         if self.channels:
             gltf["animations"] = [{

@@ -70,7 +70,8 @@ def curved_mirror():
     model = Model()
     model.add("ball", unit_sphere(96, 192), model.mirror(), at=(0, 1, -4))
     ground = checker((-8, 0, 4), (1, 0, 0), (0, 0, -1), 16, 16)
-    model.add("ground", ground, model.flat("ground_light", (0.5, 0.5, 0.5)), model.flat("ground_dark", (0.1, 0.1, 0.12)))
+    light, dark = model.flat("ground_light", (0.5, 0.5, 0.5)), model.flat("ground_dark", (0.1, 0.1, 0.12))
+    model.add("ground", ground, light, dark)
     for i in range(10):
         place = (3 * cosine(36 * i), 0.6, -4 + 3 * sine(36 * i))
         add_box(model, f"ring{i}", hue(i / 10), place, (0.25, 0.6, 0.25))
@@ -87,13 +88,13 @@ def facing_mirrors():
     model.add("ground", floor(-4, 4, -8, 4), model.flat("ground", (0.15, 0.13, 0.1)))
     for i, (x, z) in enumerate(((0.9, -1.5), (-0.9, -3), (0.9, -4.5))):
         add_box(model, f"box{i}", hue(i / 3), (x, 0.8, z), (0.15, 0.8, 0.15))
-    model.add("ball", unit_sphere(48, 96), model.flat("ball", (0.9, 0.9, 0.2)), at=(0, 1.2, -5.5), scale=(0.3, 0.3, 0.3))
+    yellow = model.flat("ball", (0.9, 0.9, 0.2))
+    model.add("ball", unit_sphere(48, 96), yellow, at=(0, 1.2, -5.5), scale=(0.3, 0.3, 0.3))
     return model, scene_json([camera("yaw15", (0, 1.5, 1), (-1.6, 1.3, -5), 60),
                               camera("frontal", (0, 1.5, 1), (0, 1.5, -7), 60)])
 
 
 def axis_parallel():
-    """The unit vectors at 45 degrees are rounded to 1.4 / 1.98 as in the other sizes here: what counts is the angle."""
     model = Model()
     mirror = model.mirror()
     model.add("mirror_to_x", rectangle((-1.2, 1, -5), (0.7, 0, -0.7), (0, 0.8, 0)), mirror)
@@ -104,10 +105,10 @@ def axis_parallel():
     model.add("panel", panel, model.flat("panel_red", (0.9, 0.2, 0.1)), model.flat("panel_blue", (0.1, 0.3, 0.9)))
     wall = checker((-6, -0.5, -9), (0.5, 0, 0), (0, 0.5, 0), 24, 8)
     model.add("wall", wall, model.flat("wall_light", (0.8, 0.8, 0.8)), model.flat("wall_dark", (0.08, 0.08, 0.1)))
-    orthographic = camera("orthographic", (0, 1, 2), (0, 1, -5), None)
-    del orthographic["vfov_deg"]
-    return model, scene_json([camera("tele", (0, 1, 60), (0, 1, -5), 3.8, near=50), camera("persp", (0, 1, 2), (0, 1, -5), 45),
-                              orthographic | {"orthographic_height": 4.4}])
+    orthographic = {"name": "orthographic", "position": [0, 1, 2], "target": [0, 1, -5], "orthographic_height": 4.4,
+                    "near": 0.1, "far": 100}
+    return model, scene_json([camera("tele", (0, 1, 60), (0, 1, -5), 3.8, near=50),
+                              camera("persp", (0, 1, 2), (0, 1, -5), 45), orthographic])
 
 
 def depth_range():
