@@ -1,73 +1,164 @@
 #pragma once
 #include "core/gpu/image.h"
+#include "core/host_image.h"
 #include "core/parameters.h"
 #include "core/shared/camera.h"
 
-#include <chrono>
-#include <filesystem>
+#include <array>
+#include <cstddef>
+#include <functional>
 #include <span>
 
 class Device;
 
+/// The time of one stage: the label of its pass, by default the shader's path without extension.
 struct PassTime {
-    std::string pass;
-    std::chrono::duration<double, std::milli> time;
+    std::string stage;
+    double milliseconds = 0;
 };
 
-/// How a full-screen fragment pass uses the stencil buffer: write a value, or draw only where it is found.
+/// How stages are timed. On a CPU device time stamps inside a command buffer do not enclose the work, so there each pass is one
+/// submission that the host waits for. On a GPU all passes of a frame are one submission with time stamps between them.
+enum class Clock { host_fence, gpu_timestamp };
+
+/// How a fragment pass uses the stencil buffer: write a value, or draw only where it is found.
 struct Stencil {
     enum class Mode { off, write, keep_equal } mode = Mode::off;
     unsigned value = 0;
-    Image image;
+    Image image;  ///< d32f_s8
 };
 
-/// A list of GPU passes, executed in the order in which they are added. Images and shader resources meet by name; the
-/// graph creates the images, compiles the shaders, binds, separates the passes by barriers and times each of them.
+/// How a fragment pass uses a depth buffer. `always` writes whatever is drawn.
+struct DepthTest {
+    enum class Compare { less, greater, less_or_equal, greater_or_equal, equal, always } compare = Compare::less;
+    bool is_written = true;
+    Image image;  ///< d32f, d24, d16 or d32f_s8
+};
+
+enum class Wrap { clamp, repeat, mirrored_repeat };
+
+/// How a shader reads an image through a sampler.
+struct Sampling {
+    bool is_linear = false;
+    Wrap wrap_u = Wrap::clamp, wrap_v = Wrap::clamp;
+};
+
+struct Read {
+    Image image;
+    Sampling sampling;
+};
+
+/// One indexed mesh of a drawing pass. Vertices are pulled by the vertex shader from storage buffers, with gl_VertexIndex and
+/// gl_InstanceIndex (= first_instance), so there is no vertex layout to declare. `reads` are bound for this draw only.
+struct Draw {
+    Buffer indices;  ///< uint32
+    unsigned first_index = 0, index_count = 0;
+    int vertex_offset = 0;
+    unsigned first_instance = 0;
+    enum class Cull { none, back, front } cull = Cull::none;  ///< front faces are counter-clockwise in the image, y up
+    std::vector<Read> reads;
+    std::vector<Buffer> buffers;
+};
+
+/// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by name;
+/// the graph creates the images, compiles the shaders, binds, separates the passes by barriers and times each of them.
+///
+/// Shader files hold plain GLSL without #version, bindings or locations of inputs. In front of each the graph puts the
+/// `camera` block, `#include` (from the project's root) and the parameters of the variant. A sampler2D, an image2D or a
+/// buffer block is bound to the image or buffer of its name; a fragment output is written to the image of its name.
 class PassGraph {
 public:
-    PassGraph(Device& device, glm::uvec2 extent, std::vector<std::filesystem::path> shader_roots);
+    /// `extent`: of images made without one. Without `clock` the one that suits the device.
+    PassGraph(Device& device, glm::uvec2 extent);
+    PassGraph(Device& device, glm::uvec2 extent, Clock clock);
     ~PassGraph();
+    PassGraph(const PassGraph&) = delete;
+    PassGraph& operator=(const PassGraph&) = delete;
 
-    /// The image of that name; created on first use, kept for the following frames.
-    Image image(std::string name, Format format, unsigned mips = 1, unsigned divisor = 1);
+    /// The image of that name; created on first use with undefined content, kept for the following frames. The extent is the
+    /// graph's divided by `divisor`, rounded down, at least 1. Asking again with another format, size or mip count makes a new one.
+    Image image(const std::string& name, Format format, unsigned mips = 1, unsigned divisor = 1);
+    Image image_of(const std::string& name, Format format, glm::uvec2 extent, unsigned mips = 1);
+    /// The storage buffer of that name, with zeros at first; `bytes` a multiple of 4.
+    Buffer buffer(const std::string& name, size_t bytes);
 
-    /// This frame's and the last frame's content of one image, exchanged by begin_frame().
-    struct History { Image current, previous; };
-    History history(std::string name, Format format);
+    /// This frame's and the last frame's content of one image, exchanged by begin_frame(). Both are black at first.
+    struct History {
+        Image current, previous;  ///< named `name` and `previous_<name>`
+    };
+    History history(const std::string& name, Format format);
 
     class Pass;
-    Pass compute(std::string shader);
-    Pass fragment(std::string shader);
+    Pass compute(const std::string& shader);   ///< "mcguire_dda/trace.comp", found under variants/, core/shaders/ or the project's root
+    Pass fragment(const std::string& shader);  ///< over the whole of its outputs
+    Pass draw(const std::string& vertex_shader, const std::string& fragment_shader, std::vector<Draw> draws);
 
-    /// Values which every pass of the frame may use by name.
+    /// Starts a frame: forgets the times of the last one and exchanges histories. Every pass may use `camera`, `params` and
+    /// `inputs` by name. `params` must outlive the frame.
     void begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs);
 
-    std::vector<float> download(const Image& image);  ///< rgba32f pixels, row by row
-    void clear(const Image& image, glm::vec4 value);
-    const std::vector<PassTime>& times() const;       ///< of this frame, in order
+    void clear(const Image& image, glm::vec4 value);  ///< all its mips; timed as the stage "clear"; depth: x depth, y stencil
+    void clear(const Buffer& buffer, uint32_t value);
+    void upload(const Image& image, const HostImage& pixels);  ///< one mip, same extent and channel count; converted to the format
+    void upload_rgba8(const Image& image, std::span<const uint8_t> texels);
+    void upload(const Buffer& buffer, std::span<const std::byte> bytes);
+    HostImage download(const Image& image);  ///< mip first_mip; as many channels as the format has; depth: one
+    std::vector<std::byte> download(const Buffer& buffer);
+
+    /// Stages since begin_frame(), in order; a stage run several times is summed. On a GPU this waits for the frame.
+    std::vector<PassTime> times();
+    /// From the first to the last command of the frame; the sum of stages on a CPU.
+    double frame_milliseconds();
+
+    Clock clock() const;
     glm::uvec2 extent() const;
+    Device& device();
 
     struct Impl;
+
 private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// One pass, described and then run by run() or dispatch().
 class PassGraph::Pass {
 public:
-    Pass& read(const Image& image, bool linear = false);
+    Pass& read(const Image& image, Sampling sampling = {});
+    Pass& read_linear(const Image& image) { return read(image, {.is_linear = true}); }
     Pass& write(const Image& image);
+    Pass& use(const Buffer& buffer);
     Pass& stencil(Stencil stencil);
-    void run();  ///< over the extent of the first written image
+    Pass& depth(DepthTest test);
+    Pass& set(const std::string& name, float value);  ///< a member of the shader's push_constant block
+    Pass& set(const std::string& name, int value);
+    Pass& set(const std::string& name, unsigned value);
+    Pass& set(const std::string& name, glm::vec4 value);
+    Pass& label(std::string stage);
+
+    /// Compute: one invocation per pixel of the first written image, or of `extent`; fragment, draw: over the outputs.
+    void run();
+    void run(glm::uvec2 extent);
+    void dispatch_groups(glm::uvec3 groups);
+    void dispatch(const Buffer& arguments, size_t offset = 0);  ///< three uints: numbers of groups
 
 private:
     friend class PassGraph;
-    Pass(PassGraph::Impl& graph, std::string shader, bool is_compute) : graph_(graph), shader_(std::move(shader)), is_compute_(is_compute) {}
+    friend struct PassGraph::Impl;
+    Pass(PassGraph::Impl& graph, std::string shader, bool is_compute);
 
-    struct Read { Image image; bool linear; };
     PassGraph::Impl& graph_;
-    std::string shader_;
+    std::string shader_, vertex_shader_, label_;
     bool is_compute_;
     std::vector<Read> reads_;
     std::vector<Image> writes_;
+    std::vector<Buffer> buffers_;
+    std::vector<Draw> draws_;
     Stencil stencil_;
+    DepthTest depth_;
+    struct PushValue {
+        std::string name;
+        std::array<float, 4> bits;
+        unsigned size;
+    };
+    std::vector<PushValue> pushes_;
 };
