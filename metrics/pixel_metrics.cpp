@@ -1,0 +1,140 @@
+#include "metrics/pixel_metrics.h"
+
+#include "metrics/pooling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace {
+
+/// The mean over the channels of error(r, x), for each pixel.
+template <class Error>
+std::vector<Plane> mean_of_channels(const HostImage& reference, const HostImage& test, const Error& error) {
+    Plane map(reference.extent);
+    tbb::parallel_for(0u, map.extent.y, [&](unsigned y) {
+        for (unsigned x = 0; x < map.extent.x; ++x) {
+            const float* r = reference.pixel(x, y);
+            const float* t = test.pixel(x, y);
+            double sum = 0;
+            for (int c = 0; c < 3; ++c) sum += error(double(r[c]), double(t[c]));
+            map.row(y)[x] = sum / 3;
+        }
+    });
+    return {std::move(map)};
+}
+
+double square(double v) { return v * v; }
+
+double one(double) { return 1; }
+double weight_a(double r) { return 1 / (r * r + 0.01); }
+double weight_b(double r) { return 1 / square(r + 0.01); }
+double weight_c(double r) { return 1 / (r * r + 0.001); }
+double weight_d(double r) { return 1 / (r * r + 0.0001); }
+
+template <double (*weight)(double)>
+std::vector<Plane> weighted_squares(const ImagePair& pair) {
+    return mean_of_channels(pair.reference, pair.test, [](double r, double x) { return weight(r) * square(x - r); });
+}
+
+std::vector<Plane> squares_over_luminance(const ImagePair& pair) {
+    Plane map(pair.reference.extent);
+    for (size_t i = 0; i < map.values.size(); ++i) {
+        const glm::dvec3 r = pair.reference.rgb(i), d = glm::dvec3(pair.test.rgb(i)) - r;
+        map.values[i] = glm::dot(d, d) / 3 * weight_a(luminance(r.x, r.y, r.z));
+    }
+    return {std::move(map)};
+}
+
+std::vector<Plane> code_squares(const ImagePair& pair) {
+    return mean_of_channels(pair.reference_codes, pair.test_codes, [](double r, double x) { return square(x - r); });
+}
+
+std::vector<Plane> absolutes(const ImagePair& pair) {
+    return mean_of_channels(pair.reference, pair.test, [](double r, double x) { return std::abs(x - r); });
+}
+
+std::vector<Plane> relative_absolutes(const ImagePair& pair) {
+    return mean_of_channels(pair.reference, pair.test, [](double r, double x) { return std::abs(x - r) / (std::abs(r) + 0.01); });
+}
+
+std::vector<Plane> symmetric_ratios(const ImagePair& pair) {
+    return mean_of_channels(pair.reference, pair.test, [](double r, double x) {
+        const double sum = std::abs(x) + std::abs(r);
+        return sum > 0 ? std::abs(x - r) / sum : 0.0;
+    });
+}
+
+std::vector<Plane> damped_symmetric_ratios(const ImagePair& pair) {
+    return mean_of_channels(pair.reference, pair.test,
+                            [](double r, double x) { return std::abs(x - r) / (std::abs(x) + std::abs(r) + 0.01); });
+}
+
+std::vector<Plane> differences(const ImagePair& pair) {
+    return mean_of_channels(pair.reference, pair.test, [](double r, double x) { return x - r; });
+}
+
+std::vector<Plane> both_means(const ImagePair& pair) {
+    std::vector<Plane> layers = mean_of_channels(pair.reference, pair.test, [](double, double x) { return x; });
+    layers.push_back(mean_of_channels(pair.reference, pair.test, [](double r, double) { return r; }).front());
+    return layers;
+}
+
+/// 1 where any channel is off by more than ten times its reference.
+std::vector<Plane> outlier_flags(const ImagePair& pair) {
+    std::vector<Plane> sums = mean_of_channels(pair.reference, pair.test, [](double r, double x) {
+        return std::abs(x - r) / (std::abs(r) + 0.01) > 10 ? 1.0 : 0.0;
+    });
+    for (double& v : sums[0].values) v = v > 0;
+    return sums;
+}
+
+double mean(std::span<const Plane> layers, const Mask& mask) { return masked_mean(layers[0], mask); }
+double root_of_mean(std::span<const Plane> layers, const Mask& mask) { return std::sqrt(masked_mean(layers[0], mask)); }
+double decibels(std::span<const Plane> layers, const Mask& mask) { return -10 * std::log10(masked_mean(layers[0], mask)); }
+
+double sum(std::span<const Plane> layers, const Mask& mask) {
+    const double count = double(pooled_count(layers[0], mask));
+    return count > 0 ? std::round(masked_mean(layers[0], mask) * count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+double ratio_of_means(std::span<const Plane> layers, const Mask& mask) {
+    return masked_mean(layers[0], mask) / masked_mean(layers[1], mask);
+}
+
+/// The mean without the floor(0.1 %) largest.
+double trimmed_mean(std::span<const Plane> layers, const Mask& mask) {
+    std::vector<double> inside;
+    for (size_t i = 0; i < layers[0].values.size(); ++i)
+        if (mask.inside[i]) inside.push_back(layers[0].values[i]);
+    std::ranges::sort(inside);
+    const size_t kept = inside.size() - inside.size() / 1000;
+    return ordered_sum(kept, [&](size_t i) { return inside[i]; }) / double(kept);
+}
+
+}  // namespace
+
+std::vector<Metric> pixel_metrics() {
+    using enum Better;
+    using enum Domain;
+    // d = x - r: test minus reference, each channel by itself. Why so many relative errors: tools that print the same name
+    // differ in the denominator, and the values by factors.
+    return {
+        {"mse", "mse", "radiance^2", lower, linear, "mean d^2", weighted_squares<one>, mean, one},
+        {"rmse", "rmse", "radiance", lower, linear, "sqrt(mean d^2), the root taken once, at the end", weighted_squares<one>, root_of_mean, one},
+        {"mae", "mae", "radiance", lower, linear, "mean |d|", absolutes, mean},
+        {"mape", "mape_0.01", "1", lower, linear, "mean |d| / (|r| + 0.01), as OIDN's training", relative_absolutes, mean},
+        {"relmse", "relmse_a", "1", lower, linear, "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO)", weighted_squares<weight_a>, mean, weight_a},
+        {"relmse_b", "relmse_b", "1", lower, linear, "mean d^2 / (r + 0.01)^2 (pbrt-v4 imgtool MRSE)", weighted_squares<weight_b>, mean, weight_b},
+        {"relmse_c", "relmse_c", "1", lower, linear, "mean d^2 / (r^2 + 0.001) (Tungsten and Falcor, who call it rmse)", weighted_squares<weight_c>, mean, weight_c},
+        {"relmse_d", "relmse_d", "1", lower, linear, "mean d^2 / (r^2 + 0.0001) (figure-gen)", weighted_squares<weight_d>, mean, weight_d},
+        {"relmse_luminance", "relmse_a_luminance", "1", lower, linear, "mean d^2 / (L(r)^2 + 0.01), L the Rec. 709 luminance of the pixel", squares_over_luminance, mean},
+        {"relmse_trimmed", "relmse_a_trimmed_0.1%", "1", lower, linear, "relmse of each pixel, without the 0.1 % largest: hides fireflies, so read it beside relmse and outliers", weighted_squares<weight_a>, trimmed_mean},
+        {"outliers", "relative_error_above_10", "pixels", lower, linear, "pixels with |d| / (|r| + 0.01) > 10 in any channel", outlier_flags, sum},
+        {"smape", "smape_0_1", "1", lower, linear, "mean |d| / (|x| + |r|), 0 where both are 0 (figure-gen)", symmetric_ratios, mean},
+        {"smape_damped", "smape_0.01", "1", lower, linear, "mean |d| / (|x| + |r| + 0.01) (OIDN's training)", damped_symmetric_ratios, mean},
+        {"bias", "bias", "radiance", near_zero, linear, "mean d", differences, mean},
+        {"energy_ratio", "energy_ratio", "1", near_one, linear, "mean x / mean r", both_means, ratio_of_means},
+        {"psnr", "psnr_code", "dB", higher, display, "-10 log10(mean d^2) of sRGB codes in [0, 1]; inf for equal images", code_squares, decibels},
+    };
+}

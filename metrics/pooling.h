@@ -1,0 +1,18 @@
+#pragma once
+#include "metrics/plane.h"
+#include "metrics/summation.h"
+
+/// The number of pixels inside the mask where the plane carries values.
+inline size_t pooled_count(const Plane& plane, const Mask& mask) {
+    size_t n = 0;
+    for (size_t i = 0; i < plane.values.size(); ++i) n += mask.inside[i] && plane.within_margin(i);
+    return n;
+}
+
+/// The mean of those pixels; NaN (0 / 0) if there is none.
+inline double masked_mean(const Plane& plane, const Mask& mask) {
+    const double sum = ordered_sum(plane.values.size(), [&](size_t i) {
+        return mask.inside[i] && plane.within_margin(i) ? plane.values[i] : 0.0;
+    });
+    return sum / double(pooled_count(plane, mask));
+}
