@@ -2,39 +2,10 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "experiments/csv.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-
-namespace {
-
-std::string text(double value) {
-    char digits[32];
-    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-std::string text(const std::optional<double>& value) { return value ? text(*value) : ""; }
-std::string text(unsigned value) { return std::to_string(value); }
-std::string text(size_t value) { return std::to_string(value); }
-std::string text(bool value) { return value ? "1" : "0"; }
-
-/// RFC 4180.
-std::string text(const std::string& value) {
-    if (value.find_first_of(",\"\n") == std::string::npos) return value;
-    std::string quoted = "\"";
-    for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
-}
-
-template <class... Values>
-std::string csv_line(const Values&... values) {
-    std::string line;
-    ((line += text(values) + ","), ...);
-    line.back() = '\n';
-    return line;
-}
-
-}  // namespace
 
 void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& cells) {
     std::string rows = "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,pixels,non_finite,negative\n";

@@ -1,0 +1,48 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Reads a CSV file (RFC 4180, header first) row by row; values are asked for by the name of their column. Every mistake is
+/// an Error that names file, line and column.
+///
+///     for (CsvReader csv("times.csv"); csv.next();) sum += csv.number("milliseconds");
+class CsvReader {
+public:
+    explicit CsvReader(std::filesystem::path file);
+
+    bool next();  ///< false at the end of the file
+
+    const std::string& text(const std::string& column) const;
+    double number(const std::string& column) const;                          ///< finite
+    std::optional<double> optional_number(const std::string& column) const;  ///< none if the field is empty
+    size_t count(const std::string& column) const;                           ///< a whole number >= 0
+
+private:
+    bool read_record();
+    [[noreturn]] void fail_at(const std::string& column, const char* allowed) const;
+
+    std::filesystem::path file_;
+    std::string content_;
+    size_t at_ = 0, line_ = 1, record_line_ = 1;
+    std::map<std::string, size_t> columns_;
+    std::vector<std::string> fields_;
+};
+
+/// One line of a CSV file of the given values, with its line feed. Numbers are the shortest text that reads back exactly.
+std::string csv_field(double value);
+std::string csv_field(const std::optional<double>& value);  ///< empty if there is none
+std::string csv_field(unsigned value);
+std::string csv_field(size_t value);
+std::string csv_field(bool value);  ///< 1 or 0
+std::string csv_field(const std::string& value);
+
+template <class... Values>
+std::string csv_line(const Values&... values) {
+    std::string line;
+    ((line += csv_field(values) + ","), ...);
+    line.back() = '\n';
+    return line;
+}
