@@ -31,7 +31,36 @@ constexpr uint32_t diffuse_stream = 1u << 16;  ///< pairs of the path that leave
 
 /// Shadow rays end this much before the light, relative to its distance, so that they do not meet the light itself.
 constexpr float shadow_end = 0.9999f;
+/// Where a surface lies in a coordinate plane through the origin, points on it are exact and nothing offsets them: only hits
+/// at a distance of zero must be left out.
+constexpr float nearest_hit = std::numeric_limits<float>::min();
 constexpr float infinite_distance = std::numeric_limits<float>::infinity();
+
+/// On a hit, instID[0] is the index of the instance, whether it was baked or not.
+bool intersect(RTCScene scene, vec3 origin, vec3 direction, RTCRayHit& ray) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    ray.ray = {origin.x, origin.y, origin.z, nearest_hit, direction.x, direction.y, direction.z, 0.0f, infinite_distance, ~0u, 0, 0};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    if (ray.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) ray.hit.instID[0] = ray.hit.geomID;
+    return true;
+}
+
+bool is_occluded(RTCScene scene, vec3 origin, vec3 direction, float far) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray{origin.x, origin.y, origin.z, nearest_hit, direction.x, direction.y, direction.z, 0.0f, far, ~0u, 0, 0};
+    rtcOccluded1(scene, &context, &ray);
+    return ray.tfar < 0;
+}
+
+void count_ray(PixelEstimate& estimate, vec3 origin, vec3 direction, float far, bool is_shadow) {
+    ++estimate.rays;
+    if (estimate.record) estimate.record->push_back({origin, direction, far, is_shadow});
+}
 
 bool is_finite(vec3 v) { return std::isfinite(v.x + v.y + v.z); }
 
@@ -61,9 +90,7 @@ struct PathTracer::State {
                  settings.strategy != LightStrategy::light_only),
           has_environment(settings.keep_all || !scene.environment.is_black()) {}
 
-    bool intersect(vec3 origin, vec3 direction, RTCRayHit& ray) const;
-    bool occluded(vec3 origin, vec3 direction, float far) const;
-    vec3 path(const SobolPoint& point, uint32_t pair, vec3 origin, vec3 direction, float pdf, uint64_t& rays) const;
+    vec3 path(const SobolPoint& point, uint32_t pair, vec3 origin, vec3 direction, float pdf, PixelEstimate& estimate) const;
 
     /// Weight of the technique with density `pdf` where the other has density `other`.
     float mis_weight(float pdf, float other) const {
@@ -79,44 +106,30 @@ struct PathTracer::State {
         if (light.is_delta || settings.strategy == LightStrategy::light_only) return 1.0f;
         return settings.strategy == LightStrategy::bsdf_only ? 0.0f : mis_weight(light.pdf, bsdf_pdf);
     }
-    bool is_visible(vec3 position, vec3 error, vec3 normal, const LightSample& light) const;
+    bool is_visible(vec3 position, vec3 error, vec3 normal, const LightSample& light, PixelEstimate& estimate) const;
 };
 
-bool PathTracer::State::intersect(vec3 origin, vec3 direction, RTCRayHit& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    ray.ray = {origin.x, origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f, infinite_distance, ~0u, 0, 0};
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(geometry.handle(), &context, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    if (ray.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) ray.hit.instID[0] = ray.hit.geomID;
-    return true;
-}
-
-bool PathTracer::State::occluded(vec3 origin, vec3 direction, float far) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray{origin.x, origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f, far, ~0u, 0, 0};
-    rtcOccluded1(geometry.handle(), &context, &ray);
-    return ray.tfar < 0;
-}
-
-bool PathTracer::State::is_visible(vec3 position, vec3 error, vec3 normal, const LightSample& light) const {
+bool PathTracer::State::is_visible(vec3 position, vec3 error, vec3 normal, const LightSample& light, PixelEstimate& estimate) const {
     const vec3 origin = offset_origin(position, error, normal, light.direction);
-    if (light.is_infinite) return !occluded(origin, light.direction, infinite_distance);
-    const vec3 target = light.is_delta ? light.position : offset_origin(light.position, light.error, light.normal, -light.direction);
-    return !occluded(origin, target - origin, shadow_end);
+    vec3 direction = light.direction;
+    float far = infinite_distance;
+    if (!light.is_infinite) {
+        direction = (light.is_delta ? light.position : offset_origin(light.position, light.error, light.normal, -direction)) - origin;
+        far = shadow_end;
+    }
+    count_ray(estimate, origin, direction, far, true);
+    return !is_occluded(geometry.handle(), origin, direction, far);
 }
 
 /// Radiance that arrives along a ray which was drawn with density `pdf`, so that lights it meets share their weight with
 /// the light samples taken where it starts.
-vec3 PathTracer::State::path(const SobolPoint& point, uint32_t pair, vec3 origin, vec3 direction, float pdf, uint64_t& rays) const {
+vec3 PathTracer::State::path(const SobolPoint& point, uint32_t pair, vec3 origin, vec3 direction, float pdf,
+                             PixelEstimate& estimate) const {
     vec3 radiance(0.0f), throughput(1.0f);
     for (unsigned depth = 1;; ++depth, pair += pairs_per_vertex) {
         RTCRayHit ray;
-        ++rays;
-        if (!intersect(origin, direction, ray)) {
+        count_ray(estimate, origin, direction, infinite_distance, false);
+        if (!intersect(geometry.handle(), origin, direction, ray)) {
             if (has_environment)
                 radiance += throughput * scene.environment.radiance(direction) * bsdf_weight(pdf, lights.environment_pdf(direction));
             return radiance;
@@ -142,10 +155,8 @@ vec3 PathTracer::State::path(const SobolPoint& point, uint32_t pair, vec3 origin
                 const LobeValues f = evaluate(lobes, i);
                 const float bsdf_pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
                 const vec3 part = throughput * (f.diffuse + f.specular) * light.radiance * (light_weight(light, bsdf_pdf) / light.pdf);
-                if (part != vec3(0.0f)) {
-                    ++rays;
-                    if (is_visible(surface.position, surface.error, surface.geometric_normal, light)) radiance += part;
-                }
+                if (part != vec3(0.0f) && is_visible(surface.position, surface.error, surface.geometric_normal, light, estimate))
+                    radiance += part;
             }
         }
 
@@ -179,13 +190,23 @@ PathTracer::~PathTracer() = default;
 
 const std::vector<LeftOut>& PathTracer::left_out() const { return state_->left_out; }
 
+size_t PathTracer::replay(std::span<const RecordedRay> rays) const {
+    const FlushDenormals flush;
+    size_t hits = 0;
+    RTCRayHit hit;
+    for (const RecordedRay& ray : rays)
+        hits += ray.is_shadow ? is_occluded(state_->geometry.handle(), ray.origin, ray.direction, ray.far)
+                              : intersect(state_->geometry.handle(), ray.origin, ray.direction, hit);
+    return hits;
+}
+
 FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
     const FlushDenormals flush;
     const CameraRay camera_ray = ::camera_ray(state_->camera, state_->extent, {float(x) + 0.5f, float(y) + 0.5f});
     FirstHit hit;
     hit.view = -camera_ray.direction;
     RTCRayHit ray;
-    if (!state_->intersect(camera_ray.origin, camera_ray.direction, ray)) {
+    if (!intersect(state_->geometry.handle(), camera_ray.origin, camera_ray.direction, ray)) {
         hit.emitted = state_->scene.environment.radiance(camera_ray.direction);
         return hit;
     }
@@ -229,8 +250,7 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
             const LightSample light = state.lights.sample(hit.position, point.bits(pair_light));
             const vec3 i = light.direction * world_from_local;
             if (light.pdf > 0 && i.z > 0 && dot(light.direction, hit.geometric_normal) > 0) {
-                ++estimate.rays;
-                if (state.is_visible(hit.position, hit.position_error, hit.geometric_normal, light)) {
+                if (state.is_visible(hit.position, hit.position_error, hit.geometric_normal, light, estimate)) {
                     const LobeValues f = evaluate(lobes, i);
                     const vec3 arriving = light.radiance / light.pdf;
                     const float specular_weight = state.light_weight(light, f.specular_pdf);
@@ -251,7 +271,7 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
                 if (dot(direction, hit.geometric_normal) > 0) {
                     ++estimate.paths;
                     const vec3 origin = offset_origin(hit.position, hit.position_error, hit.geometric_normal, direction);
-                    const vec3 arriving = state.path(point, pair_first_free, origin, direction, f.specular_pdf, estimate.rays);
+                    const vec3 arriving = state.path(point, pair_first_free, origin, direction, f.specular_pdf, estimate);
                     specular += f.specular / f.specular_pdf * arriving;
                     incident += arriving;
                 }
@@ -265,7 +285,7 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
                 ++estimate.paths;
                 const vec3 origin = offset_origin(hit.position, hit.position_error, hit.geometric_normal, direction);
                 diffuse += f.diffuse / f.diffuse_pdf *
-                           state.path(point, diffuse_stream, origin, direction, f.diffuse_pdf, estimate.rays);
+                           state.path(point, diffuse_stream, origin, direction, f.diffuse_pdf, estimate);
             }
         }
         if (!is_finite(diffuse) || !is_finite(specular) || !is_finite(incident)) {

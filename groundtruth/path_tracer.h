@@ -4,6 +4,7 @@
 #include "core/scene/scene.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,13 @@ struct FirstHit {
     bool is_unlit = false;
 };
 
+/// A ray as it was traced, for comparing the path tracer with Embree's bare speed.
+struct RecordedRay {
+    glm::vec3 origin, direction;
+    float far;  ///< in units of `direction`
+    bool is_shadow;
+};
+
 /// Sums over the samples of one pixel, to be divided as written here.
 struct PixelEstimate {
     glm::dvec3 diffuse{0.0};   ///< / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
@@ -51,6 +59,7 @@ struct PixelEstimate {
     uint64_t non_finite = 0;    ///< samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0
     uint64_t rays = 0;          ///< traced, of both kinds
     uint64_t paths = 0;         ///< rays that left the first hit along a lobe
+    std::vector<RecordedRay>* record = nullptr;  ///< takes down each ray, if given
 };
 
 /// Unbiased path tracer over Embree (next-event estimation and BSDF sampling combined by multiple importance sampling)
@@ -76,6 +85,9 @@ public:
     /// first_sample. Unlit hits and the background have nothing to estimate: only `samples` grows.
     void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
                PixelEstimate& estimate) const;
+
+    /// Traces the rays with nothing else: how many hit something.
+    size_t replay(std::span<const RecordedRay> rays) const;
 
     const std::vector<LeftOut>& left_out() const;
 
