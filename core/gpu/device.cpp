@@ -1,28 +1,225 @@
 #include "core/gpu/device.h"
 
-Device::Device(bool validate) {
-    const vk::ApplicationInfo app{.apiVersion = VK_API_VERSION_1_3};
-    const char* layer = "VK_LAYER_KHRONOS_validation";
-    instance = {context, vk::InstanceCreateInfo{.pApplicationInfo = &app, .enabledLayerCount = validate, .ppEnabledLayerNames = &layer}};
-    gpu = std::move(instance.enumeratePhysicalDevices().front());
+#include "core/error.h"
+#include "core/gpu/device_impl.h"
+#include "core/near_miss.h"
 
-    const float priority = 1;
-    const char* extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
-    const vk::DeviceQueueCreateInfo queue{.queueCount = 1, .pQueuePriorities = &priority};
-    vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
-    const vk::PhysicalDeviceFeatures v10{.independentBlend = true, .shaderStorageImageWriteWithoutFormat = true};
-    device = {gpu, vk::DeviceCreateInfo{.pNext = &v13, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue,
-                                        .enabledExtensionCount = 1, .ppEnabledExtensionNames = &extension, .pEnabledFeatures = &v10}};
-    pool = {device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer}};
-    commands = {device, vk::CommandBufferAllocateInfo{.commandPool = *pool, .commandBufferCount = 1}};
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+const char* const validation_layer = "VK_LAYER_KHRONOS_validation";
+const char* const install_hint = "install a driver (on Debian: apt-get install mesa-vulkan-drivers)";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    auto& log = *static_cast<ValidationLog*>(user);
+    const std::lock_guard lock(log.mutex);
+    log.messages.emplace_back(data->pMessage);
+    std::fprintf(stderr, "validation: %s\n", data->pMessage);
+    return VK_FALSE;
 }
 
-void Device::submit(const std::function<void(vk::raii::CommandBuffer&)>& record) {
-    vk::raii::CommandBuffer& buffer = commands.front();
-    buffer.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    record(buffer);
-    buffer.end();
-    const auto queue = device.getQueue(0, 0);
-    queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &*buffer});
-    queue.waitIdle();
+bool has_layer(const vk::raii::Context& context, const char* name) {
+    return std::ranges::any_of(context.enumerateInstanceLayerProperties(), [&](const auto& layer) { return std::strcmp(layer.layerName, name) == 0; });
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate) {
+    const vk::ApplicationInfo application{.pApplicationName = "ssrlab", .apiVersion = VK_API_VERSION_1_3};
+    const vk::ValidationFeatureEnableEXT enabled[] = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    const vk::ValidationFeaturesEXT features{.enabledValidationFeatureCount = 1, .pEnabledValidationFeatures = enabled};
+    const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    if (validate && !has_layer(context, validation_layer))
+        fail_machine("the Vulkan validation layer is asked for but not installed (on Debian: apt-get install vulkan-validationlayers)");
+    return {context, vk::InstanceCreateInfo{.pNext = validate ? &features : nullptr,
+                                            .pApplicationInfo = &application,
+                                            .enabledLayerCount = validate ? 1u : 0u,
+                                            .ppEnabledLayerNames = &validation_layer,
+                                            .enabledExtensionCount = validate ? 1u : 0u,
+                                            .ppEnabledExtensionNames = extensions}};
+}
+
+std::string version_text(uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." + std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+DeviceInfo describe(const vk::raii::PhysicalDevice& gpu) {
+    const auto chain = gpu.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const vk::PhysicalDeviceProperties& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+    const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    DeviceInfo info{.name = properties.deviceName.data(),
+                    .driver = std::string(driver.driverName.data()) + " " + driver.driverInfo.data(),
+                    .api = version_text(properties.apiVersion),
+                    .type = "other"};
+    switch (properties.deviceType) {
+    case vk::PhysicalDeviceType::eCpu: info.type = "cpu"; break;
+    case vk::PhysicalDeviceType::eDiscreteGpu: info.type = "discrete"; break;
+    case vk::PhysicalDeviceType::eIntegratedGpu: info.type = "integrated"; break;
+    case vk::PhysicalDeviceType::eVirtualGpu: info.type = "virtual"; break;
+    default: break;
+    }
+    const vk::PhysicalDeviceMemoryProperties memory = gpu.getMemoryProperties();
+    for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) info.memory_mib = std::max(info.memory_mib, double(memory.memoryHeaps[i].size) / (1 << 20));
+    return info;
+}
+
+/// Vulkan 1.3 devices only: dynamic rendering and synchronization2 are taken for granted. An instance without any driver may
+/// fail to enumerate, which is the same as having none.
+std::vector<vk::raii::PhysicalDevice> usable_devices(const vk::raii::Instance& instance) {
+    std::vector<vk::raii::PhysicalDevice> usable;
+    try {
+        for (auto& gpu : instance.enumeratePhysicalDevices())
+            if (gpu.getProperties().apiVersion >= VK_API_VERSION_1_3) usable.push_back(std::move(gpu));
+    } catch (const vk::SystemError&) {
+    }
+    return usable;
+}
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice) {
+    if (devices.empty()) fail_machine("there is no Vulkan 1.3 device: ", install_hint);
+    if (choice.empty()) {
+        for (const char* type : {"discrete", "integrated", "virtual"})
+            if (const auto found = std::ranges::find(devices, type, &DeviceInfo::type); found != devices.end()) return size_t(found - devices.begin());
+        return 0;
+    }
+    if (std::ranges::all_of(choice, [](unsigned char c) { return std::isdigit(c); }) && choice.size() < 6)
+        if (const size_t index = std::stoul(choice); index < devices.size()) return index;
+    std::vector<std::string> names;
+    for (size_t i = 0; i < devices.size(); ++i) {
+        if (lower(devices[i].name).find(lower(choice)) != std::string::npos) return i;
+        names.push_back(std::to_string(i) + " '" + devices[i].name + "'");
+    }
+    fail("no Vulkan device fits '", choice, "'", suggestion(choice, names));
+}
+
+/// Runs `action` and reports what Vulkan throws as a fault of the machine.
+template <class Action>
+auto translated(const Action& action) {
+    try {
+        return action();
+    } catch (const vk::SystemError& e) {
+        fail_machine("Vulkan: ", e.what());
+    }
+}
+
+}  // namespace
+
+bool validation_requested() {
+    const char* value = std::getenv("SSRLAB_VALIDATE");
+    return value && std::string(value) == "1";
+}
+
+std::vector<DeviceInfo> list_devices() {
+    return translated([] {
+        const vk::raii::Context context;
+        const vk::raii::Instance instance = make_instance(context, false);
+        std::vector<DeviceInfo> devices;
+        for (const auto& gpu : usable_devices(instance)) devices.push_back(describe(gpu));
+        if (devices.empty()) fail_machine("there is no Vulkan 1.3 device: ", install_hint);
+        return devices;
+    });
+}
+
+Device::Device(const std::string& choice, bool validate) : impl_(translated([] { return std::make_unique<Impl>(); })) {
+    translated([&] {
+        Impl& d = *impl_;
+        d.instance = make_instance(d.context, validate);
+        if (validate) {
+            using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+            using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+            vk::DebugUtilsMessengerCreateInfoEXT info{.messageSeverity = Severity::eWarning | Severity::eError, .messageType = Type::eValidation};
+            info.pfnUserCallback = on_message;
+            info.pUserData = &d.log;
+            d.messenger = {d.instance, info};
+        }
+        std::vector<vk::raii::PhysicalDevice> gpus = usable_devices(d.instance);
+        std::vector<DeviceInfo> infos;
+        for (const auto& gpu : gpus) infos.push_back(describe(gpu));
+        const size_t index = choose(infos, choice);
+        d.gpu = std::move(gpus[index]);
+        d.info = infos[index];
+        d.nanoseconds_per_tick = d.gpu.getProperties().limits.timestampPeriod;
+
+        const auto families = d.gpu.getQueueFamilyProperties();
+        const auto does_all = [](const vk::QueueFamilyProperties& f) { return (f.queueFlags & vk::QueueFlagBits::eGraphics) && (f.queueFlags & vk::QueueFlagBits::eCompute); };
+        const auto family = std::ranges::find_if(families, does_all);
+        if (family == families.end()) fail_machine("the Vulkan device '", d.info.name, "' has no queue for graphics and compute");
+        d.queue_family = uint32_t(family - families.begin());
+
+        const float priority = 1;
+        const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = d.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
+        const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+        vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+        const vk::PhysicalDeviceFeatures v10{.independentBlend = true, .fragmentStoresAndAtomics = true, .shaderStorageImageWriteWithoutFormat = true};
+        d.device = {d.gpu, vk::DeviceCreateInfo{.pNext = &v13, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue,
+                                                .enabledExtensionCount = 1, .ppEnabledExtensionNames = extensions, .pEnabledFeatures = &v10}};
+        d.queue = d.device.getQueue(d.queue_family, 0);
+        d.pool = {d.device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = d.queue_family}};
+        d.commands = std::move(vk::raii::CommandBuffers(d.device, vk::CommandBufferAllocateInfo{.commandPool = *d.pool, .commandBufferCount = 1}).front());
+        d.fence = {d.device, vk::FenceCreateInfo{}};
+    });
+}
+
+Device::~Device() = default;
+
+const DeviceInfo& Device::info() const { return impl_->info; }
+
+std::vector<std::string> Device::validation_messages() const {
+    const std::lock_guard lock(impl_->log.mutex);
+    return impl_->log.messages;
+}
+
+bool Device::supports(Format format) const {
+    const auto features = impl_->gpu.getFormatProperties(vulkan_format(format)).optimalTilingFeatures;
+    const bool is_depth = bool(aspect_of(format) & vk::ImageAspectFlagBits::eDepth);
+    return bool(features & (is_depth ? vk::FormatFeatureFlagBits::eDepthStencilAttachment : vk::FormatFeatureFlagBits::eSampledImage));
+}
+
+vk::raii::DeviceMemory Device::Impl::allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred) {
+    const vk::PhysicalDeviceMemoryProperties memory = gpu.getMemoryProperties();
+    for (const vk::MemoryPropertyFlags wanted : {required | preferred, required})
+        for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+            if ((requirements.memoryTypeBits >> i & 1) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) try {
+                    return {device, vk::MemoryAllocateInfo{.allocationSize = requirements.size, .memoryTypeIndex = i}};
+                } catch (const vk::SystemError&) {
+                    fail_machine("the Vulkan device '", info.name, "' has no ", requirements.size >> 20, " MiB of memory left");
+                }
+    fail_machine("the Vulkan device '", info.name, "' has no suitable memory type");
+}
+
+void Device::Impl::submit_and_wait(const vk::raii::CommandBuffer& ended, const vk::raii::Fence& done) {
+    try {
+        const vk::CommandBuffer buffer = *ended;
+        queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &buffer}, *done);
+        if (device.waitForFences(*done, true, UINT64_MAX) != vk::Result::eSuccess) fail_machine("the Vulkan device '", info.name, "' did not finish its work");
+        device.resetFences(*done);
+    } catch (const vk::SystemError& e) {
+        fail_machine("the Vulkan device '", info.name, "' failed: ", e.what());
+    }
+}
+
+void Device::Impl::submit(const std::function<void(vk::raii::CommandBuffer&)>& record) {
+    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    record(commands);
+    commands.end();
+    submit_and_wait(commands, fence);
+}
+
+DeviceBuffer::DeviceBuffer(Device::Impl& gpu, size_t size, vk::BufferUsageFlags usage, bool is_host_visible)
+    : buffer(gpu.device, vk::BufferCreateInfo{.size = size, .usage = usage}) {
+    using Property = vk::MemoryPropertyFlagBits;
+    memory = is_host_visible ? gpu.allocate(buffer.getMemoryRequirements(), Property::eHostVisible | Property::eHostCoherent, Property::eHostCached)
+                             : gpu.allocate(buffer.getMemoryRequirements(), {}, Property::eDeviceLocal);
+    buffer.bindMemory(*memory, 0);
+    if (is_host_visible) data = static_cast<std::byte*>(memory.mapMemory(0, VK_WHOLE_SIZE));
 }

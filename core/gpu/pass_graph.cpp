@@ -1,338 +1,484 @@
 #include "core/gpu/pass_graph.h"
 
-#include "core/gpu/device.h"
 #include "core/error.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/device.h"
+#include "core/gpu/format.h"
+#include "core/gpu/pipeline.h"
+#include "core/gpu/resources.h"
 
+#include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cstring>
-
-struct ImageStorage {
-    vk::raii::Image image{nullptr};
-    vk::raii::DeviceMemory memory{nullptr};
-    vk::raii::ImageView whole{nullptr};
-    std::vector<vk::raii::ImageView> mips;
-    vk::ImageAspectFlags aspect;
-    vk::Format format{};
-};
-
-Image Image::mip(unsigned level) const {
-    Image view = *this;
-    view.first_mip = first_mip + level;
-    view.mips = 1;
-    view.extent = max(extent >> level, 1u);
-    return view;
-}
-
-Image Image::as(std::string shader_name) const {
-    Image view = *this;
-    view.name = std::move(shader_name);
-    return view;
-}
+#include <map>
+#include <optional>
 
 namespace {
 
-vk::Format vulkan(Format format) {
-    switch (format) {
-    case Format::r8: return vk::Format::eR8Unorm;
-    case Format::r16f: return vk::Format::eR16Sfloat;
-    case Format::rg16f: return vk::Format::eR16G16Sfloat;
-    case Format::rgba16f: return vk::Format::eR16G16B16A16Sfloat;
-    case Format::r32f: return vk::Format::eR32Sfloat;
-    case Format::r32ui: return vk::Format::eR32Uint;
-    case Format::rgba32f: return vk::Format::eR32G32B32A32Sfloat;
-    case Format::depth_stencil: return vk::Format::eD32SfloatS8Uint;
+// The uniform buffer: the camera block, then the parameters at an offset that suits every device's alignment (256 at most).
+constexpr size_t params_offset = 2048, uniforms_size = 6144;
+static_assert(sizeof(CameraData) <= params_offset);
+constexpr uint32_t max_stages = 2048;  // per frame, on a GPU: two time stamps each
+
+const ParameterSet no_parameters;
+
+vk::SamplerAddressMode address_mode(Wrap wrap) {
+    switch (wrap) {
+    case Wrap::clamp: return vk::SamplerAddressMode::eClampToEdge;
+    case Wrap::repeat: return vk::SamplerAddressMode::eRepeat;
+    case Wrap::mirrored_repeat: return vk::SamplerAddressMode::eMirroredRepeat;
     }
-    fail("no Vulkan format for Format ", int(format));
+    fail("no address mode for Wrap ", int(wrap));
 }
 
-/// A parameter as the GPU stores it: bool, int, uint and float are all four bytes wide.
-uint32_t four_bytes(const Parameter& p) {
-    if (p.glsl_type == "float") return std::bit_cast<uint32_t>(p.value.get<float>());
-    return p.glsl_type == "bool" ? p.value.get<bool>() : p.value.get<uint32_t>();
+vk::CullModeFlags cull_mode(Draw::Cull cull) {
+    return cull == Draw::Cull::back ? vk::CullModeFlagBits::eBack : cull == Draw::Cull::front ? vk::CullModeFlagBits::eFront : vk::CullModeFlagBits::eNone;
 }
 
-const std::string camera_block = "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n";
-
-struct Pipeline {
-    ShaderInterface interface;
-    vk::raii::DescriptorSetLayout set{nullptr};
-    vk::raii::PipelineLayout layout{nullptr};
-    vk::raii::Pipeline pipeline{nullptr};
-};
-
-struct HostBuffer {
-    vk::raii::Buffer buffer{nullptr};
-    vk::raii::DeviceMemory memory{nullptr};
-    std::byte* data = nullptr;
-
-    HostBuffer(const vk::raii::Device& device, size_t size, vk::BufferUsageFlags usage)
-        : buffer(device, vk::BufferCreateInfo{.size = size, .usage = usage}) {
-        memory = {device, vk::MemoryAllocateInfo{.allocationSize = buffer.getMemoryRequirements().size, .memoryTypeIndex = 0}};
-        buffer.bindMemory(*memory, 0);
-        data = static_cast<std::byte*>(memory.mapMemory(0, size));
-    }
-};
-
-constexpr size_t camera_offset = 0, params_offset = 1024, uniforms_size = 2048;
+std::string stage_of(const std::string& shader) { return shader.substr(0, shader.rfind('.')); }
 
 }  // namespace
 
 struct PassGraph::Impl {
-    Device& gpu;
+    Device& device;
+    Device::Impl& gpu;
     glm::uvec2 extent;
-    std::vector<std::filesystem::path> shader_roots;
+    Clock clock;
+    PipelineCache pipelines;
+    DeviceBuffer uniforms;
     std::map<std::string, Image> images, inputs;
-    std::map<std::string, Shader> shaders;
-    std::map<std::string, Pipeline> pipelines;
-    std::map<std::string, unsigned> history_parity;
-    const ParameterSet* params = nullptr;
+    std::map<std::string, Buffer> buffers;
+    unsigned parity = 0;
+    const ParameterSet* params = &no_parameters;
+    std::map<std::array<int, 3>, vk::raii::Sampler> samplers;
+
     std::vector<PassTime> times;
-    vk::raii::Sampler nearest, linear;
-    HostBuffer uniforms;
+    double frame_milliseconds = 0;
+    // On a GPU only: what has been recorded since begin_frame() or the last flush.
+    vk::raii::CommandBuffer commands{nullptr};
+    vk::raii::Fence fence{nullptr};
+    vk::raii::QueryPool queries{nullptr};
+    std::vector<std::string> recorded;
 
-    Impl(Device& d, glm::uvec2 e, std::vector<std::filesystem::path> roots)
-        : gpu(d), extent(e), shader_roots(std::move(roots)), nearest(sampler(vk::Filter::eNearest)), linear(sampler(vk::Filter::eLinear)),
-          uniforms(d.device, uniforms_size, vk::BufferUsageFlagBits::eUniformBuffer) {}
-
-    vk::raii::Sampler sampler(vk::Filter filter) {
-        const auto clamp = vk::SamplerAddressMode::eClampToEdge;
-        return {gpu.device, vk::SamplerCreateInfo{.magFilter = filter, .minFilter = filter, .addressModeU = clamp, .addressModeV = clamp, .maxLod = VK_LOD_CLAMP_NONE}};
+    Impl(Device& d, glm::uvec2 e, Clock c)
+        : device(d), gpu(d.impl()), extent(e), clock(c), pipelines(gpu), uniforms(gpu, uniforms_size, vk::BufferUsageFlagBits::eUniformBuffer, true) {
+        if (clock == Clock::host_fence) return;
+        commands = std::move(vk::raii::CommandBuffers(gpu.device, vk::CommandBufferAllocateInfo{.commandPool = *gpu.pool, .commandBufferCount = 1}).front());
+        fence = {gpu.device, vk::FenceCreateInfo{}};
+        queries = {gpu.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * max_stages}};
+    }
+    ~Impl() {
+        if (!recorded.empty()) gpu.flush_recording = nullptr;
     }
 
-    Image create(std::string name, Format format, unsigned mips, unsigned divisor);
-    Pipeline& pipeline(const std::string& shader, std::span<const Image> attachments, const Stencil& stencil);
-    void execute(Pass& pass);
-    void write_uniforms(const ShaderInterface& interface);
+    void execute(const std::string& stage, const std::function<void(const vk::raii::CommandBuffer&)>& record);
+    void flush();
+    void add_time(const std::string& stage, double milliseconds);
+
+    const vk::raii::Sampler& sampler(const Sampling& sampling);
+    void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
+    void check(const Pass& pass, const ShaderInterface& interface);
+    void bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw, const Pipeline& pipeline);
+    void draw(const vk::raii::CommandBuffer& commands, const Pass& pass, const Pipeline& pipeline, const std::vector<Image>& attachments);
+    [[noreturn]] void fail_missing(const Pass& pass, const std::string& name);
+    const Image* find_image(const Pass& pass, const Draw* draw, const std::string& name, Sampling& sampling);
+    const Buffer* find_buffer(const Pass& pass, const Draw* draw, const std::string& name);
+    void write_params();
 };
 
-/// All images stay in the general layout: the testbed compares algorithms, and on lavapipe layouts cost nothing.
-Image PassGraph::Impl::create(std::string name, Format format, unsigned mips, unsigned divisor) {
-    Image image{.name = std::move(name), .format = format, .extent = max(extent / divisor, 1u), .mips = mips};
-    auto storage = image.storage = std::make_shared<ImageStorage>();
-    const bool is_depth = format == Format::depth_stencil;
-    using Usage = vk::ImageUsageFlagBits;
-    storage->format = vulkan(format);
-    storage->aspect = is_depth ? vk::ImageAspectFlagBits::eDepth | vk::ImageAspectFlagBits::eStencil : vk::ImageAspectFlagBits::eColor;
-    storage->image = {gpu.device, vk::ImageCreateInfo{
-        .imageType = vk::ImageType::e2D, .format = storage->format, .extent = {image.extent.x, image.extent.y, 1}, .mipLevels = mips, .arrayLayers = 1,
-        .usage = Usage::eTransferSrc | Usage::eTransferDst | (is_depth ? Usage::eDepthStencilAttachment : Usage::eSampled | Usage::eStorage | Usage::eColorAttachment)}};
-    storage->memory = {gpu.device, vk::MemoryAllocateInfo{.allocationSize = storage->image.getMemoryRequirements().size, .memoryTypeIndex = 0}};
-    storage->image.bindMemory(*storage->memory, 0);
-    const auto view = [&](unsigned first, unsigned count) {
-        return vk::raii::ImageView(gpu.device, vk::ImageViewCreateInfo{.image = *storage->image, .viewType = vk::ImageViewType::e2D, .format = storage->format, .subresourceRange = {storage->aspect, first, count, 0, 1}});
-    };
-    storage->whole = view(0, mips);
-    for (unsigned level = 0; level < mips; ++level) storage->mips.push_back(view(level, 1));
-    gpu.submit([&](auto& commands) {
-        const vk::ImageMemoryBarrier2 barrier{.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands, .newLayout = vk::ImageLayout::eGeneral, .image = *storage->image, .subresourceRange = {storage->aspect, 0, mips, 0, 1}};
-        commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
-    });
+PassGraph::PassGraph(Device& device, glm::uvec2 extent) : PassGraph(device, extent, device.info().is_cpu() ? Clock::host_fence : Clock::gpu_timestamp) {}
+PassGraph::PassGraph(Device& device, glm::uvec2 extent, Clock clock) : impl_(std::make_unique<Impl>(device, extent, clock)) {}
+PassGraph::~PassGraph() = default;
+
+Clock PassGraph::clock() const { return impl_->clock; }
+glm::uvec2 PassGraph::extent() const { return impl_->extent; }
+Device& PassGraph::device() { return impl_->device; }
+
+// --- Resources ---
+
+Image PassGraph::image(const std::string& name, Format format, unsigned mips, unsigned divisor) { return image_of(name, format, max(impl_->extent / divisor, 1u), mips); }
+
+Image PassGraph::image_of(const std::string& name, Format format, glm::uvec2 extent, unsigned mips) {
+    if (extent.x == 0 || extent.y == 0) fail("image '", name, "' has zero size");
+    const auto [entry, is_new] = impl_->images.try_emplace(name);
+    Image& image = entry->second;
+    if (is_new || image.format != format || image.extent != extent || image.mips != mips)
+        image = {.name = name, .format = format, .extent = extent, .mips = mips, .storage = create_image(impl_->gpu, format, extent, mips)};
     return image;
 }
 
-Pipeline& PassGraph::Impl::pipeline(const std::string& name, std::span<const Image> attachments, const Stencil& stencil) {
-    const auto [cached, is_first_use] = shaders.try_emplace(name);
-    if (is_first_use) cached->second = compile(name, camera_block + params->glsl(), shader_roots);
-    const Shader& shader = cached->second;
-
-    // Only the constants this shader uses take part in the key: a new value of another constant costs it no new pipeline.
-    std::vector<uint32_t> constants;
-    std::vector<vk::SpecializationMapEntry> entries;
-    std::string key = name + char('0' + int(stencil.mode)) + std::to_string(stencil.value);
-    uint32_t id = 0;
-    for (const Parameter& p : *params) {
-        if (p.use != Use::constant || !shader.interface.constants.contains(id++)) continue;
-        entries.push_back({.constantID = id - 1, .offset = uint32_t(constants.size() * 4), .size = 4});
-        constants.push_back(four_bytes(p));
-        key += ' ' + std::to_string(constants.back());
-    }
-    for (const Image& image : attachments) key += ' ' + std::to_string(int(image.format));
-    const auto [entry, is_new] = pipelines.try_emplace(key);
-    Pipeline& p = entry->second;
-    if (!is_new) return p;
-
-    p.interface = shader.interface;
-    const bool is_compute = shader.spirv.size() == 1;
-    const vk::ShaderStageFlags stages = is_compute ? vk::ShaderStageFlagBits::eCompute : vk::ShaderStageFlagBits::eFragment;
-
-    std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (const auto& [_, resource] : p.interface.resources) {
-        using Kind = ShaderInterface::Kind;
-        const auto type = resource.kind == Kind::sampler ? vk::DescriptorType::eCombinedImageSampler : resource.kind == Kind::image ? vk::DescriptorType::eStorageImage : vk::DescriptorType::eUniformBuffer;
-        bindings.push_back({.binding = resource.binding, .descriptorType = type, .descriptorCount = 1, .stageFlags = stages});
-    }
-    p.set = {gpu.device, vk::DescriptorSetLayoutCreateInfo{.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR, .bindingCount = uint32_t(bindings.size()), .pBindings = bindings.data()}};
-    p.layout = {gpu.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*p.set}};
-
-    const vk::SpecializationInfo specialization{.mapEntryCount = uint32_t(entries.size()), .pMapEntries = entries.data(), .dataSize = constants.size() * 4, .pData = constants.data()};
-    std::vector<vk::raii::ShaderModule> modules;
-    std::vector<vk::PipelineShaderStageCreateInfo> stage_infos;
-    for (const auto& spirv : shader.spirv) {
-        modules.emplace_back(gpu.device, vk::ShaderModuleCreateInfo{.codeSize = spirv.size() * 4, .pCode = spirv.data()});
-        const bool is_vertex = !is_compute && modules.size() == 1;
-        stage_infos.push_back({.stage = is_compute ? vk::ShaderStageFlagBits::eCompute : is_vertex ? vk::ShaderStageFlagBits::eVertex : vk::ShaderStageFlagBits::eFragment,
-                               .module = *modules.back(), .pName = "main", .pSpecializationInfo = is_vertex ? nullptr : &specialization});
-    }
-    if (is_compute) {
-        p.pipeline = {gpu.device, nullptr, vk::ComputePipelineCreateInfo{.stage = stage_infos[0], .layout = *p.layout}};
-        return p;
-    }
-
-    const vk::PipelineVertexInputStateCreateInfo no_vertices{};
-    const vk::PipelineInputAssemblyStateCreateInfo triangles{.topology = vk::PrimitiveTopology::eTriangleList};
-    const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-    const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1};
-    const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
-    const bool writes = stencil.mode == Stencil::Mode::write;
-    const vk::StencilOpState op{.passOp = writes ? vk::StencilOp::eReplace : vk::StencilOp::eKeep, .compareOp = writes ? vk::CompareOp::eAlways : vk::CompareOp::eEqual, .compareMask = 255, .writeMask = 255, .reference = stencil.value};
-    const vk::PipelineDepthStencilStateCreateInfo depth_stencil{.stencilTestEnable = stencil.mode != Stencil::Mode::off, .front = op, .back = op};
-    const std::vector<vk::PipelineColorBlendAttachmentState> no_blending(attachments.size(), {.colorWriteMask = vk::ColorComponentFlags(15)});
-    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = uint32_t(no_blending.size()), .pAttachments = no_blending.data()};
-    const vk::DynamicState dynamic_states[] = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
-    const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = 2, .pDynamicStates = dynamic_states};
-    std::vector<vk::Format> formats;
-    for (const Image& image : attachments) formats.push_back(image.storage->format);
-    const vk::Format stencil_format = stencil.mode == Stencil::Mode::off ? vk::Format::eUndefined : vk::Format::eD32SfloatS8Uint;
-    const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = uint32_t(formats.size()), .pColorAttachmentFormats = formats.data(), .depthAttachmentFormat = stencil_format, .stencilAttachmentFormat = stencil_format};
-    p.pipeline = {gpu.device, nullptr, vk::GraphicsPipelineCreateInfo{
-        .pNext = &rendering, .stageCount = 2, .pStages = stage_infos.data(), .pVertexInputState = &no_vertices, .pInputAssemblyState = &triangles, .pViewportState = &viewport,
-        .pRasterizationState = &raster, .pMultisampleState = &one_sample, .pDepthStencilState = &depth_stencil, .pColorBlendState = &blend, .pDynamicState = &dynamic, .layout = *p.layout}};
-    return p;
+Buffer PassGraph::buffer(const std::string& name, size_t bytes) {
+    if (bytes == 0 || bytes % 4) fail("buffer '", name, "' has ", bytes, " bytes; it takes a positive multiple of 4");
+    const auto [entry, is_new] = impl_->buffers.try_emplace(name);
+    if (is_new || entry->second.size != bytes) entry->second = {.name = name, .size = bytes, .storage = create_buffer(impl_->gpu, bytes)};
+    return entry->second;
 }
 
-void PassGraph::Impl::write_uniforms(const ShaderInterface& interface) {
-    for (const Parameter& p : *params) {
-        const auto offset = interface.offsets.find(p.name);
-        if (p.use != Use::uniform || offset == interface.offsets.end()) continue;
-        const uint32_t value = four_bytes(p);
-        std::memcpy(uniforms.data + params_offset + offset->second, &value, sizeof value);
-    }
+PassGraph::History PassGraph::history(const std::string& name, Format format) {
+    const auto side = [&](unsigned parity) {
+        const std::string full_name = name + "#" + std::to_string(parity);
+        const bool is_new = !impl_->images.contains(full_name);
+        const Image image = this->image(full_name, format);
+        if (is_new) clear(image, glm::vec4(0.0f));
+        return image;
+    };
+    const Image sides[2] = {side(0), side(1)};
+    return {sides[impl_->parity].as(name), sides[1 - impl_->parity].as("previous_" + name)};
 }
 
-void PassGraph::Impl::execute(Pass& pass) {
-    std::vector<Image> attachments;
-    if (!pass.is_compute_) attachments = pass.writes_;
-    Pipeline& p = pipeline(pass.shader_, attachments, pass.stencil_);
-    write_uniforms(p.interface);
+void PassGraph::clear(const Image& image, glm::vec4 value) {
+    impl_->execute("clear", [&](const auto& commands) {
+        const ImageStorage& storage = *image.storage;
+        const vk::ImageSubresourceRange range{storage.aspect, image.first_mip, image.mips, 0, 1};
+        if (storage.aspect & vk::ImageAspectFlagBits::eDepth) {
+            commands.clearDepthStencilImage(*storage.image, vk::ImageLayout::eGeneral, vk::ClearDepthStencilValue{value.x, uint32_t(value.y)}, range);
+        } else {
+            const VkClearColorValue integer{.uint32 = {uint32_t(value.x), 0, 0, 0}}, real{.float32 = {value.x, value.y, value.z, value.w}};
+            const VkClearColorValue& chosen = image.format == Format::r32ui ? integer : real;
+            const auto color = std::bit_cast<vk::ClearColorValue>(chosen);
+            commands.clearColorImage(*storage.image, vk::ImageLayout::eGeneral, color, range);
+        }
+    });
+    image.storage->is_written = true;
+}
 
-    std::map<std::string, Pass::Read> offered;
-    for (const auto& [name, image] : inputs) offered[name] = {image, false};
-    for (const auto& read : pass.reads_) offered[read.image.name] = read;
-    for (const auto& image : pass.writes_) offered[image.name] = {image, false};
+void PassGraph::clear(const Buffer& buffer, uint32_t value) {
+    impl_->execute("clear", [&](const auto& commands) { commands.fillBuffer(*buffer.storage->buffer.buffer, 0, VK_WHOLE_SIZE, value); });
+}
 
-    const auto view = [](const Image& i) { return i.mips == 1 ? *i.storage->mips[i.first_mip] : *i.storage->whole; };
+void PassGraph::upload(const Image& image, const HostImage& pixels) {
+    const TexelLayout layout = texel_layout(image.format);
+    if (pixels.extent != image.extent || pixels.channels != layout.channels)
+        fail("image '", image.name, "' is ", image.extent.x, "x", image.extent.y, " with ", layout.channels, " channels and cannot take ", pixels.extent.x, "x", pixels.extent.y, " with ", pixels.channels);
+    std::vector<std::byte> texels(pixels.pixel_count() * layout.bytes);
+    encode_texels(image.format, pixels.values, texels.data());
+    impl_->flush();
+    upload_texels(impl_->gpu, image, texels);
+}
+
+void PassGraph::upload_rgba8(const Image& image, std::span<const uint8_t> texels) {
+    if (texels.size() != size_t(image.extent.x) * image.extent.y * 4) fail("image '", image.name, "' takes ", size_t(image.extent.x) * image.extent.y * 4, " bytes, not ", texels.size());
+    impl_->flush();
+    upload_texels(impl_->gpu, image, std::as_bytes(texels));
+}
+
+void PassGraph::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
+    if (bytes.size() > buffer.size) fail("buffer '", buffer.name, "' holds ", buffer.size, " bytes, not ", bytes.size());
+    impl_->flush();
+    upload_bytes(impl_->gpu, buffer, bytes);
+}
+
+HostImage PassGraph::download(const Image& image) {
+    impl_->flush();
+    const std::vector<std::byte> texels = download_texels(impl_->gpu, image);
+    HostImage pixels(image.extent, texel_layout(image.format).channels);
+    decode_texels(image.format, texels.data(), pixels.values);
+    return pixels;
+}
+
+std::vector<std::byte> PassGraph::download(const Buffer& buffer) {
+    impl_->flush();
+    return download_bytes(impl_->gpu, buffer);
+}
+
+// --- Frames and time ---
+
+void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs) {
+    impl_->flush();
+    impl_->times.clear();
+    impl_->frame_milliseconds = 0;
+    impl_->parity = 1 - impl_->parity;
+    impl_->params = &params;
+    impl_->inputs.clear();
+    for (const Image& image : inputs) impl_->inputs[image.name] = image;
+    std::memcpy(impl_->uniforms.data, &camera, sizeof camera);
+    impl_->write_params();
+}
+
+void PassGraph::Impl::write_params() {
+    size_t offset = params_offset;  // std140 packs scalars one after the other
+    for (const Parameter& p : *params)
+        if (p.use == Use::uniform) {
+            if (offset + 4 > uniforms_size) fail("more than ", (uniforms_size - params_offset) / 4, " uniform parameters");
+            const uint32_t bits = p.bits();
+            std::memcpy(uniforms.data + offset, &bits, 4);
+            offset += 4;
+        }
+}
+
+std::vector<PassTime> PassGraph::times() {
+    impl_->flush();
+    return impl_->times;
+}
+
+double PassGraph::frame_milliseconds() {
+    impl_->flush();
+    return impl_->frame_milliseconds;
+}
+
+void PassGraph::Impl::add_time(const std::string& stage, double milliseconds) {
+    const auto found = std::ranges::find(times, stage, &PassTime::stage);
+    if (found == times.end())
+        times.push_back({stage, milliseconds});
+    else
+        found->milliseconds += milliseconds;
+}
+
+void PassGraph::Impl::execute(const std::string& stage, const std::function<void(const vk::raii::CommandBuffer&)>& record) {
+    if (recorded.empty() && gpu.flush_recording) gpu.flush_recording();
+    if (clock == Clock::host_fence) {
+        gpu.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        full_barrier(gpu.commands);
+        try {
+            record(gpu.commands);
+        } catch (...) {
+            gpu.commands.reset();
+            throw;
+        }
+        full_barrier(gpu.commands);
+        gpu.commands.end();
+        const auto start = std::chrono::steady_clock::now();
+        gpu.submit_and_wait(gpu.commands, gpu.fence);
+        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+        add_time(stage, time.count());
+        frame_milliseconds += time.count();
+        return;
+    }
+    if (recorded.size() == max_stages) flush();
+    if (recorded.empty()) {
+        commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        commands.resetQueryPool(*queries, 0, 2 * max_stages);
+        gpu.flush_recording = [this] { flush(); };
+    }
+    const uint32_t query = uint32_t(2 * recorded.size());
+    full_barrier(commands);
+    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries, query);
+    try {
+        record(commands);
+    } catch (...) {
+        commands.reset();
+        recorded.clear();
+        gpu.flush_recording = nullptr;
+        throw;
+    }
+    full_barrier(commands);
+    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries, query + 1);
+    recorded.push_back(stage);
+}
+
+void PassGraph::Impl::flush() {
+    if (recorded.empty()) return;
+    gpu.flush_recording = nullptr;
+    commands.end();
+    const std::vector<std::string> stages = std::exchange(recorded, {});
+    gpu.submit_and_wait(commands, fence);
+    const auto [result, ticks] = queries.getResults<uint64_t>(0, uint32_t(2 * stages.size()), 2 * stages.size() * sizeof(uint64_t), sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    if (result != vk::Result::eSuccess) fail_machine("the Vulkan device '", gpu.info.name, "' gave no time stamps");
+    const double milliseconds_per_tick = gpu.nanoseconds_per_tick * 1e-6;
+    for (size_t i = 0; i < stages.size(); ++i) add_time(stages[i], double(ticks[2 * i + 1] - ticks[2 * i]) * milliseconds_per_tick);
+    frame_milliseconds += double(ticks.back() - ticks.front()) * milliseconds_per_tick;
+}
+
+// --- Passes ---
+
+PassGraph::Pass::Pass(PassGraph::Impl& graph, std::string shader, bool is_compute) : graph_(graph), shader_(std::move(shader)), label_(stage_of(shader_)), is_compute_(is_compute) {}
+
+PassGraph::Pass PassGraph::compute(const std::string& shader) { return {*impl_, shader, true}; }
+PassGraph::Pass PassGraph::fragment(const std::string& shader) { return {*impl_, shader, false}; }
+PassGraph::Pass PassGraph::draw(const std::string& vertex_shader, const std::string& fragment_shader, std::vector<Draw> draws) {
+    Pass pass{*impl_, fragment_shader, false};
+    pass.vertex_shader_ = vertex_shader;
+    pass.draws_ = std::move(draws);
+    return pass;
+}
+
+PassGraph::Pass& PassGraph::Pass::read(const Image& image, Sampling sampling) { return reads_.push_back({image, sampling}), *this; }
+PassGraph::Pass& PassGraph::Pass::write(const Image& image) { return writes_.push_back(image), *this; }
+PassGraph::Pass& PassGraph::Pass::use(const Buffer& buffer) { return buffers_.push_back(buffer), *this; }
+PassGraph::Pass& PassGraph::Pass::stencil(Stencil stencil) { return stencil_ = std::move(stencil), *this; }
+PassGraph::Pass& PassGraph::Pass::depth(DepthTest test) { return depth_ = std::move(test), *this; }
+PassGraph::Pass& PassGraph::Pass::label(std::string stage) { return label_ = std::move(stage), *this; }
+PassGraph::Pass& PassGraph::Pass::set(const std::string& name, float value) { return pushes_.push_back({name, {value}, 4}), *this; }
+PassGraph::Pass& PassGraph::Pass::set(const std::string& name, int value) { return pushes_.push_back({name, {std::bit_cast<float>(value)}, 4}), *this; }
+PassGraph::Pass& PassGraph::Pass::set(const std::string& name, unsigned value) { return pushes_.push_back({name, {std::bit_cast<float>(value)}, 4}), *this; }
+PassGraph::Pass& PassGraph::Pass::set(const std::string& name, glm::vec4 value) { return pushes_.push_back({name, {value.x, value.y, value.z, value.w}, 16}), *this; }
+
+void PassGraph::Pass::run() {
+    if (!is_compute_) return graph_.run(*this, {}, nullptr, 0);
+    if (writes_.empty()) fail("pass ", label_, " writes no image, so run() needs an extent");
+    run(writes_.front().extent);
+}
+
+void PassGraph::Pass::run(glm::uvec2 extent) {
+    const auto local = graph_.pipelines.shader(shader_, vertex_shader_, *graph_.params).interface.local_size;
+    dispatch_groups({(extent.x + local[0] - 1) / local[0], (extent.y + local[1] - 1) / local[1], 1});
+}
+
+void PassGraph::Pass::dispatch_groups(glm::uvec3 groups) { graph_.run(*this, groups, nullptr, 0); }
+void PassGraph::Pass::dispatch(const Buffer& arguments, size_t offset) { graph_.run(*this, {}, &arguments, offset); }
+
+const vk::raii::Sampler& PassGraph::Impl::sampler(const Sampling& s) {
+    const auto [entry, is_new] = samplers.try_emplace({int(s.is_linear), int(s.wrap_u), int(s.wrap_v)}, nullptr);
+    const vk::Filter filter = s.is_linear ? vk::Filter::eLinear : vk::Filter::eNearest;
+    if (is_new)
+        entry->second = {gpu.device, vk::SamplerCreateInfo{.magFilter = filter, .minFilter = filter, .mipmapMode = s.is_linear ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest,
+                                                           .addressModeU = address_mode(s.wrap_u), .addressModeV = address_mode(s.wrap_v), .maxLod = VK_LOD_CLAMP_NONE}};
+    return entry->second;
+}
+
+const Image* PassGraph::Impl::find_image(const Pass& pass, const Draw* draw, const std::string& name, Sampling& sampling) {
+    for (const std::vector<Read>* reads : {draw ? &draw->reads : nullptr, &pass.reads_}) {
+        if (!reads) continue;
+        for (const Read& read : *reads)
+            if (read.image.name == name) {
+                sampling = read.sampling;
+                return &read.image;
+            }
+    }
+    for (const Image& image : pass.writes_)
+        if (image.name == name) return &image;
+    const auto input = inputs.find(name);
+    return input == inputs.end() ? nullptr : &input->second;
+}
+
+const Buffer* PassGraph::Impl::find_buffer(const Pass& pass, const Draw* draw, const std::string& name) {
+    for (const std::vector<Buffer>* buffers : {draw ? &draw->buffers : nullptr, &pass.buffers_}) {
+        if (!buffers) continue;
+        for (const Buffer& buffer : *buffers)
+            if (buffer.name == name) return &buffer;
+    }
+    return nullptr;
+}
+
+void PassGraph::Impl::fail_missing(const Pass& pass, const std::string& name) {
+    std::vector<std::string> provided;
+    for (const Read& read : pass.reads_) provided.push_back(read.image.name);
+    for (const Image& image : pass.writes_) provided.push_back(image.name);
+    for (const Buffer& buffer : pass.buffers_) provided.push_back(buffer.name);
+    for (const auto& [input, _] : inputs) provided.push_back(input);
+    std::ranges::sort(provided);
+    std::string list;
+    for (const std::string& p : provided) list += " " + p;
+    fail(pass.shader_, " uses '", name, "', which the pass does not provide; it provides:", list);
+}
+
+/// What a pass names and its shader ignores is a mistake, and so is reading what nobody has written.
+void PassGraph::Impl::check(const Pass& pass, const ShaderInterface& interface) {
+    const auto is_used = [&](const std::string& name) {
+        return interface.outputs.contains(name) || std::ranges::any_of(interface.resources, [&](const auto& r) { return r.name == name; });
+    };
+    for (const Read& read : pass.reads_)
+        if (!is_used(read.image.name)) fail("pass ", pass.label_, " reads '", read.image.name, "', which ", pass.shader_, " does not use");
+    for (const Image& image : pass.writes_)
+        if (!is_used(image.name)) fail("pass ", pass.label_, " writes '", image.name, "', which ", pass.shader_, " does not use");
+    for (const Buffer& buffer : pass.buffers_)
+        if (!is_used(buffer.name)) fail("pass ", pass.label_, " uses buffer '", buffer.name, "', which ", pass.shader_, " does not use");
+    for (const auto& push : pass.pushes_)
+        if (!interface.push_offsets.contains(push.name)) fail("pass ", pass.label_, " sets '", push.name, "', which is no member of the push_constant block of ", pass.shader_);
+}
+
+void PassGraph::Impl::bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw, const Pipeline& pipeline) {
+    using Kind = ShaderInterface::Kind;
     std::vector<vk::DescriptorImageInfo> image_infos;
     std::vector<vk::DescriptorBufferInfo> buffer_infos;
+    image_infos.reserve(pipeline.interface.resources.size());  // writes keep pointers into both
+    buffer_infos.reserve(pipeline.interface.resources.size());
     std::vector<vk::WriteDescriptorSet> writes;
-    image_infos.reserve(p.interface.resources.size());
-    buffer_infos.reserve(p.interface.resources.size());
-    for (const auto& [name, resource] : p.interface.resources) {
-        vk::WriteDescriptorSet write{.dstBinding = resource.binding, .descriptorCount = 1};
-        if (resource.kind == ShaderInterface::Kind::uniforms) {
-            buffer_infos.push_back({.buffer = *uniforms.buffer, .offset = name == "Camera" ? camera_offset : params_offset, .range = 1024});
+    for (const auto& r : pipeline.interface.resources) {
+        vk::WriteDescriptorSet write{.dstBinding = r.binding, .descriptorCount = 1};
+        if (r.kind == Kind::uniforms) {
+            const bool is_camera = r.name == "Camera";
+            if (!is_camera && r.name != "Params") fail(pass.shader_, " declares the uniform block '", r.name, "'; use a push_constant block or a parameter");
+            buffer_infos.push_back({*uniforms.buffer, is_camera ? 0 : params_offset, is_camera ? params_offset : uniforms_size - params_offset});
             write.descriptorType = vk::DescriptorType::eUniformBuffer;
             write.pBufferInfo = &buffer_infos.back();
+        } else if (r.kind == Kind::storage) {
+            const Buffer* buffer = find_buffer(pass, draw, r.name);
+            if (!buffer) fail_missing(pass, r.name);
+            buffer_infos.push_back({*buffer->storage->buffer.buffer, 0, VK_WHOLE_SIZE});
+            write.descriptorType = vk::DescriptorType::eStorageBuffer;
+            write.pBufferInfo = &buffer_infos.back();
         } else {
-            const auto found = offered.find(name);
-            if (found == offered.end()) {
-                std::string names;
-                for (const auto& [n, _] : offered) names += ' ' + n;
-                fail(pass.shader_, " uses '", name, "', which the pass does not provide; it provides:", names);
-            }
-            const bool is_sampler = resource.kind == ShaderInterface::Kind::sampler;
-            image_infos.push_back({.sampler = found->second.linear ? *linear : *nearest, .imageView = view(found->second.image), .imageLayout = vk::ImageLayout::eGeneral});
-            write.descriptorType = is_sampler ? vk::DescriptorType::eCombinedImageSampler : vk::DescriptorType::eStorageImage;
+            Sampling sampling;
+            const Image* image = find_image(pass, draw, r.name, sampling);
+            if (!image) fail_missing(pass, r.name);
+            const bool is_sampled = r.kind == Kind::sampler;
+            if (is_sampled && !image->storage->is_written) fail("pass ", pass.label_, " reads '", r.name, "', which nothing has written yet");
+            const bool is_one_mip = !is_sampled || image->mips == 1;
+            const vk::ImageView view = is_one_mip ? *image->storage->mips[image->first_mip] : *image->storage->whole;
+            image_infos.push_back({is_sampled ? *sampler(sampling) : vk::Sampler{}, view, vk::ImageLayout::eGeneral});
+            write.descriptorType = is_sampled ? vk::DescriptorType::eCombinedImageSampler : vk::DescriptorType::eStorageImage;
             write.pImageInfo = &image_infos.back();
         }
         writes.push_back(write);
     }
+    const auto point = pipeline.is_compute ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics;
+    if (!writes.empty()) commands.pushDescriptorSetKHR(point, *pipeline.layout, 0, writes);
+}
 
-    const glm::uvec2 area = pass.writes_.empty() ? extent : pass.writes_.front().extent;
-    const auto record = [&](vk::raii::CommandBuffer& commands) {
-        const vk::MemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands, .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
-                                         .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands, .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
-        commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
-        const auto bind_point = pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics;
-        commands.bindPipeline(bind_point, *p.pipeline);
-        commands.pushDescriptorSetKHR(bind_point, *p.layout, 0, writes);
-        if (pass.is_compute_) {
-            const auto groups = [](unsigned n, unsigned size) { return (n + size - 1) / size; };
-            commands.dispatch(groups(area.x, p.interface.local_size[0]), groups(area.y, p.interface.local_size[1]), 1);
-            return;
-        }
-        std::vector<vk::RenderingAttachmentInfo> colours(attachments.size());
-        for (const Image& image : attachments)
-            colours[p.interface.outputs.at(image.name)] = {.imageView = view(image), .imageLayout = vk::ImageLayout::eGeneral, .loadOp = vk::AttachmentLoadOp::eLoad, .storeOp = vk::AttachmentStoreOp::eStore};
-        const bool has_stencil = pass.stencil_.mode != Stencil::Mode::off;
-        const vk::RenderingAttachmentInfo stencil{.imageView = has_stencil ? view(pass.stencil_.image) : vk::ImageView{}, .imageLayout = vk::ImageLayout::eGeneral, .loadOp = vk::AttachmentLoadOp::eLoad, .storeOp = vk::AttachmentStoreOp::eStore};
-        commands.beginRendering({.renderArea = {{0, 0}, {area.x, area.y}}, .layerCount = 1, .colorAttachmentCount = uint32_t(colours.size()), .pColorAttachments = colours.data(),
-                                 .pDepthAttachment = has_stencil ? &stencil : nullptr, .pStencilAttachment = has_stencil ? &stencil : nullptr});
-        commands.setViewport(0, vk::Viewport{0, 0, float(area.x), float(area.y), 0, 1});
-        commands.setScissor(0, vk::Rect2D{{0, 0}, {area.x, area.y}});
-        commands.draw(3, 1, 0, 0);
-        commands.endRendering();
+void PassGraph::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& pass, const Pipeline& pipeline, const std::vector<Image>& attachments) {
+    const bool has_depth = bool(pass.depth_.image.storage), has_stencil = pass.stencil_.mode != Stencil::Mode::off;
+    const glm::uvec2 area = !attachments.empty() ? attachments.front().extent : has_depth ? pass.depth_.image.extent : pass.stencil_.image.extent;
+    const auto attachment = [](vk::ImageView view) {
+        return vk::RenderingAttachmentInfo{.imageView = view, .imageLayout = vk::ImageLayout::eGeneral, .loadOp = vk::AttachmentLoadOp::eLoad, .storeOp = vk::AttachmentStoreOp::eStore};
     };
-    // One submission per pass: lavapipe's timestamps do not wait for compute work, the CPU clock around a wait does.
-    const auto start = std::chrono::steady_clock::now();
-    gpu.submit(record);
-    times.push_back({pass.shader_, std::chrono::steady_clock::now() - start});
+    std::vector<vk::RenderingAttachmentInfo> colors;
+    for (const Image& image : attachments) {
+        if (image.extent != area) fail("pass ", pass.label_, " writes '", image.name, "' of another size than '", attachments.front().name, "'");
+        colors.push_back(attachment(*image.storage->mips[image.first_mip]));
+    }
+    const vk::RenderingAttachmentInfo depth = has_depth ? attachment(*pass.depth_.image.storage->attachment) : has_stencil ? attachment(*pass.stencil_.image.storage->attachment) : vk::RenderingAttachmentInfo{};
+    const bool has_depth_attachment = has_depth || has_stencil;
+    commands.beginRendering({.renderArea = {{}, {area.x, area.y}}, .layerCount = 1, .colorAttachmentCount = uint32_t(colors.size()), .pColorAttachments = colors.data(),
+                             .pDepthAttachment = has_depth_attachment ? &depth : nullptr, .pStencilAttachment = has_stencil ? &depth : nullptr});
+    commands.setViewport(0, vk::Viewport{0, 0, float(area.x), float(area.y), 0, 1});
+    commands.setScissor(0, vk::Rect2D{{}, {area.x, area.y}});
+    if (pass.vertex_shader_.empty()) {
+        commands.setCullMode(vk::CullModeFlagBits::eNone);
+        bind(commands, pass, nullptr, pipeline);
+        commands.draw(3, 1, 0, 0);
+    }
+    for (const Draw& d : pass.draws_) {
+        commands.setCullMode(cull_mode(d.cull));
+        bind(commands, pass, &d, pipeline);
+        commands.bindIndexBuffer(*d.indices.storage->buffer.buffer, 0, vk::IndexType::eUint32);
+        commands.drawIndexed(d.index_count, 1, d.first_index, d.vertex_offset, d.first_instance);
+    }
+    commands.endRendering();
 }
 
-PassGraph::PassGraph(Device& device, glm::uvec2 extent, std::vector<std::filesystem::path> shader_roots)
-    : impl_(std::make_unique<Impl>(device, extent, std::move(shader_roots))) {}
-PassGraph::~PassGraph() = default;
-
-Image PassGraph::image(std::string name, Format format, unsigned mips, unsigned divisor) {
-    if (const auto found = impl_->images.find(name); found != impl_->images.end()) return found->second;
-    return impl_->images[name] = impl_->create(name, format, mips, divisor);
-}
-
-PassGraph::History PassGraph::history(std::string name, Format format) {
-    const Image even = image(name + " (even)", format), odd = image(name + " (odd)", format);
-    const bool swapped = impl_->history_parity[name] & 1;
-    return {(swapped ? odd : even).as(name), (swapped ? even : odd).as("previous_" + name)};
-}
-
-PassGraph::Pass PassGraph::compute(std::string shader) { return {*impl_, std::move(shader), true}; }
-PassGraph::Pass PassGraph::fragment(std::string shader) { return {*impl_, std::move(shader), false}; }
-
-void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs) {
-    std::memcpy(impl_->uniforms.data + camera_offset, &camera, sizeof camera);
-    impl_->params = &params;
-    impl_->inputs.clear();
-    for (const Image& image : inputs) impl_->inputs[image.name] = image;
-    impl_->times.clear();
-    for (auto& [_, parity] : impl_->history_parity) ++parity;
-}
-
-const std::vector<PassTime>& PassGraph::times() const { return impl_->times; }
-glm::uvec2 PassGraph::extent() const { return impl_->extent; }
-
-void PassGraph::clear(const Image& image, glm::vec4 v) {
-    const ImageStorage& s = *image.storage;
-    impl_->gpu.submit([&](auto& commands) {
-        const vk::ImageSubresourceRange range{s.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1};
-        if (image.format == Format::depth_stencil)
-            commands.clearDepthStencilImage(*s.image, vk::ImageLayout::eGeneral, {v.x, uint32_t(v.y)}, range);
+void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset) {
+    const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params);
+    check(pass, shader.interface);
+    PipelineState state{.attachments = {}, .stencil = pass.stencil_.mode, .stencil_value = pass.stencil_.value, .has_depth = bool(pass.depth_.image.storage), .depth = pass.depth_};
+    std::vector<Image> attachments;
+    if (!pass.is_compute_) {
+        attachments.resize(shader.interface.outputs.size());
+        for (const auto& [name, location] : shader.interface.outputs) {
+            const auto target = std::ranges::find(pass.writes_, name, &Image::name);
+            if (target == pass.writes_.end()) fail_missing(pass, name);
+            if (location >= attachments.size()) fail(pass.shader_, ": the locations of its outputs have gaps");
+            attachments[location] = *target;
+        }
+        for (const Image& image : attachments) state.attachments.push_back(image.format);
+    }
+    const Pipeline& pipeline = pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, state);
+    execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
+        commands.bindPipeline(pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics, *pipeline.pipeline);
+        if (pipeline.interface.push_size) {
+            std::vector<std::byte> block(pipeline.interface.push_size);
+            for (const auto& push : pass.pushes_) std::memcpy(block.data() + pipeline.interface.push_offsets.at(push.name), push.bits.data(), push.size);
+            const vk::ShaderStageFlags stages = pass.is_compute_ ? vk::ShaderStageFlagBits::eCompute : vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+            commands.pushConstants<std::byte>(*pipeline.layout, stages, 0, block);
+        }
+        if (!pass.is_compute_) return draw(commands, pass, pipeline, attachments);
+        bind(commands, pass, nullptr, pipeline);
+        if (arguments)
+            commands.dispatchIndirect(*arguments->storage->buffer.buffer, arguments_offset);
         else
-            commands.clearColorImage(*s.image, vk::ImageLayout::eGeneral, vk::ClearColorValue{std::array{v.x, v.y, v.z, v.w}}, range);
+            commands.dispatch(groups->x, groups->y, groups->z);
     });
+    for (const Image& image : pass.writes_) image.storage->is_written = true;
+    for (const Image* image : {&pass.depth_.image, &pass.stencil_.image})
+        if (image->storage) image->storage->is_written = true;
 }
-
-std::vector<float> PassGraph::download(const Image& image) {
-    if (image.format != Format::rgba32f) fail("download of '", image.name, "': only rgba32f images can be downloaded");
-    std::vector<float> pixels(size_t(image.extent.x) * image.extent.y * 4);
-    HostBuffer buffer(impl_->gpu.device, pixels.size() * sizeof(float), vk::BufferUsageFlagBits::eTransferDst);
-    impl_->gpu.submit([&](auto& commands) {
-        commands.copyImageToBuffer(*image.storage->image, vk::ImageLayout::eGeneral, *buffer.buffer,
-                                   vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, image.first_mip, 0, 1}, .imageExtent = {image.extent.x, image.extent.y, 1}});
-    });
-    std::memcpy(pixels.data(), buffer.data, pixels.size() * sizeof(float));
-    return pixels;
-}
-
-PassGraph::Pass& PassGraph::Pass::read(const Image& image, bool linear) { reads_.push_back({image, linear}); return *this; }
-PassGraph::Pass& PassGraph::Pass::write(const Image& image) { writes_.push_back(image); return *this; }
-PassGraph::Pass& PassGraph::Pass::stencil(Stencil stencil) { stencil_ = std::move(stencil); return *this; }
-void PassGraph::Pass::run() { graph_.execute(*this); }

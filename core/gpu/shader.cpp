@@ -4,32 +4,53 @@
 
 #include <SPIRV/GlslangToSpv.h>
 #include <SPIRV/spirv.hpp>
+#include <algorithm>
 #include <fstream>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
-#include <memory>
 #include <sstream>
 #include <spirv-tools/optimizer.hpp>
 
 namespace {
 
-using Roots = std::vector<std::filesystem::path>;
+const char* const fullscreen_triangle = "void main() { gl_Position = vec4(vec2(gl_VertexIndex << 1 & 2, gl_VertexIndex & 2) * 2.0 - 1.0, 0.0, 1.0); }\n";
 
-std::string read_text(const std::filesystem::path& name, const Roots& roots) {
-    for (const auto& root : roots)
+std::string read_shader(const std::string& name) {
+    for (const auto& root : shader_roots())
         if (std::ifstream in(root / name); in) return {std::istreambuf_iterator<char>(in), {}};
-    fail("no shader file ", name, " under ", roots.size(), " shader folders");
+    fail("no shader file ", name, " under variants/, core/shaders/, tests/shaders/ or the project's root");
 }
 
-/// Replaces #include "x" by the text of x. The headers guard themselves against double inclusion.
-std::string expand_includes(const std::string& text, const Roots& roots) {
+/// Replaces #include "x" by the text of x. Files guard themselves against double inclusion. Each file has a number, its
+/// index in `files`, which #line carries into the compiler's messages.
+std::string expand_includes(const std::string& text, size_t file, std::vector<std::string>& files) {
     std::istringstream in(text);
     std::ostringstream out;
+    int number = 0;
     for (std::string line; std::getline(in, line);) {
-        if (line.starts_with("#include \""))
-            out << expand_includes(read_text(line.substr(10, line.rfind('"') - 10), roots), roots);
-        else
+        ++number;
+        if (!line.starts_with("#include \"")) {
             out << line << '\n';
+            continue;
+        }
+        const std::string name = line.substr(10, line.rfind('"') - 10);
+        files.push_back(name);
+        const size_t included = files.size() - 1;
+        if (files.size() > 200) fail(files[file], " includes itself");
+        out << "#line 1 " << included << '\n' << expand_includes(read_shader(name), included, files) << "#line " << number + 1 << ' ' << file << '\n';
+    }
+    return out.str();
+}
+
+/// glslang writes "ERROR: 3:17: ..." for line 17 of file 3.
+std::string with_file_names(const std::string& log, const std::vector<std::string>& files) {
+    std::istringstream in(log);
+    std::ostringstream out;
+    for (std::string line; std::getline(in, line);) {
+        unsigned file = 0;
+        int consumed = 0;
+        if (std::sscanf(line.c_str(), "ERROR: %u:%n", &file, &consumed) == 1 && consumed && file < files.size()) line = files[file] + ":" + line.substr(size_t(consumed));
+        if (!line.empty()) out << line << '\n';
     }
     return out.str();
 }
@@ -41,65 +62,94 @@ void find_constants(const std::vector<unsigned>& spirv, std::set<unsigned>& ids)
         if ((spirv[i] & 0xffff) == spv::OpDecorate && spirv[i + 2] == spv::DecorationSpecId) ids.insert(spirv[i + 3]);
 }
 
-const char* const fullscreen_triangle = "void main() { gl_Position = vec4(vec2(gl_VertexIndex << 1 & 2, gl_VertexIndex & 2) * 2.0 - 1.0, 0.0, 1.0); }";
+/// Adds what one linked stage asks for.
+void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& found) {
+    using Kind = ShaderInterface::Kind;
+    for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
+        const auto& block = program.getUniformBlock(i);
+        if (block.getType()->getQualifier().isPushConstant())
+            found.push_size = unsigned(block.size);
+        else
+            found.resources.push_back({block.name, unsigned(block.getBinding()), Kind::uniforms, is_vertex});
+    }
+    for (int i = 0; i < program.getNumBufferBlocks(); ++i)
+        found.resources.push_back({program.getBufferBlock(i).name, unsigned(program.getBufferBlock(i).getBinding()), Kind::storage, is_vertex});
+    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
+        const auto& u = program.getUniform(i);
+        if (u.index >= 0) {
+            if (u.index < program.getNumUniformBlocks() && program.getUniformBlock(u.index).getType()->getQualifier().isPushConstant())
+                found.push_offsets[u.name.substr(u.name.rfind('.') + 1)] = unsigned(u.offset);
+        } else if (u.getType()->getBasicType() == glslang::EbtSampler) {
+            found.resources.push_back({u.name, unsigned(u.getBinding()), u.getType()->getSampler().isCombined() ? Kind::sampler : Kind::image, is_vertex});
+        }
+    }
+    if (is_vertex) return;
+    for (int i = 0; i < program.getNumPipeOutputs(); ++i)
+        if (const auto& output = program.getPipeOutput(i); !output.name.starts_with("gl_")) found.outputs[output.name] = output.getType()->getQualifier().layoutLocation;
+    for (int d = 0; d < 3; ++d) found.local_size[size_t(d)] = program.getLocalSize(d);
+}
 
 }  // namespace
 
-Shader compile(const std::filesystem::path& file, const std::string& prelude, const Roots& roots, ShaderLanguage language) {
+const std::vector<std::filesystem::path>& shader_roots() {
+    static const std::filesystem::path root = SSRLAB_SOURCE_DIR;
+    static const std::vector<std::filesystem::path> roots = {root / "variants", root / "core/shaders", root / "tests/shaders", root};
+    return roots;
+}
+
+Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude, ShaderLanguage language) {
     static const bool initialised = glslang::InitializeProcess();
     (void)initialised;
-    const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.extension() == ".comp";
+    const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
 
+    std::vector<std::string> files = {"prelude", file};
+    const auto complete = [&](const std::string& name, size_t index) {
+        return expand_includes(prelude, 0, files) + "#line 1 " + std::to_string(index) + "\n" + expand_includes(read_shader(name), index, files);
+    };
     std::vector<std::pair<EShLanguage, std::string>> sources;
-    if (!is_compute && !webgl2) sources.emplace_back(EShLangVertex, fullscreen_triangle);
-    sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment, expand_includes(prelude + read_text(file, roots), roots));
+    if (!is_compute && !webgl2) {
+        if (vertex_file.empty()) {
+            sources.emplace_back(EShLangVertex, fullscreen_triangle);
+        } else {
+            files.push_back(vertex_file);
+            sources.emplace_back(EShLangVertex, complete(vertex_file, files.size() - 1));
+        }
+    }
+    sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment, complete(file, 1));
 
-    std::vector<std::unique_ptr<glslang::TShader>> shaders;  // outlive the program
-    glslang::TProgram program;
+    Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
     for (const auto& [stage, text] : sources) {
-        auto& shader = *shaders.emplace_back(std::make_unique<glslang::TShader>(stage));
+        const bool is_vertex = stage == EShLangVertex;
+        glslang::TShader shader(stage);
+        glslang::TProgram program;
         const char* const lines = text.c_str();
         shader.setStrings(&lines, 1);
         shader.setEnvInput(glslang::EShSourceGlsl, stage, webgl2 ? glslang::EShClientOpenGL : glslang::EShClientVulkan, 100);
         if (webgl2) {
             shader.setPreamble("precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
         } else {
+            // Vulkan 1.3 would make glslang emit LocalSizeId, which asks for a maintenance4 that 1.2 does without.
             shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
             shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
             shader.setAutoMapBindings(true);
             shader.setAutoMapLocations(true);
+            for (const auto type : {glslang::EResSampler, glslang::EResTexture, glslang::EResImage, glslang::EResUbo, glslang::EResSsbo, glslang::EResUav})
+                shader.setShiftBinding(type, is_vertex ? first_vertex_binding : 0);
         }
         if (!shader.parse(GetDefaultResources(), webgl2 ? 300 : 460, webgl2 ? EEsProfile : ECoreProfile, true, false, rules))
-            fail(file, ":\n", shader.getInfoLog());
+            fail("cannot compile ", is_vertex ? vertex_file : file, ":\n", with_file_names(shader.getInfoLog(), files));
+        if (webgl2) return {};
         program.addShader(&shader);
-    }
-    if (webgl2) return {};
-    if (!program.link(rules) || !program.mapIO()) fail(file, ":\n", program.getInfoLog());
-    program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO);
-
-    Shader result;
-    auto& found = result.interface;
-    using Kind = ShaderInterface::Kind;
-    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
-        const auto& u = program.getUniform(i);
-        if (u.index >= 0)
-            found.offsets[u.name] = unsigned(u.offset);
-        else
-            found.resources[u.name] = {unsigned(u.getBinding()), u.getType()->getSampler().isCombined() ? Kind::sampler : Kind::image};
-    }
-    for (int i = 0; i < program.getNumUniformBlocks(); ++i)
-        found.resources[program.getUniformBlock(i).name] = {unsigned(program.getUniformBlock(i).getBinding()), Kind::uniforms};
-    for (int i = 0; i < program.getNumPipeOutputs(); ++i)
-        found.outputs[program.getPipeOutput(i).name] = program.getPipeOutput(i).getType()->getQualifier().layoutLocation;
-    for (int d = 0; d < 3; ++d) found.local_size[d] = program.getLocalSize(d);
-    for (const auto& [stage, text] : sources) {
+        if (!program.link(rules) || !program.mapIO()) fail("cannot link ", is_vertex ? vertex_file : file, ":\n", with_file_names(program.getInfoLog(), files));
+        program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO | EShReflectionSeparateBuffers);
+        reflect(program, is_vertex, result.interface);
         auto& spirv = result.spirv.emplace_back();
         glslang::GlslangToSpv(*program.getIntermediate(stage), spirv);
         spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_2);  // serves one run only
-        optimizer.RegisterPass(spvtools::CreateEliminateDeadConstantPass());  // those of the prelude which this shader ignores
+        optimizer.RegisterPass(spvtools::CreateEliminateDeadConstantPass());  // those of the prelude that this shader ignores
         optimizer.Run(spirv.data(), spirv.size(), &spirv);
-        find_constants(result.spirv.back(), found.constants);
+        find_constants(spirv, result.interface.constants);
     }
     return result;
 }

@@ -1,0 +1,30 @@
+#pragma once
+#include "core/gpu/pass_graph.h"
+
+#include <string>
+#include <vector>
+
+/// Passes of known relative work, timed as every stage is timed.
+struct ClockCheck {
+    std::string stage_kind;  ///< "compute", "fragment", "fragment after compute"
+    std::vector<double> expected{1, 10, 100};
+    std::vector<double> measured_ms;  ///< medians, less the empty submit on a CPU
+    std::vector<double> ratio;        ///< measured_ms over that of the largest work, times 100
+    bool passed = false;
+};
+
+/// Says whether the clock can be trusted: work of 1 : 10 : 100 must take time in that ratio, within `clock_tolerance`.
+struct ClockProof {
+    std::string method;          ///< "host_fence" or "gpu_timestamp"
+    double empty_submit_ms = 0;  ///< what submitting nothing and waiting for it takes: the floor of every stage on a CPU
+    std::vector<ClockCheck> checks;
+    bool passed() const;
+};
+
+/// A ratio may be off by this factor either way. A stamp that misses the work, or encloses the neighbour's, is off by 10 or
+/// more; a machine that is busy with other things, or clocks up during the measurement, by less than 2.
+inline constexpr double clock_tolerance = 2.0;
+
+/// Takes about half a second.
+ClockProof prove_clock(Device& device);
+ClockProof prove_clock(Device& device, Clock clock);

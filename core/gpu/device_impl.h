@@ -1,0 +1,68 @@
+#pragma once
+#include "core/gpu/device.h"
+
+#define VULKAN_HPP_NO_CONSTRUCTORS
+#include <functional>
+#include <mutex>
+#include <vulkan/vulkan_raii.hpp>
+
+// The Vulkan side of Device, seen by core/gpu/*.cpp only: vulkan_raii.hpp costs seconds per source file.
+
+vk::Format vulkan_format(Format format);
+vk::ImageAspectFlags aspect_of(Format format);
+
+/// What the debug callback fills; its address must not change.
+struct ValidationLog {
+    std::mutex mutex;
+    std::vector<std::string> messages;
+};
+
+struct Device::Impl {
+    vk::raii::Context context;
+    ValidationLog log;
+    vk::raii::Instance instance{nullptr};
+    vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
+    vk::raii::PhysicalDevice gpu{nullptr};
+    DeviceInfo info;
+    uint32_t queue_family = 0;
+    float nanoseconds_per_tick = 1;  ///< of time stamps
+    vk::raii::Device device{nullptr};
+    vk::raii::Queue queue{nullptr};
+    vk::raii::CommandPool pool{nullptr};
+    vk::raii::CommandBuffer commands{nullptr};
+    vk::raii::Fence fence{nullptr};
+
+    /// A graph that has recorded and not yet submitted; others call this before they start, so that work keeps its order.
+    std::function<void()> flush_recording;
+
+    /// Memory of a type that has all of `required` and, if there is such a one, all of `preferred` too.
+    vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred = {});
+
+    /// Records, submits and waits.
+    void submit(const std::function<void(vk::raii::CommandBuffer&)>& record);
+    void submit_and_wait(const vk::raii::CommandBuffer& ended, const vk::raii::Fence& fence);
+};
+
+/// A buffer with memory of its own; `data` is mapped if it is visible to the host.
+struct DeviceBuffer {
+    vk::raii::Buffer buffer{nullptr};
+    vk::raii::DeviceMemory memory{nullptr};
+    std::byte* data = nullptr;
+
+    DeviceBuffer() = default;
+    DeviceBuffer(Device::Impl& gpu, size_t size, vk::BufferUsageFlags usage, bool is_host_visible);
+};
+
+struct ImageStorage {
+    vk::raii::Image image{nullptr};
+    vk::raii::DeviceMemory memory{nullptr};
+    vk::raii::ImageView whole{nullptr};        ///< all mips; for sampling: the depth aspect only
+    std::vector<vk::raii::ImageView> mips;     ///< for sampling and storage
+    vk::raii::ImageView attachment{nullptr};   ///< depth and stencil together; empty for colours
+    vk::ImageAspectFlags aspect;
+    bool is_written = false;                   ///< by a pass, a clear or an upload
+};
+
+struct BufferStorage {
+    DeviceBuffer buffer;
+};

@@ -1,0 +1,38 @@
+#pragma once
+#include "core/gpu/device_impl.h"
+#include "core/gpu/pass_graph.h"
+#include "core/gpu/shader.h"
+
+#include <map>
+
+struct Pipeline {
+    ShaderInterface interface;
+    vk::raii::DescriptorSetLayout set{nullptr};
+    vk::raii::PipelineLayout layout{nullptr};
+    vk::raii::Pipeline pipeline{nullptr};
+    bool is_compute = false;
+};
+
+/// What a pipeline is made for, apart from its shader.
+struct PipelineState {
+    std::vector<Format> attachments;  ///< by location
+    Stencil::Mode stencil = Stencil::Mode::off;
+    unsigned stencil_value = 0;
+    bool has_depth = false;
+    DepthTest depth;
+};
+
+/// Shaders and pipelines, each made at its first use.
+class PipelineCache {
+public:
+    explicit PipelineCache(Device::Impl& gpu) : gpu_(gpu) {}
+
+    /// `params`: the variant's; their declarations are part of the shader, the values of constants part of the pipeline.
+    const Shader& shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params);
+    Pipeline& pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params, const PipelineState& state);
+
+private:
+    Device::Impl& gpu_;
+    std::map<std::string, Shader> shaders_;
+    std::map<std::string, Pipeline> pipelines_;
+};

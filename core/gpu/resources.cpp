@@ -1,0 +1,140 @@
+#include "core/gpu/resources.h"
+
+#include "core/error.h"
+#include "core/gpu/format.h"
+
+#include <cstring>
+
+Image Image::mip(unsigned level) const {
+    Image view = *this;
+    view.first_mip = first_mip + level;
+    view.mips = 1;
+    view.extent = max(extent >> level, 1u);
+    return view;
+}
+
+Image Image::as(std::string shader_name) const {
+    Image view = *this;
+    view.name = std::move(shader_name);
+    return view;
+}
+
+Buffer Buffer::as(std::string shader_name) const {
+    Buffer view = *this;
+    view.name = std::move(shader_name);
+    return view;
+}
+
+void full_barrier(const vk::raii::CommandBuffer& commands) {
+    const vk::MemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                     .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                     .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                     .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
+    commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
+}
+
+namespace {
+
+/// What the device can do with the format: not every format can be stored to or rendered to.
+vk::ImageUsageFlags usage_of(Device::Impl& gpu, Format format) {
+    using Usage = vk::ImageUsageFlagBits;
+    using Feature = vk::FormatFeatureFlagBits;
+    const vk::FormatFeatureFlags features = gpu.gpu.getFormatProperties(vulkan_format(format)).optimalTilingFeatures;
+    vk::ImageUsageFlags usage = Usage::eTransferSrc | Usage::eTransferDst | Usage::eSampled;
+    if (features & Feature::eStorageImage) usage |= Usage::eStorage;
+    if (features & Feature::eColorAttachment) usage |= Usage::eColorAttachment;
+    if (features & Feature::eDepthStencilAttachment) usage |= Usage::eDepthStencilAttachment;
+    return usage;
+}
+
+vk::ImageAspectFlags copied_aspect(const Image& image) {
+    return image.storage->aspect & vk::ImageAspectFlagBits::eDepth ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
+}
+
+vk::BufferImageCopy whole_mip(const Image& image) {
+    return {.imageSubresource = {copied_aspect(image), image.first_mip, 0, 1}, .imageExtent = {image.extent.x, image.extent.y, 1}};
+}
+
+}  // namespace
+
+std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm::uvec2 extent, unsigned mips) {
+    auto storage = std::make_shared<ImageStorage>();
+    storage->aspect = aspect_of(format);
+    const vk::Format vk_format = vulkan_format(format);
+    const vk::ImageUsageFlags usage = usage_of(gpu, format);
+    const bool is_depth = bool(storage->aspect & vk::ImageAspectFlagBits::eDepth);
+    if (is_depth && !(usage & vk::ImageUsageFlagBits::eDepthStencilAttachment))
+        fail_machine("the Vulkan device '", gpu.info.name, "' has no depth format ", vk::to_string(vk_format), "; choose another depth format");
+    storage->image = {gpu.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D, .format = vk_format, .extent = {extent.x, extent.y, 1},
+                                                      .mipLevels = mips, .arrayLayers = 1, .usage = usage}};
+    storage->memory = gpu.allocate(storage->image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    storage->image.bindMemory(*storage->memory, 0);
+
+    const vk::ImageAspectFlags sampled = is_depth ? vk::ImageAspectFlagBits::eDepth : storage->aspect;
+    const auto view = [&](vk::ImageAspectFlags aspect, unsigned first, unsigned count) {
+        return vk::raii::ImageView(gpu.device, vk::ImageViewCreateInfo{.image = *storage->image, .viewType = vk::ImageViewType::e2D, .format = vk_format, .subresourceRange = {aspect, first, count, 0, 1}});
+    };
+    storage->whole = view(sampled, 0, mips);
+    for (unsigned level = 0; level < mips; ++level) storage->mips.push_back(view(sampled, level, 1));
+    if (is_depth) storage->attachment = view(storage->aspect, 0, 1);
+    gpu.submit([&](auto& commands) {
+        const vk::ImageMemoryBarrier2 barrier{.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands, .newLayout = vk::ImageLayout::eGeneral,
+                                              .image = *storage->image, .subresourceRange = {storage->aspect, 0, mips, 0, 1}};
+        commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+    });
+    return storage;
+}
+
+std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes) {
+    using Usage = vk::BufferUsageFlagBits;
+    auto storage = std::make_shared<BufferStorage>();
+    storage->buffer = DeviceBuffer(gpu, bytes, Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eIndexBuffer | Usage::eTransferSrc | Usage::eTransferDst, false);
+    gpu.submit([&](auto& commands) {
+        commands.fillBuffer(*storage->buffer.buffer, 0, VK_WHOLE_SIZE, 0);
+        full_barrier(commands);
+    });
+    return storage;
+}
+
+void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::byte> texels) {
+    const DeviceBuffer staging(gpu, texels.size(), vk::BufferUsageFlagBits::eTransferSrc, true);
+    std::memcpy(staging.data, texels.data(), texels.size());
+    gpu.submit([&](auto& commands) {
+        full_barrier(commands);
+        commands.copyBufferToImage(*staging.buffer, *image.storage->image, vk::ImageLayout::eGeneral, whole_mip(image));
+        full_barrier(commands);
+    });
+    image.storage->is_written = true;
+}
+
+std::vector<std::byte> download_texels(Device::Impl& gpu, const Image& image) {
+    const size_t size = size_t(image.extent.x) * image.extent.y * texel_layout(image.format).bytes;
+    const DeviceBuffer staging(gpu, size, vk::BufferUsageFlagBits::eTransferDst, true);
+    gpu.submit([&](auto& commands) {
+        full_barrier(commands);
+        commands.copyImageToBuffer(*image.storage->image, vk::ImageLayout::eGeneral, *staging.buffer, whole_mip(image));
+        full_barrier(commands);
+    });
+    return {staging.data, staging.data + size};
+}
+
+void upload_bytes(Device::Impl& gpu, const Buffer& buffer, std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;
+    const DeviceBuffer staging(gpu, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, true);
+    std::memcpy(staging.data, bytes.data(), bytes.size());
+    gpu.submit([&](auto& commands) {
+        full_barrier(commands);
+        commands.copyBuffer(*staging.buffer, *buffer.storage->buffer.buffer, vk::BufferCopy{.size = bytes.size()});
+        full_barrier(commands);
+    });
+}
+
+std::vector<std::byte> download_bytes(Device::Impl& gpu, const Buffer& buffer) {
+    const DeviceBuffer staging(gpu, buffer.size, vk::BufferUsageFlagBits::eTransferDst, true);
+    gpu.submit([&](auto& commands) {
+        full_barrier(commands);
+        commands.copyBuffer(*buffer.storage->buffer.buffer, *staging.buffer, vk::BufferCopy{.size = buffer.size});
+        full_barrier(commands);
+    });
+    return {staging.data, staging.data + buffer.size};
+}

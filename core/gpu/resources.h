@@ -1,0 +1,19 @@
+#pragma once
+#include "core/gpu/device_impl.h"
+#include "core/host_image.h"
+
+#include <span>
+
+// Images and buffers on the device, and their way there and back. All images stay in the general layout: ssrlab compares
+// algorithms, and one layout keeps passes free of transitions.
+
+std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm::uvec2 extent, unsigned mips);
+std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes);
+
+void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::byte> texels);
+std::vector<std::byte> download_texels(Device::Impl& gpu, const Image& image);
+void upload_bytes(Device::Impl& gpu, const Buffer& buffer, std::span<const std::byte> bytes);
+std::vector<std::byte> download_bytes(Device::Impl& gpu, const Buffer& buffer);
+
+/// Everything written before is seen by everything after: one global barrier.
+void full_barrier(const vk::raii::CommandBuffer& commands);

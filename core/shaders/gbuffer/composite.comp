@@ -1,0 +1,47 @@
+// specular = (F0 A + F90 B) mix(fallback, radiance, confidence); image = lit + specular. The same as composite() in
+// core/gbuffer/composite.cpp.
+#include "core/shaders/gbuffer/pixel.glsl"
+#include "core/shared/brdf.h"
+#include "core/shared/split_sum_tap.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform sampler2D depth;
+uniform sampler2D normal;
+uniform sampler2D base_color;
+uniform sampler2D emission;
+uniform sampler2D lit;
+uniform sampler2D fallback;
+uniform sampler2D radiance;
+uniform sampler2D confidence;
+uniform sampler2D split_sum;
+layout(rgba32f) uniform writeonly image2D specular;
+layout(rgba32f) uniform writeonly image2D image;
+
+vec2 split_sum_factors(float mu_o, float roughness) {
+    SplitSumTap tap = split_sum_tap(mu_o, roughness, uint(textureSize(split_sum, 0).x));
+    vec2 low = mix(texelFetch(split_sum, ivec2(tap.first), 0).rg, texelFetch(split_sum, ivec2(tap.last.x, tap.first.y), 0).rg, tap.fraction.x);
+    vec2 high = mix(texelFetch(split_sum, ivec2(tap.first.x, tap.last.y), 0).rg, texelFetch(split_sum, ivec2(tap.last), 0).rg, tap.fraction.x);
+    return mix(low, high, tap.fraction.y);
+}
+
+vec3 specular_reflectance(ivec2 pixel) {
+    vec4 normal_roughness = texelFetch(normal, pixel, 0);
+    vec4 color_metalness = texelFetch(base_color, pixel, 0);
+    float specular_factor = texelFetch(emission, pixel, 0).w;
+    float mu_o = dot(normal_roughness.xyz, -ws_pixel_direction(pixel));
+    if (mu_o <= 0.0) return vec3(0.0);  // the path tracer ends such paths
+    vec2 ab = split_sum_factors(mu_o, normal_roughness.w);
+    return specular_f0(color_metalness.rgb, color_metalness.w, specular_factor) * ab.x + specular_f90(color_metalness.w, specular_factor) * ab.y;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(image)))) return;
+    vec3 reflected = vec3(0.0);
+    if (!is_background(texelFetch(depth, pixel, 0).r)) {
+        vec3 incident = mix(texelFetch(fallback, pixel, 0).rgb, texelFetch(radiance, pixel, 0).rgb, texelFetch(confidence, pixel, 0).r);
+        reflected = specular_reflectance(pixel) * incident;
+    }
+    imageStore(specular, pixel, vec4(reflected, 0.0));
+    imageStore(image, pixel, vec4(texelFetch(lit, pixel, 0).rgb + reflected, 0.0));
+}

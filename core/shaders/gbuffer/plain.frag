@@ -1,0 +1,2 @@
+// Materials without textures or alpha masks.
+#include "core/shaders/gbuffer/surface.glsl"

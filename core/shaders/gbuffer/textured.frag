@@ -1,0 +1,3 @@
+// Materials with textures, without alpha masks.
+#define HAS_TEXTURES
+#include "core/shaders/gbuffer/surface.glsl"

@@ -1,0 +1,3 @@
+void main() {
+    if (gl_FragCoord.x > 0.5 * camera.extent.x) discard;
+}
