@@ -21,7 +21,7 @@ struct Tile {
     unsigned x0, y0, width, height;
 };
 
-/// Y, Cx, Cz of the tile and its surroundings; pixels outside of the image repeat its border.
+/// The scaled Y, Cx, Cz of the tile and its surroundings; pixels outside of the image repeat its border.
 struct Opponent {
     FloatPlane y, cx, cz;
 };
@@ -87,8 +87,7 @@ void take_length(FloatPlane& x, const FloatPlane& y) {
 }
 
 Features features(const Opponent& image, const FlipKernels& k) {
-    FloatPlane luminance = cropped(image.y, k.color_radius - k.feature_radius);
-    for (float& v : luminance.values) v = (v + 16) / 116;
+    const FloatPlane luminance = cropped(image.y, k.color_radius - k.feature_radius);
     const FloatPlane blurred_rows = filter_rows(luminance, k.feature_blur);
     Features out{filtered(luminance, k.feature_edge, k.feature_blur), filtered(luminance, k.feature_point, k.feature_blur)};
     take_length(out.edge, filter_columns(blurred_rows, k.feature_edge));
