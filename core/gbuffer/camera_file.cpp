@@ -1,0 +1,143 @@
+#include "core/gbuffer/camera_file.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "core/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using nlohmann::json;
+
+const std::vector<std::string> depth_formats{"d32f", "d24", "d16"};
+
+json json_vector(glm::vec2 v) { return {json_number(v.x), json_number(v.y)}; }
+
+json json_matrix(const glm::mat4& m) {
+    json rows = json::array();
+    for (int row = 0; row < 4; ++row) {
+        json numbers = json::array();
+        for (int column = 0; column < 4; ++column) numbers.push_back(json_number(m[column][row]));
+        rows.push_back(numbers);
+    }
+    return rows;
+}
+
+/// An array of `count` numbers.
+std::vector<float> numbers(const json& array, size_t count, const std::string& where) {
+    const auto is_number = [](const json& value) { return value.is_number(); };
+    if (!array.is_array() || array.size() != count || !std::ranges::all_of(array, is_number))
+        fail(where, " is ", array.dump(), ", but must be an array of ", count, " numbers");
+    return array.get<std::vector<float>>();
+}
+
+glm::mat4 matrix(JsonObject& object, const std::string& key) {
+    const json& rows = object.any(key);
+    const std::string where = object.where() + ": '" + key + "'";
+    if (!rows.is_array() || rows.size() != 4) fail(where, " is ", rows.dump(), ", but must be an array of four rows");
+    glm::mat4 result;
+    for (int row = 0; row < 4; ++row) {
+        const std::vector<float> values = numbers(rows[row], 4, where + " row " + std::to_string(row));
+        for (int column = 0; column < 4; ++column) result[column][row] = values[column];
+    }
+    return result;
+}
+
+glm::mat4 matrix(JsonObject& object, const std::string& key, const glm::mat4& fallback) {
+    return object.has(key) ? matrix(object, key) : fallback;
+}
+
+glm::vec2 pair(JsonObject& object, const std::string& key, glm::vec2 fallback) {
+    if (!object.has(key)) return fallback;
+    const std::vector<float> values = numbers(object.any(key), 2, object.where() + ": '" + key + "'");
+    return {values[0], values[1]};
+}
+
+glm::mat4 checked_inverse(const glm::mat4& m, JsonObject& object, const std::string& key) {
+    const float determinant = glm::determinant(m);
+    if (!(std::abs(determinant) > 0) || !std::isfinite(determinant))
+        fail(object.where(), ": '", key, "' has determinant ", determinant, ", but must be invertible");
+    return glm::inverse(m);
+}
+
+void read_matrices(JsonObject& object, CameraData& c) {
+    c.clip_from_view = matrix(object, "clip_from_view");
+    c.view_from_world = matrix(object, "view_from_world");
+    c.view_from_clip = matrix(object, "view_from_clip", checked_inverse(c.clip_from_view, object, "clip_from_view"));
+    c.world_from_view = matrix(object, "world_from_view", checked_inverse(c.view_from_world, object, "view_from_world"));
+    c.clip_from_world = matrix(object, "clip_from_world", c.clip_from_view * c.view_from_world);
+
+    const std::string clip = "previous_clip_from_view", view = "previous_view_from_world";
+    if (object.has(clip) != object.has(view))
+        fail(object.where(), ": has only one of '", clip, "' and '", view, "', but needs both or none");
+    c.frame.w = object.has(view);
+    const glm::mat4 previous_clip_from_view = matrix(object, clip, c.clip_from_view);
+    c.previous_view_from_world = matrix(object, view, c.view_from_world);
+    const bool is_first = c.frame.w == 0;
+    c.previous_view_from_clip = matrix(object, "previous_view_from_clip", is_first ? c.view_from_clip : checked_inverse(previous_clip_from_view, object, clip));
+    c.previous_world_from_view = matrix(object, "previous_world_from_view", is_first ? c.world_from_view : checked_inverse(c.previous_view_from_world, object, view));
+    c.previous_clip_from_world = matrix(object, "previous_clip_from_world", is_first ? c.clip_from_world : previous_clip_from_view * c.previous_view_from_world);
+}
+
+}  // namespace
+
+void write_camera(const std::filesystem::path& file, const CameraFile& f) {
+    const CameraData& c = f.camera;
+    json object{
+        {"extent", {unsigned(c.extent.x), unsigned(c.extent.y)}},
+        {"depth_direction", c.depth.w == 1 ? "reversed" : "standard"},
+        {"depth_format", depth_formats[size_t(f.depth_format)]},
+        {"near", json_number(c.depth.x)},
+        {"far", json_number(c.depth.y)},
+        {"frame", c.frame.x},
+        {"seed", c.frame.y},
+        {"is_orthographic", c.frame.z == 1},
+        {"jitter", json_vector({c.jitter.x, c.jitter.y})},
+        {"previous_jitter", json_vector({c.jitter.z, c.jitter.w})},
+        {"clip_from_view", json_matrix(c.clip_from_view)},
+        {"view_from_clip", json_matrix(c.view_from_clip)},
+        {"view_from_world", json_matrix(c.view_from_world)},
+        {"world_from_view", json_matrix(c.world_from_view)},
+        {"clip_from_world", json_matrix(c.clip_from_world)},
+    };
+    if (c.frame.w == 1) {
+        object["previous_clip_from_view"] = json_matrix(glm::inverse(c.previous_view_from_clip));
+        object["previous_view_from_clip"] = json_matrix(c.previous_view_from_clip);
+        object["previous_view_from_world"] = json_matrix(c.previous_view_from_world);
+        object["previous_world_from_view"] = json_matrix(c.previous_world_from_view);
+        object["previous_clip_from_world"] = json_matrix(c.previous_clip_from_world);
+    }
+    write_text(file, object.dump(2) + "\n");
+}
+
+CameraFile read_camera(const std::filesystem::path& file) {
+    const json text = read_json(file);
+    JsonObject object(text, file.string());
+    const int max_integer = std::numeric_limits<int>::max();
+    CameraFile result;
+    CameraData& c = result.camera;
+
+    const std::vector<float> extent = numbers(object.any("extent"), 2, object.where() + ": 'extent'");
+    for (const float size : extent)
+        if (size < 1 || size > 32768 || size != std::floor(size))
+            fail(object.where(), ": 'extent' holds ", size, ", but both must be whole numbers from 1 to 32768");
+    c.extent = {extent[0], extent[1], 1 / extent[0], 1 / extent[1]};
+
+    const bool is_reversed = object.choice("depth_direction", {"standard", "reversed"}, "standard") == "reversed";
+    const std::string format = object.choice("depth_format", depth_formats, "d32f");
+    result.depth_format = DepthFormat(std::ranges::find(depth_formats, format) - depth_formats.begin());
+    const float near = object.number("near", std::numeric_limits<float>::min(), std::numeric_limits<float>::max());
+    c.depth = {near, object.number("far", near, std::numeric_limits<float>::infinity()), is_reversed ? 0 : 1, is_reversed ? 1 : 0};
+    if (c.depth.y == near) fail(object.where(), ": 'far' is ", near, ", but must be beyond 'near'");
+
+    c.frame = {object.integer("frame", 0, max_integer, 0), 0, object.boolean("is_orthographic", false), 0};
+    c.frame.y = object.integer("seed", 0, max_integer, 0);
+    c.jitter = glm::vec4(pair(object, "jitter", {0, 0}), pair(object, "previous_jitter", {0, 0}));
+    read_matrices(object, c);
+    object.finish();
+    return result;
+}

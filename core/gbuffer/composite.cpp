@@ -1,0 +1,82 @@
+#include "core/gbuffer/composite.h"
+
+#include "core/error.h"
+#include "core/shared/brdf.h"
+#include "core/shared/split_sum_tap.h"
+#include "core/split_sum.h"
+
+namespace {
+
+const HostImage& table() {
+    static const HostImage table = split_sum_table();
+    return table;
+}
+
+glm::vec2 split_sum_factors(float mu_o, float roughness) {
+    const SplitSumTap tap = split_sum_tap(mu_o, roughness, table().extent.x);
+    const auto texel = [](unsigned x, unsigned y) {
+        const float* p = table().pixel(x, y);
+        return glm::vec2(p[0], p[1]);
+    };
+    const glm::vec2 low = glm::mix(texel(tap.first.x, tap.first.y), texel(tap.last.x, tap.first.y), tap.fraction.x);
+    const glm::vec2 high = glm::mix(texel(tap.first.x, tap.last.y), texel(tap.last.x, tap.last.y), tap.fraction.x);
+    return glm::mix(low, high, tap.fraction.y);
+}
+
+/// Unit, world space, from the camera through the pixel's sample: pixel.glsl.
+glm::vec3 pixel_direction(const CameraData& camera, unsigned x, unsigned y) {
+    if (camera.frame.z == 1u) return -glm::normalize(glm::vec3(camera.world_from_view[2]));
+    const glm::vec2 uv = (glm::vec2(x, y) + 0.5f + glm::vec2(camera.jitter)) * glm::vec2(camera.extent.z, camera.extent.w);
+    const glm::vec4 point = camera.view_from_clip * glm::vec4(uv * 2.0f - 1.0f, 0.5f, 1.0f);
+    return glm::mat3(camera.world_from_view) * glm::normalize(glm::vec3(point) / point.w);
+}
+
+void check_extent(const HostGBuffer& gbuffer, const HostImage& image, const char* what) {
+    if (image.extent != gbuffer.extent())
+        fail(what, " is ", image.extent.x, " x ", image.extent.y, ", but the G-buffer is ", gbuffer.extent().x, " x ", gbuffer.extent().y);
+}
+
+}  // namespace
+
+Compositor::Compositor(PassGraph& graph) : graph_(graph), split_sum_(graph.image_of("split_sum", Format::rg32f, table().extent)) {
+    graph.upload(split_sum_, table());
+}
+
+Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
+    const Composite result{graph_.image("specular", Format::rgba32f), graph_.image("image", Format::rgba32f)};
+    auto pass = graph_.compute("gbuffer/composite.comp");
+    for (const Image& image : {g.depth, g.normal, g.base_color, g.emission, g.lit, g.fallback, split_sum_}) pass.read(image);
+    pass.read(reflections.radiance.as("radiance")).read(reflections.confidence.as("confidence")).write(result.image).write(result.specular).run();
+    return result;
+}
+
+HostImage specular_reflectance(const HostGBuffer& g) {
+    HostImage result(g.extent(), 3);
+    for (unsigned y = 0; y < g.extent().y; ++y)
+        for (unsigned x = 0; x < g.extent().x; ++x) {
+            if (*g.depth.pixel(x, y) == g.camera.depth.z) continue;
+            const float *n = g.normal.pixel(x, y), *c = g.base_color.pixel(x, y);
+            const float specular = g.emission.pixel(x, y)[3];
+            const float mu_o = -glm::dot(glm::vec3(n[0], n[1], n[2]), pixel_direction(g.camera, x, y));
+            if (mu_o <= 0) continue;
+            const glm::vec2 ab = split_sum_factors(mu_o, n[3]);
+            const glm::vec3 f0 = specular_f0({c[0], c[1], c[2]}, c[3], specular);
+            result.set_rgb(size_t(y) * g.extent().x + x, f0 * ab.x + specular_f90(c[3], specular) * ab.y);
+        }
+    return result;
+}
+
+HostComposite composite(const HostGBuffer& g, const HostImage& radiance, const HostImage& confidence) {
+    check_extent(g, radiance, "the radiance");
+    check_extent(g, confidence, "the confidence");
+    check_extent(g, g.lit, "the lit colour");
+    HostComposite result{specular_reflectance(g), HostImage(g.extent(), 3)};
+    for (size_t i = 0; i < result.image.pixel_count(); ++i) {
+        const bool is_background = g.depth.values[i] == g.camera.depth.z;
+        const glm::vec3 fallback = g.fallback.values.empty() ? glm::vec3(0) : g.fallback.rgb(i);
+        const glm::vec3 incident = glm::mix(fallback, radiance.rgb(i), confidence.values[i * confidence.channels]);
+        result.specular.set_rgb(i, is_background ? glm::vec3(0) : result.specular.rgb(i) * incident);
+        result.image.set_rgb(i, g.lit.rgb(i) + result.specular.rgb(i));
+    }
+    return result;
+}

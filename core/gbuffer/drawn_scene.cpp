@@ -1,0 +1,133 @@
+#include "core/gbuffer/drawn_scene.h"
+
+#include "core/gbuffer/leading_vertices.h"
+#include "core/shared/drawn_scene.h"
+
+#include <cstring>
+
+namespace {
+
+static_assert(sizeof(Vertex) == (vertex_stride - 3) * sizeof(float), "mesh.vert reads vertices as plain floats");
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+const TextureSlot& slot_of(const Material& material, unsigned slot) {
+    switch (slot) {
+        case slot_base_color: return material.base_color_texture;
+        case slot_metalness_roughness: return material.metalness_roughness_texture;
+        case slot_normal: return material.normal_texture;
+        default: return material.emission_texture;
+    }
+}
+
+const char* const slot_names[] = {"base_color_texture", "metalness_roughness_texture", "normal_texture", "emission_texture"};
+
+uint32_t sampling_of(const Scene& scene, const TextureSlot& slot) {
+    if (slot.texture < 0) return 0;
+    const Texture& texture = scene.textures[slot.texture];
+    return sampling_has_texture | (texture.is_srgb ? sampling_is_srgb : 0) | (texture.is_nearest ? sampling_is_nearest : 0) |
+           uint32_t(texture.wrap_u) << sampling_wrap_u_shift | uint32_t(texture.wrap_v) << sampling_wrap_v_shift;
+}
+
+DrawnMaterial drawn(const Scene& scene, const Material& m) {
+    DrawnMaterial result{.base_color = {m.base_color, m.alpha},
+                         .factors = {m.metalness, m.roughness, m.normal_scale, m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 0.0f},
+                         .emission = {m.emission, m.specular},
+                         .flags = {m.is_unlit, m.is_double_sided, 0, 0}};
+    for (unsigned slot = 0; slot < 4; ++slot) {
+        const TextureSlot& source = slot_of(m, slot);
+        const glm::mat3 rows = glm::transpose(source.uv_transform);
+        result.slot_u[slot] = {rows[0], float(source.texcoord)};
+        result.slot_v[slot] = {rows[1], 0.0f};
+        result.sampling[slot] = sampling_of(scene, source);
+    }
+    return result;
+}
+
+}  // namespace
+
+DrawnScene::DrawnScene(PassGraph& graph, const Scene& scene, bool keep_all)
+    : graph_(graph), scene_(scene), keep_all_(keep_all), images_(scene.textures.size()) {
+    if (scene.instances.empty()) return;
+    std::vector<DrawnMaterial> materials;
+    for (const Material& material : scene.materials) materials.push_back(drawn(scene, material));
+    materials_ = graph.buffer("Materials", materials.size() * sizeof(DrawnMaterial));
+    graph.upload(materials_, bytes_of(materials));
+    instances_ = graph.buffer("Instances", scene.instances.size() * sizeof(DrawnInstance));
+
+    std::vector<MeshBuffers> buffers(scene.meshes.size());
+    for (unsigned i = 0; i < scene.instances.size(); ++i) {
+        const unsigned index = scene.instances[i].mesh;
+        const Mesh& mesh = scene.meshes[index];
+        if (mesh.indices.empty()) continue;
+        if (!buffers[index].vertices.storage) buffers[index] = upload_mesh(mesh, index);
+        const Kind kind = kind_of(scene.materials[mesh.material]);
+        draws_[size_t(kind)].push_back(make_draw(i, buffers[index], kind));
+    }
+}
+
+DrawnScene::Kind DrawnScene::kind_of(const Material& material) const {
+    if (keep_all_ || material.alpha_mode == AlphaMode::mask) return Kind::masked;
+    for (unsigned slot = 0; slot < 4; ++slot)
+        if (slot_of(material, slot).texture >= 0) return Kind::textured;
+    return Kind::plain;
+}
+
+DrawnScene::MeshBuffers DrawnScene::upload_mesh(const Mesh& mesh, size_t index) {
+    const LeadingVertices leading = find_leading_vertices(mesh);
+    std::vector<float> floats(leading.source.size() * vertex_stride);
+    for (size_t v = 0; v < leading.source.size(); ++v) {
+        std::memcpy(&floats[v * vertex_stride], &mesh.vertices[leading.source[v]], sizeof(Vertex));
+        std::memcpy(&floats[(v + 1) * vertex_stride - 3], &leading.triangle_normal[v], sizeof(glm::vec3));
+    }
+    const std::string suffix = std::to_string(index);
+    MeshBuffers buffers{graph_.buffer("Vertices" + suffix, floats.size() * sizeof(float)),
+                        graph_.buffer("Indices" + suffix, leading.indices.size() * sizeof(uint32_t))};
+    graph_.upload(buffers.vertices, bytes_of(floats));
+    graph_.upload(buffers.indices, bytes_of(leading.indices));
+    return buffers;
+}
+
+Image DrawnScene::texture_image(const TextureSlot& slot) {
+    if (slot.texture < 0) {
+        if (!no_texture_.storage) {
+            no_texture_ = graph_.image_of("no_texture", Format::rgba8, {1, 1});
+            graph_.upload_rgba8(no_texture_, std::vector<uint8_t>(4, 255));
+        }
+        return no_texture_;
+    }
+    Image& image = images_[slot.texture];
+    if (!image.storage) {
+        const Texture& texture = scene_.textures[slot.texture];
+        image = graph_.image_of("texture" + std::to_string(slot.texture), Format::rgba8, texture.extent);
+        graph_.upload_rgba8(image, texture.rgba);
+    }
+    return image;
+}
+
+Draw DrawnScene::make_draw(unsigned instance, const MeshBuffers& buffers, Kind kind) {
+    const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
+    Draw draw{.indices = buffers.indices, .index_count = unsigned(mesh.indices.size() / 3 * 3), .first_instance = instance};
+    draw.buffers = {buffers.vertices.as("Vertices"), instances_, materials_};
+    if (kind == Kind::plain) return draw;
+    for (unsigned slot = 0; slot < 4; ++slot)
+        draw.reads.push_back({texture_image(slot_of(scene_.materials[mesh.material], slot)).as(slot_names[slot]), {}});
+    return draw;
+}
+
+void DrawnScene::pose(const ScenePose& pose, const ScenePose& previous) {
+    if (scene_.instances.empty()) return;
+    std::vector<DrawnInstance> instances;
+    for (size_t i = 0; i < scene_.instances.size(); ++i) {
+        const glm::mat4& world_from_object = pose.world_from_instance[i];
+        const glm::mat3 linear(world_from_object);
+        instances.push_back({.world_from_object = world_from_object,
+                             .previous_world_from_object = previous.world_from_instance[i],
+                             .normal_matrix = glm::mat4(glm::inverse(glm::transpose(linear))),
+                             .ids = {scene_.meshes[scene_.instances[i].mesh].material, glm::determinant(linear) < 0, 0, 0}});
+    }
+    graph_.upload(instances_, bytes_of(instances));
+}

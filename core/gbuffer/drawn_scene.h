@@ -1,0 +1,37 @@
+#pragma once
+#include "core/gpu/pass_graph.h"
+#include "core/scene/scene.h"
+
+#include <string>
+
+/// A scene on the GPU: what the rasteriser draws.
+class DrawnScene {
+public:
+    /// Which fragment shader a mesh needs: the cheapest that its material allows.
+    enum class Kind { plain, textured, masked };
+
+    /// Uploads all drawn meshes, materials and textures. With `keep_all` every mesh is drawn by the shader for masks.
+    DrawnScene(PassGraph& graph, const Scene& scene, bool keep_all);
+
+    /// Transforms of this frame; `previous`: of the frame before.
+    void pose(const ScenePose& pose, const ScenePose& previous);
+
+    const std::vector<Draw>& draws(Kind kind) const { return draws_[size_t(kind)]; }
+
+private:
+    struct MeshBuffers {
+        Buffer vertices, indices;
+    };
+    MeshBuffers upload_mesh(const Mesh& mesh, size_t index);
+    Image texture_image(const TextureSlot& slot);
+    Kind kind_of(const Material& material) const;
+    Draw make_draw(unsigned instance, const MeshBuffers& buffers, Kind kind);
+
+    PassGraph& graph_;
+    const Scene& scene_;
+    bool keep_all_;
+    Buffer materials_, instances_;
+    Image no_texture_;
+    std::vector<Image> images_;  ///< of Scene::textures; without storage until a draw needs them
+    std::vector<Draw> draws_[3];
+};

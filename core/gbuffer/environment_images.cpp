@@ -1,0 +1,30 @@
+#include "core/gbuffer/environment_images.h"
+
+namespace {
+
+/// rgba32f of an RGB image; a black texel stands for an image that is not needed.
+Image upload_rgb(PassGraph& graph, const std::string& name, const HostImage& rgb) {
+    HostImage rgba(glm::max(rgb.extent, glm::uvec2(1)), 4);
+    for (size_t i = 0; i < rgb.pixel_count(); ++i) rgba.set_rgb(i, rgb.rgb(i));
+    const Image image = graph.image_of(name, Format::rgba32f, rgba.extent);
+    graph.upload(image, rgba);
+    return image;
+}
+
+}  // namespace
+
+EnvironmentImages::EnvironmentImages(PassGraph& graph, const Environment& environment, bool prefilter)
+    : environment_(environment), prefiltered_(prefilter ? prefilter_environment(environment) : PrefilteredEnvironment{}) {
+    sharp_ = upload_rgb(graph, "environment", environment.type == Environment::Type::image ? environment.latlong : HostImage());
+    atlas_ = upload_rgb(graph, "prefiltered_environment", prefiltered_.atlas);
+}
+
+PassGraph::Pass& EnvironmentImages::bind(PassGraph::Pass& pass) const {
+    return pass.read(sharp_)
+        .read(atlas_)
+        .set("environment_type", unsigned(environment_.type))
+        .set("environment_rotation", environment_.rotation)
+        .set("environment_color", glm::vec4(environment_.color, 0))
+        .set("environment_slope", glm::vec4(environment_.slope, 0))
+        .set("environment_axis", glm::vec4(environment_.axis, 0));
+}

@@ -1,0 +1,20 @@
+#pragma once
+#include "core/gbuffer/prefiltered_environment.h"
+#include "core/gpu/pass_graph.h"
+
+/// The environment on the GPU, for passes that include core/shaders/gbuffer/environment.glsl.
+class EnvironmentImages {
+public:
+    /// Without `prefilter` only its sharp radiance can be read. `environment` must outlive this.
+    EnvironmentImages(PassGraph& graph, const Environment& environment, bool prefilter);
+
+    /// Binds images and constants to the pass.
+    PassGraph::Pass& bind(PassGraph::Pass& pass) const;
+
+    const PrefilteredEnvironment& prefiltered() const { return prefiltered_; }
+
+private:
+    const Environment& environment_;
+    PrefilteredEnvironment prefiltered_;
+    Image sharp_, atlas_;
+};

@@ -1,0 +1,63 @@
+#pragma once
+#include "core/host_image.h"
+#include "core/scene/camera.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// A G-buffer on the CPU: what GBuffer holds on the GPU, pixel for pixel and channel for channel.
+struct HostGBuffer {
+    CameraData camera{};
+    DepthFormat depth_format = DepthFormat::d32f;
+    HostImage depth;             ///< 1 channel
+    HostImage geometric_normal;  ///< 4
+    HostImage normal;            ///< 4
+    HostImage base_color;        ///< 4
+    HostImage emission;          ///< 4
+    HostImage motion;            ///< 2
+    HostImage material_id;       ///< 1: whole numbers up to 2^24
+    HostImage previous_depth;    ///< 1
+    HostImage previous_normal;   ///< 4
+    HostImage lit, fallback;     ///< 4; of zero extent where absent
+
+    glm::uvec2 extent() const { return depth.extent; }
+};
+
+/// A folder with gbuffer.exr and camera.json, so that captures of other engines can stand in for a scene. All images are
+/// float32 or half, of one extent, pixel for pixel in screen order (first row at the top).
+///
+/// gbuffer.exr: layer (channels)    meaning                                                   if absent
+///   depth (Z)                      device depth of camera.json's direction and format; the   required
+///                                  far plane's value where nothing was drawn
+///   normal (X Y Z)                 unit shading normal, world space, +Y up                   required
+///   roughness (Y)                  perceptual: GGX alpha = roughness^2                       required
+///   base_color (R G B)             linear Rec.709                                            required
+///   metalness (Y)                                                                            required
+///   lit (R G B)                    emitted and diffusely reflected radiance, linear; the     a reference must
+///                                  environment where nothing was drawn                       provide it
+///   geometric_normal (X Y Z)       unit normal of the triangle, towards the camera           normal
+///   emission (R G B)               emitted radiance                                          0
+///   specular (Y)                   scales the dielectric reflectance of 0.04; 0: none        1; 0 in the background
+///   motion (X Y)                   uv now - uv before (0..1 over the screen, y down),        0
+///                                  without jitter
+///   material_id (Y)                whole number (uint32 or float), 0 in the background       1; 0 in the background
+///   previous_depth (Z)             as depth, of the frame before                             depth
+///   previous_normal (X Y Z), previous_roughness (Y)                                          normal, roughness
+///   fallback (R G B)               radiance to reflect where the technique finds nothing     0
+///
+/// camera.json: "extent" [width, height], "depth_direction" "standard" or "reversed", "depth_format" "d32f", "d24" or "d16",
+/// "near" and "far" (m), "clip_from_view" and "view_from_world" (each four rows of four numbers; Vulkan clip space: y down,
+/// z in [0, 1]; without jitter). Optional: "frame" and "seed" (0), "is_orthographic" (false), "jitter" and "previous_jitter"
+/// (pixels, [0, 0]), "previous_clip_from_view" and "previous_view_from_world" (of the frame before; both or none), and what
+/// is derived from them: "view_from_clip", "world_from_view", "clip_from_world", "previous_clip_from_world",
+/// "previous_world_from_view", "previous_view_from_clip", which ssrlab writes so that its own files come back bit by bit.
+void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffer);
+
+struct LoadedGBuffer {
+    HostGBuffer gbuffer;
+    std::vector<std::string> notes;  ///< defaults taken, layers not used, suspicious values: one sentence each
+};
+
+/// Fails with Error, naming file and layer, if something required is missing or malformed, or if extents differ.
+LoadedGBuffer load_gbuffer(const std::filesystem::path& folder);

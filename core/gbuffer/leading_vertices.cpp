@@ -1,0 +1,40 @@
+#include "core/gbuffer/leading_vertices.h"
+
+#include <numeric>
+
+namespace {
+
+/// In double precision: long thin triangles lose theirs otherwise. Zero for triangles without area.
+glm::vec3 triangle_normal(const Mesh& mesh, const uint32_t* corner) {
+    const glm::dvec3 p(mesh.vertices[corner[0]].position);
+    const glm::dvec3 n = glm::cross(glm::dvec3(mesh.vertices[corner[1]].position) - p, glm::dvec3(mesh.vertices[corner[2]].position) - p);
+    const double length = glm::length(n);
+    return length > 0 ? glm::vec3(n / length) : glm::vec3(0);
+}
+
+}  // namespace
+
+LeadingVertices find_leading_vertices(const Mesh& mesh) {
+    LeadingVertices result;
+    result.source.resize(mesh.vertices.size());
+    std::iota(result.source.begin(), result.source.end(), 0u);
+    result.triangle_normal.resize(mesh.vertices.size(), glm::vec3(0));
+    std::vector<bool> leads(mesh.vertices.size(), false);
+
+    for (size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
+        const uint32_t* corner = &mesh.indices[first];
+        unsigned turn = 0;
+        while (turn < 3 && leads[corner[turn]]) ++turn;
+        uint32_t leader = turn < 3 ? corner[turn] : uint32_t(result.source.size());
+        if (turn == 3) {
+            turn = 0;
+            result.source.push_back(corner[0]);
+            result.triangle_normal.emplace_back(0);
+        } else {
+            leads[leader] = true;
+        }
+        result.triangle_normal[leader] = triangle_normal(mesh, corner);
+        result.indices.insert(result.indices.end(), {leader, corner[(turn + 1) % 3], corner[(turn + 2) % 3]});
+    }
+    return result;
+}

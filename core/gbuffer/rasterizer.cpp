@@ -1,0 +1,161 @@
+#include "core/gbuffer/rasterizer.h"
+
+#include "core/error.h"
+#include "core/gpu/device.h"
+#include "core/shared/drawn_light.h"
+
+struct Rasterizer::Frame {
+    ScenePose scene, previous_scene;
+    CameraData camera;
+};
+
+namespace {
+
+Format format_of(DepthFormat format) {
+    return format == DepthFormat::d32f ? Format::d32f : format == DepthFormat::d24 ? Format::d24 : Format::d16;
+}
+
+const char* name_of(DepthFormat format) {
+    return format == DepthFormat::d32f ? "d32f" : format == DepthFormat::d24 ? "d24" : "d16";
+}
+
+Buffer upload_lights(PassGraph& graph, const std::vector<PunctualLight>& lights) {
+    std::vector<DrawnLight> drawn;
+    for (const PunctualLight& light : lights)
+        drawn.push_back({.intensity_type = {light.intensity, float(light.type)},
+                         .position_range = {light.position, light.range},
+                         .direction_outer = {light.direction, light.outer_cone_cos},
+                         .inner_cone = {light.inner_cone_cos, 0, 0, 0}});
+    const Buffer buffer = graph.buffer("Lights", std::max<size_t>(drawn.size(), 1) * sizeof(DrawnLight));
+    if (!drawn.empty()) graph.upload(buffer, std::as_bytes(std::span(drawn)));
+    return buffer;
+}
+
+}  // namespace
+
+Rasterizer::Rasterizer(Device& device, const Scene& scene, const RasterizerOptions& options)
+    : scene_(scene),
+      options_(options),
+      facts_(material_facts(scene)),
+      graph_(device, options.extent),
+      drawn_(graph_, scene, options.keep_all),
+      environment_(graph_, scene.environment, options.keep_all || facts_.has_geometry) {
+    if (!device.supports(format_of(options.depth_format)))
+        fail_machine("the device ", device.info().name, " has no depth format ", name_of(options.depth_format), "; choose d32f or d16");
+    if (!options.keep_all) list_left_out();
+}
+
+void Rasterizer::list_left_out() {
+    if (!facts_.has_geometry) {
+        left_out_.push_back({"drawing", "no geometry", "There is no triangle to draw."});
+        left_out_.push_back({"prefiltered environment", "no geometry", "No surface reflects the environment."});
+        return;
+    }
+    if (!facts_.has_textures) left_out_.push_back({"texture reads", "no textures", "All materials are constant."});
+    if (!facts_.has_alpha_masks) left_out_.push_back({"alpha tests", "no alpha masks", "No fragment is discarded."});
+    if (!facts_.has_reflective) left_out_.push_back({"fallback", "nothing reflective", "Its weight in the composite is 0."});
+}
+
+Rasterizer::Frame Rasterizer::pose(const SceneCamera& camera, const FrameView& view) const {
+    Frame frame{.scene = pose_scene(scene_, float(view.frame))};
+    const CameraPose now = pose_camera(camera, frame.scene, float(view.frame));
+    if (view.frame == 0) {
+        frame.previous_scene = frame.scene;
+        frame.camera = camera_data(now, nullptr, view);
+    } else {
+        frame.previous_scene = pose_scene(scene_, float(view.frame - 1));
+        const CameraPose before = pose_camera(camera, frame.previous_scene, float(view.frame - 1));
+        frame.camera = camera_data(now, &before, view);
+    }
+    return frame;
+}
+
+GBuffer Rasterizer::render(const SceneCamera& camera, const FrameView& view) {
+    if (view.extent != options_.extent)
+        fail("a frame of ", view.extent.x, " x ", view.extent.y, " was asked of a rasteriser of ", options_.extent.x, " x ", options_.extent.y);
+    const bool follows = last_camera_ == &camera && last_view_.frame + 1 == view.frame && last_view_.jitter == view.previous_jitter &&
+                         last_view_.depth_direction == view.depth_direction;
+    if (view.frame > 0 && !follows) {
+        FrameView before = view;
+        before.frame = view.frame - 1;
+        before.jitter = view.previous_jitter;
+        draw(pose(camera, before));
+    }
+    GBuffer gbuffer = draw(pose(camera, view));
+    if (view.frame == 0) {
+        gbuffer.previous_depth = gbuffer.depth.as("previous_depth");
+        gbuffer.previous_normal = gbuffer.normal.as("previous_normal");
+    }
+    last_camera_ = &camera;
+    last_view_ = view;
+    graph_.times();  // waits for the device, so that other graphs may read the images
+    return gbuffer;
+}
+
+GBuffer Rasterizer::draw(const Frame& frame) {
+    camera_ = frame.camera;
+    scene_pose_ = frame.scene;
+    graph_.begin_frame(camera_, no_params_, {});
+    drawn_.pose(frame.scene, frame.previous_scene);
+    const PassGraph::History depth = graph_.history("depth", Format::r32f), normal = graph_.history("normal", Format::rgba32f);
+    GBuffer g{.depth = depth.current,
+              .geometric_normal = graph_.image("geometric_normal", Format::rgba32f),
+              .normal = normal.current,
+              .base_color = graph_.image("base_color", Format::rgba32f),
+              .emission = graph_.image("emission", Format::rgba32f),
+              .motion = graph_.image("motion", Format::rg32f),
+              .material_id = graph_.image("material_id", Format::r32ui),
+              .previous_depth = depth.previous,
+              .previous_normal = normal.previous,
+              .lit = graph_.image("lit", Format::rgba32f),
+              .fallback = graph_.image("fallback", Format::rgba32f)};
+
+    const Image depth_buffer = graph_.image("depth_buffer", format_of(options_.depth_format));
+    graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
+    graph_.fragment("gbuffer/background.frag")
+        .write(g.geometric_normal).write(g.normal).write(g.base_color).write(g.emission).write(g.motion).write(g.material_id)
+        .run();
+    draw_kind(g, depth_buffer, DrawnScene::Kind::plain, "plain");
+    draw_kind(g, depth_buffer, DrawnScene::Kind::textured, "textured");
+    draw_kind(g, depth_buffer, DrawnScene::Kind::masked, "masked");
+    graph_.fragment("gbuffer/copy_depth.frag").read(depth_buffer).write(g.depth).run();
+
+    if (options_.keep_all || (facts_.has_geometry && facts_.has_reflective)) {
+        auto pass = graph_.compute("gbuffer/fallback.comp");
+        environment_.bind(pass).read(g.depth).read(g.normal).write(g.fallback).run();
+    } else {
+        graph_.clear(g.fallback, glm::vec4(0));
+    }
+    graph_.clear(g.lit, glm::vec4(0));
+    return g;
+}
+
+void Rasterizer::draw_kind(const GBuffer& g, const Image& depth_buffer, DrawnScene::Kind kind, const char* name) {
+    if (drawn_.draws(kind).empty()) return;
+    const bool is_reversed = camera_.depth.w == 1;
+    graph_.draw("gbuffer/mesh.vert", std::string("gbuffer/") + name + ".frag", drawn_.draws(kind))
+        .write(g.geometric_normal).write(g.normal).write(g.base_color).write(g.emission).write(g.motion).write(g.material_id)
+        .depth({.compare = is_reversed ? DepthTest::Compare::greater : DepthTest::Compare::less, .is_written = true, .image = depth_buffer})
+        .label(std::string("gbuffer/draw_") + name)
+        .run();
+}
+
+void Rasterizer::light_directly(const GBuffer& g) {
+    const Buffer lights = upload_lights(graph_, scene_pose_.lights);
+    const Buffer count = graph_.buffer("LightCount", sizeof(uint32_t));
+    graph_.clear(count, uint32_t(scene_pose_.lights.size()));
+    auto pass = graph_.compute("gbuffer/lit_direct.comp");
+    environment_.bind(pass).use(lights).use(count);
+    for (const Image& image : {g.depth, g.geometric_normal, g.normal, g.base_color, g.emission}) pass.read(image);
+    pass.write(g.lit).run();
+    graph_.times();
+}
+
+void Rasterizer::upload_lit(const GBuffer& g, const HostImage& rgb) {
+    if (rgb.extent != options_.extent || rgb.channels < 3)
+        fail("the lit colour is ", rgb.extent.x, " x ", rgb.extent.y, " with ", rgb.channels, " channels, but the G-buffer is ",
+             options_.extent.x, " x ", options_.extent.y, " and needs 3");
+    HostImage rgba(rgb.extent, 4);
+    for (size_t i = 0; i < rgb.pixel_count(); ++i) rgba.set_rgb(i, rgb.rgb(i));
+    graph_.upload(g.lit, rgba);
+}

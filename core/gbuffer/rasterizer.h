@@ -1,0 +1,61 @@
+#pragma once
+#include "core/gbuffer/drawn_scene.h"
+#include "core/gbuffer/environment_images.h"
+#include "core/gbuffer/gbuffer.h"
+#include "core/gbuffer/scene_facts.h"
+#include "core/left_out.h"
+
+struct RasterizerOptions {
+    glm::uvec2 extent{0, 0};
+    DepthFormat depth_format = DepthFormat::d32f;
+    bool keep_all = false;  ///< run and compile also what left_out() names: the same images, slower
+};
+
+/// Draws the G-buffer of a scene. It has a pass graph of its own, so that its times are not those of a variant; variants
+/// read its images through theirs, after render() has waited for the device.
+///
+/// Surfaces are drawn from both sides, their normals turned to the camera, as the path tracer sees them; the back of a
+/// single-sided emitter is dark.
+class Rasterizer {
+public:
+    /// Uploads the scene and prefilters its environment. `scene` must outlive the rasteriser. Fails with MachineError if
+    /// the device lacks the depth format.
+    Rasterizer(Device& device, const Scene& scene, const RasterizerOptions& options);
+
+    /// The G-buffer of one frame, all but `lit`, which one of the functions below fills. view.extent must be that of the
+    /// options. Frame 0 has no predecessor; others need the frame before, which is drawn first unless it was the last one.
+    /// With view.jitter samples lie at pixel centre + jitter.
+    GBuffer render(const SceneCamera& camera, const FrameView& view);
+
+    /// Emission and direct diffuse light, of punctual lights and of the environment, without any shadow. Seconds faster than
+    /// tracing paths, and so wrong that results must say that it was used.
+    void light_directly(const GBuffer& gbuffer);
+    /// Path-traced lit colour: RGB of the same extent.
+    void upload_lit(const GBuffer& gbuffer, const HostImage& rgb);
+
+    const CameraData& camera() const { return camera_; }  ///< of the last frame
+    const Scene& scene() const { return scene_; }
+    const PrefilteredEnvironment& prefiltered_environment() const { return environment_.prefiltered(); }
+    const std::vector<LeftOut>& left_out() const { return left_out_; }
+    PassGraph& graph() { return graph_; }
+
+private:
+    struct Frame;
+    Frame pose(const SceneCamera& camera, const FrameView& view) const;
+    GBuffer draw(const Frame& frame);
+    void draw_kind(const GBuffer& gbuffer, const Image& depth_buffer, DrawnScene::Kind kind, const char* name);
+    void list_left_out();
+
+    const Scene& scene_;
+    RasterizerOptions options_;
+    SceneFacts facts_;  ///< of the materials and lights; motion is looked at frame by frame
+    PassGraph graph_;
+    DrawnScene drawn_;
+    EnvironmentImages environment_;
+    ParameterSet no_params_;
+    CameraData camera_{};
+    ScenePose scene_pose_;
+    const SceneCamera* last_camera_ = nullptr;
+    FrameView last_view_;
+    std::vector<LeftOut> left_out_;
+};

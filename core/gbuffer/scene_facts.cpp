@@ -1,0 +1,146 @@
+#include "core/gbuffer/scene_facts.h"
+
+#include "core/shared/brdf.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <set>
+
+namespace {
+
+std::set<unsigned> drawn_materials(const Scene& scene) {
+    std::set<unsigned> result;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        if (!mesh.indices.empty()) result.insert(mesh.material);
+    }
+    return result;
+}
+
+/// Smallest and largest value of a channel (0: red) of a texture, 1 if there is none. Bilinear filtering stays within.
+glm::vec2 channel_range(const Scene& scene, const TextureSlot& slot, unsigned channel) {
+    if (slot.texture < 0) return glm::vec2(1);
+    const Texture& texture = scene.textures[slot.texture];
+    uint8_t least = 255, most = 0;
+    for (size_t i = channel; i < texture.rgba.size(); i += 4) {
+        least = std::min(least, texture.rgba[i]);
+        most = std::max(most, texture.rgba[i]);
+    }
+    return glm::vec2(least, most) / 255.0f;
+}
+
+bool is_reflective(const Scene& scene, const Material& material) {
+    if (material.is_unlit) return false;
+    return material.specular > 0 || material.metalness * channel_range(scene, material.metalness_roughness_texture, 2).y > 0;
+}
+
+bool has_texture(const Material& m) {
+    for (const TextureSlot* slot : {&m.base_color_texture, &m.metalness_roughness_texture, &m.normal_texture, &m.emission_texture})
+        if (slot->texture >= 0) return true;
+    return false;
+}
+
+void add_material(SceneFacts& facts, const Scene& scene, const Material& material) {
+    facts.has_textures |= has_texture(material);
+    facts.has_alpha_masks |= material.alpha_mode == AlphaMode::mask;
+    facts.has_normal_maps |= material.normal_texture.texture >= 0;
+    facts.has_emitters |= !material.is_unlit && material.emission != glm::vec3(0);
+    facts.has_unlit |= material.is_unlit;
+    (material.is_double_sided ? facts.has_double_sided : facts.has_single_sided) = true;
+    if (!is_reflective(scene, material)) return;
+    const glm::vec2 roughness = material.roughness * channel_range(scene, material.metalness_roughness_texture, 1);
+    facts.has_reflective = true;
+    facts.has_mirrors |= roughness.x * roughness.x <= min_ggx_alpha;
+    facts.has_rough_reflectors |= roughness.y * roughness.y > min_ggx_alpha;
+    facts.min_roughness = std::min(facts.min_roughness, roughness.x);
+    facts.max_roughness = std::max(facts.max_roughness, roughness.y);
+}
+
+bool has_vertex_colors(const Scene& scene) {
+    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+        return std::ranges::any_of(scene.meshes[instance.mesh].vertices, [](const Vertex& v) { return v.color != glm::vec4(1); });
+    });
+}
+
+bool lights_differ(const PunctualLight& a, const PunctualLight& b) { return a.position != b.position || a.direction != b.direction; }
+
+void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count) {
+    ScenePose before = pose_scene(scene, first_frame > 0 ? first_frame - 1 : 0);
+    glm::mat4 view_before = pose_camera(camera, before, first_frame > 0 ? first_frame - 1 : 0).world_from_view;
+    for (unsigned frame = first_frame; frame < first_frame + frame_count; ++frame) {
+        const ScenePose now = pose_scene(scene, frame);
+        const glm::mat4 view_now = pose_camera(camera, now, frame).world_from_view;
+        facts.camera_moves |= view_now != view_before;
+        facts.objects_move |= now.world_from_instance != before.world_from_instance;
+        facts.lights_move |= !std::ranges::equal(now.lights, before.lights, std::not_fn(lights_differ));
+        before = now;
+        view_before = view_now;
+    }
+}
+
+std::string names_of(const Scene& scene, bool (*has)(const Material&)) {
+    std::string names;
+    unsigned count = 0;
+    for (unsigned material : drawn_materials(scene)) {
+        if (!has(scene.materials[material])) continue;
+        if (++count <= 3) names += (names.empty() ? "'" : ", '") + scene.materials[material].name + "'";
+    }
+    if (count > 3) names += " and " + std::to_string(count - 3) + " more";
+    return names.empty() ? "no drawn material has it" : "by material " + names;
+}
+
+std::string decimal(float value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+}  // namespace
+
+SceneFacts material_facts(const Scene& scene) {
+    SceneFacts facts;
+    const std::set<unsigned> materials = drawn_materials(scene);
+    facts.has_geometry = !materials.empty();
+    for (unsigned material : materials) add_material(facts, scene, scene.materials[material]);
+    facts.has_vertex_colors = has_vertex_colors(scene);
+    facts.has_environment = !scene.environment.is_black();
+    facts.has_punctual_lights =
+        std::ranges::any_of(scene.lights, [](const PunctualLight& light) { return light.intensity != glm::vec3(0); });
+    return facts;
+}
+
+SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count) {
+    SceneFacts facts = material_facts(scene);
+    add_motion(facts, scene, camera, first_frame, frame_count);
+    return facts;
+}
+
+std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
+    const auto yes = [](bool value) { return value ? "yes" : "no"; };
+    const std::string roughness = f.has_reflective ? "perceptual roughness of reflective surfaces is " + decimal(f.min_roughness) +
+                                                         " to " + decimal(f.max_roughness)
+                                                   : "no drawn surface reflects specularly";
+    const std::string mirror = " than " + decimal(std::sqrt(min_ggx_alpha)) + ", the roughness of a mirror";
+    return {
+        {"has_geometry", yes(f.has_geometry), std::to_string(scene.triangle_count()) + " triangles"},
+        {"has_reflective", yes(f.has_reflective), roughness},
+        {"has_mirrors", yes(f.has_mirrors), "a reflective surface that is not rougher" + mirror},
+        {"has_rough_reflectors", yes(f.has_rough_reflectors), "a reflective surface that is rougher" + mirror},
+        {"min_roughness", decimal(f.min_roughness), roughness},
+        {"max_roughness", decimal(f.max_roughness), roughness},
+        {"camera_moves", yes(f.camera_moves), "camera poses of successive frames of the shot"},
+        {"objects_move", yes(f.objects_move), "transforms of drawn nodes in successive frames of the shot"},
+        {"lights_move", yes(f.lights_move), "transforms of lights in successive frames of the shot"},
+        {"has_environment", yes(f.has_environment), f.has_environment ? "the environment is not black" : "the environment is black"},
+        {"has_punctual_lights", yes(f.has_punctual_lights), std::to_string(scene.lights.size()) + " punctual lights"},
+        {"has_emitters", yes(f.has_emitters), names_of(scene, [](const Material& m) { return !m.is_unlit && m.emission != glm::vec3(0); })},
+        {"has_textures", yes(f.has_textures), names_of(scene, has_texture)},
+        {"has_alpha_masks", yes(f.has_alpha_masks), names_of(scene, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
+        {"has_normal_maps", yes(f.has_normal_maps), names_of(scene, [](const Material& m) { return m.normal_texture.texture >= 0; })},
+        {"has_vertex_colors", yes(f.has_vertex_colors), "vertex colours other than white"},
+        {"has_unlit", yes(f.has_unlit), names_of(scene, [](const Material& m) { return m.is_unlit; })},
+        {"has_single_sided", yes(f.has_single_sided), names_of(scene, [](const Material& m) { return !m.is_double_sided; })},
+        {"has_double_sided", yes(f.has_double_sided), names_of(scene, [](const Material& m) { return m.is_double_sided; })},
+    };
+}

@@ -1,0 +1,30 @@
+#pragma once
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+
+/// What a scene holds and a shot of it shows, as far as someone can leave work out for lack of it. Only what is drawn
+/// counts: materials of visible triangles, lights that shine, motion within the frames of the shot.
+struct SceneFacts {
+    bool has_geometry = false;
+    bool has_reflective = false;        ///< a surface whose specular reflectance is not zero
+    bool has_mirrors = false;           ///< ... and which both renderers treat as perfectly smooth (brdf.h, min_ggx_alpha)
+    bool has_rough_reflectors = false;  ///< ... and which is rougher than that
+    float min_roughness = 1.0f, max_roughness = 0.0f;  ///< perceptual, over reflective surfaces and all texels of their textures
+    bool camera_moves = false, objects_move = false, lights_move = false;
+    bool has_environment = false, has_punctual_lights = false, has_emitters = false;
+    bool has_textures = false, has_alpha_masks = false, has_normal_maps = false, has_vertex_colors = false;
+    bool has_unlit = false, has_single_sided = false, has_double_sided = false;
+};
+
+/// The facts of frames first_frame ... first_frame + frame_count - 1 of one camera. Frame 0 has no predecessor, so nothing
+/// moves in it.
+SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count);
+
+/// The same without what depends on a shot: nothing moves.
+SceneFacts material_facts(const Scene& scene);
+
+/// One line of `ssrlab needs`.
+struct SceneFact {
+    std::string name, value, why;
+};
+std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& facts);

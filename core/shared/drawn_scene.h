@@ -1,0 +1,48 @@
+#ifndef SHARED_DRAWN_SCENE_H
+#define SHARED_DRAWN_SCENE_H
+#include "core/shared/language.h"
+
+// A scene as the rasteriser's shaders see it. Only vec4, uvec4 and mat4, so that C++ and std430 agree.
+
+/// Texture slots of a material, in the order of the arrays below.
+const uint slot_base_color = 0u;
+const uint slot_metalness_roughness = 1u;
+const uint slot_normal = 2u;
+const uint slot_emission = 3u;
+
+/// Bits of DrawnMaterial::sampling.
+const uint sampling_has_texture = 1u;
+const uint sampling_is_srgb = 2u;
+const uint sampling_is_nearest = 4u;
+const uint sampling_wrap_u_shift = 3u;  ///< two bits: TextureWrap
+const uint sampling_wrap_v_shift = 5u;
+
+struct DrawnMaterial {
+    vec4 base_color;  ///< rgb, alpha
+    vec4 factors;     ///< metalness, perceptual roughness, normal scale, alpha cutoff
+    vec4 emission;    ///< rgb radiance, specular factor
+    vec4 slot_u[4];   ///< uv_transform's first row; w: set of texture coordinates
+    vec4 slot_v[4];   ///< ... second row
+    uvec4 sampling;   ///< per slot
+    uvec4 flags;      ///< 1 if unlit, 1 if double-sided
+};
+
+struct DrawnInstance {
+    mat4 world_from_object;
+    mat4 previous_world_from_object;
+    mat4 normal_matrix;  ///< inverse transpose of world_from_object
+    uvec4 ids;           ///< material, 1 if the determinant is negative
+};
+
+/// Floats per vertex: position, normal, tangent (4), two uv, colour (4), geometric normal of the triangle that it leads.
+const uint vertex_stride = 21u;
+
+/// Texel column or row for an index that may lie outside (glTF 2.0, sampler.wrapS); mode: TextureWrap.
+SHARED int wrap_texel(int index, int size, uint mode) {
+    if (mode == 2u) return clamp(index, 0, size - 1);
+    int period = mode == 0u ? size : 2 * size;
+    int folded = index % period;
+    if (folded < 0) folded += period;
+    return folded < size ? folded : period - 1 - folded;
+}
+#endif
