@@ -8,8 +8,8 @@
 namespace {
 
 constexpr unsigned repeats = 7;
-constexpr int iterations_of_unit = 40;  // of the shaders' loops, per pixel
-const glm::uvec2 extent(256, 256);
+constexpr int iterations_of_unit = 30;  // of the shaders' loops, per pixel
+const glm::uvec2 extent(192, 192);
 
 double median(std::vector<double> values) {
     std::ranges::nth_element(values, values.begin() + long(values.size() / 2));

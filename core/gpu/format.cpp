@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <glm/gtc/packing.hpp>
 
 vk::Format vulkan_format(Format format) {
     switch (format) {
@@ -74,6 +73,14 @@ Texel read(const std::byte* texels, size_t index) {
     return value;
 }
 
+/// Unsigned floats of 11 or 10 bits have the exponent of a half and its upper 6 or 5 bits of mantissa.
+uint32_t small_float(float value, int dropped_bits) { return uint32_t((half(std::max(value, 0.0f)).bits() + (1 << (dropped_bits - 1))) >> dropped_bits); }
+float from_small_float(uint32_t bits, int dropped_bits) {
+    half h;
+    h.setBits(uint16_t(bits << dropped_bits));
+    return h;
+}
+
 float unorm(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
 }  // namespace
@@ -92,7 +99,7 @@ void encode_texels(Format format, std::span<const float> values, std::byte* texe
         for (size_t i = 0; i < values.size(); ++i) write(texels, i, half(values[i]).bits());
         return;
     case Format::r11g11b10f:
-        for (size_t i = 0; i + 2 < values.size(); i += 3) write(texels, i / 3, glm::packF2x11_1x10(glm::vec3(values[i], values[i + 1], values[i + 2])));
+        for (size_t i = 0; i + 2 < values.size(); i += 3) write(texels, i / 3, small_float(values[i], 4) | small_float(values[i + 1], 4) << 11 | small_float(values[i + 2], 5) << 22);
         return;
     case Format::r32ui:
         for (size_t i = 0; i < values.size(); ++i) write(texels, i, uint32_t(values[i]));
@@ -126,8 +133,8 @@ void decode_texels(Format format, const std::byte* texels, std::span<float> valu
         return;
     case Format::r11g11b10f:
         for (size_t i = 0; i + 2 < values.size(); i += 3) {
-            const glm::vec3 color = glm::unpackF2x11_1x10(read<uint32_t>(texels, i / 3));
-            for (int c = 0; c < 3; ++c) values[i + size_t(c)] = color[c];
+            const uint32_t bits = read<uint32_t>(texels, i / 3);
+            values[i] = from_small_float(bits & 0x7ff, 4), values[i + 1] = from_small_float(bits >> 11 & 0x7ff, 4), values[i + 2] = from_small_float(bits >> 22, 5);
         }
         return;
     case Format::r32ui:
