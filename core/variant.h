@@ -1,6 +1,8 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
+#include "core/gbuffer/scene_facts.h"
 #include "core/gpu/pass_graph.h"
+#include "core/left_out.h"
 #include "core/parameters.h"
 
 /// What each variant estimates for each pixel of the G-buffer.
@@ -16,6 +18,10 @@ public:
 
     /// Adds this frame's passes. Called once per frame, in temporal order, after PassGraph::begin_frame().
     virtual Reflections render(PassGraph& graph, const GBuffer& gbuffer) = 0;
+
+    /// Called before the first frame of a shot, after the parameters are set; not called under --keep-all. From then on
+    /// render() skips the stages returned, which would not have changed a pixel.
+    virtual std::vector<LeftOut> leave_out(const SceneFacts&) { return {}; }
 
     ParameterSet params;
 };

@@ -1,0 +1,37 @@
+// Which pixels of the G-buffer reflect, and along which ray. The including shader declares nothing: these are ambient images.
+#ifndef COMMON_MIRROR_RAY_GLSL
+#define COMMON_MIRROR_RAY_GLSL
+#include "core/shaders/view.glsl"
+
+uniform sampler2D depth, geometric_normal, normal, base_color, emission;
+
+// A sample of the G-buffer lies at its pixel's centre + jitter on the un-jittered screen (pixels).
+vec2 screen_from_pixel(ivec2 pixel) { return vec2(pixel) + 0.5 + camera.jitter.xy; }
+ivec2 pixel_from_screen(vec2 position) { return ivec2(floor(position - camera.jitter.xy)); }
+
+bool is_on_screen(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy))); }
+
+// True for a surface with a specular term at all, and at most of that perceptual roughness.
+bool reflects(ivec2 pixel, float roughness_limit) {
+    if (is_background(texelFetch(depth, pixel, 0).r)) return false;
+    bool has_specular = texelFetch(emission, pixel, 0).w > 0.0 || texelFetch(base_color, pixel, 0).w > 0.0;
+    return has_specular && texelFetch(normal, pixel, 0).w <= roughness_limit;
+}
+
+vec3 view_position(ivec2 pixel) {
+    return view_from_screen(screen_from_pixel(pixel) * camera.extent.zw, texelFetch(depth, pixel, 0).r);
+}
+
+// View space, unit.
+vec3 view_normal(ivec2 pixel) { return normalize(mat3(camera.view_from_world) * texelFetch(normal, pixel, 0).xyz); }
+vec3 view_geometric_normal(ivec2 pixel) { return normalize(mat3(camera.view_from_world) * texelFetch(geometric_normal, pixel, 0).xyz); }
+
+struct Ray {
+    vec3 origin, direction;  // view space; unit
+};
+
+Ray mirror_ray(ivec2 pixel) {
+    vec3 origin = view_position(pixel);
+    return Ray(origin, reflect(view_direction(origin), view_normal(pixel)));
+}
+#endif
