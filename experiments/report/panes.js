@@ -1,0 +1,70 @@
+// One picture in a frame: it draws its image at the view that all panes share.
+
+/// The shared view: `x`, `y` in [0, 1] is the image point in the middle of each pane; `zoom` 1 fits the image to the pane.
+const view = { x: 0.5, y: 0.5, zoom: 1 };
+const maximumZoom = 64;
+
+function limitView() {
+    view.zoom = Math.min(Math.max(view.zoom, 1), maximumZoom);
+    const half = 0.5 / view.zoom;
+    view.x = Math.min(Math.max(view.x, half), 1 - half);
+    view.y = Math.min(Math.max(view.y, half), 1 - half);
+}
+
+function createPane(listeners) {
+    const canvas = h("canvas", { tabindex: 0, role: "img", ...listeners });
+    const caption = h("figcaption");
+    return { canvas, caption, element: h("figure", { class: "pane" }, caption, canvas), image: null, pixels: null, picture: document.createElement("canvas"), shown: null };
+}
+
+/// Makes the pane show `pixels` (ImageData) of `image`; `key` says what they depend on.
+function setPane(pane, image, pixels, caption) {
+    pane.image = image;
+    pane.picture.width = pixels.width;
+    pane.picture.height = pixels.height;
+    pane.picture.getContext("2d").putImageData(pixels, 0, 0);
+    pane.caption.replaceChildren(...caption);
+    pane.canvas.setAttribute("aria-label", pane.caption.textContent);
+    pane.canvas.style.aspectRatio = `${image.width} / ${image.height}`;
+}
+
+/// Canvas pixels per image pixel, and the canvas position of the image's corner.
+function paneTransform(pane) {
+    const scale = pane.canvas.width / pane.image.width * view.zoom;
+    return { scale, left: pane.canvas.width / 2 - view.x * pane.image.width * scale, top: pane.canvas.height / 2 - view.y * pane.image.height * scale };
+}
+
+function drawPane(pane, pinned) {
+    const { canvas, image } = pane;
+    const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)), height = Math.max(1, Math.round(width * image.height / image.width));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const context = canvas.getContext("2d"), { scale, left, top } = paneTransform(pane);
+    context.fillStyle = "#000";
+    context.fillRect(0, 0, width, height);
+    context.imageSmoothingEnabled = scale < 1;
+    context.drawImage(pane.picture, left, top, image.width * scale, image.height * scale);
+    if (!pinned) return;
+    const size = Math.max(scale, 5), x = left + (pinned.x + 0.5) * scale - size / 2, y = top + (pinned.y + 0.5) * scale - size / 2;
+    context.lineWidth = 1;
+    for (const [color, grow] of [["#000", 1.5], ["#fff", 0.5]]) {
+        context.strokeStyle = color;
+        context.strokeRect(x - grow, y - grow, size + 2 * grow, size + 2 * grow);
+    }
+}
+
+/// Where a pointer event is: `u`, `v` in the pane in [0, 1], and the image pixel under it.
+function pointerPlace(pane, event) {
+    const box = pane.canvas.getBoundingClientRect();
+    const u = (event.clientX - box.left) / box.width, v = (event.clientY - box.top) / box.height;
+    const clampTo = (value, size) => Math.min(Math.max(Math.floor(value * size), 0), size - 1);
+    return { u, v, x: clampTo(view.x + (u - 0.5) / view.zoom, pane.image.width), y: clampTo(view.y + (v - 0.5) / view.zoom, pane.image.height) };
+}
+
+/// Zooms about the point at `u`, `v` of the panes, which stays where it is.
+function zoomAbout(u, v, factor) {
+    const before = view.zoom;
+    view.zoom = Math.min(Math.max(view.zoom * factor, 1), maximumZoom);
+    view.x += (u - 0.5) * (1 / before - 1 / view.zoom);
+    view.y += (v - 0.5) * (1 / before - 1 / view.zoom);
+    limitView();
+}

@@ -1,0 +1,86 @@
+#include "experiments/report_warnings.h"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace {
+
+using nlohmann::json;
+
+/// The member, or null where `object` is no object or lacks it: a manifest of another version is still worth a report.
+const json& member(const json& object, const char* key) {
+    static const json none;
+    if (!object.is_object()) return none;
+    const auto found = object.find(key);
+    return found == object.end() ? none : *found;
+}
+
+double number(const json& value, double fallback) { return value.is_number() ? value.get<double>() : fallback; }
+std::string text(const json& value) { return value.is_string() ? value.get<std::string>() : "?"; }
+bool is_true(const json& value) { return value.is_boolean() && value.get<bool>(); }
+
+std::string percent(double share) {
+    char buffer[32];
+    // Rounded towards zero: 99.96 % that falls short must not be read as 100 %.
+    std::snprintf(buffer, sizeof buffer, "%.1f %%", std::floor(share * 1000.0) / 10.0);
+    return buffer;
+}
+
+void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
+    if (manifest.contains("finished") && !manifest["finished"].is_string())
+        warnings.push_back("This study is not finished: some variants or shots may be missing.");
+    if (is_true(member(member(manifest, "ssrlab"), "dirty")))
+        warnings.push_back("The program was built from a source tree with uncommitted changes: the commit alone does not identify it.");
+}
+
+void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
+    if (!has_times) return;
+    const json& proof = member(clock, "proof");
+    if (!proof.is_array() || proof.empty()) warnings.push_back("The clock was not proven in this run: take its times with care.");
+    for (const json& part : proof)
+        if (!is_true(member(part, "passed")))
+            warnings.push_back("The clock proof failed for " + text(member(part, "stage_kind")) +
+                               " passes: work of 1:10:100 did not take times in that ratio. Do not trust the times of this run.");
+    if (!member(clock, "aa_floor").is_number()) warnings.push_back("No A/A pair was measured: the noise floor of the times is not known.");
+}
+
+void warn_of_shot(std::vector<std::string>& warnings, const json& shot, double target_error) {
+    const std::string name = text(member(shot, "shot")) + ": ";
+    for (const json& warning : member(shot, "warnings"))
+        if (warning.is_string()) warnings.push_back(name + warning.get<std::string>());
+    if (member(shot, "lit") == "direct")
+        warnings.push_back(name + "the lit colour is rasterised direct light without shadows, so errors contain a difference in lighting that is not the technique's.");
+    const json& reference = member(shot, "reference");
+    const double reached = number(member(reference, "reached_share"), 1.0);
+    if (target_error > 0 && reached < 1.0)
+        warnings.push_back(name + "only " + percent(reached) + " of the reference's pixels reached the relative error of " + percent(target_error) +
+                           " that was asked for; the intervals below account for the noise that is left.");
+    if (const double bad = number(member(reference, "non_finite_samples"), 0.0); bad > 0)
+        warnings.push_back(name + std::to_string(uint64_t(bad)) + " samples of the reference were not finite and were left out: its mean may be biased.");
+}
+
+void warn_of_pixels(std::vector<std::string>& warnings, std::span<const ErrorSummary> errors) {
+    std::map<std::string, std::pair<size_t, size_t>> worst;
+    for (const ErrorSummary& e : errors) {
+        auto& [non_finite, negative] = worst[e.shot + ", " + e.variant + " (" + e.point + "), " + e.target + ": "];
+        non_finite = std::max(non_finite, e.non_finite);
+        negative = std::max(negative, e.negative);
+    }
+    for (const auto& [where, counts] : worst) {
+        if (counts.first) warnings.push_back(where + std::to_string(counts.first) + " pixels are NaN or infinite; they are left out of every mean.");
+        if (counts.second) warnings.push_back(where + std::to_string(counts.second) + " pixels are negative.");
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> report_warnings(const json& manifest, std::span<const ErrorSummary> errors, std::span<const TimeSummary> times) {
+    std::vector<std::string> warnings;
+    warn_of_study(warnings, manifest);
+    warn_of_clock(warnings, member(manifest, "clock"), !times.empty());
+    const double target_error = number(member(member(member(manifest, "config"), "reference"), "target_relative_error"), 0.0);
+    for (const json& shot : member(manifest, "shots")) warn_of_shot(warnings, shot, target_error);
+    warn_of_pixels(warnings, errors);
+    return warnings;
+}

@@ -1,0 +1,153 @@
+#include "experiments/summary.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/csv.h"
+#include "experiments/results.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace {
+
+unsigned small_count(const CsvReader& csv, const std::string& column) {
+    return unsigned(std::min<size_t>(csv.count(column), std::numeric_limits<unsigned>::max()));
+}
+
+double mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double v : values) sum += v;
+    return sum / double(values.size());
+}
+
+double standard_deviation(const std::vector<double>& values) {
+    const double m = mean(values);
+    double sum = 0;
+    for (const double v : values) sum += (v - m) * (v - m);
+    return std::sqrt(sum / double(values.size() - 1));
+}
+
+/// The values of all rows, or none if one row has none.
+std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>& rows, std::optional<double> ResultRow::*member) {
+    std::vector<double> values;
+    for (const ResultRow* row : rows) {
+        if (!(row->*member)) return {};
+        values.push_back(*(row->*member));
+    }
+    return values;
+}
+
+void set_interval(ErrorSummary& s, const std::vector<const ResultRow*>& rows) {
+    const auto lows = values_of(rows, &ResultRow::low), highs = values_of(rows, &ResultRow::high);
+    const bool has_interval = lows && highs;
+    const bool reference_is_exact = !has_interval && s.floor.value_or(0.0) == 0.0;
+    if (!has_interval && !(reference_is_exact && s.seed_deviation)) return;
+    const double from_seeds = s.seed_deviation ? student_t_975(s.seeds - 1) * *s.seed_deviation / std::sqrt(double(s.seeds)) : 0.0;
+    s.low = *s.value - std::hypot(from_seeds, has_interval ? *s.value - mean(*lows) : 0.0);
+    s.high = *s.value + std::hypot(from_seeds, has_interval ? mean(*highs) - *s.value : 0.0);
+}
+
+ErrorSummary summary_of(const std::vector<const ResultRow*>& rows) {
+    const ResultRow& first = *rows.front();
+    ErrorSummary s{first.shot, first.variant, first.point, first.target, first.metric, first.formula, first.mask};
+    s.seeds = unsigned(rows.size());
+    s.is_corrected = first.is_corrected;
+    for (const ResultRow* row : rows) {
+        s.pixels = std::max(s.pixels, row->pixels);
+        s.non_finite = std::max(s.non_finite, row->non_finite);
+        s.negative = std::max(s.negative, row->negative);
+    }
+    if (const auto floors = values_of(rows, &ResultRow::floor)) s.floor = mean(*floors);
+    const auto values = values_of(rows, &ResultRow::value);
+    if (!values) return s;
+    s.value = mean(*values);
+    if (s.seeds > 1) s.seed_deviation = standard_deviation(*values);
+    set_interval(s, rows);
+    return s;
+}
+
+/// Rows of equal keys together, groups in the order in which they first appear.
+template <class Row, class KeyOf>
+std::vector<std::vector<const Row*>> grouped(std::span<const Row> rows, KeyOf key_of) {
+    std::map<decltype(key_of(rows[0])), size_t> index;
+    std::vector<std::vector<const Row*>> groups;
+    for (const Row& row : rows) {
+        const auto [at, is_new] = index.emplace(key_of(row), groups.size());
+        if (is_new) groups.emplace_back();
+        groups[at->second].push_back(&row);
+    }
+    return groups;
+}
+
+}  // namespace
+
+std::vector<ResultRow> read_result_rows(const std::filesystem::path& file) {
+    std::vector<ResultRow> rows;
+    for (CsvReader csv(file); csv.next();) {
+        ResultRow r;
+        r.shot = csv.text("shot"), r.scene = csv.text("scene"), r.camera = csv.text("camera");
+        r.frame = small_count(csv, "frame"), r.width = small_count(csv, "width"), r.height = small_count(csv, "height");
+        r.variant = csv.text("variant"), r.point = csv.text("point"), r.seed = small_count(csv, "seed");
+        r.target = csv.text("target"), r.metric = csv.text("metric"), r.formula = csv.text("formula"), r.mask = csv.text("mask");
+        r.value = csv.optional_number("value"), r.is_corrected = csv.count("corrected") != 0, r.uncorrected = csv.optional_number("uncorrected");
+        r.low = csv.optional_number("low"), r.high = csv.optional_number("high"), r.floor = csv.optional_number("floor");
+        r.pixels = csv.count("pixels"), r.non_finite = csv.count("non_finite"), r.negative = csv.count("negative");
+        rows.push_back(std::move(r));
+    }
+    return rows;
+}
+
+std::vector<TimeRow> read_time_rows(const std::filesystem::path& file) {
+    std::vector<TimeRow> rows;
+    for (CsvReader csv(file); csv.next();)
+        rows.push_back({csv.text("shot"), csv.text("variant"), csv.text("point"), small_count(csv, "seed"), csv.text("stage"),
+                        small_count(csv, "frame"), csv.number("milliseconds"), csv.text("clock")});
+    return rows;
+}
+
+std::vector<ErrorSummary> summarise(std::span<const ResultRow> rows) {
+    std::vector<ErrorSummary> summaries;
+    const auto key = [](const ResultRow& r) { return std::tie(r.shot, r.variant, r.point, r.target, r.metric, r.formula, r.mask); };
+    for (const auto& group : grouped(rows, key)) summaries.push_back(summary_of(group));
+    return summaries;
+}
+
+std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
+    std::vector<TimeSummary> summaries;
+    const auto key = [](const TimeRow& t) { return std::tie(t.shot, t.variant, t.point, t.stage); };
+    for (const auto& group : grouped(rows, key)) {
+        std::vector<double> times;
+        for (const TimeRow* row : group) times.push_back(row->milliseconds);
+        const TimeRow& first = *group.front();
+        const MedianInterval m = median_interval(times);
+        summaries.push_back({first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median, m.low, m.high});
+    }
+    return summaries;
+}
+
+void write_summaries(const std::filesystem::path& folder, std::span<const ErrorSummary> errors, std::span<const TimeSummary> times) {
+    std::string text = "shot,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,pixels,non_finite,negative\n";
+    for (const ErrorSummary& e : errors)
+        text += csv_line(e.shot, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value, e.low, e.high, e.seed_deviation, e.floor,
+                         e.is_corrected, e.pixels, e.non_finite, e.negative);
+    write_text(folder / "summary.csv", text);
+
+    text = "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms\n";
+    for (const TimeSummary& t : times) text += csv_line(t.shot, t.variant, t.point, t.stage, t.clock, t.frames, t.median, t.low, t.high);
+    write_text(folder / "time_summary.csv", text);
+}
+
+double student_t_975(unsigned degrees) {
+    if (degrees == 0) fail("Student's t distribution needs at least one degree of freedom");
+    // Any table of the distribution; above its end the expansion of Abramowitz & Stegun 26.7.5 is good to 2e-5.
+    constexpr std::array table = {12.70620, 4.30265, 3.18245, 2.77645, 2.57058, 2.44691, 2.36462, 2.30600, 2.26216, 2.22814};
+    if (degrees <= table.size()) return table[degrees - 1];
+    constexpr double z = 1.959963984540054, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, z9 = z7 * z * z;
+    const double n = degrees;
+    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) + (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n) +
+           (79 * z9 + 776 * z7 + 1482 * z5 - 1920 * z3 - 945 * z) / (92160 * n * n * n * n);
+}
