@@ -26,10 +26,18 @@ const std::vector<VariantEntry> table = {
         .name = "mcguire_dda",
         .title = "Screen-space ray tracing by a perspective-correct DDA",
         .source = "McGuire & Mara 2014, Efficient GPU Screen-Space Ray Tracing, JCGT 3(4)",
-        .description = "One mirror ray per pixel, walked pixel by pixel along its line on the screen until it passes behind a surface.",
+        .description = "One mirror ray per pixel, walked pixel by pixel along its line on the screen until it passes "
+                       "behind a surface.",
         .needs = {"has_reflective", "min_roughness"},
-        .presets = {{"coarse", "every fourth pixel, dithered, with the authors' refinement", {{"stride", 4}, {"checkerboard", true}, {"refine", true}}},
-                    {"any_scale", "thickness as a share of the depth, for scenes of any size", {{"thickness", 0.0}, {"relative_thickness", 0.02}}}},
+        .presets = {{"published",
+                     "the first interval starts at the ray's origin, as in the paper",
+                     {{"interval_from_origin", true}}},
+                    {"coarse",
+                     "every fourth pixel, dithered, with the authors' refinement",
+                     {{"stride", 4}, {"checkerboard", true}, {"refine", true}}},
+                    {"any_scale",
+                     "thickness as a share of the depth, for scenes of any size",
+                     {{"thickness", 0.0}, {"relative_thickness", 0.02}}}},
         .create = create<McGuireDda>,
     },
 };
@@ -51,10 +59,13 @@ std::span<const VariantEntry> variant_table() { return table; }
 
 const VariantEntry& find_variant(const std::string& name) { return find_named<VariantEntry>(table, name, "variant"); }
 
-std::unique_ptr<Variant> make_variant(const std::string& name, const nlohmann::json& parameters, const std::string& preset) {
+std::unique_ptr<Variant> make_variant(const std::string& name, const nlohmann::json& parameters,
+                                      const std::string& preset) {
     const VariantEntry& entry = find_variant(name);
     std::unique_ptr<Variant> variant = entry.create();
-    if (!preset.empty()) variant->params.assign(find_named<Preset>(entry.presets, preset, "preset of variant '" + name + "':").parameters);
+    if (!preset.empty())
+        variant->params.assign(
+            find_named<Preset>(entry.presets, preset, "preset of variant '" + name + "':").parameters);
     try {
         if (!parameters.is_null()) variant->params.assign(parameters);
     } catch (const Error& error) {

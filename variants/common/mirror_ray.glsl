@@ -1,4 +1,4 @@
-// Which pixels of the G-buffer reflect, and along which ray. The including shader declares nothing: these are ambient images.
+// Which pixels of the G-buffer reflect, and along which ray.
 #ifndef COMMON_MIRROR_RAY_GLSL
 #define COMMON_MIRROR_RAY_GLSL
 #include "core/shaders/view.glsl"
@@ -9,7 +9,9 @@ uniform sampler2D depth, geometric_normal, normal, base_color, emission;
 vec2 screen_from_pixel(ivec2 pixel) { return vec2(pixel) + 0.5 + camera.jitter.xy; }
 ivec2 pixel_from_screen(vec2 position) { return ivec2(floor(position - camera.jitter.xy)); }
 
-bool is_on_screen(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy))); }
+bool is_on_screen(ivec2 pixel) {
+    return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy)));
+}
 
 // True for a surface with a specular term at all, and at most of that perceptual roughness.
 bool reflects(ivec2 pixel, float roughness_limit) {
@@ -22,9 +24,11 @@ vec3 view_position(ivec2 pixel) {
     return view_from_screen(screen_from_pixel(pixel) * camera.extent.zw, texelFetch(depth, pixel, 0).r);
 }
 
+vec3 view_from_world_normal(vec3 ws_normal) { return normalize(mat3(camera.view_from_world) * ws_normal); }
+
 // View space, unit.
-vec3 view_normal(ivec2 pixel) { return normalize(mat3(camera.view_from_world) * texelFetch(normal, pixel, 0).xyz); }
-vec3 view_geometric_normal(ivec2 pixel) { return normalize(mat3(camera.view_from_world) * texelFetch(geometric_normal, pixel, 0).xyz); }
+vec3 view_normal(ivec2 pixel) { return view_from_world_normal(texelFetch(normal, pixel, 0).xyz); }
+vec3 view_geometric_normal(ivec2 pixel) { return view_from_world_normal(texelFetch(geometric_normal, pixel, 0).xyz); }
 
 struct Ray {
     vec3 origin, direction;  // view space; unit

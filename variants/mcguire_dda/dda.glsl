@@ -1,6 +1,6 @@
-// McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), section 3: a ray is walked along its line on the
-// screen, one pixel (or `stride` pixels) of the line's major axis at a time. View-space position times 1/w, and 1/w, are
-// affine along that line, so the ray's depth at a pixel costs one division.
+// McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), section 3: a ray is walked along its line on
+// the screen, one pixel (or `stride` pixels) of the line's major axis at a time. View-space position times 1/w, and 1/w,
+// are affine along that line, so the ray's depth at a pixel costs one division.
 #ifndef MCGUIRE_DDA_GLSL
 #define MCGUIRE_DDA_GLSL
 #include "common/mirror_ray.glsl"
@@ -24,9 +24,11 @@ LinePoint project_to_line(vec3 vs_position) {
     return LinePoint((clip.xy * k * 0.5 + 0.5) * camera.extent.xy, vs_position * k, k);
 }
 
-LinePoint mix_points(LinePoint a, LinePoint b, float t) { return LinePoint(mix(a.p, b.p, t), mix(a.q, b.q, t), mix(a.k, b.k, t)); }
+LinePoint mix_points(LinePoint a, LinePoint b, float t) {
+    return LinePoint(mix(a.p, b.p, t), mix(a.q, b.q, t), mix(a.k, b.k, t));
+}
 
-// Far end of the ray: `max_distance` away, or earlier where it meets the near plane, behind which nothing can be projected.
+// Far end of the ray: `max_distance` away, or where it meets the near plane, behind which nothing can be projected.
 vec3 clip_to_near_plane(Ray ray) {
     float reach = max_distance > 0.0 ? max_distance : 2.0 * camera.depth.y;
     float near_z = -camera.depth.x;
@@ -71,8 +73,8 @@ struct Line {
 Line make_line(Ray ray) {
     LinePoint a = project_to_line(ray.origin), b = project_to_line(clip_to_near_plane(ray));
     if (clip_to_viewport) b = mix_points(b, a, outside_share(a.p, b.p));
-    // A ray along the view is a point on the screen. Its line is given some direction; with the first step a stride away it
-    // then meets nothing, which is right: all that its pixel shows is its origin.
+    // A ray along the view is a point on the screen. Its line is given some direction; with the first step a stride away
+    // it then meets nothing, which is right: all that its pixel shows is its origin.
     if (dot(b.p - a.p, b.p - a.p) < 1e-4) b.p = a.p + 0.01;
     vec2 extent = abs(b.p - a.p);
     float pixels = max(extent.x, extent.y);
@@ -81,19 +83,18 @@ Line make_line(Ray ray) {
 
 // Deviation: points are taken at start + t * step, where the paper adds up steps: the same points, fewer roundings.
 vec2 position_at(Line line, float t) { return line.start.p + line.step.p * t; }
-vec3 view_position_at(Line line, float t) { return (line.start.q + line.step.q * t) / (line.start.k + line.step.k * t); }
-// Clamped to the line as in the authors' later G3D version: the look-ahead of half a step would leave the segment, and behind
-// its end 1/w may change its sign.
-float z_at(Line line, float t) {
-    float inside = min(t, line.pixels);
-    return (line.start.q.z + line.step.q.z * inside) / (line.start.k + line.step.k * inside);
+vec3 view_position_at(Line line, float t) {
+    return (line.start.q + line.step.q * t) / (line.start.k + line.step.k * t);
 }
+// Clamped to the line as in the authors' later G3D version: the look-ahead of half a step would leave the segment, and
+// behind its end 1/w may change its sign.
+float z_at(Line line, float t) { return view_position_at(line, min(t, line.pixels)).z; }
 
 DdaHit hit_at(Line line, float t, Ray ray) {
     return DdaHit(position_at(line, t), length(view_position_at(line, min(t, line.pixels)) - ray.origin), true);
 }
 
-// G3D's refinement for stride > 1: back up by one stride, walk single pixels, and take the first where the ray is behind.
+// G3D's refinement for stride > 1: back up by one stride, walk single pixels, take the first where the ray is behind.
 float refine_hit(Line line, float t_hit) {
     float t = max(t_hit - float(stride), 0.0);
     uint limit = uint(1.4 * float(stride));
@@ -109,11 +110,12 @@ float refine_hit(Line line, float t_hit) {
 
 DdaHit march(Ray ray, float start) {
     Line line = make_line(ray);
-    float z_before = ray.origin.z;
+    // Deviation, unless `interval_from_origin`: the first tested pixel is a voxel of half a step to both sides, as all.
+    float z_before = interval_from_origin ? ray.origin.z : z_at(line, max(start - 0.5, 0.0) * float(stride));
     for (uint i = 0u; i < max_steps; ++i) {
         float t = float(stride) * (start + float(i));
         if (t > line.pixels) break;
-        // Deviation: floor and a bounds test, where truncation would let rays up to a pixel off the screen hit its first column.
+        // Deviation: floor and a bounds test; truncation would let rays up to a pixel off the screen hit its border.
         ivec2 pixel = pixel_from_screen(position_at(line, t));
         if (!is_on_screen(pixel)) break;
         float z_after = z_at(line, t + 0.5 * float(stride));

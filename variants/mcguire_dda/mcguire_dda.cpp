@@ -16,6 +16,7 @@ Reflections McGuireDda::render(PassGraph& graph, const GBuffer&) {
 std::vector<LeftOut> McGuireDda::leave_out(const SceneFacts& facts) {
     is_left_out_ = !facts.has_reflective || facts.min_roughness > max_roughness;
     if (!is_left_out_) return {};
-    const std::string fact = facts.has_reflective ? "no reflective surface as smooth as max_roughness" : "nothing reflective";
+    const std::string fact =
+        facts.has_reflective ? "no reflective surface as smooth as max_roughness" : "nothing reflective";
     return {{"mcguire_dda/trace", fact, "no pixel would start a ray"}, {"mcguire_dda/shade", fact, "no ray would hit"}};
 }

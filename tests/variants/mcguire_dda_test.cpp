@@ -1,0 +1,184 @@
+#include "tests/variants/synthetic_gbuffer.h"
+#include "tests/variants/variant_fixture.h"
+
+namespace {
+
+struct MirrorFloor : VariantTest {
+    static constexpr glm::uvec2 extent{320, 240};
+    CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
+    FrameView view{.extent = extent};
+    PassGraph graph{device(), extent};
+    std::unique_ptr<Variant> variant = make_variant("mcguire_dda");
+    SyntheticScene scene = mirror_floor;
+    HostImage radiance, confidence, hit;
+
+    void render() {
+        const CameraData camera = camera_data(pose, nullptr, view);
+        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
+        graph.begin_frame(camera, variant->params, gbuffer.images());
+        const Reflections reflections = variant->render(graph, gbuffer);
+        radiance = graph.download(reflections.radiance);
+        confidence = graph.download(reflections.confidence);
+        hit = graph.download(graph.image("hit", Format::rgba32f));
+    }
+
+    /// Where the mirror ray of a floor pixel meets the wall: pixels; the height of the wall and the ray's length in m.
+    struct Mirrored {
+        bool is_floor;
+        glm::vec2 pixel;
+        float height, distance;
+    };
+    Mirrored mirrored(unsigned x, unsigned y) const {
+        const CameraData camera = camera_data(pose, nullptr, view);
+        const CameraRay ray = camera_ray(pose, extent, glm::vec2(x, y) + 0.5f + view.jitter);
+        const SyntheticHit first = mirror_floor(ray);
+        if (first.metalness == 0) return {.is_floor = false};
+        const glm::vec3 p = first.distance * ray.direction, d = ray.direction * glm::vec3(1, -1, 1);
+        const float t = (-6.0f - p.z) / d.z;
+        const glm::vec4 clip = camera.clip_from_world * glm::vec4(p + t * d, 1);
+        return {true, (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(extent), p.y + t * d.y, t};
+    }
+
+    /// Every floor pixel whose mirrored point is on the screen finds it, within `slack` pixels; returns how many those
+    /// are.
+    unsigned expect_true_hits(float slack) {
+        unsigned count = 0;
+        for (unsigned y = 0; y < extent.y; ++y)
+            for (unsigned x = 0; x < extent.x; ++x) {
+                const Mirrored m = mirrored(x, y);
+                if (!m.is_floor) continue;
+                const bool is_inside =
+                    m.pixel.x > 2 && m.pixel.y > 2 && m.pixel.x < extent.x - 2 && m.pixel.y < extent.y - 2;
+                const bool is_outside =
+                    m.pixel.x < -1 || m.pixel.y < -1 || m.pixel.x > extent.x + 1 || m.pixel.y > extent.y + 1;
+                const float* h = hit.pixel(x, y);
+                EXPECT_FALSE(is_inside && h[3] == 0) << x << ", " << y;
+                EXPECT_FALSE(is_outside && h[3] != 0) << x << ", " << y;
+                if (!is_inside || h[3] == 0) continue;
+                ++count;
+                EXPECT_LE(distance(glm::vec2(h[0], h[1]) * glm::vec2(extent), m.pixel), slack) << x << ", " << y;
+                // The hit is found up to a step too early or too late, and at the wall's foot a pixel is 0.1 m of
+                // floor.
+                EXPECT_NEAR(h[2], m.distance, 0.1f * m.distance + 0.1f) << x << ", " << y;
+                const bool is_near_edge = std::abs(m.height - 1.0f) < 0.1f;
+                const float expected = is_near_edge ? *radiance.pixel(x, y) : m.height > 1.0f ? 1.0f : 0.25f;
+                EXPECT_EQ(*radiance.pixel(x, y), expected) << x << ", " << y;
+                EXPECT_EQ(*confidence.pixel(x, y), 1.0f);
+            }
+        return count;
+    }
+};
+
+// The ray meets the wall between two tested pixels, of which the march takes the first whose voxel (half a pixel to
+// both sides) it reaches.
+constexpr float one_step = 1.5f;
+
+TEST_F(MirrorFloor, ReflectsTheWall) {
+    render();
+    EXPECT_GT(expect_true_hits(one_step), 10000u);
+    EXPECT_EQ(*confidence.pixel(160, 60), 0.0f);  // the wall itself is rough and not metallic
+}
+
+TEST_F(MirrorFloor, ReflectsTheSameInReversedDepth) {
+    render();
+    const HostImage standard = hit;
+    view.depth_direction = DepthDirection::reversed;
+    render();
+    EXPECT_GT(expect_true_hits(one_step), 10000u);
+    size_t different = 0;
+    for (size_t i = 0; i < hit.values.size(); i += 4)
+        different += std::abs(hit.values[i] - standard.values[i]) > 1.0f / extent.x ||
+                     hit.values[i + 3] != standard.values[i + 3];
+    EXPECT_LT(different, hit.pixel_count() / 1000);  // the two depths round differently
+}
+
+TEST_F(MirrorFloor, ReflectsTheWallUnderJitter) {
+    view.jitter = {0.4f, -0.3f};
+    render();
+    EXPECT_GT(expect_true_hits(one_step), 10000u);
+}
+
+TEST_F(MirrorFloor, RefinesLongStrides) {
+    variant = make_variant("mcguire_dda", {{"stride", 8}, {"thickness", 10.0}});
+    render();
+    const auto mean_error = [&] {
+        double sum = 0;
+        size_t count = 0;
+        for (unsigned y = 0; y < extent.y; ++y)
+            for (unsigned x = 0; x < extent.x; ++x)
+                if (const float* h = hit.pixel(x, y); h[3] != 0) {
+                    sum += distance(glm::vec2(h[0], h[1]) * glm::vec2(extent), mirrored(x, y).pixel);
+                    ++count;
+                }
+        return sum / double(count);
+    };
+    const double coarse = mean_error();
+    EXPECT_LT(coarse, 12.0);  // a stride and a half
+    variant->params.assign({{"refine", true}});
+    render();
+    EXPECT_LT(mean_error(), 0.5 * coarse);
+}
+
+TEST_F(MirrorFloor, NeverMeetsItself) {
+    // A mirror that faces the camera, tilted: nothing else is in view, so no ray may hit.
+    scene = [](const CameraRay& ray) {
+        const glm::vec3 normal = normalize(glm::vec3(0.5f, 0.2f, 1.0f));
+        const float t = dot(glm::vec3(0, 0, -5) - ray.origin, normal) / dot(ray.direction, normal);
+        return SyntheticHit{.distance = t > 0 ? t : std::numeric_limits<float>::infinity(),
+                            .normal = normal,
+                            .roughness = 0,
+                            .metalness = 1,
+                            .specular = 1};
+    };
+    for (const DepthDirection direction : {DepthDirection::standard, DepthDirection::reversed}) {
+        view.depth_direction = direction;
+        render();
+        EXPECT_EQ(std::ranges::count_if(confidence.values, [](float c) { return c != 0; }), 0);
+    }
+}
+
+TEST_F(MirrorFloor, LeavesRoughAndMatteSurfacesToTheFallback) {
+    const auto hits_with = [&](float roughness, float metalness, float specular) {
+        scene = [=](const CameraRay& ray) {
+            SyntheticHit first = mirror_floor(ray);
+            if (first.metalness > 0)
+                first.roughness = roughness, first.metalness = metalness, first.specular = specular;
+            return first;
+        };
+        render();
+        return std::ranges::count_if(confidence.values, [](float c) { return c != 0; });
+    };
+    EXPECT_GT(hits_with(0.6f, 1, 0), 10000);
+    EXPECT_GT(hits_with(0.0f, 0, 1), 10000);
+    EXPECT_EQ(hits_with(0.61f, 1, 1), 0);  // max_roughness is 0.6
+    EXPECT_EQ(hits_with(0.0f, 0, 0), 0);
+}
+
+TEST_F(MirrorFloor, LeavesOutNothingThatWouldHaveCounted) {
+    scene = [](const CameraRay& ray) {
+        SyntheticHit first = mirror_floor(ray);
+        first.roughness = 0.8f;
+        return first;
+    };
+    render();
+    const HostImage all = radiance, all_confidence = confidence;
+    SceneFacts facts{.has_geometry = true, .has_reflective = true, .min_roughness = 0.8f, .max_roughness = 0.8f};
+    EXPECT_EQ(variant->leave_out(facts).size(), 2u);
+    render();
+    EXPECT_EQ(graph.times().size(), 1u);
+    EXPECT_EQ(confidence.values, all_confidence.values);
+    for (size_t i = 0; i < radiance.pixel_count(); ++i) EXPECT_EQ(radiance.rgb(i), all.rgb(i));
+    facts.min_roughness = 0.6f;
+    EXPECT_TRUE(variant->leave_out(facts).empty());
+}
+
+TEST_F(MirrorFloor, GivesNothingWithoutReflections) {
+    variant = make_variant("none");
+    const CameraData camera = camera_data(pose, nullptr, view);
+    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
+    graph.begin_frame(camera, variant->params, gbuffer.images());
+    const Reflections reflections = variant->render(graph, gbuffer);
+    EXPECT_EQ(std::ranges::count(graph.download(reflections.confidence).values, 0.0f), 320 * 240);
+}
+
+}  // namespace

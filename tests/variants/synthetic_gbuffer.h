@@ -1,0 +1,23 @@
+#pragma once
+#include "core/gbuffer/gbuffer.h"
+#include "core/gpu/pass_graph.h"
+#include "core/scene/camera.h"
+
+#include <functional>
+#include <limits>
+
+/// What a ray from the camera meets, for G-buffers made by formulas.
+struct SyntheticHit {
+    float distance = std::numeric_limits<float>::infinity();  ///< along the unit ray (m)
+    glm::vec3 normal{0, 0, 1};                                ///< world space, geometric and shading
+    float roughness = 1, metalness = 0, specular = 0;
+    glm::vec3 lit{0};
+};
+using SyntheticScene = std::function<SyntheticHit(const CameraRay&)>;
+
+/// The images that variants read, filled at the pixel centres (moved by the jitter) and uploaded.
+GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraData& camera, const SyntheticScene& scene);
+
+/// A mirror floor at y = -1 before a wall at z = -6 that is white above y = 1 and grey (0.25) below, seen from the
+/// origin.
+SyntheticHit mirror_floor(const CameraRay& ray);
