@@ -15,13 +15,16 @@ using nlohmann::json;
 
 const std::vector<std::string> depth_formats{"d32f", "d24", "d16"};
 
-json json_vector(glm::vec2 v) { return {json_number(v.x), json_number(v.y)}; }
+/// The shortest decimal that reads back as the same bits; JSON's integer 0 would lose the sign of -0.
+json exact(float value) { return value == 0 ? json(double(value)) : json_number(value); }
+
+json json_vector(glm::vec2 v) { return {exact(v.x), exact(v.y)}; }
 
 json json_matrix(const glm::mat4& m) {
     json rows = json::array();
     for (int row = 0; row < 4; ++row) {
         json numbers = json::array();
-        for (int column = 0; column < 4; ++column) numbers.push_back(json_number(m[column][row]));
+        for (int column = 0; column < 4; ++column) numbers.push_back(exact(m[column][row]));
         rows.push_back(numbers);
     }
     return rows;

@@ -32,7 +32,7 @@ struct Lobe {
 
     /// Angle (rad) over which the density changes much, at an angular distance from the axis.
     float scale(float distance) const {
-        const float widest = 0.5f;
+        const float widest = 0.4f;
         if (alpha == 0) return widest;
         return std::min(std::sqrt(4 * alpha * alpha + distance * distance), widest);
     }

@@ -1,0 +1,71 @@
+#include "core/gbuffer/composite.h"
+#include "core/gbuffer/gbuffer_transfer.h"
+#include "core/shared/brdf.h"
+#include "core/split_sum.h"
+#include "tests/gbuffer/test_scenes.h"
+
+#include <gtest/gtest.h>
+
+TEST(composite, on_the_gpu_is_the_formula_on_the_cpu) {
+    const Scene scene = varied_scene();
+    const glm::uvec2 extent(101, 67);
+    Rasterizer rasterizer(test_device(), scene, {.extent = extent});
+    FrameView view = view_of(extent, 3, DepthDirection::reversed);
+    view.jitter = {0.2f, 0.1f};
+    for (const char* name : {"main", "orthographic"}) {
+        const GBuffer gbuffer = rasterizer.render(scene.camera(name), view);
+        rasterizer.light_directly(gbuffer);
+        HostImage radiance(extent, 4), confidence(extent, 1);
+        for (size_t i = 0; i < radiance.pixel_count(); ++i) {
+            radiance.set_rgb(i, glm::vec3(i % 7, i % 5, i % 3));
+            confidence.values[i] = (i % 11) / 10.0f;
+        }
+        PassGraph& graph = rasterizer.graph();
+        const Reflections reflections{graph.image("some_radiance", Format::rgba32f), graph.image("some_confidence", Format::r32f)};
+        graph.upload(reflections.radiance, radiance);
+        graph.upload(reflections.confidence, confidence);
+        Compositor compositor(graph);
+        const Composite result = compositor.render(gbuffer, reflections);
+        const HostImage specular = graph.download(result.specular), image = graph.download(result.image);
+        const HostGBuffer g = download_gbuffer(graph, gbuffer, rasterizer.camera(), DepthFormat::d32f);
+        const HostComposite expected = composite(g, radiance, confidence);
+        double largest = 0;
+        for (size_t i = 0; i < specular.pixel_count(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                // Float32 on both sides; the split sum's slope at grazing multiplies the rounding of the cosine.
+                ASSERT_NEAR(specular.rgb(i)[c], expected.specular.rgb(i)[c], 1e-4f);
+                ASSERT_NEAR(image.rgb(i)[c], expected.image.rgb(i)[c], 1e-4f);
+                largest = std::max<double>(largest, specular.rgb(i)[c]);
+                if (g.material_id.values[i] == 0) {
+                    ASSERT_EQ(specular.rgb(i)[c], 0.0f);
+                    ASSERT_EQ(image.rgb(i)[c], g.lit.rgb(i)[c]);
+                }
+            }
+        EXPECT_GT(largest, 1.0);
+    }
+}
+
+TEST(composite, reflectance_is_the_split_sum_of_the_brdf) {
+    // One floor seen at every angle: F0 A + F90 B from direct quadrature at the pixel's cosine.
+    Scene scene = varied_scene();
+    scene.instances.resize(1);
+    const SceneCamera camera = scene.camera("main");
+    const glm::uvec2 extent(16, 64);
+    for (const float roughness : {0.1f, 0.4f, 0.9f}) {
+        scene.materials[0].roughness = roughness;
+        scene.materials[0].metalness = 0.5f;
+        Rasterizer rasterizer(test_device(), scene, {.extent = extent});
+        const HostGBuffer g = download_gbuffer(rasterizer.graph(), rasterizer.render(camera, view_of(extent)), rasterizer.camera(), DepthFormat::d32f);
+        const HostImage reflectance = specular_reflectance(g);
+        const CameraPose pose = pose_camera(camera, pose_scene(scene, 0), 0);
+        for (unsigned y = 0; y < extent.y; ++y) {
+            if (*g.material_id.pixel(3, y) == 0) continue;
+            const float mu_o = -camera_ray(pose, extent, {3.5f, y + 0.5f}).direction.y;
+            if (mu_o < 0.02f) continue;  // half a texel of the table
+            const glm::dvec2 ab = split_sum(mu_o, ggx_alpha(roughness));
+            const double expected = 0.5 * (0.04 + 0.5) * ab.x + ab.y;
+            // Bilinear reading of 64 x 64 texels.
+            EXPECT_NEAR(reflectance.pixel(3, y)[0], expected, 5e-3) << "roughness " << roughness << ", cosine " << mu_o;
+        }
+    }
+}

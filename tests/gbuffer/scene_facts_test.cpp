@@ -1,0 +1,65 @@
+#include "core/gbuffer/leading_vertices.h"
+#include "tests/gbuffer/test_scenes.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+TEST(scene_facts, of_a_scene_that_has_everything) {
+    const Scene scene = varied_scene();
+    const SceneFacts f = derive_facts(scene, scene.camera("main"), 0, 10);
+    for (const bool fact : {f.has_geometry, f.has_reflective, f.has_mirrors, f.has_rough_reflectors, f.camera_moves, f.objects_move, f.has_environment, f.has_punctual_lights,
+                            f.has_emitters, f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.has_unlit, f.has_single_sided, f.has_double_sided})
+        EXPECT_TRUE(fact);
+    EXPECT_FALSE(f.lights_move);
+    EXPECT_FALSE(f.has_vertex_colors);
+    EXPECT_EQ(f.max_roughness, 1.0f);
+    EXPECT_EQ(list_facts(scene, f).size(), 19u);
+}
+
+TEST(scene_facts, only_what_is_drawn_counts) {
+    Scene scene = varied_scene();
+    scene.instances.resize(1);  // the floor, of roughness 0.2
+    const SceneFacts f = derive_facts(scene, scene.camera("main"), 0, 1);
+    EXPECT_TRUE(f.has_rough_reflectors);
+    EXPECT_FLOAT_EQ(f.min_roughness, 0.2f);
+    EXPECT_FLOAT_EQ(f.max_roughness, 0.2f);
+    for (const bool fact : {f.has_mirrors, f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.has_emitters, f.has_unlit, f.camera_moves, f.objects_move}) EXPECT_FALSE(fact);
+}
+
+TEST(scene_facts, ranges_come_from_the_texels) {
+    Scene scene = varied_scene();
+    scene.instances = {scene.instances[1]};  // roughness texels 40 and 200
+    const SceneFacts f = material_facts(scene);
+    EXPECT_FLOAT_EQ(f.min_roughness, 40 / 255.0f);
+    EXPECT_FLOAT_EQ(f.max_roughness, 200 / 255.0f);
+}
+
+TEST(scene_facts, nothing_is_reflective_without_specular) {
+    Scene scene = varied_scene();
+    scene.instances.resize(1);
+    scene.materials[0].specular = 0;
+    EXPECT_FALSE(material_facts(scene).has_reflective);
+    scene.materials[0].metalness = 0.1f;
+    EXPECT_TRUE(material_facts(scene).has_reflective);
+}
+
+TEST(leading_vertices, each_triangle_leads_with_a_vertex_of_its_own) {
+    // A closed fan has more triangles than vertices that are free to lead.
+    Mesh mesh{.vertices = std::vector<Vertex>(4)};
+    for (int i = 0; i < 4; ++i) mesh.vertices[i].position = {i == 1, i == 2, i == 3};
+    mesh.indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3, 1, 3, 2, 0, 1, 2};
+    const LeadingVertices leading = find_leading_vertices(mesh);
+    ASSERT_EQ(leading.indices.size(), mesh.indices.size());
+    std::set<uint32_t> leaders;
+    for (size_t t = 0; t < mesh.indices.size(); t += 3) {
+        leaders.insert(leading.indices[t]);
+        glm::vec3 p[3];
+        for (int c = 0; c < 3; ++c) p[c] = mesh.vertices[leading.source[leading.indices[t + c]]].position;
+        const glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+        EXPECT_NEAR(glm::length(normal - leading.triangle_normal[leading.indices[t]]), 0, 1e-6f) << "triangle " << t / 3;
+        glm::vec3 q[3];
+        for (int c = 0; c < 3; ++c) q[c] = mesh.vertices[mesh.indices[t + c]].position;
+        EXPECT_NEAR(glm::length(normal - glm::normalize(glm::cross(q[1] - q[0], q[2] - q[0]))), 0, 1e-6f) << "winding of triangle " << t / 3;
+    }
+    EXPECT_EQ(leaders.size(), mesh.indices.size() / 3);
+}
