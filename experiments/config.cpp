@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "metrics/masks.h"
 #include "metrics/metric.h"
 #include "variants/registry.h"
 
@@ -12,7 +13,6 @@ namespace {
 
 constexpr int max_side = 16384;  // pixels; what Vulkan devices commonly allow for an image
 
-const std::vector<std::string> all_masks = {"all", "reflective", "hit", "miss", "edge"};
 const std::vector<std::string> all_targets = {"specular", "image", "incident"};
 
 /// A text, or an array of texts.
@@ -116,7 +116,7 @@ void read_variant(JsonObject entry, std::vector<VariantConfig>& variants) {
             for (const auto& [key, value] : point.items()) variant.point += (variant.point.empty() ? "" : " ") + key + "=" + label(value);
             if (variant.point.empty()) variant.point = "default";
             try {
-                make_variant(variant.variant, variant.preset, variant.parameters);
+                make_variant(variant.variant, variant.parameters, variant.preset);
             } catch (const Error& e) {
                 fail(entry.where(), ": ", e.what());
             }
@@ -173,10 +173,8 @@ Config read_config(const std::filesystem::path& file) {
         if (config.timing.frames > 0 && config.timing.frames < 15)
             fail(file.string(), ": timing: 'frames' = ", config.timing.frames, " is too few for a median with an interval; allowed are 0 (no timing) or at least 15");
     }
-    std::vector<std::string> metric_names;
-    for (const Metric& metric : all_metrics()) metric_names.push_back(metric.name);
-    config.metrics = known_names(object, "metrics", metric_names, {"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"});
-    config.masks = known_names(object, "masks", all_masks, all_masks);
+    config.metrics = known_names(object, "metrics", metric_names(), {"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"});
+    config.masks = known_names(object, "masks", mask_names(), mask_names());
     config.targets = known_names(object, "targets", all_targets, {"specular", "image", "incident"});
     config.reflective_max_roughness = object.number("reflective_max_roughness", 0.0f, 1.0f, config.reflective_max_roughness);
     config.reflective_min_reflectance = object.number("reflective_min_reflectance", 0.0f, 1.0f, config.reflective_min_reflectance);

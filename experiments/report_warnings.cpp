@@ -68,8 +68,8 @@ void warn_of_pixels(std::vector<std::string>& warnings, std::span<const ErrorSum
         negative = std::max(negative, e.negative);
     }
     for (const auto& [where, counts] : worst) {
-        if (counts.first) warnings.push_back(where + std::to_string(counts.first) + " pixels are NaN or infinite; they are left out of every mean.");
-        if (counts.second) warnings.push_back(where + std::to_string(counts.second) + " pixels are negative.");
+        if (counts.first) warnings.push_back(where + std::to_string(counts.first) + (counts.first == 1 ? " pixel is" : " pixels are") + " NaN or infinite and left out of every mean.");
+        if (counts.second) warnings.push_back(where + std::to_string(counts.second) + (counts.second == 1 ? " pixel is" : " pixels are") + " negative.");
     }
 }
 

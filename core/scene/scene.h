@@ -117,11 +117,16 @@ struct SceneCamera {
     unsigned frame_count = 1;        ///< length of its path
 };
 
-/// glTF node: a transform below a parent, possibly animated.
+/// glTF node: a transform below a parent, possibly animated. World matrices keep their sign: where the determinant of an
+/// instance's is negative, both renderers take the clockwise side of its triangles as the front (glTF 2.0, section 3.7.4).
 struct Node {
     std::string name;
     int parent = -1;
-    glm::mat4 parent_from_node{1.0f};
+    glm::mat4 parent_from_node{1.0f};  ///< at rest
+    /// Its parts, of which animation replaces some: parent_from_node = translation * rotation * scale.
+    glm::vec3 translation{0.0f};
+    glm::vec4 rotation{0.0f, 0.0f, 0.0f, 1.0f};  ///< unit quaternion xyzw
+    glm::vec3 scale{1.0f};
 };
 
 enum class Interpolation { step, linear, cubic_spline };

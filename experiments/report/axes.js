@@ -35,7 +35,7 @@ function linearScale(values, from, to, mustShowZero = false) {
     return { toPixel: v => from + (to - from) * (v - low) / (high - low), ticks, isInside: () => true };
 }
 
-/// A mark of radius 5 at (x, y): each series has a shape of its own beside its colour.
+/// A mark about 8 wide at (x, y): each series has a shape of its own beside its colour.
 function mark(series, x, y) {
     const style = { fill: seriesColor(series), stroke: "var(--card)", "stroke-width": 1 };
     const polygon = (n, turn, r) => Array.from({ length: n }, (_, i) => {
@@ -43,11 +43,11 @@ function mark(series, x, y) {
         return `${(x + r * Math.sin(a)).toFixed(2)},${(y - r * Math.cos(a)).toFixed(2)}`;
     }).join(" ");
     switch (series % 5) {
-        case 0: return svg("circle", { cx: x, cy: y, r: 5, ...style });
-        case 1: return svg("polygon", { points: polygon(4, Math.PI / 4, 6.2), ...style });
-        case 2: return svg("polygon", { points: polygon(3, 0, 6.8), ...style });
-        case 3: return svg("polygon", { points: polygon(4, 0, 6.8), ...style });
-        default: return svg("polygon", { points: polygon(3, Math.PI, 6.8), ...style });
+        case 0: return svg("circle", { cx: x, cy: y, r: 4, ...style });
+        case 1: return svg("polygon", { points: polygon(4, Math.PI / 4, 5), ...style });
+        case 2: return svg("polygon", { points: polygon(3, 0, 5.6), ...style });
+        case 3: return svg("polygon", { points: polygon(4, 0, 5.6), ...style });
+        default: return svg("polygon", { points: polygon(3, Math.PI, 5.6), ...style });
     }
 }
 

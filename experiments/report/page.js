@@ -47,7 +47,7 @@ function number(x, digits = 4) {
     const size = Math.abs(x);
     if (size >= 1e5 || size < 1e-3) {
         const [mantissa, exponent] = x.toExponential(digits - 1).split("e");
-        return `${mantissa}e${Number(exponent)}`;
+        return `${Number(mantissa)}e${Number(exponent)}`;
     }
     return String(Number(x.toPrecision(digits)));
 }

@@ -40,7 +40,7 @@ function showReferences() {
     const rows = list(manifestShots()).map(s => {
         const r = s.reference ?? {}, e = r.relative_error ?? {};
         return [s.shot, number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""), number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95),
-            percent(r.reached_share), known(s.lit, String(s.lit).replace("_", "-")), h("span", { class: "hash", title: r.hash ?? "" }, known(r.hash, String(r.hash).slice(0, 12)))];
+            percent(r.reached_share), known(s.lit, String(s.lit).replace("_", "\u2011")), h("span", { class: "hash", title: r.hash ?? "" }, known(r.hash, String(r.hash).slice(0, 12)))];
     });
     at("references").append(h("p", { class: "note" }, "Relative standard error of the truth's specular light at a pixel. Every comparison accounts for it."), h("div", { class: "scroll" }, table(columns, rows)));
 }
@@ -53,7 +53,7 @@ function showNeeds() {
         if (!needs.length && !leftOut.length) continue;
         const yes = needs.filter(n => n.value), no = needs.filter(n => !n.value);
         const line = (name, facts) => facts.length ? h("p", {}, h("b", {}, name + ": "), facts.map(f => `${String(f.fact).replaceAll("_", " ")}${f.why ? ` (${f.why})` : ""}`).join("; ")) : null;
-        at("needs").append(h("details", { open: leftOut.length > 0 }, h("summary", {}, `${shot.shot}: ${leftOut.length} left out`),
+        at("needs").append(h("details", {}, h("summary", {}, `${shot.shot}: ${leftOut.length ? "left out " + leftOut.map(l => l.what).join(", ") : "nothing left out"}`),
             line("Needed", yes), line("Not needed", no),
             leftOut.length ? table([{ name: "Left out" }, { name: "Serves only" }, { name: "Why" }, { name: "Time saved", number: true }],
                 leftOut.map(l => [l.what, known(l.fact), known(l.why), l.saved_ms === null || l.saved_ms === undefined ? "not measured" : number(l.saved_ms) + " ms"])) : null));

@@ -73,7 +73,8 @@ function summaryRow(row, rows, best) {
     return [row.shot, row.variant, row.point, valueCell(row, best.has(row)), cell(row.floor, number(row.floor)),
         cell(ratio?.value ?? null, ratio ? number(ratio.value, 3) : "", " ", h("small", {}, ratio ? interval({ low: ratio.low, high: ratio.high }) : "")),
         cell(time?.value ?? null, time ? number(time.value) : "–", " ", h("small", {}, time ? interval(time) : "")),
-        cell(row.seeds, String(row.seeds), row.deviation === null ? "" : h("small", {}, ` (±${number(row.deviation, 2)})`)), cell(row.pixels, String(row.pixels)), cell(row.nonFinite, String(row.nonFinite))];
+        cell(row.seeds, String(row.seeds), row.deviation === null ? "" : h("small", {}, ` (±${number(row.deviation, 2)})`)), cell(row.pixels, String(row.pixels)),
+        ...(rows.some(r => r.nonFinite) ? [cell(row.nonFinite, String(row.nonFinite))] : [])];
 }
 
 function showSummary() {
@@ -81,10 +82,11 @@ function showSummary() {
     const best = new Set(unique(rows.map(r => r.shot)).map(shot => clearlyBest(rows.filter(r => r.shot === shot))));
     const name = choice.metric.split("|")[0];
     const columns = [{ name: "Shot" }, { name: "Variant" }, { name: "Point" }, { name: name, number: true }, { name: "Noise floor", number: true }, { name: "× none", number: true },
-        { name: "Total ms", number: true }, { name: "Seeds", number: true }, { name: "Pixels", number: true }, { name: "Non-finite", number: true }];
+        { name: "Total ms", number: true }, { name: "Seeds", number: true }, { name: "Pixels", number: true },
+        ...(rows.some(r => r.nonFinite) ? [{ name: "Non-finite", number: true }] : [])];
     at("summary").replaceChildren(table(columns, rows.map(r => summaryRow(r, rows, best)), { sortable: true, groupBy: 0 }));
     const about = report.metrics[name];
     const direction = { lower: "Less is better.", higher: "More is better.", near_zero: "Nearer to 0 is better.", near_one: "Nearer to 1 is better." }[about?.better] ?? "Its direction is not known, so nothing is printed bold.";
     const corrected = rows.some(r => r.corrected) ? "The reference's noise is subtracted." : "The reference's noise cannot be subtracted from this metric: compare with the noise floor.";
-    at("summary-note").textContent = [about?.doc, direction, corrected, "Brackets: 95 % interval. ± after the seeds: their standard deviation."].filter(Boolean).join(" ").replaceAll("..", ".");
+    at("summary-note").textContent = [about?.doc && about.doc + ".", direction, corrected, "Brackets: 95 % interval. ± after the seeds: their standard deviation."].filter(Boolean).join(" ").replaceAll("..", ".");
 }

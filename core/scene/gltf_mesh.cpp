@@ -1,0 +1,141 @@
+#include "core/scene/gltf_parts.h"
+
+#include "core/error.h"
+#include "core/scene/tangents.h"
+
+#include <glm/gtc/type_ptr.hpp>
+#include <tbb/parallel_for.h>
+
+namespace {
+const tinygltf::Primitive& primitive_of(const GltfFile& file, size_t mesh, size_t primitive) {
+    return file.model.meshes[mesh].primitives[primitive];
+}
+
+/// Index lists of strips and fans as triangles (glTF 2.0, section 3.7.2.1: the first vertex of odd strip triangles stays,
+/// the other two swap, so that all face the same way).
+std::vector<uint32_t> triangle_list(const std::vector<uint32_t>& indices, int mode) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) return indices;
+    std::vector<uint32_t> triangles;
+    for (size_t i = 0; i + 2 < indices.size(); ++i) {
+        if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+            const size_t odd = i % 2;
+            triangles.insert(triangles.end(), {indices[i], indices[i + 1 + odd], indices[i + 2 - odd]});
+        } else {
+            triangles.insert(triangles.end(), {indices[i + 1], indices[i + 2], indices[0]});
+        }
+    }
+    return triangles;
+}
+
+std::vector<uint32_t> read_triangles(const GltfFile& file, const tinygltf::Primitive& primitive, size_t vertex_count, const std::string& what) {
+    std::vector<uint32_t> indices;
+    if (primitive.indices >= 0) {
+        indices = read_indices(file, primitive.indices, what + " indices");
+    } else {
+        indices.resize(vertex_count);
+        for (size_t i = 0; i < vertex_count; ++i) indices[i] = uint32_t(i);
+    }
+    for (const uint32_t index : indices)
+        if (index >= vertex_count) fail(file.name(), ": ", what, " has the index ", index, ", but only ", vertex_count, " vertices");
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
+        fail(file.name(), ": ", what, " has ", indices.size(), " indices, no multiple of 3");
+    return triangle_list(indices, mode);
+}
+
+/// Calls set(vertex, values) for each vertex with the attribute's values. Returns false if the primitive has none of that name.
+template <class Set>
+bool read_attribute(const GltfFile& file, const tinygltf::Primitive& primitive, const char* name, unsigned components,
+                    std::vector<Vertex>& vertices, const std::string& what, const Set& set) {
+    const auto found = primitive.attributes.find(name);
+    if (found == primitive.attributes.end()) return false;
+    const std::string attribute = what + " " + name;
+    const std::vector<float> values = read_floats(file, found->second, components, attribute);
+    if (values.size() != vertices.size() * components)
+        fail(file.name(), ": ", attribute, " has ", values.size() / components, " elements for ", vertices.size(), " vertices");
+    for (size_t i = 0; i < vertices.size(); ++i) set(vertices[i], &values[i * components]);
+    return true;
+}
+
+unsigned color_components(const GltfFile& file, const tinygltf::Primitive& primitive) {
+    const auto found = primitive.attributes.find("COLOR_0");
+    if (found == primitive.attributes.end()) return 4;
+    const size_t index = checked_index(file, found->second, file.model.accessors.size(), "COLOR_0: accessor");
+    return file.model.accessors[index].type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
+}
+
+Mesh read_mesh(const GltfFile& file, const Scene& scene, size_t mesh_index, size_t primitive_index) {
+    const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
+    const std::string what = "mesh " + std::to_string(mesh_index) + " primitive " + std::to_string(primitive_index);
+    Mesh mesh;
+    mesh.name = file.model.meshes[mesh_index].name;
+    mesh.material = primitive.material < 0 ? unsigned(scene.materials.size() - 1)
+                                           : unsigned(checked_index(file, primitive.material, file.model.materials.size(), what + ": material"));
+    const auto position = primitive.attributes.find("POSITION");
+    const size_t accessor = checked_index(file, position->second, file.model.accessors.size(), what + " POSITION: accessor");
+    const std::vector<float> positions = read_floats(file, int(accessor), 3, what + " POSITION");
+    mesh.vertices.resize(positions.size() / 3, Vertex{.color = glm::vec4(1.0f)});
+    for (size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i].position = glm::make_vec3(&positions[i * 3]);
+
+    const auto attribute = [&](const char* name, unsigned components, const auto& set) {
+        return read_attribute(file, primitive, name, components, mesh.vertices, what, set);
+    };
+    const bool has_normals = attribute("NORMAL", 3, [](Vertex& v, const float* x) { v.normal = {x[0], x[1], x[2]}; });
+    const bool has_tangents = attribute("TANGENT", 4, [](Vertex& v, const float* x) { v.tangent = {x[0], x[1], x[2], x[3]}; });
+    attribute("TEXCOORD_0", 2, [](Vertex& v, const float* x) { v.uv[0] = {x[0], x[1]}; });
+    attribute("TEXCOORD_1", 2, [](Vertex& v, const float* x) { v.uv[1] = {x[0], x[1]}; });
+    const unsigned components = color_components(file, primitive);
+    attribute("COLOR_0", components, [&](Vertex& v, const float* x) { v.color = {x[0], x[1], x[2], components == 4 ? x[3] : 1.0f}; });
+    mesh.indices = read_triangles(file, primitive, mesh.vertices.size(), what);
+
+    if (has_normals)
+        repair_normals(mesh);
+    else
+        make_flat_normals(mesh);
+    const TextureSlot& normal_texture = scene.materials[mesh.material].normal_texture;
+    if (normal_texture.texture < 0)
+        make_any_tangents(mesh);
+    else if (has_tangents && has_normals)
+        repair_tangents(mesh);
+    else
+        derive_tangents(mesh, normal_texture);
+    return mesh;
+}
+
+/// Whether a primitive becomes a mesh; says why where it does not.
+bool is_drawn(GltfFile& file, size_t mesh_index, size_t primitive_index) {
+    const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
+    const std::string name = file.model.meshes[mesh_index].name;
+    if (!primitive.targets.empty()) file.warnings.insert("The morph targets of mesh '" + name + "' are ignored.");
+    for (const auto& [attribute, accessor] : primitive.attributes) {
+        static const std::set<std::string> known = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+        if (!known.contains(attribute)) file.warnings.insert("The vertex attribute " + attribute + " of mesh '" + name + "' is ignored.");
+    }
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode > TINYGLTF_MODE_TRIANGLE_FAN) fail(file.name(), ": mesh ", mesh_index, " has the unknown primitive mode ", mode);
+    if (mode < TINYGLTF_MODE_TRIANGLES) {
+        file.warnings.insert("Points or lines of mesh '" + name + "' are not drawn.");
+        return false;
+    }
+    if (!primitive.attributes.contains("POSITION")) {
+        file.warnings.insert("A primitive of mesh '" + name + "' is not drawn, since it has no positions.");
+        return false;
+    }
+    return true;
+}
+}  // namespace
+
+std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene) {
+    std::vector<std::vector<unsigned>> meshes_of(file.model.meshes.size());
+    std::vector<std::pair<size_t, size_t>> drawn;
+    for (size_t mesh = 0; mesh < meshes_of.size(); ++mesh)
+        for (size_t primitive = 0; primitive < file.model.meshes[mesh].primitives.size(); ++primitive) {
+            if (!is_drawn(file, mesh, primitive)) continue;
+            meshes_of[mesh].push_back(unsigned(scene.meshes.size() + drawn.size()));
+            drawn.emplace_back(mesh, primitive);
+        }
+    const size_t first = scene.meshes.size();
+    scene.meshes.resize(first + drawn.size());
+    tbb::parallel_for(size_t(0), drawn.size(), [&](size_t i) { scene.meshes[first + i] = read_mesh(file, scene, drawn[i].first, drawn[i].second); });
+    return meshes_of;
+}

@@ -1,0 +1,106 @@
+#include "core/scene/gltf_texture.h"
+
+#include "core/error.h"
+#include "core/scene/gltf_value.h"
+
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace {
+TextureWrap wrap(const GltfFile& file, int mode) {
+    switch (mode) {
+        case TINYGLTF_TEXTURE_WRAP_REPEAT: return TextureWrap::repeat;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return TextureWrap::mirrored_repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return TextureWrap::clamp_to_edge;
+        default: fail(file.name(), ": a sampler has the unknown wrap mode ", mode);
+    }
+}
+
+/// KHR_texture_transform: uv' = translation * rotation * scale * uv, the rotation counter-clockwise where v points up.
+glm::mat3 texture_transform(const GltfFile& file, const tinygltf::Value& extension, const std::string& what) {
+    const glm::vec2 offset = vec2_member(file, extension, "offset", glm::vec2(0.0f), what);
+    const glm::vec2 scale = vec2_member(file, extension, "scale", glm::vec2(1.0f), what);
+    const float rotation = number_member(file, extension, "rotation", 0.0f, what);
+    const float c = std::cos(rotation), s = std::sin(rotation);
+    return glm::mat3(c * scale.x, -s * scale.x, 0.0f, s * scale.y, c * scale.y, 0.0f, offset.x, offset.y, 1.0f);
+}
+
+struct Decoded {
+    glm::uvec2 extent{0, 0};
+    std::vector<uint8_t> rgba;
+};
+
+/// 16-bit images are rounded to 8 bits: a Texture holds no more.
+Decoded decode_image(const GltfFile& file, size_t index) {
+    const tinygltf::Image& encoded = file.model.images[index];
+    const std::string name = encoded.uri.empty() ? encoded.name : encoded.uri;
+    tinygltf::Image image;
+    std::string error, warning;
+    const auto size = static_cast<int>(encoded.image.size());
+    if (!tinygltf::LoadImageData(&image, int(index), &error, &warning, 0, 0, encoded.image.data(), size, nullptr))
+        fail(file.name(), ": cannot decode image ", index, " ('", name, "'): neither an intact PNG nor JPEG");
+    Decoded decoded{{unsigned(image.width), unsigned(image.height)}, std::move(image.image)};
+    if (image.bits == 16) {
+        const size_t count = decoded.rgba.size() / 2;
+        for (size_t i = 0; i < count; ++i) {
+            const unsigned value = decoded.rgba[i * 2] | decoded.rgba[i * 2 + 1] << 8;
+            decoded.rgba[i] = uint8_t((value * 255u + 32767u) / 65535u);
+        }
+        decoded.rgba.resize(count);
+    }
+    return decoded;
+}
+}  // namespace
+
+TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb, const std::string& what) {
+    TextureSlot slot;
+    if (texture < 0) return slot;
+    const auto& model = file_.model;
+    const auto& source = model.textures[checked_index(file_, texture, model.textures.size(), what + ": texture")];
+    if (source.source < 0) {
+        file_.warnings.insert("The " + what + " is ignored, since its image is of a kind that ssrlab cannot decode.");
+        return slot;
+    }
+    slot.texcoord = unsigned(texcoord);
+    if (const auto found = extensions.find("KHR_texture_transform"); found != extensions.end()) {
+        slot.uv_transform = texture_transform(file_, found->second, what);
+        slot.texcoord = unsigned(number_member(file_, found->second, "texCoord", float(texcoord), what));
+    }
+    if (slot.texcoord > 1) {
+        file_.warnings.insert("The " + what + " uses the texture coordinates TEXCOORD_" + std::to_string(slot.texcoord) + ", which are replaced by TEXCOORD_0.");
+        slot.texcoord = 0;
+    }
+    const auto [found, is_new] = index_of_.try_emplace({texture, is_srgb}, int(scene_.textures.size()));
+    slot.texture = found->second;
+    if (!is_new) return slot;
+
+    Texture& added = scene_.textures.emplace_back();
+    image_of_.push_back(checked_index(file_, source.source, model.images.size(), what + ": image"));
+    const tinygltf::Image& image = model.images[image_of_.back()];
+    added.name = !image.uri.empty() && !tinygltf::IsDataURI(image.uri) ? image.uri : image.name;
+    added.is_srgb = is_srgb;
+    if (source.sampler >= 0) {
+        const auto& sampler = model.samplers[checked_index(file_, source.sampler, model.samplers.size(), what + ": sampler")];
+        added.wrap_u = wrap(file_, sampler.wrapS);
+        added.wrap_v = wrap(file_, sampler.wrapT);
+        added.is_nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    return slot;
+}
+
+void GltfTextures::decode() {
+    std::vector<size_t> images(image_of_);
+    std::ranges::sort(images);
+    images.erase(std::unique(images.begin(), images.end()), images.end());
+    std::vector<Decoded> decoded(file_.model.images.size());
+    tbb::parallel_for(size_t(0), images.size(), [&](size_t i) { decoded[images[i]] = decode_image(file_, images[i]); });
+    for (size_t i = 0; i < scene_.textures.size(); ++i) {
+        Decoded& image = decoded[image_of_[i]];
+        const bool is_last_use = std::find(image_of_.begin() + long(i) + 1, image_of_.end(), image_of_[i]) == image_of_.end();
+        scene_.textures[i].extent = image.extent;
+        if (is_last_use)
+            scene_.textures[i].rgba = std::move(image.rgba);
+        else
+            scene_.textures[i].rgba = image.rgba;
+    }
+}

@@ -1,0 +1,24 @@
+#pragma once
+#include "core/scene/gltf_file.h"
+#include "core/scene/scene.h"
+
+#include <map>
+#include <tuple>
+
+/// Collects the textures that materials ask for: each glTF texture once per use as colour or data, then decodes their images.
+class GltfTextures {
+public:
+    GltfTextures(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
+
+    /// `info`: the index, texture coordinate set and extensions of a glTF textureInfo. `is_srgb`: used as colour.
+    TextureSlot slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb, const std::string& what);
+
+    /// Decodes all images on all cores. Fails with Error if one cannot be decoded.
+    void decode();
+
+private:
+    GltfFile& file_;
+    Scene& scene_;
+    std::map<std::tuple<int, bool>, int> index_of_;  // glTF texture and its use -> index into scene_.textures
+    std::vector<size_t> image_of_;                   // per element of scene_.textures
+};

@@ -1,0 +1,67 @@
+#include "core/scene/load_scene.h"
+
+#include "core/error.h"
+#include "core/near_miss.h"
+#include "core/scene/scene_file.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> scene_search_path(const std::vector<fs::path>& extra) {
+    std::vector<fs::path> path = extra;
+    if (const char* variable = std::getenv("SSRLAB_SCENE_PATH")) {
+        std::istringstream folders(variable);
+        for (std::string folder; std::getline(folders, folder, ':');)
+            if (!folder.empty()) path.emplace_back(folder);
+    }
+    path.push_back(fs::path(SSRLAB_SOURCE_DIR) / "scenes");
+    return path;
+}
+
+std::vector<std::string> list_scenes(const std::vector<fs::path>& search_path) {
+    std::set<std::string> names;
+    for (const fs::path& folder : search_path) {
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(folder, error))
+            if (fs::exists(entry.path() / "scene.json")) names.insert(entry.path().filename().string());
+    }
+    return {names.begin(), names.end()};
+}
+
+namespace {
+
+/// A camera before the scene, far enough off to see all of it.
+SceneCamera camera_that_sees_all(const Scene& scene) {
+    const auto [low, high] = scene_bounds(scene, pose_scene(scene, 0.0f));
+    const glm::vec3 center = 0.5f * (low + high);
+    const float radius = std::max(0.5f * glm::length(high - low), 1e-6f);
+    SceneCamera camera{.name = "default"};
+    const float distance = radius / std::sin(0.5f * camera.vertical_fov);
+    camera.keys = {{.position = center + glm::normalize(glm::vec3(0.3f, 0.3f, 1.0f)) * distance, .target = center}};
+    camera.near = 0.01f * distance, camera.far = distance + 2.0f * radius;
+    return camera;
+}
+
+Scene load_bare_gltf(const fs::path& file) {
+    Scene scene = load_gltf(file);
+    scene.environment = {.type = Environment::Type::constant, .color = glm::vec3(1.0f)};
+    if (scene.cameras.empty()) scene.cameras.push_back(camera_that_sees_all(scene));
+    finish_scene(scene);
+    return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& name, const std::vector<fs::path>& search_path) {
+    const fs::path direct = name;
+    const std::string extension = direct.extension().string();
+    if (extension == ".gltf" || extension == ".glb") return load_bare_gltf(direct);
+    if (extension == ".json") return load_scene_file(direct, search_path);
+    for (const fs::path& folder : search_path)
+        if (!name.empty() && fs::exists(folder / name / "scene.json")) return load_scene_file(folder / name / "scene.json", search_path);
+    fail("unknown scene '", name, "'", suggestion(name, list_scenes(search_path)));
+}

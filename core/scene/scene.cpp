@@ -1,0 +1,77 @@
+#include "core/scene/scene.h"
+
+#include "core/error.h"
+#include "core/near_miss.h"
+#include "core/scene/animation.h"
+#include "core/scene/transform.h"
+
+#include <algorithm>
+#include <limits>
+
+const SceneCamera& Scene::camera(const std::string& wanted) const {
+    if (cameras.empty()) fail("scene '", name, "' has no camera");
+    if (wanted.empty()) return cameras.front();
+    const auto found = std::ranges::find(cameras, wanted, &SceneCamera::name);
+    if (found != cameras.end()) return *found;
+    std::vector<std::string> names;
+    for (const SceneCamera& camera : cameras) names.push_back(camera.name);
+    fail("scene '", name, "' has no camera '", wanted, "'", suggestion(wanted, names));
+}
+
+size_t Scene::triangle_count() const {
+    size_t count = 0;
+    for (const Instance& instance : instances) count += meshes[instance.mesh].indices.size() / 3;
+    return count;
+}
+
+namespace {
+std::vector<Node> animated_nodes(const Scene& scene, float time) {
+    std::vector<Node> nodes = scene.nodes;
+    for (const AnimationChannel& channel : scene.animation) {
+        Node& node = nodes[channel.node];
+        const glm::vec4 value = sample_channel(channel, time);
+        switch (channel.property) {
+            case AnimationChannel::Property::translation: node.translation = value; break;
+            case AnimationChannel::Property::rotation: node.rotation = value; break;
+            case AnimationChannel::Property::scale: node.scale = value; break;
+        }
+        node.parent_from_node = transform(node.translation, node.rotation, node.scale);
+    }
+    return nodes;
+}
+
+/// KHR_lights_punctual: a light shines along -z of its node and ignores the node's scale.
+PunctualLight posed_light(PunctualLight light, const std::vector<glm::mat4>& world_from_node) {
+    if (light.node < 0) return light;
+    const glm::mat4& world_from_light = world_from_node[size_t(light.node)];
+    light.position = world_from_light[3];
+    light.direction = -glm::normalize(glm::vec3(world_from_light[2]));
+    return light;
+}
+}  // namespace
+
+ScenePose pose_scene(const Scene& scene, float frame) {
+    ScenePose pose;
+    const std::vector<Node> nodes = scene.animation.empty() ? scene.nodes : animated_nodes(scene, frame / scene.frame_rate);
+    for (const Node& node : nodes)
+        pose.world_from_node.push_back(node.parent < 0 ? node.parent_from_node
+                                                       : pose.world_from_node[size_t(node.parent)] * node.parent_from_node);
+    for (const Instance& instance : scene.instances) pose.world_from_instance.push_back(pose.world_from_node[instance.node]);
+    for (const PunctualLight& light : scene.lights) pose.lights.push_back(posed_light(light, pose.world_from_node));
+    return pose;
+}
+
+std::array<glm::vec3, 2> scene_bounds(const Scene& scene, const ScenePose& pose) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    glm::vec3 low(infinity), high(-infinity);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
+        for (const uint32_t index : mesh.indices) {
+            const glm::vec3 position = pose.world_from_instance[i] * glm::vec4(mesh.vertices[index].position, 1.0f);
+            low = glm::min(low, position);
+            high = glm::max(high, position);
+        }
+    }
+    if (low.x > high.x) return {glm::vec3(0.0f), glm::vec3(0.0f)};
+    return {low, high};
+}

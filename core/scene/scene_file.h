@@ -1,0 +1,11 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <filesystem>
+#include <vector>
+
+/// Reads a scene.json; its keys are in scenes/README.md. The scene's name is that of the folder.
+Scene load_scene_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& search_path);
+
+/// The last steps of loading: hides what is hidden, checks the cameras, and makes the content hash.
+void finish_scene(Scene& scene);

@@ -1,0 +1,29 @@
+#include "core/scene/transform.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+namespace {
+glm::quat quaternion(glm::vec4 xyzw) { return {xyzw.w, xyzw.x, xyzw.y, xyzw.z}; }
+glm::vec4 xyzw(glm::quat q) { return {q.x, q.y, q.z, q.w}; }
+}  // namespace
+
+glm::mat4 transform(glm::vec3 translation, glm::vec4 rotation, glm::vec3 scale) {
+    const glm::mat3 turn = glm::mat3_cast(quaternion(rotation));
+    return glm::mat4(glm::vec4(turn[0] * scale.x, 0.0f), glm::vec4(turn[1] * scale.y, 0.0f), glm::vec4(turn[2] * scale.z, 0.0f),
+                     glm::vec4(translation, 1.0f));
+}
+
+void split_transform(const glm::mat4& matrix, glm::vec3& translation, glm::vec4& rotation, glm::vec3& scale) {
+    translation = matrix[3];
+    glm::mat3 axes(matrix);
+    for (int i = 0; i < 3; ++i) scale[i] = glm::length(axes[i]);
+    if (glm::determinant(axes) < 0.0f) scale.x = -scale.x;
+    rotation = {0.0f, 0.0f, 0.0f, 1.0f};
+    if (scale.x == 0.0f || scale.y == 0.0f || scale.z == 0.0f) return;
+    for (int i = 0; i < 3; ++i) axes[i] /= scale[i];
+    rotation = xyzw(glm::normalize(glm::quat_cast(axes)));
+}
+
+glm::vec4 slerp(glm::vec4 from, glm::vec4 to, float t) {
+    return xyzw(glm::normalize(glm::slerp(quaternion(from), quaternion(to), t)));
+}

@@ -1,0 +1,178 @@
+#include "experiments/manifest.h"
+
+#include "core/exr.h"
+#include "core/gpu/clock.h"
+#include "core/gpu/device.h"
+#include "core/png.h"
+#include "experiments/host_info.h"
+#include "groundtruth/path_tracer.h"
+#include "groundtruth/reference_error.h"
+#include "metrics/color_map.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+/// Letters, digits, '.', '_' and '-' stay; the rest becomes '-'.
+std::string file_name(std::string text) {
+    for (char& c : text)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '_' && c != '-') c = '-';
+    return text;
+}
+
+nlohmann::json clock_entry(const ClockProof& proof) {
+    nlohmann::json checks = nlohmann::json::array();
+    for (const ClockCheck& c : proof.checks)
+        checks.push_back({{"stage_kind", c.stage_kind}, {"expected", c.expected}, {"measured_ms", c.measured_ms}, {"ratio", c.ratio}, {"passed", c.passed}});
+    return {{"method", proof.method}, {"empty_submit_ms", proof.empty_submit_ms}, {"proof", checks}};
+}
+
+nlohmann::json variant_entries(const Config& config) {
+    nlohmann::json entries = nlohmann::json::array();
+    for (const VariantConfig& v : config.variants) {
+        const VariantEntry& entry = find_variant(v.variant);
+        entries.push_back({{"variant", v.variant}, {"point", v.point}, {"title", entry.title}, {"source", entry.source},
+                           {"parameters", make_variant(v.variant, v.parameters, v.preset)->params.values()}});
+    }
+    return entries;
+}
+
+/// Writes one image as EXR (half: results are looked at, and measured in float32) and PNG.
+nlohmann::json save_image(const std::filesystem::path& out, const std::string& folder, const std::string& name, const HostImage& rgb, float exposure_ev, nlohmann::json entry) {
+    const std::string stem = "images/" + file_name(folder) + "/" + file_name(name);
+    write_exr(out / (stem + ".exr"), rgb, PixelType::half);
+    write_png(out / (stem + ".png"), rgb, exposure_ev);
+    entry["exr"] = stem + ".exr";
+    entry["png"] = stem + ".png";
+    return entry;
+}
+
+HostImage repeated_channel(const HostImage& source) {
+    HostImage rgb(source.extent, 3);
+    for (size_t i = 0; i < rgb.pixel_count(); ++i)
+        for (size_t c = 0; c < 3; ++c) rgb.values[i * 3 + c] = source.values[i];
+    return rgb;
+}
+
+HostImage first_three(const HostImage& source) {
+    HostImage rgb(source.extent, 3);
+    for (size_t i = 0; i < rgb.pixel_count(); ++i)
+        for (size_t c = 0; c < 3; ++c) rgb.values[i * 3 + c] = source.values[i * source.channels + c];
+    return rgb;
+}
+
+/// |test - reference| / (|reference| + 1 % of the mean), mean over channels; shown with magma from 0 to 1.
+HostImage relative_error_map(const HostImage& test, const HostImage& reference) {
+    double mean = 0;
+    for (const float v : reference.values) mean += v;
+    mean = std::max(mean / double(reference.values.size()), 1e-20);
+    Plane map(reference.extent);
+    for (size_t i = 0; i < map.values.size(); ++i)
+        for (size_t c = 0; c < 3; ++c) {
+            const double r = reference.values[i * 3 + c], x = test.values[i * 3 + c];
+            map.values[i] += std::abs(x - r) / (std::abs(r) + 0.01 * mean) / 3.0;
+        }
+    return false_color(map, 1.0);
+}
+
+}  // namespace
+
+nlohmann::json study_entry(const Config& config, Device& device) {
+    const ClockProof clock = prove_clock(device);
+    const DeviceInfo& d = device.info();
+    nlohmann::json warnings = nlohmann::json::array();
+    if (!clock.passed()) warnings.push_back("the clock did not prove itself: passes of 1 : 10 : 100 work took other times, so no time of this run can be trusted (is the machine busy?)");
+    if (config.direct_lit) warnings.push_back("SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
+    return {{"ssrlab", build_info()},
+            {"title", config.title},
+            {"started", time_stamp()},
+            {"config", config.source},
+            {"device", {{"name", d.name}, {"driver", d.driver}, {"api", d.api}, {"type", d.type}, {"memory_mib", d.memory_mib}}},
+            {"host", host_info()},
+            {"clock", clock_entry(clock)},
+            {"warnings", warnings},
+            {"shots", nlohmann::json::array()},
+            {"variants", variant_entries(config)},
+            {"images", nlohmann::json::array()}};
+}
+
+nlohmann::json left_out_entry(const LeftOut& part) { return {{"what", part.what}, {"fact", part.fact}, {"why", part.why}, {"saved_ms", nullptr}}; }
+
+nlohmann::json shot_entry(const Shot& shot, unsigned frame, const Reference& reference, const FrameTruth& truth, const Config& config) {
+    nlohmann::json needs = nlohmann::json::array(), left_out = nlohmann::json::array();
+    for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) needs.push_back({{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}});
+    const ShotFrame now = shot_frame(shot, frame);
+    const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
+    for (const LeftOut& part : tracer.left_out()) left_out.push_back(left_out_entry(part));
+    for (const VariantConfig& v : config.variants)
+        for (const LeftOut& part : make_variant(v.variant, v.parameters, v.preset)->leave_out(shot.facts)) {
+            nlohmann::json entry = left_out_entry(part);
+            if (std::ranges::find(left_out, entry) == left_out.end()) left_out.push_back(entry);
+        }
+    std::vector<float> samples = reference.sample_count.values;
+    std::ranges::nth_element(samples, samples.begin() + long(samples.size() / 2));
+    const ErrorSummary error = relative_error_summary(reference, reference.specular);
+    return {{"shot", shot.name(frame)},
+            {"scene", shot.scene.name},
+            {"camera", shot.camera.name},
+            {"frame", frame},
+            {"width", shot.config.extent.x},
+            {"height", shot.config.extent.y},
+            {"exposure_ev", shot.camera.exposure_ev},
+            {"flip_exposures", {truth.flip_exposures.start, truth.flip_exposures.stop, truth.flip_exposures.count}},
+            {"lit", config.direct_lit ? "direct" : "path_traced"},
+            {"warnings", shot.scene.warnings},
+            {"needs", needs},
+            {"left_out", left_out},
+            {"reference",
+             {{"hash", reference.hash},
+              {"samples_median", samples[samples.size() / 2]},
+              {"passes", reference.passes},
+              {"seconds", reference.seconds},
+              {"rays", reference.rays},
+              {"max_depth", config.reference.max_depth},
+              {"target_relative_error", config.reference.target_relative_error},
+              {"relative_error", {{"median", error.median}, {"p95", error.p95}, {"mean", error.mean}}},
+              {"reached_share", reference.reached_share},
+              {"non_finite_samples", reference.non_finite_samples},
+              {"from_cache", reference.from_cache}}}};
+}
+
+CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite) {
+    const HostImage radiance = graph.download(reflections.radiance), fallback = graph.download(gbuffer.fallback);
+    CompositedImages images{.specular = first_three(graph.download(composite.specular)), .incident = HostImage(radiance.extent, 3), .confidence = graph.download(reflections.confidence)};
+    for (size_t i = 0; i < images.incident.pixel_count(); ++i)
+        for (size_t c = 0; c < 3; ++c) {
+            const float a = images.confidence.values[i], from = fallback.values[i * fallback.channels + c], to = radiance.values[i * radiance.channels + c];
+            images.incident.values[i * 3 + c] = a == 0.0f ? from : from * (1.0f - a) + to * a;
+        }
+    return images;
+}
+
+std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot, const Reference& reference, float exposure_ev) {
+    std::vector<nlohmann::json> entries;
+    for (const auto& [target, output] : {std::pair("image", &reference.image), {"specular", &reference.specular}, {"incident", &reference.incident}})
+        entries.push_back(save_image(out, shot, std::string("reference.") + target, output->mean, exposure_ev,
+                                     {{"shot", shot}, {"variant", "reference"}, {"kind", "reference"}, {"target", target}}));
+    return entries;
+}
+
+std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row, const FrameTruth& truth, const CompositedImages& images, float exposure_ev) {
+    const std::string name = row.variant + "." + row.point + ".s" + std::to_string(row.seed);
+    const nlohmann::json base = {{"shot", row.shot}, {"variant", row.variant}, {"point", row.point}, {"seed", row.seed}};
+    std::vector<nlohmann::json> entries;
+    const auto save = [&](const char* kind, const char* target, const HostImage& rgb, float ev) {
+        nlohmann::json entry = base;
+        entry["kind"] = kind, entry["target"] = target;
+        entries.push_back(save_image(out, row.shot, name + "." + kind + "." + target, rgb, ev, entry));
+    };
+    const HostImage image = composited_image(truth, images);
+    save("result", "image", image, exposure_ev);
+    save("result", "specular", images.specular, exposure_ev);
+    save("result", "incident", images.incident, exposure_ev);
+    save("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
+    for (const auto& [target, reference] : truth.targets) save("error", target.c_str(), relative_error_map(target == "image" ? image : target == "incident" ? images.incident : images.specular, reference.image), 0.0f);
+    return entries;
+}

@@ -1,0 +1,78 @@
+// The commands that need no Vulkan device: reference, compare, needs, figures.
+#include "core/error.h"
+#include "core/gbuffer/scene_facts.h"
+#include "core/scene/load_scene.h"
+#include "experiments/commands.h"
+#include "experiments/progress.h"
+#include "experiments/shot.h"
+#include "groundtruth/path_tracer.h"
+#include "groundtruth/reference_cache.h"
+#include "groundtruth/reference_error.h"
+#include "groundtruth/reference_file.h"
+#include "metrics/compare.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+namespace {
+
+Shot load_single_shot(const ShotOptions& options, const CommonOptions& common) {
+    const ShotConfig config{.scene = options.scene, .camera = options.camera, .extent = {options.size[0], options.size[1]}, .frames = {options.frame}};
+    return load_shot(config, scene_search_path(common.scene_path));
+}
+
+}  // namespace
+
+void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common) {
+    const Shot shot = load_single_shot(options.shot, common);
+    for (const std::string& warning : shot.scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    const ShotFrame frame = shot_frame(shot, options.shot.frame);
+
+    Progress progress(1.0);
+    ReferenceRun run;
+    run.progress = [&](double fraction, double rays_per_second, double) {
+        char what[64];
+        std::snprintf(what, sizeof what, "%.2f Mray/s", rays_per_second * 1e-6);
+        progress.update(fraction, what);
+    };
+    run.notice = [&](const std::string& text) { progress.say("note: " + text); };
+    Reference reference = cached_reference(shot.scene, frame.scene, frame.camera, shot.config.extent, options.settings,
+                                           common.cache.empty() ? default_cache_folder() : common.cache, run);
+    const std::filesystem::path out = options.out.empty() ? std::filesystem::path(shot.scene.name + "_reference.exr") : options.out;
+    const ErrorSummary error = relative_error_summary(reference, reference.specular);
+    write_reference(out, reference, options.settings);
+
+    progress.say(out.string() + (reference.from_cache ? " (from the cache)" : ""));
+    std::printf("passes %s samples per pixel, %s, %.3g Gray\n", reference.passes.c_str(), format_duration(reference.seconds).c_str(), reference.rays * 1e-9);
+    std::printf("relative standard error of the specular light at a pixel: median %.2f %%, 95 %% of pixels below %.2f %%\n", 100 * error.median, 100 * error.p95);
+    if (options.settings.target_relative_error > 0) std::printf("%.1f %% of the pixels reached the target\n", 100 * reference.reached_share);
+    if (reference.non_finite_samples) std::printf("warning: %llu samples were not finite and count as zero\n", (unsigned long long)reference.non_finite_samples);
+}
+
+void compare_images_command(const CompareCommandOptions& options) {
+    const Comparison result = compare({.reference = options.reference, .test = options.test, .metrics = options.metrics, .map = options.map, .settings = {}});
+    if (options.as_json)
+        std::cout << to_json(result).dump(2) << '\n';
+    else
+        print(result, std::cout, std::cerr);
+}
+
+void needs_command(const ShotOptions& options, const CommonOptions& common) {
+    const Shot shot = load_single_shot(options, common);
+    std::printf("%s, camera %s\n\n", shot.scene.name.c_str(), shot.camera.name.c_str());
+    for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) std::printf("  %-22s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
+    std::printf("\nLeft out, since nothing here needs it:\n");
+    const ShotFrame frame = shot_frame(shot, options.frame);
+    const PathTracer tracer(shot.scene, frame.scene, frame.camera, shot.config.extent, {});
+    for (const LeftOut& part : tracer.left_out()) std::printf("  path tracer: %s (%s): %s\n", part.what.c_str(), part.fact.c_str(), part.why.c_str());
+    for (const std::string& warning : shot.scene.warnings) std::printf("warning: %s\n", warning.c_str());
+}
+
+int figures_command(const FiguresOptions& options) {
+    if (!std::filesystem::exists(options.results / "manifest.json"))
+        fail(options.results.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
+    const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
+    const std::string command = "python3 '" SSRLAB_SOURCE_DIR "/experiments/figures.py' '" + options.results.string() + "' --out '" + out.string() + "'";
+    return std::system(command.c_str()) == 0 ? 0 : 3;
+}
