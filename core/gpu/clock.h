@@ -8,7 +8,7 @@
 struct ClockCheck {
     std::string stage_kind;  ///< "compute", "fragment", "fragment after compute"
     std::vector<double> expected{1, 10, 100};
-    std::vector<double> measured_ms;  ///< medians, less the empty submit on a CPU
+    std::vector<double> measured_ms;  ///< shortest of several, less that of the same pass without work
     std::vector<double> ratio;        ///< measured_ms over that of the largest work, times 100
     bool passed = false;
 };
@@ -25,6 +25,6 @@ struct ClockProof {
 /// more; a machine that is busy with other things, or clocks up during the measurement, by less than 2.
 inline constexpr double clock_tolerance = 2.0;
 
-/// Takes one to three seconds on four cores.
+/// Takes three to six seconds on four cores.
 ClockProof prove_clock(Device& device);
 ClockProof prove_clock(Device& device, Clock clock);

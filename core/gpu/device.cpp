@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/device_impl.h"
+#include "core/gpu/pipeline.h"
 #include "core/near_miss.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace {
 
 const char* const validation_layer = "VK_LAYER_KHRONOS_validation";
-const char* const install_hint = "install a driver (on Debian: apt-get install mesa-vulkan-drivers)";
+const char* const no_device = "there is no Vulkan 1.3 device: install a driver (on Debian: apt-get install mesa-vulkan-drivers)";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
@@ -35,12 +36,16 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate
     const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
     if (validate && !has_layer(context, validation_layer))
         fail_machine("the Vulkan validation layer is asked for but not installed (on Debian: apt-get install vulkan-validationlayers)");
-    return {context, vk::InstanceCreateInfo{.pNext = validate ? &features : nullptr,
-                                            .pApplicationInfo = &application,
-                                            .enabledLayerCount = validate ? 1u : 0u,
-                                            .ppEnabledLayerNames = &validation_layer,
-                                            .enabledExtensionCount = validate ? 1u : 0u,
-                                            .ppEnabledExtensionNames = extensions}};
+    try {
+        return {context, vk::InstanceCreateInfo{.pNext = validate ? &features : nullptr,
+                                                .pApplicationInfo = &application,
+                                                .enabledLayerCount = validate ? 1u : 0u,
+                                                .ppEnabledLayerNames = &validation_layer,
+                                                .enabledExtensionCount = validate ? 1u : 0u,
+                                                .ppEnabledExtensionNames = extensions}};
+    } catch (const vk::IncompatibleDriverError&) {  // what the loader says when it finds no driver at all
+        fail_machine(no_device);
+    }
 }
 
 std::string version_text(uint32_t version) {
@@ -86,7 +91,7 @@ std::string lower(std::string text) {
 }
 
 size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice) {
-    if (devices.empty()) fail_machine("there is no Vulkan 1.3 device: ", install_hint);
+    if (devices.empty()) fail_machine(no_device);
     if (choice.empty()) {
         for (const char* type : {"discrete", "integrated", "virtual"})
             if (const auto found = std::ranges::find(devices, type, &DeviceInfo::type); found != devices.end()) return size_t(found - devices.begin());
@@ -125,7 +130,7 @@ std::vector<DeviceInfo> list_devices() {
         const vk::raii::Instance instance = make_instance(context, false);
         std::vector<DeviceInfo> devices;
         for (const auto& gpu : usable_devices(instance)) devices.push_back(describe(gpu));
-        if (devices.empty()) fail_machine("there is no Vulkan 1.3 device: ", install_hint);
+        if (devices.empty()) fail_machine(no_device);
         return devices;
     });
 }
@@ -155,18 +160,25 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         const auto family = std::ranges::find_if(families, does_all);
         if (family == families.end()) fail_machine("the Vulkan device '", d.info.name, "' has no queue for graphics and compute");
         d.queue_family = uint32_t(family - families.begin());
+        d.timestamp_bits = family->timestampValidBits;
 
         const float priority = 1;
         const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = d.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
         const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
-        vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
-        const vk::PhysicalDeviceFeatures v10{.independentBlend = true, .fragmentStoresAndAtomics = true, .shaderStorageImageWriteWithoutFormat = true};
+        // Reads beyond an image give zeros, as the Direct3D originals of several techniques expect.
+        vk::PhysicalDeviceVulkan13Features v13{.robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+        const vk::PhysicalDeviceFeatures v10{.robustBufferAccess = true,
+                                             .independentBlend = true,
+                                             .fragmentStoresAndAtomics = true,
+                                             .shaderStorageImageExtendedFormats = true,
+                                             .shaderStorageImageWriteWithoutFormat = true};
         d.device = {d.gpu, vk::DeviceCreateInfo{.pNext = &v13, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue,
                                                 .enabledExtensionCount = 1, .ppEnabledExtensionNames = extensions, .pEnabledFeatures = &v10}};
         d.queue = d.device.getQueue(d.queue_family, 0);
         d.pool = {d.device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = d.queue_family}};
         d.commands = std::move(vk::raii::CommandBuffers(d.device, vk::CommandBufferAllocateInfo{.commandPool = *d.pool, .commandBufferCount = 1}).front());
         d.fence = {d.device, vk::FenceCreateInfo{}};
+        d.pipelines = std::make_shared<PipelineCache>(d);
     });
 }
 

@@ -25,12 +25,14 @@ struct Device::Impl {
     vk::raii::PhysicalDevice gpu{nullptr};
     DeviceInfo info;
     uint32_t queue_family = 0;
-    float nanoseconds_per_tick = 1;  ///< of time stamps
+    float nanoseconds_per_tick = 1;   ///< of time stamps
+    uint32_t timestamp_bits = 0;      ///< 0: the queue cannot write time stamps
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
     vk::raii::CommandPool pool{nullptr};
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence fence{nullptr};
+    std::shared_ptr<class PipelineCache> pipelines;  ///< shared by all graphs: compiling costs 0.1 s and more per shader
 
     /// A graph that has recorded and not yet submitted; others call this before they start, so that work keeps its order.
     std::function<void()> flush_recording;
@@ -54,6 +56,7 @@ struct DeviceBuffer {
 };
 
 struct ImageStorage {
+    vk::FormatFeatureFlags features;           ///< what the device can do with the format
     vk::raii::Image image{nullptr};
     vk::raii::DeviceMemory memory{nullptr};
     vk::raii::ImageView whole{nullptr};        ///< all mips; for sampling: the depth aspect only

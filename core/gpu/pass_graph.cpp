@@ -44,7 +44,7 @@ struct PassGraph::Impl {
     Device::Impl& gpu;
     glm::uvec2 extent;
     Clock clock;
-    PipelineCache pipelines;
+    PipelineCache& pipelines;
     DeviceBuffer uniforms;
     std::map<std::string, Image> images, inputs;
     std::map<std::string, Buffer> buffers;
@@ -61,14 +61,19 @@ struct PassGraph::Impl {
     std::vector<std::string> recorded;
 
     Impl(Device& d, glm::uvec2 e, Clock c)
-        : device(d), gpu(d.impl()), extent(e), clock(c), pipelines(gpu), uniforms(gpu, uniforms_size, vk::BufferUsageFlagBits::eUniformBuffer, true) {
+        : device(d), gpu(d.impl()), extent(e), clock(c), pipelines(*gpu.pipelines), uniforms(gpu, uniforms_size, vk::BufferUsageFlagBits::eUniformBuffer, true) {
         if (clock == Clock::host_fence) return;
+        if (gpu.timestamp_bits == 0) fail_machine("the Vulkan device '", gpu.info.name, "' has no time stamps");
         commands = std::move(vk::raii::CommandBuffers(gpu.device, vk::CommandBufferAllocateInfo{.commandPool = *gpu.pool, .commandBufferCount = 1}).front());
         fence = {gpu.device, vk::FenceCreateInfo{}};
         queries = {gpu.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * max_stages}};
     }
     ~Impl() {
-        if (!recorded.empty()) gpu.flush_recording = nullptr;
+        try {
+            flush();  // images may outlive the graph
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "%s\n", error.what());
+        }
     }
 
     void execute(const std::string& stage, const std::function<void(const vk::raii::CommandBuffer&)>& record);
@@ -78,6 +83,7 @@ struct PassGraph::Impl {
     const vk::raii::Sampler& sampler(const Sampling& sampling);
     void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
     void check(const Pass& pass, const ShaderInterface& interface);
+    void check_features(const Image& image, ShaderInterface::Kind kind, const Sampling& sampling);
     void bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw, const Pipeline& pipeline);
     void draw(const vk::raii::CommandBuffer& commands, const Pass& pass, const Pipeline& pipeline, const std::vector<Image>& attachments);
     [[noreturn]] void fail_missing(const Pass& pass, const std::string& name);
@@ -102,15 +108,20 @@ Image PassGraph::image_of(const std::string& name, Format format, glm::uvec2 ext
     if (extent.x == 0 || extent.y == 0) fail("image '", name, "' has zero size");
     const auto [entry, is_new] = impl_->images.try_emplace(name);
     Image& image = entry->second;
-    if (is_new || image.format != format || image.extent != extent || image.mips != mips)
+    if (is_new || image.format != format || image.extent != extent || image.mips != mips) {
+        impl_->flush();  // recorded passes may use the one that it replaces
         image = {.name = name, .format = format, .extent = extent, .mips = mips, .storage = create_image(impl_->gpu, format, extent, mips)};
+    }
     return image;
 }
 
 Buffer PassGraph::buffer(const std::string& name, size_t bytes) {
     if (bytes == 0 || bytes % 4) fail("buffer '", name, "' has ", bytes, " bytes; it takes a positive multiple of 4");
     const auto [entry, is_new] = impl_->buffers.try_emplace(name);
-    if (is_new || entry->second.size != bytes) entry->second = {.name = name, .size = bytes, .storage = create_buffer(impl_->gpu, bytes)};
+    if (is_new || entry->second.size != bytes) {
+        impl_->flush();
+        entry->second = {.name = name, .size = bytes, .storage = create_buffer(impl_->gpu, bytes)};
+    }
     return entry->second;
 }
 
@@ -272,9 +283,11 @@ void PassGraph::Impl::flush() {
     commands.end();
     const std::vector<std::string> stages = std::exchange(recorded, {});
     gpu.submit_and_wait(commands, fence);
-    const auto [result, ticks] = queries.getResults<uint64_t>(0, uint32_t(2 * stages.size()), 2 * stages.size() * sizeof(uint64_t), sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    auto [result, ticks] = queries.getResults<uint64_t>(0, uint32_t(2 * stages.size()), 2 * stages.size() * sizeof(uint64_t), sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     if (result != vk::Result::eSuccess) fail_machine("the Vulkan device '", gpu.info.name, "' gave no time stamps");
     const double milliseconds_per_tick = gpu.nanoseconds_per_tick * 1e-6;
+    if (gpu.timestamp_bits < 64)
+        for (uint64_t& tick : ticks) tick &= (uint64_t(1) << gpu.timestamp_bits) - 1;
     for (size_t i = 0; i < stages.size(); ++i) add_time(stages[i], double(ticks[2 * i + 1] - ticks[2 * i]) * milliseconds_per_tick);
     frame_milliseconds += double(ticks.back() - ticks.front()) * milliseconds_per_tick;
 }
@@ -377,6 +390,15 @@ void PassGraph::Impl::check(const Pass& pass, const ShaderInterface& interface) 
         if (!interface.push_offsets.contains(push.name)) fail("pass ", pass.label_, " sets '", push.name, "', which is no member of the push_constant block of ", pass.shader_);
 }
 
+/// Not every device filters or stores every format.
+void PassGraph::Impl::check_features(const Image& image, ShaderInterface::Kind kind, const Sampling& sampling) {
+    using Feature = vk::FormatFeatureFlagBits;
+    const vk::FormatFeatureFlags features = image.storage->features;
+    const char* missing = kind == ShaderInterface::Kind::image ? (features & Feature::eStorageImage ? nullptr : "write it from shaders")
+                          : sampling.is_linear && !(features & Feature::eSampledImageFilterLinear) ? "filter it" : nullptr;
+    if (missing) fail_machine("image '", image.name, "' has the format ", vk::to_string(vulkan_format(image.format)), ", and the Vulkan device '", gpu.info.name, "' cannot ", missing);
+}
+
 void PassGraph::Impl::bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw, const Pipeline& pipeline) {
     using Kind = ShaderInterface::Kind;
     std::vector<vk::DescriptorImageInfo> image_infos;
@@ -404,6 +426,7 @@ void PassGraph::Impl::bind(const vk::raii::CommandBuffer& commands, const Pass& 
             if (!image) fail_missing(pass, r.name);
             const bool is_sampled = r.kind == Kind::sampler;
             if (is_sampled && !image->storage->is_written) fail("pass ", pass.label_, " reads '", r.name, "', which nothing has written yet");
+            check_features(*image, r.kind, sampling);
             const bool is_one_mip = !is_sampled || image->mips == 1;
             const vk::ImageView view = is_one_mip ? *image->storage->mips[image->first_mip] : *image->storage->whole;
             image_infos.push_back({is_sampled ? *sampler(sampling) : vk::Sampler{}, view, vk::ImageLayout::eGeneral});

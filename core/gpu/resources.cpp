@@ -36,10 +36,9 @@ void full_barrier(const vk::raii::CommandBuffer& commands) {
 namespace {
 
 /// What the device can do with the format: not every format can be stored to or rendered to.
-vk::ImageUsageFlags usage_of(Device::Impl& gpu, Format format) {
+vk::ImageUsageFlags usage_of(vk::FormatFeatureFlags features) {
     using Usage = vk::ImageUsageFlagBits;
     using Feature = vk::FormatFeatureFlagBits;
-    const vk::FormatFeatureFlags features = gpu.gpu.getFormatProperties(vulkan_format(format)).optimalTilingFeatures;
     vk::ImageUsageFlags usage = Usage::eTransferSrc | Usage::eTransferDst | Usage::eSampled;
     if (features & Feature::eStorageImage) usage |= Usage::eStorage;
     if (features & Feature::eColorAttachment) usage |= Usage::eColorAttachment;
@@ -61,7 +60,8 @@ std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm
     auto storage = std::make_shared<ImageStorage>();
     storage->aspect = aspect_of(format);
     const vk::Format vk_format = vulkan_format(format);
-    const vk::ImageUsageFlags usage = usage_of(gpu, format);
+    storage->features = gpu.gpu.getFormatProperties(vk_format).optimalTilingFeatures;
+    const vk::ImageUsageFlags usage = usage_of(storage->features);
     const bool is_depth = bool(storage->aspect & vk::ImageAspectFlagBits::eDepth);
     if (is_depth && !(usage & vk::ImageUsageFlagBits::eDepthStencilAttachment))
         fail_machine("the Vulkan device '", gpu.info.name, "' has no depth format ", vk::to_string(vk_format), "; choose another depth format");
