@@ -73,6 +73,6 @@ int figures_command(const FiguresOptions& options) {
     if (!std::filesystem::exists(options.results / "manifest.json"))
         fail(options.results.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
     const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
-    const std::string command = "python3 '" SSRLAB_SOURCE_DIR "/experiments/figures.py' '" + options.results.string() + "' --out '" + out.string() + "'";
+    const std::string command = "'" SSRLAB_PYTHON "' '" SSRLAB_SOURCE_DIR "/experiments/figures.py' '" + options.results.string() + "' --out '" + out.string() + "'";
     return std::system(command.c_str()) == 0 ? 0 : 3;
 }

@@ -95,18 +95,19 @@ function setLayout(layout) {
     viewer.panes[0]?.canvas.focus({ preventScroll: true });
 }
 
-/// Makes the panes that the layout asks for: those of the images, then those of their errors.
+/// Makes the panes that the layout asks for: one per image, with that of its error below it if asked for.
 function layOut() {
     for (const name of ["side", "flip"]) at("layout-" + name).setAttribute("aria-pressed", viewer.layout === name);
     at("panes").classList.toggle("flip", viewer.layout === "flip");
     at("viewer-images").hidden = viewer.layout === "flip" && viewer.images.length === 1;
     const shown = viewer.layout === "flip" ? [viewer.images[viewer.active]] : viewer.images.filter(i => viewer.visible.has(i));
-    const wanted = shown.map(image => ({ image, mode: viewer.mode }));
-    if (viewer.hasErrorRow && reference()) wanted.push(...shown.filter(i => i !== reference()).map(image => ({ image, mode: "absolute" })));
+    const hasError = image => viewer.hasErrorRow && reference() && image !== reference();
+    const columns = shown.map(image => [{ image, mode: viewer.mode }, ...(hasError(image) ? [{ image, mode: "absolute" }] : [])]);
+    const wanted = columns.flat();
     while (viewer.panes.length < wanted.length) viewer.panes.push(newPane());
     viewer.panes.length = wanted.length;
     viewer.panes.forEach((pane, i) => Object.assign(pane, { wanted: wanted[i] }));
-    at("panes").replaceChildren(...viewer.panes.map(p => p.element));
+    at("panes").replaceChildren(...columns.map(column => h("div", {}, viewer.panes.filter(p => column.includes(p.wanted)).map(p => p.element))));
     paint();
 }
 
