@@ -7,6 +7,13 @@
 #include <array>
 #include <tbb/parallel_for.h>
 
+/// Compiled twice, for processors with and without 8-wide arithmetic; the one that suits is chosen when the program starts.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+#define SSRLAB_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define SSRLAB_WIDE
+#endif
+
 namespace {
 
 /// A node is fine enough where its radius is below this share of the distance over which the kernel changes: with 0.3,
@@ -23,11 +30,10 @@ struct Lobe {
     /// `q` = sin^2 of half the angle to the axis. `sharpness` = 1 / width of the node: nodes cut by the horizon count by
     /// the share above it.
     float density(float q, float sharpness) const {
-        const float cosine = 1 - 2 * q;
-        if (alpha == 0) return std::max(cosine, 0.0f);
         const float a2 = alpha * alpha;
         const float d = a2 / (q + a2 * (1 - q));
-        return d * d * std::min(std::max(0.5f + cosine * sharpness, 0.0f), 1.0f);
+        const float above = 0.5f + (1 - 2 * q) * sharpness;
+        return d * d * 0.5f * (1 + std::abs(above) - std::abs(above - 1));  // above clamped to [0, 1], in a form GCC vectorises
     }
 
     /// Angle (rad) over which the density changes much, at an angular distance from the axis.
@@ -47,24 +53,31 @@ struct Block {
 
 /// Adds one node to all texels of the block. Area counts where the light is, so that light and weight err together: a
 /// constant environment comes out exactly.
-void add_node(Block& block, const EnvironmentTree::Level& level, size_t i, const Lobe& lobe) {
+SSRLAB_WIDE void add_node(Block& block, const EnvironmentTree::Level& level, size_t i, const Lobe lobe) {
     const glm::vec3 light = level.flux_centre[i], flux = level.flux[i];
     const float solid_angle = level.solid_angle[i], sharpness = 0.5f / level.radius[i];
+    float q[block_texels], density[block_texels];
     for (unsigned t = 0; t < block_texels; ++t) {
         const float x = light.x - block.x[t], y = light.y - block.y[t], z = light.z - block.z[t];
-        const float density = lobe.density(0.25f * (x * x + y * y + z * z), sharpness);
-        block.red[t] += density * flux.x;
-        block.green[t] += density * flux.y;
-        block.blue[t] += density * flux.z;
-        block.weight[t] += density * solid_angle;
+        q[t] = 0.25f * (x * x + y * y + z * z);
+    }
+    if (lobe.alpha == 0)
+        for (unsigned t = 0; t < block_texels; ++t) density[t] = std::max(1 - 2 * q[t], 0.0f);
+    else
+        for (unsigned t = 0; t < block_texels; ++t) density[t] = lobe.density(q[t], sharpness);
+    for (unsigned t = 0; t < block_texels; ++t) {
+        block.red[t] += density[t] * flux.x;
+        block.green[t] += density[t] * flux.y;
+        block.blue[t] += density[t] * flux.z;
+        block.weight[t] += density[t] * solid_angle;
     }
 }
 
 void gather(Block& block, const EnvironmentTree& tree, size_t depth, unsigned x, unsigned y, const Lobe& lobe) {
     const EnvironmentTree::Level& level = tree.levels[depth];
     const size_t i = level.index(x, y);
-    const float angle = std::acos(std::clamp(glm::dot(level.centre[i], block.centre), -1.0f, 1.0f));
-    const float distance = std::max(0.0f, angle - block.radius - level.radius[i]);
+    // A chord is shorter than its angle, so this errs to the finer side.
+    const float distance = std::max(0.0f, glm::length(level.centre[i] - block.centre) - block.radius - level.radius[i]);
     if (depth == 0 || level.radius[i] < max_relative_radius * lobe.scale(distance)) {
         add_node(block, level, i, lobe);
         return;

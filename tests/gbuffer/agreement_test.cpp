@@ -110,7 +110,7 @@ const Case cases[] = {
     {"perspective", "main", 0, DepthDirection::standard, DepthFormat::d32f},
     {"reversed, moving", "main", 7, DepthDirection::reversed, DepthFormat::d32f},
     {"d24, moving", "main", 12, DepthDirection::standard, DepthFormat::d24},
-    {"d24 reversed, moving", "main", 3, DepthDirection::reversed, DepthFormat::d24},
+    {"d24 reversed, moving", "main", 20, DepthDirection::reversed, DepthFormat::d24},
     {"d16", "main", 0, DepthDirection::standard, DepthFormat::d16},
     {"d16 reversed", "main", 0, DepthDirection::reversed, DepthFormat::d16},
     {"orthographic", "orthographic", 5, DepthDirection::standard, DepthFormat::d32f},
