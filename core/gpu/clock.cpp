@@ -27,8 +27,8 @@ void add_work(PassGraph& graph, bool is_compute, int iterations, const std::stri
     pass.write(result).set("iterations", iterations).label(label).run();
 }
 
-/// The shortest of `repeats` times of each pass, each frame running all of them. Other load only ever adds to work that is
-/// always the same, so the shortest time is the one to compare.
+/// The shortest of `repeats` times of each pass, each frame running all of them. Other load only ever adds to work that
+/// is always the same, so the shortest time is the one to compare.
 std::vector<double> shortest_times(PassGraph& graph, const std::string& kind, const std::vector<int>& iterations) {
     const ParameterSet none;
     std::vector<double> shortest(iterations.size(), INFINITY);
@@ -87,10 +87,15 @@ double measure_empty(Device& device, Clock clock) {
 
 bool ClockProof::passed() const { return std::ranges::all_of(checks, &ClockCheck::passed); }
 
-ClockProof prove_clock(Device& device) { return prove_clock(device, device.info().is_cpu() ? Clock::host_fence : Clock::gpu_timestamp); }
+ClockProof prove_clock(Device& device) {
+    return prove_clock(device, device.info().is_cpu() ? Clock::host_fence : Clock::gpu_timestamp);
+}
 
 ClockProof prove_clock(Device& device, Clock clock) {
-    ClockProof proof{.method = clock == Clock::host_fence ? "host_fence" : "gpu_timestamp", .empty_submit_ms = measure_empty(device, clock), .checks = {}};
-    for (const char* kind : {"compute", "fragment", "fragment after compute"}) proof.checks.push_back(check(device, clock, kind));
+    ClockProof proof{.method = clock == Clock::host_fence ? "host_fence" : "gpu_timestamp",
+                     .empty_submit_ms = measure_empty(device, clock),
+                     .checks = {}};
+    for (const char* kind : {"compute", "fragment", "fragment after compute"})
+        proof.checks.push_back(check(device, clock, kind));
     return proof;
 }

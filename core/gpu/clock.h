@@ -15,14 +15,15 @@ struct ClockCheck {
 
 /// Says whether the clock can be trusted: work of 1 : 10 : 100 must take time in that ratio, within `clock_tolerance`.
 struct ClockProof {
-    std::string method;          ///< "host_fence" or "gpu_timestamp"
-    double empty_submit_ms = 0;  ///< what submitting nothing and waiting for it takes: the floor of every stage on a CPU
+    std::string method;  ///< "host_fence" or "gpu_timestamp"
+    double empty_submit_ms =
+        0;  ///< what submitting nothing and waiting for it takes: the floor of every stage on a CPU
     std::vector<ClockCheck> checks;
     bool passed() const;
 };
 
-/// A ratio may be off by this factor either way. A stamp that misses the work, or encloses the neighbour's, is off by 10 or
-/// more; a machine that is busy with other things, or clocks up during the measurement, by less than 2.
+/// A ratio may be off by this factor either way. A stamp that misses the work, or encloses the neighbour's, is off by
+/// 10 or more; a machine that is busy with other things, or clocks up during the measurement, by less than 2.
 inline constexpr double clock_tolerance = 2.0;
 
 /// Takes three to six seconds on four cores.

@@ -14,7 +14,8 @@
 namespace {
 
 const char* const validation_layer = "VK_LAYER_KHRONOS_validation";
-const char* const no_device = "there is no Vulkan 1.3 device: install a driver (on Debian: apt-get install mesa-vulkan-drivers)";
+const char* const no_device =
+    "there is no Vulkan 1.3 device: install a driver (on Debian: apt-get install mesa-vulkan-drivers)";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
@@ -26,7 +27,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
 }
 
 bool has_layer(const vk::raii::Context& context, const char* name) {
-    return std::ranges::any_of(context.enumerateInstanceLayerProperties(), [&](const auto& layer) { return std::strcmp(layer.layerName, name) == 0; });
+    return std::ranges::any_of(context.enumerateInstanceLayerProperties(),
+                               [&](const auto& layer) { return std::strcmp(layer.layerName, name) == 0; });
 }
 
 vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate) {
@@ -35,7 +37,9 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate
     const vk::ValidationFeaturesEXT features{.enabledValidationFeatureCount = 1, .pEnabledValidationFeatures = enabled};
     const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
     if (validate && !has_layer(context, validation_layer))
-        fail_machine("the Vulkan validation layer is asked for but not installed (on Debian: apt-get install vulkan-validationlayers)");
+        fail_machine(
+            "the Vulkan validation layer is asked for but not installed (on Debian: apt-get install "
+            "vulkan-validationlayers)");
     try {
         return {context, vk::InstanceCreateInfo{.pNext = validate ? &features : nullptr,
                                                 .pApplicationInfo = &application,
@@ -49,7 +53,8 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate
 }
 
 std::string version_text(uint32_t version) {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." + std::to_string(VK_API_VERSION_PATCH(version));
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
 }
 
 DeviceInfo describe(const vk::raii::PhysicalDevice& gpu) {
@@ -61,20 +66,30 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& gpu) {
                     .api = version_text(properties.apiVersion),
                     .type = "other"};
     switch (properties.deviceType) {
-    case vk::PhysicalDeviceType::eCpu: info.type = "cpu"; break;
-    case vk::PhysicalDeviceType::eDiscreteGpu: info.type = "discrete"; break;
-    case vk::PhysicalDeviceType::eIntegratedGpu: info.type = "integrated"; break;
-    case vk::PhysicalDeviceType::eVirtualGpu: info.type = "virtual"; break;
-    default: break;
+        case vk::PhysicalDeviceType::eCpu:
+            info.type = "cpu";
+            break;
+        case vk::PhysicalDeviceType::eDiscreteGpu:
+            info.type = "discrete";
+            break;
+        case vk::PhysicalDeviceType::eIntegratedGpu:
+            info.type = "integrated";
+            break;
+        case vk::PhysicalDeviceType::eVirtualGpu:
+            info.type = "virtual";
+            break;
+        default:
+            break;
     }
     const vk::PhysicalDeviceMemoryProperties memory = gpu.getMemoryProperties();
     for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
-        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) info.memory_mib = std::max(info.memory_mib, double(memory.memoryHeaps[i].size) / (1 << 20));
+        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+            info.memory_mib = std::max(info.memory_mib, double(memory.memoryHeaps[i].size) / (1 << 20));
     return info;
 }
 
-/// Vulkan 1.3 devices only: dynamic rendering and synchronization2 are taken for granted. An instance without any driver may
-/// fail to enumerate, which is the same as having none.
+/// Vulkan 1.3 devices only: dynamic rendering and synchronization2 are taken for granted. An instance without any
+/// driver may fail to enumerate, which is the same as having none.
 std::vector<vk::raii::PhysicalDevice> usable_devices(const vk::raii::Instance& instance) {
     std::vector<vk::raii::PhysicalDevice> usable;
     try {
@@ -94,7 +109,8 @@ size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice)
     if (devices.empty()) fail_machine(no_device);
     if (choice.empty()) {
         for (const char* type : {"discrete", "integrated", "virtual"})
-            if (const auto found = std::ranges::find(devices, type, &DeviceInfo::type); found != devices.end()) return size_t(found - devices.begin());
+            if (const auto found = std::ranges::find(devices, type, &DeviceInfo::type); found != devices.end())
+                return size_t(found - devices.begin());
         return 0;
     }
     if (std::ranges::all_of(choice, [](unsigned char c) { return std::isdigit(c); }) && choice.size() < 6)
@@ -142,7 +158,8 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         if (validate) {
             using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
             using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-            vk::DebugUtilsMessengerCreateInfoEXT info{.messageSeverity = Severity::eWarning | Severity::eError, .messageType = Type::eValidation};
+            vk::DebugUtilsMessengerCreateInfoEXT info{.messageSeverity = Severity::eWarning | Severity::eError,
+                                                      .messageType = Type::eValidation};
             info.pfnUserCallback = on_message;
             info.pUserData = &d.log;
             d.messenger = {d.instance, info};
@@ -156,27 +173,40 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         d.nanoseconds_per_tick = d.gpu.getProperties().limits.timestampPeriod;
 
         const auto families = d.gpu.getQueueFamilyProperties();
-        const auto does_all = [](const vk::QueueFamilyProperties& f) { return (f.queueFlags & vk::QueueFlagBits::eGraphics) && (f.queueFlags & vk::QueueFlagBits::eCompute); };
+        const auto does_all = [](const vk::QueueFamilyProperties& f) {
+            return (f.queueFlags & vk::QueueFlagBits::eGraphics) && (f.queueFlags & vk::QueueFlagBits::eCompute);
+        };
         const auto family = std::ranges::find_if(families, does_all);
-        if (family == families.end()) fail_machine("the Vulkan device '", d.info.name, "' has no queue for graphics and compute");
+        if (family == families.end())
+            fail_machine("the Vulkan device '", d.info.name, "' has no queue for graphics and compute");
         d.queue_family = uint32_t(family - families.begin());
         d.timestamp_bits = family->timestampValidBits;
 
         const float priority = 1;
-        const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = d.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
+        const vk::DeviceQueueCreateInfo queue{
+            .queueFamilyIndex = d.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
         const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
         // Reads beyond an image give zeros, as the Direct3D originals of several techniques expect.
-        vk::PhysicalDeviceVulkan13Features v13{.robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+        vk::PhysicalDeviceVulkan13Features v13{
+            .robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
         const vk::PhysicalDeviceFeatures v10{.robustBufferAccess = true,
                                              .independentBlend = true,
                                              .fragmentStoresAndAtomics = true,
                                              .shaderStorageImageExtendedFormats = true,
                                              .shaderStorageImageWriteWithoutFormat = true};
-        d.device = {d.gpu, vk::DeviceCreateInfo{.pNext = &v13, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue,
-                                                .enabledExtensionCount = 1, .ppEnabledExtensionNames = extensions, .pEnabledFeatures = &v10}};
+        d.device = {d.gpu, vk::DeviceCreateInfo{.pNext = &v13,
+                                                .queueCreateInfoCount = 1,
+                                                .pQueueCreateInfos = &queue,
+                                                .enabledExtensionCount = 1,
+                                                .ppEnabledExtensionNames = extensions,
+                                                .pEnabledFeatures = &v10}};
         d.queue = d.device.getQueue(d.queue_family, 0);
-        d.pool = {d.device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = d.queue_family}};
-        d.commands = std::move(vk::raii::CommandBuffers(d.device, vk::CommandBufferAllocateInfo{.commandPool = *d.pool, .commandBufferCount = 1}).front());
+        d.pool = {d.device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                                      .queueFamilyIndex = d.queue_family}};
+        d.commands =
+            std::move(vk::raii::CommandBuffers(
+                          d.device, vk::CommandBufferAllocateInfo{.commandPool = *d.pool, .commandBufferCount = 1})
+                          .front());
         d.fence = {d.device, vk::FenceCreateInfo{}};
         d.pipelines = std::make_shared<PipelineCache>(d);
     });
@@ -194,17 +224,21 @@ std::vector<std::string> Device::validation_messages() const {
 bool Device::supports(Format format) const {
     const auto features = impl_->gpu.getFormatProperties(vulkan_format(format)).optimalTilingFeatures;
     const bool is_depth = bool(aspect_of(format) & vk::ImageAspectFlagBits::eDepth);
-    return bool(features & (is_depth ? vk::FormatFeatureFlagBits::eDepthStencilAttachment : vk::FormatFeatureFlagBits::eSampledImage));
+    return bool(features & (is_depth ? vk::FormatFeatureFlagBits::eDepthStencilAttachment
+                                     : vk::FormatFeatureFlagBits::eSampledImage));
 }
 
-vk::raii::DeviceMemory Device::Impl::allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred) {
+vk::raii::DeviceMemory Device::Impl::allocate(const vk::MemoryRequirements& requirements,
+                                              vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred) {
     const vk::PhysicalDeviceMemoryProperties memory = gpu.getMemoryProperties();
     for (const vk::MemoryPropertyFlags wanted : {required | preferred, required})
         for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-            if ((requirements.memoryTypeBits >> i & 1) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) try {
+            if ((requirements.memoryTypeBits >> i & 1) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted)
+                try {
                     return {device, vk::MemoryAllocateInfo{.allocationSize = requirements.size, .memoryTypeIndex = i}};
                 } catch (const vk::SystemError&) {
-                    fail_machine("the Vulkan device '", info.name, "' has no ", requirements.size >> 20, " MiB of memory left");
+                    fail_machine("the Vulkan device '", info.name, "' has no ", requirements.size >> 20,
+                                 " MiB of memory left");
                 }
     fail_machine("the Vulkan device '", info.name, "' has no suitable memory type");
 }
@@ -213,7 +247,8 @@ void Device::Impl::submit_and_wait(const vk::raii::CommandBuffer& ended, const v
     try {
         const vk::CommandBuffer buffer = *ended;
         queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &buffer}, *done);
-        if (device.waitForFences(*done, true, UINT64_MAX) != vk::Result::eSuccess) fail_machine("the Vulkan device '", info.name, "' did not finish its work");
+        if (device.waitForFences(*done, true, UINT64_MAX) != vk::Result::eSuccess)
+            fail_machine("the Vulkan device '", info.name, "' did not finish its work");
         device.resetFences(*done);
     } catch (const vk::SystemError& e) {
         fail_machine("the Vulkan device '", info.name, "' failed: ", e.what());
@@ -230,7 +265,8 @@ void Device::Impl::submit(const std::function<void(vk::raii::CommandBuffer&)>& r
 DeviceBuffer::DeviceBuffer(Device::Impl& gpu, size_t size, vk::BufferUsageFlags usage, bool is_host_visible)
     : buffer(gpu.device, vk::BufferCreateInfo{.size = size, .usage = usage}) {
     using Property = vk::MemoryPropertyFlagBits;
-    memory = is_host_visible ? gpu.allocate(buffer.getMemoryRequirements(), Property::eHostVisible | Property::eHostCoherent, Property::eHostCached)
+    memory = is_host_visible ? gpu.allocate(buffer.getMemoryRequirements(),
+                                            Property::eHostVisible | Property::eHostCoherent, Property::eHostCached)
                              : gpu.allocate(buffer.getMemoryRequirements(), {}, Property::eDeviceLocal);
     buffer.bindMemory(*memory, 0);
     if (is_host_visible) data = static_cast<std::byte*>(memory.mapMemory(0, VK_WHOLE_SIZE));

@@ -25,20 +25,23 @@ struct Device::Impl {
     vk::raii::PhysicalDevice gpu{nullptr};
     DeviceInfo info;
     uint32_t queue_family = 0;
-    float nanoseconds_per_tick = 1;   ///< of time stamps
-    uint32_t timestamp_bits = 0;      ///< 0: the queue cannot write time stamps
+    float nanoseconds_per_tick = 1;  ///< of time stamps
+    uint32_t timestamp_bits = 0;     ///< 0: the queue cannot write time stamps
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
     vk::raii::CommandPool pool{nullptr};
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence fence{nullptr};
-    std::shared_ptr<class PipelineCache> pipelines;  ///< shared by all graphs: compiling costs 0.1 s and more per shader
+    std::shared_ptr<class PipelineCache>
+        pipelines;  ///< shared by all graphs: compiling costs 0.1 s and more per shader
 
-    /// A graph that has recorded and not yet submitted; others call this before they start, so that work keeps its order.
+    /// A graph that has recorded and not yet submitted; others call this before they start, so that work keeps its
+    /// order.
     std::function<void()> flush_recording;
 
     /// Memory of a type that has all of `required` and, if there is such a one, all of `preferred` too.
-    vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred = {});
+    vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags required,
+                                    vk::MemoryPropertyFlags preferred = {});
 
     /// Records, submits and waits.
     void submit(const std::function<void(vk::raii::CommandBuffer&)>& record);
@@ -56,14 +59,14 @@ struct DeviceBuffer {
 };
 
 struct ImageStorage {
-    vk::FormatFeatureFlags features;           ///< what the device can do with the format
+    vk::FormatFeatureFlags features;  ///< what the device can do with the format
     vk::raii::Image image{nullptr};
     vk::raii::DeviceMemory memory{nullptr};
-    vk::raii::ImageView whole{nullptr};        ///< all mips; for sampling: the depth aspect only
-    std::vector<vk::raii::ImageView> mips;     ///< for sampling and storage
-    vk::raii::ImageView attachment{nullptr};   ///< depth and stencil together; empty for colours
+    vk::raii::ImageView whole{nullptr};       ///< all mips; for sampling: the depth aspect only
+    std::vector<vk::raii::ImageView> mips;    ///< for sampling and storage
+    vk::raii::ImageView attachment{nullptr};  ///< depth and stencil together; empty for colours
     vk::ImageAspectFlags aspect;
-    bool is_written = false;                   ///< by a pass, a clear or an upload
+    bool is_written = false;  ///< by a pass, a clear or an upload
 };
 
 struct BufferStorage {

@@ -9,6 +9,7 @@ struct TexelLayout {
 };
 TexelLayout texel_layout(Format format);
 
-/// Texels of the format from float32 channels and back. Halves are rounded to the nearest even, unorm bytes to the nearest.
+/// Texels of the format from float32 channels and back. Halves are rounded to the nearest even, unorm bytes to the
+/// nearest.
 void encode_texels(Format format, std::span<const float> values, std::byte* texels);
 void decode_texels(Format format, const std::byte* texels, std::span<float> values);

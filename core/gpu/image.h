@@ -4,7 +4,24 @@
 #include <string>
 #include <vector>
 
-enum class Format { r8, rg8, rgba8, rgba8_srgb, r16f, rg16f, rgba16f, r32f, rg32f, rgba32f, r11g11b10f, r32ui, d32f, d24, d16, d32f_s8 };
+enum class Format {
+    r8,
+    rg8,
+    rgba8,
+    rgba8_srgb,
+    r16f,
+    rg16f,
+    rgba16f,
+    r32f,
+    rg32f,
+    rgba32f,
+    r11g11b10f,
+    r32ui,
+    d32f,
+    d24,
+    d16,
+    d32f_s8
+};
 
 /// A named 2D image of the graph, or one mip level of it. Copies refer to the same pixels.
 struct Image {

@@ -17,8 +17,9 @@ struct PassTime {
     double milliseconds = 0;
 };
 
-/// How stages are timed. On a CPU device time stamps inside a command buffer do not enclose the work, so there each pass is one
-/// submission that the host waits for. On a GPU all passes of a frame are one submission with time stamps between them.
+/// How stages are timed. On a CPU device time stamps inside a command buffer do not enclose the work, so there each
+/// pass is one submission that the host waits for. On a GPU all passes of a frame are one submission with time stamps
+/// between them.
 enum class Clock { host_fence, gpu_timestamp };
 
 /// How a fragment pass uses the stencil buffer: write a value, or draw only where it is found.
@@ -48,8 +49,9 @@ struct Read {
     Sampling sampling;
 };
 
-/// One indexed mesh of a drawing pass. Vertices are pulled by the vertex shader from storage buffers, with gl_VertexIndex and
-/// gl_InstanceIndex (= first_instance), so there is no vertex layout to declare. `reads` are bound for this draw only.
+/// One indexed mesh of a drawing pass. Vertices are pulled by the vertex shader from storage buffers, with
+/// gl_VertexIndex and gl_InstanceIndex (= first_instance), so there is no vertex layout to declare. `reads` are bound
+/// for this draw only.
 struct Draw {
     Buffer indices;  ///< uint32
     unsigned first_index = 0, index_count = 0;
@@ -60,8 +62,9 @@ struct Draw {
     std::vector<Buffer> buffers;
 };
 
-/// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by name;
-/// the graph creates the images, compiles the shaders, binds, separates the passes by barriers and times each of them.
+/// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by
+/// name; the graph creates the images, compiles the shaders, binds, separates the passes by barriers and times each of
+/// them.
 ///
 /// Shader files hold plain GLSL without #version, bindings or locations of inputs. In front of each the graph puts the
 /// `camera` block, `#include` (from the project's root) and the parameters of the variant. A sampler2D, an image2D or a
@@ -75,8 +78,9 @@ public:
     PassGraph(const PassGraph&) = delete;
     PassGraph& operator=(const PassGraph&) = delete;
 
-    /// The image of that name; created on first use with undefined content, kept for the following frames. The extent is the
-    /// graph's divided by `divisor`, rounded down, at least 1. Asking again with another format, size or mip count makes a new one.
+    /// The image of that name; created on first use with undefined content, kept for the following frames. The extent
+    /// is the graph's divided by `divisor`, rounded down, at least 1. Asking again with another format, size or mip
+    /// count makes a new one.
     Image image(const std::string& name, Format format, unsigned mips = 1, unsigned divisor = 1);
     Image image_of(const std::string& name, Format format, glm::uvec2 extent, unsigned mips = 1);
     /// The storage buffer of that name, with zeros at first; `bytes` a multiple of 4.
@@ -89,17 +93,20 @@ public:
     History history(const std::string& name, Format format);
 
     class Pass;
-    Pass compute(const std::string& shader);   ///< "mcguire_dda/trace.comp", found under variants/, core/shaders/ or the project's root
+    Pass compute(const std::string&
+                     shader);  ///< "mcguire_dda/trace.comp", found under variants/, core/shaders/ or the project's root
     Pass fragment(const std::string& shader);  ///< over the whole of its outputs
     Pass draw(const std::string& vertex_shader, const std::string& fragment_shader, std::vector<Draw> draws);
 
-    /// Starts a frame: forgets the times of the last one and exchanges histories. Every pass may use `camera`, `params` and
-    /// `inputs` by name. `params` must outlive the frame.
+    /// Starts a frame: forgets the times of the last one and exchanges histories. Every pass may use `camera`, `params`
+    /// and `inputs` by name. `params` must outlive the frame.
     void begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs);
 
-    void clear(const Image& image, glm::vec4 value);  ///< all its mips; timed as the stage "clear"; depth: x depth, y stencil
+    void clear(const Image& image,
+               glm::vec4 value);  ///< all its mips; timed as the stage "clear"; depth: x depth, y stencil
     void clear(const Buffer& buffer, uint32_t value);
-    void upload(const Image& image, const HostImage& pixels);  ///< one mip, same extent and channel count; converted to the format
+    void upload(const Image& image,
+                const HostImage& pixels);  ///< one mip, same extent and channel count; converted to the format
     void upload_rgba8(const Image& image, std::span<const uint8_t> texels);
     void upload(const Buffer& buffer, std::span<const std::byte> bytes);
     HostImage download(const Image& image);  ///< mip first_mip; as many channels as the format has; depth: one

@@ -4,26 +4,37 @@
 
 namespace {
 
-const std::string camera_block = "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n";
+const std::string camera_block =
+    "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n";
 
 vk::DescriptorType descriptor_type(ShaderInterface::Kind kind) {
     switch (kind) {
-    case ShaderInterface::Kind::sampler: return vk::DescriptorType::eCombinedImageSampler;
-    case ShaderInterface::Kind::image: return vk::DescriptorType::eStorageImage;
-    case ShaderInterface::Kind::uniforms: return vk::DescriptorType::eUniformBuffer;
-    case ShaderInterface::Kind::storage: return vk::DescriptorType::eStorageBuffer;
+        case ShaderInterface::Kind::sampler:
+            return vk::DescriptorType::eCombinedImageSampler;
+        case ShaderInterface::Kind::image:
+            return vk::DescriptorType::eStorageImage;
+        case ShaderInterface::Kind::uniforms:
+            return vk::DescriptorType::eUniformBuffer;
+        case ShaderInterface::Kind::storage:
+            return vk::DescriptorType::eStorageBuffer;
     }
     fail("no descriptor type for kind ", int(kind));
 }
 
 vk::CompareOp compare_op(DepthTest::Compare compare) {
     switch (compare) {
-    case DepthTest::Compare::less: return vk::CompareOp::eLess;
-    case DepthTest::Compare::greater: return vk::CompareOp::eGreater;
-    case DepthTest::Compare::less_or_equal: return vk::CompareOp::eLessOrEqual;
-    case DepthTest::Compare::greater_or_equal: return vk::CompareOp::eGreaterOrEqual;
-    case DepthTest::Compare::equal: return vk::CompareOp::eEqual;
-    case DepthTest::Compare::always: return vk::CompareOp::eAlways;
+        case DepthTest::Compare::less:
+            return vk::CompareOp::eLess;
+        case DepthTest::Compare::greater:
+            return vk::CompareOp::eGreater;
+        case DepthTest::Compare::less_or_equal:
+            return vk::CompareOp::eLessOrEqual;
+        case DepthTest::Compare::greater_or_equal:
+            return vk::CompareOp::eGreaterOrEqual;
+        case DepthTest::Compare::equal:
+            return vk::CompareOp::eEqual;
+        case DepthTest::Compare::always:
+            return vk::CompareOp::eAlways;
     }
     fail("no compare operation ", int(compare));
 }
@@ -36,48 +47,74 @@ struct Stages {
 Stages make_stages(Device::Impl& gpu, const Shader& shader, bool is_compute, const vk::SpecializationInfo& constants) {
     Stages stages;
     for (const auto& spirv : shader.spirv) {
-        stages.modules.emplace_back(gpu.device, vk::ShaderModuleCreateInfo{.codeSize = spirv.size() * 4, .pCode = spirv.data()});
+        stages.modules.emplace_back(gpu.device,
+                                    vk::ShaderModuleCreateInfo{.codeSize = spirv.size() * 4, .pCode = spirv.data()});
         const bool is_vertex = !is_compute && stages.modules.size() == 1;
-        const auto stage = is_compute ? vk::ShaderStageFlagBits::eCompute : is_vertex ? vk::ShaderStageFlagBits::eVertex : vk::ShaderStageFlagBits::eFragment;
-        stages.infos.push_back({.stage = stage, .module = *stages.modules.back(), .pName = "main", .pSpecializationInfo = &constants});
+        const auto stage = is_compute  ? vk::ShaderStageFlagBits::eCompute
+                           : is_vertex ? vk::ShaderStageFlagBits::eVertex
+                                       : vk::ShaderStageFlagBits::eFragment;
+        stages.infos.push_back(
+            {.stage = stage, .module = *stages.modules.back(), .pName = "main", .pSpecializationInfo = &constants});
     }
     return stages;
 }
 
-vk::raii::Pipeline make_graphics_pipeline(Device::Impl& gpu, const Stages& stages, const vk::raii::PipelineLayout& layout, const PipelineState& state) {
+vk::raii::Pipeline make_graphics_pipeline(Device::Impl& gpu, const Stages& stages,
+                                          const vk::raii::PipelineLayout& layout, const PipelineState& state) {
     const vk::PipelineVertexInputStateCreateInfo no_vertices{};
     const vk::PipelineInputAssemblyStateCreateInfo triangles{.topology = vk::PrimitiveTopology::eTriangleList};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-    const vk::PipelineRasterizationStateCreateInfo raster{.frontFace = vk::FrontFace::eCounterClockwise, .lineWidth = 1};
+    const vk::PipelineRasterizationStateCreateInfo raster{.frontFace = vk::FrontFace::eCounterClockwise,
+                                                          .lineWidth = 1};
     const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
     const bool writes_stencil = state.stencil == Stencil::Mode::write;
     const vk::StencilOpState op{.passOp = writes_stencil ? vk::StencilOp::eReplace : vk::StencilOp::eKeep,
                                 .compareOp = writes_stencil ? vk::CompareOp::eAlways : vk::CompareOp::eEqual,
-                                .compareMask = 255, .writeMask = 255, .reference = state.stencil_value};
-    const vk::PipelineDepthStencilStateCreateInfo depth_stencil{.depthTestEnable = state.has_depth,
-                                                                .depthWriteEnable = state.has_depth && state.depth.is_written,
-                                                                .depthCompareOp = compare_op(state.depth.compare),
-                                                                .stencilTestEnable = state.stencil != Stencil::Mode::off,
-                                                                .front = op, .back = op};
-    const std::vector<vk::PipelineColorBlendAttachmentState> no_blending(state.attachments.size(), {.colorWriteMask = vk::ColorComponentFlags(15)});
-    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = uint32_t(no_blending.size()), .pAttachments = no_blending.data()};
-    const vk::DynamicState dynamic_states[] = {vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eCullMode};
+                                .compareMask = 255,
+                                .writeMask = 255,
+                                .reference = state.stencil_value};
+    const vk::PipelineDepthStencilStateCreateInfo depth_stencil{
+        .depthTestEnable = state.has_depth,
+        .depthWriteEnable = state.has_depth && state.depth.is_written,
+        .depthCompareOp = compare_op(state.depth.compare),
+        .stencilTestEnable = state.stencil != Stencil::Mode::off,
+        .front = op,
+        .back = op};
+    const std::vector<vk::PipelineColorBlendAttachmentState> no_blending(
+        state.attachments.size(), {.colorWriteMask = vk::ColorComponentFlags(15)});
+    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = uint32_t(no_blending.size()),
+                                                      .pAttachments = no_blending.data()};
+    const vk::DynamicState dynamic_states[] = {vk::DynamicState::eViewport, vk::DynamicState::eScissor,
+                                               vk::DynamicState::eCullMode};
     const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = 3, .pDynamicStates = dynamic_states};
     std::vector<vk::Format> formats;
     for (const Format format : state.attachments) formats.push_back(vulkan_format(format));
-    const vk::Format stencil_format = state.stencil == Stencil::Mode::off ? vk::Format::eUndefined : vk::Format::eD32SfloatS8Uint;
+    const vk::Format stencil_format =
+        state.stencil == Stencil::Mode::off ? vk::Format::eUndefined : vk::Format::eD32SfloatS8Uint;
     const vk::Format depth_format = state.has_depth ? vulkan_format(state.depth.image.format) : stencil_format;
-    const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = uint32_t(formats.size()), .pColorAttachmentFormats = formats.data(),
-                                                    .depthAttachmentFormat = depth_format, .stencilAttachmentFormat = stencil_format};
-    return {gpu.device, nullptr, vk::GraphicsPipelineCreateInfo{
-        .pNext = &rendering, .stageCount = uint32_t(stages.infos.size()), .pStages = stages.infos.data(), .pVertexInputState = &no_vertices,
-        .pInputAssemblyState = &triangles, .pViewportState = &viewport, .pRasterizationState = &raster, .pMultisampleState = &one_sample,
-        .pDepthStencilState = &depth_stencil, .pColorBlendState = &blend, .pDynamicState = &dynamic, .layout = *layout}};
+    const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = uint32_t(formats.size()),
+                                                    .pColorAttachmentFormats = formats.data(),
+                                                    .depthAttachmentFormat = depth_format,
+                                                    .stencilAttachmentFormat = stencil_format};
+    return {gpu.device, nullptr,
+            vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
+                                           .stageCount = uint32_t(stages.infos.size()),
+                                           .pStages = stages.infos.data(),
+                                           .pVertexInputState = &no_vertices,
+                                           .pInputAssemblyState = &triangles,
+                                           .pViewportState = &viewport,
+                                           .pRasterizationState = &raster,
+                                           .pMultisampleState = &one_sample,
+                                           .pDepthStencilState = &depth_stencil,
+                                           .pColorBlendState = &blend,
+                                           .pDynamicState = &dynamic,
+                                           .layout = *layout}};
 }
 
 }  // namespace
 
-const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params) {
+const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file,
+                                    const ParameterSet& params) {
     const std::string prelude = camera_block + params.glsl();
     const auto [entry, is_new] = shaders_.try_emplace(file + '\n' + vertex_file + '\n' + prelude);
     if (is_new) try {
@@ -89,13 +126,16 @@ const Shader& PipelineCache::shader(const std::string& file, const std::string& 
     return entry->second;
 }
 
-Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params, const PipelineState& state) {
+Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
+                                  const PipelineState& state) {
     const Shader& shader = this->shader(file, vertex_file, params);
 
-    // Only the constants that this shader uses take part in the key: a new value of another one costs it no new pipeline.
+    // Only the constants that this shader uses take part in the key: a new value of another one costs it no new
+    // pipeline.
     std::vector<uint32_t> values;
     std::vector<vk::SpecializationMapEntry> entries;
-    std::string key = file + '\n' + vertex_file + '\n' + params.glsl() + '\n' + std::to_string(int(state.stencil)) + ' ' + std::to_string(state.stencil_value);
+    std::string key = file + '\n' + vertex_file + '\n' + params.glsl() + '\n' + std::to_string(int(state.stencil)) +
+                      ' ' + std::to_string(state.stencil_value);
     uint32_t id = 0;
     for (const Parameter& p : params) {
         if (p.use != Use::constant || !shader.interface.constants.contains(id++)) continue;
@@ -105,7 +145,9 @@ Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& ve
     }
     key += '\n';
     for (const Format format : state.attachments) key += ' ' + std::to_string(int(format));
-    if (state.has_depth) key += " depth " + std::to_string(int(state.depth.compare)) + ' ' + std::to_string(state.depth.is_written) + ' ' + std::to_string(int(state.depth.image.format));
+    if (state.has_depth)
+        key += " depth " + std::to_string(int(state.depth.compare)) + ' ' + std::to_string(state.depth.is_written) +
+               ' ' + std::to_string(int(state.depth.image.format));
     const auto [entry, is_new] = pipelines_.try_emplace(key);
     Pipeline& p = entry->second;
     if (!is_new) return p;
@@ -113,19 +155,37 @@ Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& ve
     p.interface = shader.interface;
     p.is_compute = file.ends_with(".comp");
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    const vk::ShaderStageFlags all_stages = p.is_compute ? vk::ShaderStageFlagBits::eCompute : vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+    const vk::ShaderStageFlags all_stages = p.is_compute
+                                                ? vk::ShaderStageFlagBits::eCompute
+                                                : vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
     for (const auto& r : p.interface.resources) {
-        const vk::ShaderStageFlags stage = p.is_compute ? vk::ShaderStageFlagBits::eCompute : r.is_vertex ? vk::ShaderStageFlagBits::eVertex : vk::ShaderStageFlagBits::eFragment;
-        bindings.push_back({.binding = r.binding, .descriptorType = descriptor_type(r.kind), .descriptorCount = 1, .stageFlags = stage});
+        const vk::ShaderStageFlags stage = p.is_compute  ? vk::ShaderStageFlagBits::eCompute
+                                           : r.is_vertex ? vk::ShaderStageFlagBits::eVertex
+                                                         : vk::ShaderStageFlagBits::eFragment;
+        bindings.push_back({.binding = r.binding,
+                            .descriptorType = descriptor_type(r.kind),
+                            .descriptorCount = 1,
+                            .stageFlags = stage});
     }
-    p.set = {gpu_.device, vk::DescriptorSetLayoutCreateInfo{.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR, .bindingCount = uint32_t(bindings.size()), .pBindings = bindings.data()}};
+    p.set = {gpu_.device,
+             vk::DescriptorSetLayoutCreateInfo{.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR,
+                                               .bindingCount = uint32_t(bindings.size()),
+                                               .pBindings = bindings.data()}};
     const vk::PushConstantRange push{.stageFlags = all_stages, .size = p.interface.push_size};
     const vk::DescriptorSetLayout set = *p.set;
-    p.layout = {gpu_.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &set, .pushConstantRangeCount = p.interface.push_size ? 1u : 0u, .pPushConstantRanges = &push}};
+    p.layout = {gpu_.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
+                                                          .pSetLayouts = &set,
+                                                          .pushConstantRangeCount = p.interface.push_size ? 1u : 0u,
+                                                          .pPushConstantRanges = &push}};
 
-    const vk::SpecializationInfo constants{.mapEntryCount = uint32_t(entries.size()), .pMapEntries = entries.data(), .dataSize = values.size() * 4, .pData = values.data()};
+    const vk::SpecializationInfo constants{.mapEntryCount = uint32_t(entries.size()),
+                                           .pMapEntries = entries.data(),
+                                           .dataSize = values.size() * 4,
+                                           .pData = values.data()};
     const Stages stages = make_stages(gpu_, shader, p.is_compute, constants);
-    p.pipeline = p.is_compute ? vk::raii::Pipeline(gpu_.device, nullptr, vk::ComputePipelineCreateInfo{.stage = stages.infos[0], .layout = *p.layout})
-                              : make_graphics_pipeline(gpu_, stages, p.layout, state);
+    p.pipeline = p.is_compute
+                     ? vk::raii::Pipeline(gpu_.device, nullptr,
+                                          vk::ComputePipelineCreateInfo{.stage = stages.infos[0], .layout = *p.layout})
+                     : make_graphics_pipeline(gpu_, stages, p.layout, state);
     return p;
 }

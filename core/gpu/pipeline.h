@@ -27,9 +27,11 @@ class PipelineCache {
 public:
     explicit PipelineCache(Device::Impl& gpu) : gpu_(gpu) {}
 
-    /// `params`: the variant's; their declarations are part of the shader, the values of constants part of the pipeline.
+    /// `params`: the variant's; their declarations are part of the shader, the values of constants part of the
+    /// pipeline.
     const Shader& shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params);
-    Pipeline& pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params, const PipelineState& state);
+    Pipeline& pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
+                       const PipelineState& state);
 
 private:
     Device::Impl& gpu_;

@@ -26,10 +26,11 @@ Buffer Buffer::as(std::string shader_name) const {
 }
 
 void full_barrier(const vk::raii::CommandBuffer& commands) {
-    const vk::MemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                     .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
-                                     .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                     .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
+    const vk::MemoryBarrier2 barrier{
+        .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+        .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+        .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+        .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
     commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
 }
 
@@ -47,11 +48,13 @@ vk::ImageUsageFlags usage_of(vk::FormatFeatureFlags features) {
 }
 
 vk::ImageAspectFlags copied_aspect(const Image& image) {
-    return image.storage->aspect & vk::ImageAspectFlagBits::eDepth ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
+    return image.storage->aspect & vk::ImageAspectFlagBits::eDepth ? vk::ImageAspectFlagBits::eDepth
+                                                                   : vk::ImageAspectFlagBits::eColor;
 }
 
 vk::BufferImageCopy whole_mip(const Image& image) {
-    return {.imageSubresource = {copied_aspect(image), image.first_mip, 0, 1}, .imageExtent = {image.extent.x, image.extent.y, 1}};
+    return {.imageSubresource = {copied_aspect(image), image.first_mip, 0, 1},
+            .imageExtent = {image.extent.x, image.extent.y, 1}};
 }
 
 }  // namespace
@@ -64,22 +67,34 @@ std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm
     const vk::ImageUsageFlags usage = usage_of(storage->features);
     const bool is_depth = bool(storage->aspect & vk::ImageAspectFlagBits::eDepth);
     if (is_depth && !(usage & vk::ImageUsageFlagBits::eDepthStencilAttachment))
-        fail_machine("the Vulkan device '", gpu.info.name, "' has no depth format ", vk::to_string(vk_format), "; choose another depth format");
-    storage->image = {gpu.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D, .format = vk_format, .extent = {extent.x, extent.y, 1},
-                                                      .mipLevels = mips, .arrayLayers = 1, .usage = usage}};
-    storage->memory = gpu.allocate(storage->image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+        fail_machine("the Vulkan device '", gpu.info.name, "' has no depth format ", vk::to_string(vk_format),
+                     "; choose another depth format");
+    storage->image = {gpu.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
+                                                      .format = vk_format,
+                                                      .extent = {extent.x, extent.y, 1},
+                                                      .mipLevels = mips,
+                                                      .arrayLayers = 1,
+                                                      .usage = usage}};
+    storage->memory =
+        gpu.allocate(storage->image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
     storage->image.bindMemory(*storage->memory, 0);
 
     const vk::ImageAspectFlags sampled = is_depth ? vk::ImageAspectFlagBits::eDepth : storage->aspect;
     const auto view = [&](vk::ImageAspectFlags aspect, unsigned first, unsigned count) {
-        return vk::raii::ImageView(gpu.device, vk::ImageViewCreateInfo{.image = *storage->image, .viewType = vk::ImageViewType::e2D, .format = vk_format, .subresourceRange = {aspect, first, count, 0, 1}});
+        return vk::raii::ImageView(gpu.device,
+                                   vk::ImageViewCreateInfo{.image = *storage->image,
+                                                           .viewType = vk::ImageViewType::e2D,
+                                                           .format = vk_format,
+                                                           .subresourceRange = {aspect, first, count, 0, 1}});
     };
     storage->whole = view(sampled, 0, mips);
     for (unsigned level = 0; level < mips; ++level) storage->mips.push_back(view(sampled, level, 1));
     if (is_depth) storage->attachment = view(storage->aspect, 0, 1);
     gpu.submit([&](auto& commands) {
-        const vk::ImageMemoryBarrier2 barrier{.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands, .newLayout = vk::ImageLayout::eGeneral,
-                                              .image = *storage->image, .subresourceRange = {storage->aspect, 0, mips, 0, 1}};
+        const vk::ImageMemoryBarrier2 barrier{.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                              .newLayout = vk::ImageLayout::eGeneral,
+                                              .image = *storage->image,
+                                              .subresourceRange = {storage->aspect, 0, mips, 0, 1}};
         commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
     });
     return storage;
@@ -88,7 +103,10 @@ std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm
 std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes) {
     using Usage = vk::BufferUsageFlagBits;
     auto storage = std::make_shared<BufferStorage>();
-    storage->buffer = DeviceBuffer(gpu, bytes, Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eIndexBuffer | Usage::eTransferSrc | Usage::eTransferDst, false);
+    storage->buffer = DeviceBuffer(gpu, bytes,
+                                   Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eIndexBuffer |
+                                       Usage::eTransferSrc | Usage::eTransferDst,
+                                   false);
     gpu.submit([&](auto& commands) {
         commands.fillBuffer(*storage->buffer.buffer, 0, VK_WHOLE_SIZE, 0);
         full_barrier(commands);

@@ -4,8 +4,8 @@
 
 #include <span>
 
-// Images and buffers on the device, and their way there and back. All images stay in the general layout: ssrlab compares
-// algorithms, and one layout keeps passes free of transitions.
+// Images and buffers on the device, and their way there and back. All images stay in the general layout: ssrlab
+// compares algorithms, and one layout keeps passes free of transitions.
 
 std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm::uvec2 extent, unsigned mips);
 std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes);

@@ -3,17 +3,18 @@
 #include "core/error.h"
 
 #include <SPIRV/GlslangToSpv.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
 #include <SPIRV/spirv.hpp>
 #include <algorithm>
 #include <fstream>
-#include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
-#include <sstream>
 #include <spirv-tools/optimizer.hpp>
+#include <sstream>
 
 namespace {
 
-const char* const fullscreen_triangle = "void main() { gl_Position = vec4(vec2(gl_VertexIndex << 1 & 2, gl_VertexIndex & 2) * 2.0 - 1.0, 0.0, 1.0); }\n";
+const char* const fullscreen_triangle =
+    "void main() { gl_Position = vec4(vec2(gl_VertexIndex << 1 & 2, gl_VertexIndex & 2) * 2.0 - 1.0, 0.0, 1.0); }\n";
 
 std::string read_shader(const std::string& name) {
     for (const auto& root : shader_roots())
@@ -37,7 +38,8 @@ std::string expand_includes(const std::string& text, size_t file, std::vector<st
         files.push_back(name);
         const size_t included = files.size() - 1;
         if (files.size() > 200) fail(files[file], " includes itself");
-        out << "#line 1 " << included << '\n' << expand_includes(read_shader(name), included, files) << "#line " << number + 1 << ' ' << file << '\n';
+        out << "#line 1 " << included << '\n'
+            << expand_includes(read_shader(name), included, files) << "#line " << number + 1 << ' ' << file << '\n';
     }
     return out.str();
 }
@@ -49,13 +51,15 @@ std::string with_file_names(const std::string& log, const std::vector<std::strin
     for (std::string line; std::getline(in, line);) {
         unsigned file = 0;
         int consumed = 0;
-        if (std::sscanf(line.c_str(), "ERROR: %u:%n", &file, &consumed) == 1 && consumed && file < files.size()) line = files[file] + ":" + line.substr(size_t(consumed));
+        if (std::sscanf(line.c_str(), "ERROR: %u:%n", &file, &consumed) == 1 && consumed && file < files.size())
+            line = files[file] + ":" + line.substr(size_t(consumed));
         if (!line.empty()) out << line << '\n';
     }
     return out.str();
 }
 
-/// glslang does not reflect specialization constants; each is decorated once in the SPIR-V: OpDecorate id SpecId literal.
+/// glslang does not reflect specialization constants; each is decorated once in the SPIR-V: OpDecorate id SpecId
+/// literal.
 void find_constants(const std::vector<unsigned>& spirv, std::set<unsigned>& ids) {
     const size_t header = 5;
     for (size_t i = header; i < spirv.size(); i += spirv[i] >> 16)
@@ -73,19 +77,24 @@ void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& 
             found.resources.push_back({block.name, unsigned(block.getBinding()), Kind::uniforms, is_vertex});
     }
     for (int i = 0; i < program.getNumBufferBlocks(); ++i)
-        found.resources.push_back({program.getBufferBlock(i).name, unsigned(program.getBufferBlock(i).getBinding()), Kind::storage, is_vertex});
+        found.resources.push_back({program.getBufferBlock(i).name, unsigned(program.getBufferBlock(i).getBinding()),
+                                   Kind::storage, is_vertex});
     for (int i = 0; i < program.getNumUniformVariables(); ++i) {
         const auto& u = program.getUniform(i);
         if (u.index >= 0) {
-            if (u.index < program.getNumUniformBlocks() && program.getUniformBlock(u.index).getType()->getQualifier().isPushConstant())
+            if (u.index < program.getNumUniformBlocks() &&
+                program.getUniformBlock(u.index).getType()->getQualifier().isPushConstant())
                 found.push_offsets[u.name.substr(u.name.rfind('.') + 1)] = unsigned(u.offset);
         } else if (u.getType()->getBasicType() == glslang::EbtSampler) {
-            found.resources.push_back({u.name, unsigned(u.getBinding()), u.getType()->getSampler().isCombined() ? Kind::sampler : Kind::image, is_vertex});
+            found.resources.push_back({u.name, unsigned(u.getBinding()),
+                                       u.getType()->getSampler().isCombined() ? Kind::sampler : Kind::image,
+                                       is_vertex});
         }
     }
     if (is_vertex) return;
     for (int i = 0; i < program.getNumPipeOutputs(); ++i)
-        if (const auto& output = program.getPipeOutput(i); !output.name.starts_with("gl_")) found.outputs[output.name] = output.getType()->getQualifier().layoutLocation;
+        if (const auto& output = program.getPipeOutput(i); !output.name.starts_with("gl_"))
+            found.outputs[output.name] = output.getType()->getQualifier().layoutLocation;
     for (int d = 0; d < 3; ++d) found.local_size[size_t(d)] = program.getLocalSize(d);
 }
 
@@ -93,18 +102,21 @@ void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& 
 
 const std::vector<std::filesystem::path>& shader_roots() {
     static const std::filesystem::path root = SSRLAB_SOURCE_DIR;
-    static const std::vector<std::filesystem::path> roots = {root / "variants", root / "core/shaders", root / "tests/shaders", root};
+    static const std::vector<std::filesystem::path> roots = {root / "variants", root / "core/shaders",
+                                                             root / "tests/shaders", root};
     return roots;
 }
 
-Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude, ShaderLanguage language) {
+Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,
+               ShaderLanguage language) {
     static const bool initialised = glslang::InitializeProcess();
     (void)initialised;
     const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
 
     std::vector<std::string> files = {"prelude", file};
     const auto complete = [&](const std::string& name, size_t index) {
-        return expand_includes(prelude, 0, files) + "#line 1 " + std::to_string(index) + "\n" + expand_includes(read_shader(name), index, files);
+        return expand_includes(prelude, 0, files) + "#line 1 " + std::to_string(index) + "\n" +
+               expand_includes(read_shader(name), index, files);
     };
     std::vector<std::pair<EShLanguage, std::string>> sources;
     if (!is_compute && !webgl2) {
@@ -125,7 +137,8 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         glslang::TProgram program;
         const char* const lines = text.c_str();
         shader.setStrings(&lines, 1);
-        shader.setEnvInput(glslang::EShSourceGlsl, stage, webgl2 ? glslang::EShClientOpenGL : glslang::EShClientVulkan, 100);
+        shader.setEnvInput(glslang::EShSourceGlsl, stage, webgl2 ? glslang::EShClientOpenGL : glslang::EShClientVulkan,
+                           100);
         if (webgl2) {
             shader.setPreamble("precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
         } else {
@@ -134,20 +147,25 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
             shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
             shader.setAutoMapBindings(true);
             shader.setAutoMapLocations(true);
-            for (const auto type : {glslang::EResSampler, glslang::EResTexture, glslang::EResImage, glslang::EResUbo, glslang::EResSsbo, glslang::EResUav})
+            for (const auto type : {glslang::EResSampler, glslang::EResTexture, glslang::EResImage, glslang::EResUbo,
+                                    glslang::EResSsbo, glslang::EResUav})
                 shader.setShiftBinding(type, is_vertex ? first_vertex_binding : 0);
         }
-        if (!shader.parse(GetDefaultResources(), webgl2 ? 300 : 460, webgl2 ? EEsProfile : ECoreProfile, true, false, rules))
+        if (!shader.parse(GetDefaultResources(), webgl2 ? 300 : 460, webgl2 ? EEsProfile : ECoreProfile, true, false,
+                          rules))
             fail("cannot compile ", is_vertex ? vertex_file : file, ":\n", with_file_names(shader.getInfoLog(), files));
         if (webgl2) return {};
         program.addShader(&shader);
-        if (!program.link(rules) || !program.mapIO()) fail("cannot link ", is_vertex ? vertex_file : file, ":\n", with_file_names(program.getInfoLog(), files));
-        program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO | EShReflectionSeparateBuffers);
+        if (!program.link(rules) || !program.mapIO())
+            fail("cannot link ", is_vertex ? vertex_file : file, ":\n", with_file_names(program.getInfoLog(), files));
+        program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO |
+                                EShReflectionSeparateBuffers);
         reflect(program, is_vertex, result.interface);
         auto& spirv = result.spirv.emplace_back();
         glslang::GlslangToSpv(*program.getIntermediate(stage), spirv);
         spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_2);  // serves one run only
-        optimizer.RegisterPass(spvtools::CreateEliminateDeadConstantPass());  // those of the prelude that this shader ignores
+        optimizer.RegisterPass(
+            spvtools::CreateEliminateDeadConstantPass());  // those of the prelude that this shader ignores
         optimizer.Run(spirv.data(), spirv.size(), &spirv);
         find_constants(spirv, result.interface.constants);
     }

@@ -1,10 +1,10 @@
+#include "core/gpu/pass_graph.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
-#include "core/gpu/pass_graph.h"
 #include "core/gpu/shader.h"
 
-#include <cstring>
 #include <gtest/gtest.h>
+#include <cstring>
 #include <numeric>
 
 namespace {
@@ -45,13 +45,18 @@ std::string message(const auto& action) {
 }  // namespace
 
 INSTANTIATE_TEST_SUITE_P(Clocks, GraphOnBothClocks, testing::Values(Clock::host_fence, Clock::gpu_timestamp),
-                         [](const auto& info) { return info.param == Clock::host_fence ? "HostFence" : "GpuTimestamp"; });
+                         [](const auto& info) {
+                             return info.param == Clock::host_fence ? "HostFence" : "GpuTimestamp";
+                         });
 
 TEST_P(GraphOnBothClocks, BindsSingleMipLevels) {
     const Image pyramid = graph.image_of("pyramid", Format::rgba32f, {16, 16}, 4);
     graph.clear(pyramid, {1, 0, 0, 0});
     for (unsigned level = 0; level < 3; ++level)
-        graph.compute("halve.comp").read(pyramid.mip(level).as("finer")).write(pyramid.mip(level + 1).as("coarser")).run();
+        graph.compute("halve.comp")
+            .read(pyramid.mip(level).as("finer"))
+            .write(pyramid.mip(level + 1).as("coarser"))
+            .run();
     EXPECT_EQ(graph.download(pyramid.mip(3)).values.front(), 15.0f);  // 1 -> 3 -> 7 -> 15
     const auto times = graph.times();
     ASSERT_EQ(times.size(), 2u);
@@ -73,7 +78,8 @@ TEST_P(GraphOnBothClocks, CompactsWithSubgroupsAndDispatchesIndirectly) {
     HostImage values({17, 13}, 1);
     for (size_t i = 0; i < values.values.size(); ++i) values.values[i] = i % 7 == 0 ? 1.0f : 0.0f;
     graph.upload(source, values);
-    const Buffer list = graph.buffer("pixel_list", 17 * 13 * 4), arguments = graph.buffer("arguments", 16), invocations = graph.buffer("invocations", 4);
+    const Buffer list = graph.buffer("pixel_list", 17 * 13 * 4), arguments = graph.buffer("arguments", 16),
+                 invocations = graph.buffer("invocations", 4);
     graph.clear(arguments, 0);
     graph.clear(invocations, 0);
     graph.clear(marks, glm::vec4(0.0f));
@@ -90,17 +96,23 @@ TEST_P(GraphOnBothClocks, StencilKeepsPassesToMarkedPixels) {
     graph.clear(mask, glm::vec4(0.0f));
     graph.clear(color, glm::vec4(0.0f));
     graph.fragment("left_half.frag").stencil({Stencil::Mode::write, 1, mask}).run();
-    graph.fragment("constant_color.frag").stencil({Stencil::Mode::keep_equal, 1, mask}).set("value", glm::vec4(5.0f)).write(color).run();
+    graph.fragment("constant_color.frag")
+        .stencil({Stencil::Mode::keep_equal, 1, mask})
+        .set("value", glm::vec4(5.0f))
+        .write(color)
+        .run();
     const HostImage result = graph.download(color);
     EXPECT_EQ(result.pixel(7, 6)[0], 5.0f);
     EXPECT_EQ(result.pixel(9, 6)[0], 0.0f);
 }
 
 TEST_P(GraphOnBothClocks, DrawsMeshesWithDepthTestCullingAndTextures) {
-    // Two triangles that cover everything: instance 3 at depth 0.75, counter-clockwise, and instance 8 before it at 0.25.
+    // Two triangles that cover everything: instance 3 at depth 0.75, counter-clockwise, and instance 8 before it at
+    // 0.25.
     const float clip[] = {-1, 3, 0.75f, 3, -1, 0.75f, -1, -1, 0.75f, -1, 3, 0.25f, 3, -1, 0.25f, -1, -1, 0.25f};
     const uint32_t indices[] = {0, 1, 2};
-    const Buffer positions = graph.buffer("positions", sizeof clip), index_buffer = graph.buffer("indices", sizeof indices);
+    const Buffer positions = graph.buffer("positions", sizeof clip),
+                 index_buffer = graph.buffer("indices", sizeof indices);
     graph.upload(positions, std::as_bytes(std::span(clip)));
     graph.upload(index_buffer, std::as_bytes(std::span(indices)));
     const Image color = graph.image("color", Format::rgba32f), tint = graph.image_of("tint", Format::rgba8, {1, 1});
@@ -109,10 +121,18 @@ TEST_P(GraphOnBothClocks, DrawsMeshesWithDepthTestCullingAndTextures) {
         const Image depth = graph.image("depth_buffer", format);
         graph.clear(depth, {clear, 0, 0, 0});
         graph.clear(color, glm::vec4(-1.0f));
-        std::vector<Draw> draws(2, {.indices = index_buffer, .index_count = 3, .first_instance = 8, .cull = cull, .reads = {{tint, {}}}, .buffers = {positions}});
+        std::vector<Draw> draws(2, {.indices = index_buffer,
+                                    .index_count = 3,
+                                    .first_instance = 8,
+                                    .cull = cull,
+                                    .reads = {{tint, {}}},
+                                    .buffers = {positions}});
         draws[0].vertex_offset = 3;  // the nearer one first, so that order alone would give the farther
         draws[1].first_instance = 3;
-        graph.draw("triangle.vert", "instance_color.frag", draws).depth({.compare = compare, .image = depth}).write(color).run();
+        graph.draw("triangle.vert", "instance_color.frag", draws)
+            .depth({.compare = compare, .image = depth})
+            .write(color)
+            .run();
         const float stored = graph.download(depth).pixel(8, 6)[0];
         return std::array<float, 3>{graph.download(color).pixel(8, 6)[0], graph.download(color).pixel(8, 6)[1], stored};
     };
@@ -123,7 +143,8 @@ TEST_P(GraphOnBothClocks, DrawsMeshesWithDepthTestCullingAndTextures) {
     // In the image (y down) these corners run bottom left, top right, top left: counter-clockwise, a front face.
     EXPECT_EQ(drawn(Compare::less, 1.0f, Format::d32f, Draw::Cull::back)[0], 8.0f);
     EXPECT_EQ(drawn(Compare::less, 1.0f, Format::d32f, Draw::Cull::front)[0], -1.0f);
-    EXPECT_NEAR(drawn(Compare::less, 1.0f, Format::d16, Draw::Cull::none)[2], 0.25f, 0.5f / 65535.0f + 1e-7f);  // half a step of D16
+    EXPECT_NEAR(drawn(Compare::less, 1.0f, Format::d16, Draw::Cull::none)[2], 0.25f,
+                0.5f / 65535.0f + 1e-7f);  // half a step of D16
     if (device.supports(Format::d24)) {
         EXPECT_NEAR(drawn(Compare::less, 1.0f, Format::d24, Draw::Cull::none)[2], 0.25f, 0.5f / 16777215.0f + 1e-7f);
     }
@@ -139,8 +160,14 @@ TEST_F(Graph, UploadsAndDownloadsEachFormat) {
     };
     for (const auto& [format, channels] : {std::pair(Format::r32f, 1u), {Format::rg32f, 2u}, {Format::rgba32f, 4u}})
         EXPECT_EQ(round_trip(format, ramp({5, 3}, channels, 0.1f)), ramp({5, 3}, channels, 0.1f).values);
-    for (const auto& [format, channels] : {std::pair(Format::r16f, 1u), {Format::rg16f, 2u}, {Format::rgba16f, 4u}, {Format::r11g11b10f, 3u}, {Format::r32ui, 1u}})  // 0 .. 59: r11g11b10f holds six bits, five for blue, after the leading one
-        EXPECT_EQ(round_trip(format, ramp({5, 3}, channels, 1.0f)), ramp({5, 3}, channels, 1.0f).values);  // small integers are exact in all
+    for (const auto& [format, channels] :
+         {std::pair(Format::r16f, 1u),
+          {Format::rg16f, 2u},
+          {Format::rgba16f, 4u},
+          {Format::r11g11b10f, 3u},
+          {Format::r32ui, 1u}})  // 0 .. 59: r11g11b10f holds six bits, five for blue, after the leading one
+        EXPECT_EQ(round_trip(format, ramp({5, 3}, channels, 1.0f)),
+                  ramp({5, 3}, channels, 1.0f).values);  // small integers are exact in all
     for (const auto& [format, channels] : {std::pair(Format::r8, 1u), {Format::rg8, 2u}, {Format::rgba8, 4u}}) {
         HostImage bytes = ramp({5, 3}, channels, 1.0f);
         for (float& v : bytes.values) v /= 255.0f;
@@ -151,12 +178,17 @@ TEST_F(Graph, UploadsAndDownloadsEachFormat) {
 TEST_F(Graph, MistakesNameTheCulprit) {
     PassGraph graph(device, {16, 16});
     begin(graph);
-    const Image sum = graph.image("sum", Format::rgba32f), other = graph.image("other", Format::rgba32f), unwritten = graph.image("previous_sum", Format::rgba32f);
-    EXPECT_EQ(message([&] { graph.compute("add_one.comp").write(sum).run(); }), "add_one.comp uses 'previous_sum', which the pass does not provide; it provides: sum");
-    EXPECT_EQ(message([&] { graph.compute("add_one.comp").read(unwritten).write(sum).run(); }), "pass add_one reads 'previous_sum', which nothing has written yet");
+    const Image sum = graph.image("sum", Format::rgba32f), other = graph.image("other", Format::rgba32f),
+                unwritten = graph.image("previous_sum", Format::rgba32f);
+    EXPECT_EQ(message([&] { graph.compute("add_one.comp").write(sum).run(); }),
+              "add_one.comp uses 'previous_sum', which the pass does not provide; it provides: sum");
+    EXPECT_EQ(message([&] { graph.compute("add_one.comp").read(unwritten).write(sum).run(); }),
+              "pass add_one reads 'previous_sum', which nothing has written yet");
     graph.clear(unwritten, glm::vec4(0.0f));
-    EXPECT_EQ(message([&] { graph.compute("add_one.comp").read(unwritten).read(other).write(sum).run(); }), "pass add_one reads 'other', which add_one.comp does not use");
-    EXPECT_NE(message([&] { graph.compute("no_such.comp").write(sum).run(); }).find("no shader file no_such.comp"), std::string::npos);
+    EXPECT_EQ(message([&] { graph.compute("add_one.comp").read(unwritten).read(other).write(sum).run(); }),
+              "pass add_one reads 'other', which add_one.comp does not use");
+    EXPECT_NE(message([&] { graph.compute("no_such.comp").write(sum).run(); }).find("no shader file no_such.comp"),
+              std::string::npos);
 }
 
 TEST(Devices, AreChosenByIndexOrName) {
@@ -164,7 +196,8 @@ TEST(Devices, AreChosenByIndexOrName) {
     ASSERT_FALSE(devices.empty());
     EXPECT_EQ(Device("0").info().name, devices[0].name);
     EXPECT_EQ(Device(devices[0].name.substr(0, 4)).info().name, devices[0].name);
-    EXPECT_NE(message([] { Device("no such device"); }).find("no Vulkan device fits 'no such device'"), std::string::npos);
+    EXPECT_NE(message([] { Device("no such device"); }).find("no Vulkan device fits 'no such device'"),
+              std::string::npos);
 }
 
 TEST(Validation, ReportsMisuse) {

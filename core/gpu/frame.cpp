@@ -1,0 +1,141 @@
+#include "core/gpu/pass_graph_impl.h"
+#include "core/gpu/resources.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+
+namespace {
+
+constexpr uint32_t max_stages = 2048;  // per frame, on a GPU: two time stamps each
+
+}  // namespace
+
+PassGraph::Impl::Impl(Device& d, glm::uvec2 e, Clock c)
+    : device(d),
+      gpu(d.impl()),
+      extent(e),
+      clock(c),
+      pipelines(*gpu.pipelines),
+      uniforms(gpu, uniforms_size, vk::BufferUsageFlagBits::eUniformBuffer, true) {
+    if (clock == Clock::host_fence) return;
+    if (gpu.timestamp_bits == 0) fail_machine("the Vulkan device '", gpu.info.name, "' has no time stamps");
+    commands = std::move(vk::raii::CommandBuffers(gpu.device, vk::CommandBufferAllocateInfo{.commandPool = *gpu.pool,
+                                                                                            .commandBufferCount = 1})
+                             .front());
+    fence = {gpu.device, vk::FenceCreateInfo{}};
+    queries = {gpu.device,
+               vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * max_stages}};
+}
+
+PassGraph::Impl::~Impl() {
+    try {
+        flush();  // images may outlive the graph
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    }
+}
+
+void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs) {
+    impl_->flush();
+    impl_->times.clear();
+    impl_->frame_milliseconds = 0;
+    impl_->parity = 1 - impl_->parity;
+    impl_->params = &params;
+    impl_->inputs.clear();
+    for (const Image& image : inputs) impl_->inputs[image.name] = image;
+    std::memcpy(impl_->uniforms.data, &camera, sizeof camera);
+    impl_->write_params();
+}
+
+void PassGraph::Impl::write_params() {
+    size_t offset = params_offset;  // std140 packs scalars one after the other
+    for (const Parameter& p : *params)
+        if (p.use == Use::uniform) {
+            if (offset + 4 > uniforms_size)
+                fail("more than ", (uniforms_size - params_offset) / 4, " uniform parameters");
+            const uint32_t bits = p.bits();
+            std::memcpy(uniforms.data + offset, &bits, 4);
+            offset += 4;
+        }
+}
+
+std::vector<PassTime> PassGraph::times() {
+    impl_->flush();
+    return impl_->times;
+}
+
+double PassGraph::frame_milliseconds() {
+    impl_->flush();
+    return impl_->frame_milliseconds;
+}
+
+void PassGraph::Impl::add_time(const std::string& stage, double milliseconds) {
+    const auto found = std::ranges::find(times, stage, &PassTime::stage);
+    if (found == times.end())
+        times.push_back({stage, milliseconds});
+    else
+        found->milliseconds += milliseconds;
+}
+
+void PassGraph::Impl::execute(const std::string& stage,
+                              const std::function<void(const vk::raii::CommandBuffer&)>& record) {
+    if (recorded.empty() && gpu.flush_recording) gpu.flush_recording();
+    if (clock == Clock::host_fence) {
+        gpu.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        full_barrier(gpu.commands);
+        try {
+            record(gpu.commands);
+        } catch (...) {
+            gpu.commands.reset();
+            throw;
+        }
+        full_barrier(gpu.commands);
+        gpu.commands.end();
+        const auto start = std::chrono::steady_clock::now();
+        gpu.submit_and_wait(gpu.commands, gpu.fence);
+        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+        add_time(stage, time.count());
+        frame_milliseconds += time.count();
+        return;
+    }
+    if (recorded.size() == max_stages) flush();
+    if (recorded.empty()) {
+        commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        commands.resetQueryPool(*queries, 0, 2 * max_stages);
+        gpu.flush_recording = [this] { flush(); };
+    }
+    const uint32_t query = uint32_t(2 * recorded.size());
+    full_barrier(commands);
+    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries, query);
+    try {
+        record(commands);
+    } catch (...) {
+        commands.reset();
+        recorded.clear();
+        gpu.flush_recording = nullptr;
+        throw;
+    }
+    full_barrier(commands);
+    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries, query + 1);
+    recorded.push_back(stage);
+}
+
+void PassGraph::Impl::flush() {
+    if (recorded.empty()) return;
+    gpu.flush_recording = nullptr;
+    commands.end();
+    const std::vector<std::string> stages = std::exchange(recorded, {});
+    gpu.submit_and_wait(commands, fence);
+    auto [result, ticks] =
+        queries.getResults<uint64_t>(0, uint32_t(2 * stages.size()), 2 * stages.size() * sizeof(uint64_t),
+                                     sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    if (result != vk::Result::eSuccess) fail_machine("the Vulkan device '", gpu.info.name, "' gave no time stamps");
+    const double milliseconds_per_tick = gpu.nanoseconds_per_tick * 1e-6;
+    if (gpu.timestamp_bits < 64)
+        for (uint64_t& tick : ticks) tick &= (uint64_t(1) << gpu.timestamp_bits) - 1;
+    for (size_t i = 0; i < stages.size(); ++i)
+        add_time(stages[i], double(ticks[2 * i + 1] - ticks[2 * i]) * milliseconds_per_tick);
+    frame_milliseconds += double(ticks.back() - ticks.front()) * milliseconds_per_tick;
+}

@@ -1,0 +1,58 @@
+#pragma once
+#include "core/error.h"
+#include "core/gpu/device_impl.h"
+#include "core/gpu/pass_graph.h"
+#include "core/gpu/pipeline.h"
+
+#include <map>
+#include <optional>
+
+// The inside of PassGraph: pass_graph.cpp makes resources, frame.cpp submits and times, pass.cpp describes and runs
+// passes, binding.cpp finds what their shaders ask for.
+
+// The uniform buffer: the camera block, then the parameters at an offset that suits every device's alignment (256 at
+// most).
+inline constexpr size_t params_offset = 2048, uniforms_size = 6144;
+static_assert(sizeof(CameraData) <= params_offset);
+
+struct PassGraph::Impl {
+    Device& device;
+    Device::Impl& gpu;
+    glm::uvec2 extent;
+    Clock clock;
+    PipelineCache& pipelines;
+    DeviceBuffer uniforms;
+    std::map<std::string, Image> images, inputs;
+    std::map<std::string, Buffer> buffers;
+    unsigned parity = 0;
+    const ParameterSet no_parameters;  ///< until the first begin_frame()
+    const ParameterSet* params = &no_parameters;
+    std::map<std::array<int, 3>, vk::raii::Sampler> samplers;
+
+    std::vector<PassTime> times;
+    double frame_milliseconds = 0;
+    // On a GPU only: what has been recorded since begin_frame() or the last flush.
+    vk::raii::CommandBuffer commands{nullptr};
+    vk::raii::Fence fence{nullptr};
+    vk::raii::QueryPool queries{nullptr};
+    std::vector<std::string> recorded;
+
+    Impl(Device& device, glm::uvec2 extent, Clock clock);
+    ~Impl();
+
+    void execute(const std::string& stage, const std::function<void(const vk::raii::CommandBuffer&)>& record);
+    void flush();
+    void add_time(const std::string& stage, double milliseconds);
+
+    const vk::raii::Sampler& sampler(const Sampling& sampling);
+    void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
+    void check(const Pass& pass, const ShaderInterface& interface);
+    void check_features(const Image& image, ShaderInterface::Kind kind, const Sampling& sampling);
+    void bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw, const Pipeline& pipeline);
+    void draw(const vk::raii::CommandBuffer& commands, const Pass& pass, const Pipeline& pipeline,
+              const std::vector<Image>& attachments);
+    [[noreturn]] void fail_missing(const Pass& pass, const std::string& name);
+    const Image* find_image(const Pass& pass, const Draw* draw, const std::string& name, Sampling& sampling);
+    const Buffer* find_buffer(const Pass& pass, const Draw* draw, const std::string& name);
+    void write_params();
+};
