@@ -1,0 +1,74 @@
+#include "core/gpu/device.h"
+#include "core/error.h"
+#include "core/gpu/device_impl.h"
+#include "core/gpu/pass_graph.h"
+
+#include <gtest/gtest.h>
+#include <cstdlib>
+
+namespace {
+
+bool contains(const std::vector<std::string>& messages, const std::string& part) {
+    return std::ranges::any_of(messages, [&](const std::string& m) { return m.find(part) != std::string::npos; });
+}
+
+/// Exits with 0 if `action` throws a MachineError that names what to install.
+template <class Action>
+void exit_with_verdict(const Action& action) {
+    try {
+        action();
+    } catch (const MachineError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        std::exit(std::string(error.what()).find("mesa-vulkan-drivers") != std::string::npos ? 0 : 1);
+    }
+    std::exit(2);
+}
+
+}  // namespace
+
+// In a process of its own, since the loader reads these once.
+TEST(NoDeviceDeathTest, IsAFaultOfTheMachine) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto without_drivers = [](const auto& action) {
+        for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) setenv(name, "/nonexistent/driver.json", 1);
+        exit_with_verdict(action);
+    };
+    EXPECT_EXIT(without_drivers([] { Device("", false); }), testing::ExitedWithCode(0),
+                "there is no Vulkan 1.3 device");
+    EXPECT_EXIT(without_drivers([] { list_devices(); }), testing::ExitedWithCode(0), "there is no Vulkan 1.3 device");
+}
+
+TEST(Device, DescribesItself) {
+    const DeviceInfo info = Device().info();
+    EXPECT_FALSE(info.name.empty() || info.driver.empty() || info.type.empty());
+    EXPECT_TRUE(info.api.starts_with("1."));
+    EXPECT_GT(info.memory_mib, 0.0);
+}
+
+TEST(Device, PicksTheOnlyOneByItself) {
+    if (list_devices().size() > 1) GTEST_SKIP() << "several devices";
+    EXPECT_EQ(Device().info().name, list_devices().front().name);
+}
+
+// Silence of the validation layer in all other tests means something only if it speaks up here.
+TEST(Validation, ReportsAMissingBarrier) {
+    Device device("", true);
+    Device::Impl& gpu = device.impl();
+    const DeviceBuffer buffer(gpu, 1024, vk::BufferUsageFlagBits::eTransferDst, false);
+    gpu.submit([&](auto& commands) {
+        commands.fillBuffer(*buffer.buffer, 0, VK_WHOLE_SIZE, 1);
+        commands.fillBuffer(*buffer.buffer, 0, VK_WHOLE_SIZE, 2);
+    });
+    EXPECT_TRUE(contains(device.validation_messages(), "SYNC-HAZARD-WRITE-AFTER-WRITE"));
+}
+
+TEST(Validation, IsOffUnlessAskedFor) {
+    Device device("", false);
+    Device::Impl& gpu = device.impl();
+    const DeviceBuffer buffer(gpu, 1024, vk::BufferUsageFlagBits::eTransferDst, false);
+    gpu.submit([&](auto& commands) {
+        commands.fillBuffer(*buffer.buffer, 0, VK_WHOLE_SIZE, 1);
+        commands.fillBuffer(*buffer.buffer, 0, VK_WHOLE_SIZE, 2);
+    });
+    EXPECT_TRUE(device.validation_messages().empty());
+}

@@ -1,0 +1,106 @@
+#include "core/parameters.h"
+#include "core/error.h"
+
+#include <gtest/gtest.h>
+#include <bit>
+#include <functional>
+
+namespace {
+
+struct Demo {
+    ParameterSet params;
+    // clang-format off
+    Param<float> thickness{params, "thickness", 0.05f, {0.0f, 1.0f}, {"m", "depth assumed behind each sample", "a paper"}};
+    Param<unsigned> max_steps{params, "max_steps", 64, {1, 512}, {"", "steps before a ray is given up", "a paper"}, Use::constant};
+    Param<int> offset{params, "offset", -1, {-4, 4}, {"pixels", "where to begin", "ssrlab"}};
+    Switch refine{params, "refine", false, {"", "bisects", "ssrlab"}};
+    Choice filter{params, "filter", "bilinear", {"nearest", "bilinear"}, {"", "how colours are read", "ssrlab"}};
+    // clang-format on
+};
+
+std::string message_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+const Parameter& named(const ParameterSet& params, const std::string& name) {
+    return *std::ranges::find(params, name, &Parameter::name);
+}
+
+}  // namespace
+
+TEST(Parameters, ReadLikePlainValues) {
+    Demo demo;
+    demo.params.assign({{"thickness", 0.25}, {"refine", true}, {"filter", "nearest"}});
+    EXPECT_EQ(demo.thickness, 0.25f);
+    EXPECT_EQ(demo.max_steps, 64u);
+    EXPECT_EQ(demo.offset, -1);
+    EXPECT_TRUE(demo.refine);
+    EXPECT_TRUE(demo.filter.is("nearest"));
+    EXPECT_EQ(demo.params.values().dump(),
+              R"({"filter":"nearest","max_steps":64,"offset":-1,"refine":true,"thickness":0.25})");
+}
+
+TEST(Parameters, KeepShortDecimals) { EXPECT_EQ(Demo{}.params.values().at("thickness").dump(), "0.05"); }
+
+TEST(Parameters, RejectMistakesBySayingWhatIsAllowed) {
+    const auto assign = [](const nlohmann::json& values) { return message_of([&] { Demo{}.params.assign(values); }); };
+    EXPECT_EQ(assign({{"thicknes", 0.1}}), "unknown parameter 'thicknes'; did you mean 'thickness'?");
+    EXPECT_EQ(assign({{"speed", 1}}),
+              "unknown parameter 'speed'; known are: thickness, max_steps, offset, refine, filter");
+    EXPECT_EQ(assign({{"thickness", 2.0}}), "parameter 'thickness' = 2.0 is outside of its range: [0, 1]");
+    EXPECT_EQ(assign({{"thickness", "big"}}), "parameter 'thickness' is a number, not \"big\"");
+    EXPECT_EQ(assign({{"max_steps", 1.5}}), "parameter 'max_steps' is a whole number, not 1.5");
+    EXPECT_EQ(assign({{"max_steps", -1}}), "parameter 'max_steps' = -1 is outside of its range: [1, 512]");
+    EXPECT_EQ(assign({{"refine", 1}}), "parameter 'refine' is a switch (true or false), not 1");
+    EXPECT_EQ(assign({{"filter", "cubic"}}),
+              "parameter 'filter' = \"cubic\" is outside of its range: nearest, bilinear");
+    EXPECT_EQ(assign(nlohmann::json::array()), "parameters must be an object of names and values, not []");
+}
+
+TEST(Parameters, AreUnchangedByARejectedAssignment) {
+    Demo demo;
+    EXPECT_THROW(demo.params.assign({{"refine", true}, {"thickness", 5}}), Error);
+    EXPECT_FALSE(demo.refine);
+}
+
+TEST(Parameters, DeclareThemselvesInGlsl) {
+    EXPECT_EQ(Demo{}.params.glsl(),
+              "layout(constant_id = 0) const uint max_steps = uint(64);\n"
+              "layout(constant_id = 1) const bool refine = bool(false);\n"
+              "layout(constant_id = 2) const uint filter = uint(1);\n"
+              "layout(std140) uniform Params {\n    float thickness;\n    int offset;\n};\n");
+    EXPECT_EQ(ParameterSet{}.glsl(), "");
+}
+
+TEST(Parameters, HaveTheBitsThatTheGpuReads) {
+    Demo demo;
+    EXPECT_EQ(named(demo.params, "thickness").bits(), std::bit_cast<uint32_t>(0.05f));
+    EXPECT_EQ(named(demo.params, "offset").bits(), 0xffffffffu);
+    EXPECT_EQ(named(demo.params, "filter").bits(), 1u);
+    EXPECT_EQ(named(demo.params, "refine").bits(), 0u);
+}
+
+TEST(Parameters, DescribeThemselves) {
+    const std::string help = Demo{}.params.help();
+    for (const char* part : {"thickness", "0.05", "[0, 1]", "unit m", "depth assumed behind each sample", "a paper",
+                             "nearest, bilinear", "true, false"})
+        EXPECT_NE(help.find(part), std::string::npos) << part << " in\n" << help;
+}
+
+TEST(Parameters, HaveAJsonSchema) {
+    const nlohmann::json schema = Demo{}.params.schema();
+    EXPECT_EQ(schema.at("additionalProperties"), false);
+    const nlohmann::json& members = schema.at("properties");
+    EXPECT_EQ(members.size(), 5u);
+    EXPECT_EQ(members.at("thickness").at("type"), "number");
+    EXPECT_EQ(members.at("thickness").at("maximum"), 1.0);
+    EXPECT_EQ(members.at("max_steps").at("type"), "integer");
+    EXPECT_EQ(members.at("refine").at("type"), "boolean");
+    EXPECT_EQ(members.at("filter").at("enum"), (nlohmann::json{"nearest", "bilinear"}));
+    EXPECT_EQ(members.at("filter").at("default"), "bilinear");
+}

@@ -1,0 +1,45 @@
+#include "core/gpu/shader.h"
+#include "core/error.h"
+
+#include <gtest/gtest.h>
+#include <filesystem>
+
+namespace {
+
+std::string error_of(const std::string& file, ShaderLanguage language = ShaderLanguage::vulkan) {
+    try {
+        compile(file, "", "", language);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+}  // namespace
+
+TEST(Shader, ErrorsNameTheFileAndLineAsWritten) {
+    EXPECT_NE(error_of("broken_include.comp").find("broken_part.glsl:3: 'undeclared'"), std::string::npos);
+    EXPECT_NE(error_of("broken.comp").find("broken.comp:5: 'nor_this'"), std::string::npos) << error_of("broken.comp");
+    EXPECT_NE(error_of("no_such.comp").find("no shader file no_such.comp under"), std::string::npos);
+}
+
+TEST(Shader, WebGl2RefusesWhatItDoesNotHave) {
+    EXPECT_EQ(error_of("plain_webgl2.frag", ShaderLanguage::webgl2), "no error");
+    EXPECT_EQ(error_of("image_store.frag"), "no error");
+    EXPECT_NE(error_of("image_store.frag", ShaderLanguage::webgl2).find("image_store.frag:"), std::string::npos);
+}
+
+/// The formulas that the path tracer, the rasteriser and the variants share compile in every language they are meant
+/// for.
+TEST(Shader, SharedHeadersCompileInBothLanguages) {
+    size_t count = 0;
+    for (const auto& file : std::filesystem::directory_iterator(SSRLAB_SOURCE_DIR "/core/shared")) {
+        const std::string name = file.path().filename();
+        const std::string prelude = "#include \"core/shared/" + name + "\"\n";
+        for (const ShaderLanguage language : {ShaderLanguage::vulkan, ShaderLanguage::webgl2})
+            EXPECT_NO_THROW(compile("empty.frag", "", prelude, language))
+                << name << (language == ShaderLanguage::webgl2 ? " as GLSL ES 3.00" : " as GLSL 4.60");
+        ++count;
+    }
+    EXPECT_GE(count, 4u);
+}
