@@ -26,6 +26,6 @@ struct ClockProof {
 /// 10 or more; a machine that is busy with other things, or clocks up during the measurement, by less than 2.
 inline constexpr double clock_tolerance = 2.0;
 
-/// Takes three to six seconds on four cores.
+/// Takes about two seconds.
 ClockProof prove_clock(Device& device);
 ClockProof prove_clock(Device& device, Clock clock);
