@@ -54,7 +54,7 @@ json metric_descriptions() {
 }
 
 /// The summaries as arrays, texts as indices into `texts`: a large sweep repeats few texts many times.
-json table_data(std::span<const ErrorSummary> errors, std::span<const TimeSummary> times) {
+json table_data(std::span<const MetricSummary> errors, std::span<const TimeSummary> times) {
     std::map<std::string, size_t> index;
     json texts = json::array();
     const auto code = [&](const std::string& text) {
@@ -63,7 +63,7 @@ json table_data(std::span<const ErrorSummary> errors, std::span<const TimeSummar
         return at->second;
     };
     json error_rows = json::array(), time_rows = json::array();
-    for (const ErrorSummary& e : errors)
+    for (const MetricSummary& e : errors)
         error_rows.push_back({code(e.shot), code(e.variant), code(e.point), code(e.target), code(e.metric), code(e.formula), code(e.mask), optional_json(e.value),
                               optional_json(e.low), optional_json(e.high), optional_json(e.floor), optional_json(e.seed_deviation), e.seeds, e.is_corrected ? 1 : 0,
                               e.pixels, e.non_finite, e.negative});
@@ -73,17 +73,17 @@ json table_data(std::span<const ErrorSummary> errors, std::span<const TimeSummar
 }
 
 /// What a reader without scripts gets: the warnings, and each shot's first metric on its reflective pixels.
-std::string static_part(const std::vector<std::string>& warnings, std::span<const ErrorSummary> errors) {
+std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
     std::string html = "<p>Charts, the viewer and sorting need JavaScript. All numbers are in summary.csv and time_summary.csv.</p>\n";
     for (const std::string& warning : warnings) html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
     if (errors.empty()) return html;
-    const auto is_reflective = [](const ErrorSummary& e) { return e.mask == "reflective"; };
+    const auto is_reflective = [](const MetricSummary& e) { return e.mask == "reflective"; };
     const bool has_reflective = std::ranges::any_of(errors, is_reflective);
-    const ErrorSummary& chosen = has_reflective ? *std::ranges::find_if(errors, is_reflective) : errors.front();
+    const MetricSummary& chosen = has_reflective ? *std::ranges::find_if(errors, is_reflective) : errors.front();
     html += "<table><caption>" + html_text(chosen.metric + " of target " + chosen.target + " on mask " + chosen.mask) +
             "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>Low<th>High<th>Floor</tr></thead><tbody>\n";
     const auto cell = [](const std::optional<double>& value) { return "<td>" + (value ? json(*value).dump() : "&ndash;"); };
-    for (const ErrorSummary& e : errors)
+    for (const MetricSummary& e : errors)
         if (e.metric == chosen.metric && e.formula == chosen.formula && e.target == chosen.target && e.mask == chosen.mask)
             html += "<tr><td>" + html_text(e.shot) + "<td>" + html_text(e.variant) + "<td>" + html_text(e.point) + cell(e.value) + cell(e.low) + cell(e.high) + cell(e.floor) + "</tr>\n";
     return html + "</tbody></table>\n";
@@ -111,7 +111,7 @@ json image_description(const ReportImage& image) {
 void write_report(const std::filesystem::path& folder) {
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
-    const std::vector<ErrorSummary> errors = summarise(read_result_rows(folder / "results.csv"));
+    const std::vector<MetricSummary> errors = summarise(read_result_rows(folder / "results.csv"));
     std::vector<TimeSummary> times;
     if (std::filesystem::exists(folder / "times.csv")) times = summarise(read_time_rows(folder / "times.csv"));
     write_summaries(folder, errors, times);
@@ -136,7 +136,7 @@ void write_report(const std::filesystem::path& folder) {
     }
     values.emplace("images", "");
     values["data"] = script_text(data);
-    const json title = manifest.value("config", json::object()).is_object() ? manifest.value("config", json::object()).value("title", json("Study")) : json("Study");
+    const json title = manifest.value("title", json());
     values["title"] = html_text(title.is_string() ? title.get<std::string>() : "Study");
     write_text(folder / "report.html", filled(part("template.html"), values));
 }

@@ -20,6 +20,12 @@ double number(const json& value, double fallback) { return value.is_number() ? v
 std::string text(const json& value) { return value.is_string() ? value.get<std::string>() : "?"; }
 bool is_true(const json& value) { return value.is_boolean() && value.get<bool>(); }
 
+/// The study's warnings are clauses.
+std::string sentence(std::string clause) {
+    if (!clause.empty() && clause.back() != '.') clause += '.';
+    return clause;
+}
+
 std::string percent(double share) {
     char buffer[32];
     // Rounded towards zero: 99.96 % that falls short must not be read as 100 %.
@@ -28,7 +34,9 @@ std::string percent(double share) {
 }
 
 void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
-    if (manifest.contains("finished") && !manifest["finished"].is_string())
+    for (const json& warning : member(manifest, "warnings"))
+        if (warning.is_string()) warnings.push_back(sentence(warning.get<std::string>()));
+    if (!member(manifest, "finished").is_string())
         warnings.push_back("This study is not finished: some variants or shots may be missing.");
     if (is_true(member(member(manifest, "ssrlab"), "dirty")))
         warnings.push_back("The program was built from a source tree with uncommitted changes: the commit alone does not identify it.");
@@ -38,20 +46,15 @@ void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool h
     if (!has_times) return;
     const json& proof = member(clock, "proof");
     if (!proof.is_array() || proof.empty()) warnings.push_back("The clock was not proven in this run: take its times with care.");
-    for (const json& part : proof)
-        if (!is_true(member(part, "passed")))
-            warnings.push_back("The clock proof failed for " + text(member(part, "stage_kind")) +
-                               " passes: work of 1:10:100 did not take times in that ratio. Do not trust the times of this run.");
     if (!member(clock, "aa_floor").is_number()) warnings.push_back("No A/A pair was measured: the noise floor of the times is not known.");
 }
 
-void warn_of_shot(std::vector<std::string>& warnings, const json& shot, double target_error) {
+void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
     const std::string name = text(member(shot, "shot")) + ": ";
     for (const json& warning : member(shot, "warnings"))
-        if (warning.is_string()) warnings.push_back(name + warning.get<std::string>());
-    if (member(shot, "lit") == "direct")
-        warnings.push_back(name + "the lit colour is rasterised direct light without shadows, so errors contain a difference in lighting that is not the technique's.");
+        if (warning.is_string()) warnings.push_back(name + sentence(warning.get<std::string>()));
     const json& reference = member(shot, "reference");
+    const double target_error = number(member(reference, "target_relative_error"), 0.0);
     const double reached = number(member(reference, "reached_share"), 1.0);
     if (target_error > 0 && reached < 1.0)
         warnings.push_back(name + "only " + percent(reached) + " of the reference's pixels reached the relative error of " + percent(target_error) +
@@ -60,9 +63,9 @@ void warn_of_shot(std::vector<std::string>& warnings, const json& shot, double t
         warnings.push_back(name + std::to_string(uint64_t(bad)) + " samples of the reference were not finite and were left out: its mean may be biased.");
 }
 
-void warn_of_pixels(std::vector<std::string>& warnings, std::span<const ErrorSummary> errors) {
+void warn_of_pixels(std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
     std::map<std::string, std::pair<size_t, size_t>> worst;
-    for (const ErrorSummary& e : errors) {
+    for (const MetricSummary& e : errors) {
         auto& [non_finite, negative] = worst[e.shot + ", " + e.variant + " (" + e.point + "), " + e.target + ": "];
         non_finite = std::max(non_finite, e.non_finite);
         negative = std::max(negative, e.negative);
@@ -75,12 +78,11 @@ void warn_of_pixels(std::vector<std::string>& warnings, std::span<const ErrorSum
 
 }  // namespace
 
-std::vector<std::string> report_warnings(const json& manifest, std::span<const ErrorSummary> errors, std::span<const TimeSummary> times) {
+std::vector<std::string> report_warnings(const json& manifest, std::span<const MetricSummary> errors, std::span<const TimeSummary> times) {
     std::vector<std::string> warnings;
     warn_of_study(warnings, manifest);
     warn_of_clock(warnings, member(manifest, "clock"), !times.empty());
-    const double target_error = number(member(member(member(manifest, "config"), "reference"), "target_relative_error"), 0.0);
-    for (const json& shot : member(manifest, "shots")) warn_of_shot(warnings, shot, target_error);
+    for (const json& shot : member(manifest, "shots")) warn_of_shot(warnings, shot);
     warn_of_pixels(warnings, errors);
     return warnings;
 }

@@ -41,7 +41,7 @@ std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>
     return values;
 }
 
-void set_interval(ErrorSummary& s, const std::vector<const ResultRow*>& rows) {
+void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows) {
     const auto lows = values_of(rows, &ResultRow::low), highs = values_of(rows, &ResultRow::high);
     const bool has_interval = lows && highs;
     const bool reference_is_exact = !has_interval && s.floor.value_or(0.0) == 0.0;
@@ -51,9 +51,9 @@ void set_interval(ErrorSummary& s, const std::vector<const ResultRow*>& rows) {
     s.high = *s.value + std::hypot(from_seeds, has_interval ? mean(*highs) - *s.value : 0.0);
 }
 
-ErrorSummary summary_of(const std::vector<const ResultRow*>& rows) {
+MetricSummary summary_of(const std::vector<const ResultRow*>& rows) {
     const ResultRow& first = *rows.front();
-    ErrorSummary s{first.shot, first.variant, first.point, first.target, first.metric, first.formula, first.mask};
+    MetricSummary s{first.shot, first.variant, first.point, first.target, first.metric, first.formula, first.mask};
     s.seeds = unsigned(rows.size());
     s.is_corrected = first.is_corrected;
     for (const ResultRow* row : rows) {
@@ -109,8 +109,8 @@ std::vector<TimeRow> read_time_rows(const std::filesystem::path& file) {
     return rows;
 }
 
-std::vector<ErrorSummary> summarise(std::span<const ResultRow> rows) {
-    std::vector<ErrorSummary> summaries;
+std::vector<MetricSummary> summarise(std::span<const ResultRow> rows) {
+    std::vector<MetricSummary> summaries;
     const auto key = [](const ResultRow& r) { return std::tie(r.shot, r.variant, r.point, r.target, r.metric, r.formula, r.mask); };
     for (const auto& group : grouped(rows, key)) summaries.push_back(summary_of(group));
     return summaries;
@@ -120,8 +120,10 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
     std::vector<TimeSummary> summaries;
     const auto key = [](const TimeRow& t) { return std::tie(t.shot, t.variant, t.point, t.stage); };
     for (const auto& group : grouped(rows, key)) {
+        std::map<std::pair<unsigned, unsigned>, double> of_frame;  // a stage may run several times in a frame
+        for (const TimeRow* row : group) of_frame[{row->seed, row->frame}] += row->milliseconds;
         std::vector<double> times;
-        for (const TimeRow* row : group) times.push_back(row->milliseconds);
+        for (const auto& [frame, milliseconds] : of_frame) times.push_back(milliseconds);
         const TimeRow& first = *group.front();
         const MedianInterval m = median_interval(times);
         summaries.push_back({first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median, m.low, m.high});
@@ -129,9 +131,9 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
     return summaries;
 }
 
-void write_summaries(const std::filesystem::path& folder, std::span<const ErrorSummary> errors, std::span<const TimeSummary> times) {
+void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors, std::span<const TimeSummary> times) {
     std::string text = "shot,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,pixels,non_finite,negative\n";
-    for (const ErrorSummary& e : errors)
+    for (const MetricSummary& e : errors)
         text += csv_line(e.shot, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value, e.low, e.high, e.seed_deviation, e.floor,
                          e.is_corrected, e.pixels, e.non_finite, e.negative);
     write_text(folder / "summary.csv", text);

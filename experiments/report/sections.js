@@ -51,10 +51,8 @@ function showNeeds() {
     for (const shot of manifestShots()) {
         const needs = list(shot.needs), leftOut = list(shot.left_out);
         if (!needs.length && !leftOut.length) continue;
-        const yes = needs.filter(n => n.value), no = needs.filter(n => !n.value);
-        const line = (name, facts) => facts.length ? h("p", {}, h("b", {}, name + ": "), facts.map(f => `${String(f.fact).replaceAll("_", " ")}${f.why ? ` (${f.why})` : ""}`).join("; ")) : null;
         at("needs").append(h("details", {}, h("summary", {}, `${shot.shot}: ${leftOut.length ? "left out " + leftOut.map(l => l.what).join(", ") : "nothing left out"}`),
-            line("Needed", yes), line("Not needed", no),
+            table([{ name: "Fact" }, { name: "Value" }, { name: "Why" }], needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
             leftOut.length ? table([{ name: "Left out" }, { name: "Serves only" }, { name: "Why" }, { name: "Time saved", number: true }],
                 leftOut.map(l => [l.what, known(l.fact), known(l.why), l.saved_ms === null || l.saved_ms === undefined ? "not measured" : number(l.saved_ms) + " ms"])) : null));
     }
@@ -63,8 +61,8 @@ function showNeeds() {
 function showParameters() {
     for (const name of unique(list(report.manifest.variants).map(v => v.variant))) {
         const points = report.manifest.variants.filter(v => v.variant === name);
-        const first = points[0];
-        at("parameters").append(h("h3", {}, first.title ?? name), h("p", { class: "note" }, [first.source, list(first.stages).length && "Stages: " + first.stages.join(", ")].filter(Boolean).join(". ")));
+        const first = points[0], stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
+        at("parameters").append(h("h3", {}, first.title ?? name), h("p", { class: "note" }, [first.source, stages.length && "Stages: " + stages.join(", ")].filter(Boolean).join(". ")));
         const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
         if (!keys.length) continue;
         const text = value => value === undefined ? "–" : typeof value === "number" ? number(value, 6) : JSON.stringify(value);

@@ -100,6 +100,17 @@ TEST(Summary, GivesNoIntervalWhereTheNoiseOfTheReferenceIsNotInIt) {
     EXPECT_FALSE(summarise(rows).at(0).value);
 }
 
+TEST(Summary, AddsUpAStageThatRunsTwiceInAFrame) {
+    std::vector<TimeRow> rows;
+    for (unsigned frame = 0; frame < 3; ++frame)
+        for (const double ms : {1.0, 2.0}) rows.push_back({"s", "v", "p", 0, "mips", frame, ms + frame, "host_fence"});
+    const auto t = summarise(rows).at(0);
+    EXPECT_EQ(t.frames, 3u);
+    EXPECT_EQ(t.median, 5.0);
+    EXPECT_EQ(t.low, 3.0);
+    EXPECT_EQ(t.high, 7.0);
+}
+
 TEST(Summary, KnowsStudentsT) {
     // Tables of Student's t, to their five decimals.
     EXPECT_NEAR(student_t_975(1), 12.70620, 1e-5);
@@ -160,13 +171,13 @@ TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
     const auto times = summarise(read_time_rows(folder / "times.csv"));
     auto manifest = read_json(folder / "manifest.json");
     const auto warnings = report_warnings(manifest, errors, times);
-    EXPECT_TRUE(contains(warnings, "clock proof failed for fragment"));
+    EXPECT_TRUE(contains(warnings, "the clock did not prove itself: fragment passes took other times."));
     EXPECT_TRUE(contains(warnings, "roughness_gradient.side.161x91: only 62.0 % of the reference's pixels reached the relative error of 3.0 %"));
-    EXPECT_TRUE(contains(warnings, "fence.low.160x90, mcguire_dda (stride=4), specular: 1 pixels are NaN"));
+    EXPECT_TRUE(contains(warnings, "fence.low.160x90, mcguire_dda (stride=4), specular: 1 pixel is NaN"));
     EXPECT_EQ(warnings.size(), 4u);  // and the like for target `image`
-    manifest["shots"][0]["lit"] = "direct";
+    manifest["shots"][0]["warnings"] = {"a texture is missing"};
     manifest["finished"] = nullptr;
-    EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "direct light"));
+    EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "mirror_pillars.front.160x90: a texture is missing."));
     EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "not finished"));
     EXPECT_TRUE(contains(report_warnings(nlohmann::json::object(), errors, times), "not proven"));
 }

@@ -1,15 +1,29 @@
 #include "core/error.h"
+#include "core/exr.h"
 #include "experiments/report.h"
 #include "tests/experiments/report_fixture.h"
 
 #include <cstdio>
+#include <cstdlib>
+#include <half.h>
+#include <string>
 
-/// report_page DIR: fills DIR with the made-up results folder and its report, for the tests that look at it from outside.
+/// For the tests that look at a report from outside:
+/// report_page DIR                     fills DIR with the made-up results folder and its report
+/// report_page --halves FILE.exr X Y   prints R G B of a pixel, rounded to half floats
 int main(int argc, char** argv) {
-    if (argc != 2) return std::fprintf(stderr, "usage: report_page DIR\n"), 2;
     try {
-        write_report_fixture(argv[1]);
-        write_report(argv[1]);
+        if (argc == 2) {
+            write_report_fixture(argv[1]);
+            write_report(argv[1]);
+        } else if (argc == 5 && argv[1] == std::string("--halves")) {
+            const HostImage image = read_exr_rgb(argv[2]);
+            const float* pixel = image.pixel(unsigned(std::atoi(argv[3])), unsigned(std::atoi(argv[4])));
+            std::printf("%.17g %.17g %.17g\n", double(half(pixel[0])), double(half(pixel[1])), double(half(pixel[2])));
+        } else {
+            std::fprintf(stderr, "usage: report_page DIR | --halves FILE.exr X Y\n");
+            return 2;
+        }
     } catch (const Error& e) {
         std::fprintf(stderr, "error: %s\n", e.what());
         return 2;

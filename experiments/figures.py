@@ -1,0 +1,61 @@
+"""Paper figures from a results folder: error against time, stage times, and crops with error maps, as PDF, SVG and PNG.
+
+usage: figures.py RESULTS [--out DIR] [--target specular] [--metric mse] [--mask reflective]
+
+It reads manifest.json, summary.csv, time_summary.csv and the EXR images (experiments/RESULTS.md), and writes the same bytes
+whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
+"""
+
+import argparse
+import os
+import sys
+
+os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into its files
+
+try:
+    import matplotlib
+    import numpy  # noqa: F401  (named here so that a missing one is explained below)
+except ImportError as missing:
+    sys.exit(f"error: {missing}: install python3-matplotlib and python3-numpy")
+
+from paper_figures import crops, error_time, stage_times, style
+from paper_figures.results import Results, ResultsError
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description="Paper figures (PDF, SVG, PNG) from a results folder.")
+    parser.add_argument("results", help="a folder that `ssrlab run` filled")
+    parser.add_argument("--out", help="default: figures in the results folder")
+    parser.add_argument("--target", default="specular", help="default: specular")
+    parser.add_argument("--metric", default="mse", help="default: mse")
+    parser.add_argument("--mask", default="reflective", help="default: reflective")
+    return parser.parse_args()
+
+
+def main():
+    arguments = parse_arguments()
+    matplotlib.use("Agg")
+    style.apply()
+    try:
+        results = Results(arguments.results)
+        errors = results.errors_of(arguments.target, arguments.metric, arguments.mask)
+        out = arguments.out or os.path.join(arguments.results, "figures")
+        os.makedirs(out, exist_ok=True)
+        written = []
+        for shot in results.shots():
+            for name, draw in (("error_time", error_time.draw), ("stage_times", stage_times.draw), ("crops", crops.draw)):
+                figure = draw(results, shot, errors, arguments)
+                if figure is not None:
+                    written += style.save(figure, out, f"{name}_{shot}")
+    except ResultsError as mistake:
+        print(f"error: {mistake}", file=sys.stderr)
+        return 2
+    except OSError as fault:
+        print(f"error: cannot write the figures: {fault}", file=sys.stderr)
+        return 3
+    print(f"{len(written)} files in {out}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

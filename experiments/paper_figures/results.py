@@ -1,0 +1,103 @@
+"""A results folder as the figures need it."""
+
+import csv
+import json
+import os
+from dataclasses import dataclass
+
+from paper_figures.exr import ExrError, read_exr_rgb
+
+
+class ResultsError(Exception):
+    """A mistake in the results folder or in what was asked of it: one sentence."""
+
+
+@dataclass
+class Measured:
+    """A value with its 95 % interval; low and high are None where there is none."""
+    value: float
+    low: float
+    high: float
+
+    def whiskers(self):
+        """Lengths below and above the value, as matplotlib's errorbar takes them."""
+        if self.low is None:
+            return [[0.0], [0.0]]
+        return [[max(self.value - self.low, 0.0)], [max(self.high - self.value, 0.0)]]
+
+
+def label(variant, point):
+    return variant if point in ("", "default") else f"{variant} {point}"
+
+
+class Results:
+    def __init__(self, folder):
+        self.folder = folder
+        self.manifest = self._read_manifest()
+        self.errors = self._read_csv("summary.csv")
+        self.times = self._read_csv("time_summary.csv")
+
+    def _read_manifest(self):
+        file = os.path.join(self.folder, "manifest.json")
+        try:
+            with open(file, encoding="utf-8") as text:
+                manifest = json.load(text)
+        except OSError as e:
+            raise ResultsError(f"cannot read {file}: {e.strerror}; is it a folder that `ssrlab run` filled?") from e
+        except ValueError as e:
+            raise ResultsError(f"{file} is not valid JSON: {e}") from e
+        if not isinstance(manifest, dict):
+            raise ResultsError(f"{file} must be a JSON object")
+        return manifest
+
+    def _read_csv(self, name):
+        file = os.path.join(self.folder, name)
+        try:
+            with open(file, newline="", encoding="utf-8") as text:
+                return list(csv.DictReader(text))
+        except OSError as e:
+            raise ResultsError(f"cannot read {file}: {e.strerror}") from e
+
+    def _number(self, row, column, name):
+        text = row.get(column)
+        try:
+            return float(text) if text else None
+        except ValueError as e:
+            raise ResultsError(f"{os.path.join(self.folder, name)}: '{column}' = \"{text}\" is not a number") from e
+
+    def shots(self):
+        return list(dict.fromkeys(row["shot"] for row in self.errors))
+
+    def errors_of(self, target, metric, mask):
+        """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out."""
+        rows = [r for r in self.errors if (r["target"], r["metric"], r["mask"]) == (target, metric, mask)]
+        if not rows:
+            found = sorted({f"{r['target']} {r['metric']} {r['mask']}" for r in self.errors})
+            raise ResultsError(f"{os.path.join(self.folder, 'summary.csv')} has no rows of target {target}, metric {metric}, mask {mask}; it has: {', '.join(found)}")
+        read = {(r["shot"], r["variant"], r["point"]): Measured(*(self._number(r, c, "summary.csv") for c in ("value", "low", "high"))) for r in rows}
+        return {key: value for key, value in read.items() if value.value is not None}
+
+    def times_of(self, shot):
+        """(variant, point) to {stage: Measured} in ms; the G-buffer and the lit colour belong to no variant and are not in it."""
+        stages = {}
+        for r in self.times:
+            if r["shot"] == shot and r["variant"]:
+                values = (self._number(r, c, "time_summary.csv") for c in ("median_ms", "low_ms", "high_ms"))
+                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*values)
+        return stages
+
+    def exposure(self, shot):
+        """The shot's exposure in EV."""
+        return next((s.get("exposure_ev") or 0.0 for s in self.manifest.get("shots", []) if s.get("shot") == shot), 0.0)
+
+    def images_of(self, shot, target):
+        """(variant, point) to RGB image of the first seed; the reference's key is ("reference", "")."""
+        entries = [i for i in self.manifest.get("images", []) if i.get("shot") == shot and i.get("target") == target and i.get("kind") in ("result", "reference")]
+        first = {}
+        for entry in sorted(entries, key=lambda i: i.get("seed") or 0):
+            first.setdefault((entry["variant"], entry.get("point") or ""), entry["exr"])
+        order = {(i["variant"], i.get("point") or ""): n for n, i in reversed(list(enumerate(entries)))}
+        try:
+            return {key: read_exr_rgb(os.path.join(self.folder, first[key])) for key in sorted(first, key=order.get)}
+        except ExrError as e:
+            raise ResultsError(str(e)) from e

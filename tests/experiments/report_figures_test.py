@@ -1,0 +1,104 @@
+"""Draws the figures of a made-up results folder twice and looks at the files.
+
+usage: report_figures_test.py REPORT_PAGE_PROGRAM FIGURES_SCRIPT
+"""
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+
+program, script = sys.argv[1:]
+sys.path.insert(0, os.path.dirname(script))
+sys.dont_write_bytecode = True
+
+try:
+    import numpy as np
+    from paper_figures.crops import crop_boxes
+    from paper_figures.exr import ExrError, read_exr_rgb
+except ImportError as missing:
+    sys.exit(f"figures need python3-matplotlib and python3-numpy (tests/run.sh installs them): {missing}")
+
+SHOT = "mirror_pillars.front.160x90"
+
+
+def check(is_true, what):
+    if not is_true:
+        sys.exit(f"report_figures_test: {what}")
+
+
+def run_figures(folder, out, *options):
+    return subprocess.run([sys.executable, "-B", script, folder, "--out", out, *options], capture_output=True, text=True)
+
+
+def keep_one_shot(folder):
+    """One shot is enough to compare bytes, in a third of the time."""
+    file = os.path.join(folder, "summary.csv")
+    with open(file, newline="") as text:
+        rows = list(csv.DictReader(text))
+    with open(file, "w", newline="") as text:
+        writer = csv.DictWriter(text, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(r for r in rows if r["shot"] == SHOT)
+
+
+def test_same_bytes(folder, temporary):
+    outs = [os.path.join(temporary, name) for name in ("first", "second")]
+    for out in outs:
+        result = run_figures(folder, out)
+        check(result.returncode == 0, f"figures.py ends with {result.returncode}: {result.stderr}")
+    expected = sorted(f"{name}_{SHOT}.{kind}" for name in ("error_time", "stage_times", "crops") for kind in ("pdf", "svg", "png"))
+    for out in outs:
+        check(sorted(os.listdir(out)) == expected, f"files: {sorted(os.listdir(out))}")
+    for name in expected:
+        first, second = (open(os.path.join(out, name), "rb").read() for out in outs)
+        check(len(first) > 2000, f"{name} is nearly empty")
+        check(first == second, f"{name} differs when it is made again")
+
+
+def test_exr(folder):
+    """The Python reader against the C++ one, half and float, over rows that do not fill the last block."""
+    for name in (f"{SHOT}/reference_image.exr", "roughness_gradient.side.161x91/none_default_0_specular.exr"):
+        file = os.path.join(folder, "images", name)
+        image = read_exr_rgb(file)
+        for x, y in ((0, 0), (3, 17), (image.shape[1] - 1, image.shape[0] - 1)):
+            printed = subprocess.run([program, "--halves", file, str(x), str(y)], check=True, capture_output=True, text=True).stdout
+            check([float(np.float16(v)) for v in image[y, x]] == [float(v) for v in printed.split()], f"pixel {x}, {y} of {name}: {image[y, x]}, and C++ reads {printed}")
+    broken = os.path.join(folder, "broken.exr")
+    with open(file, "rb") as whole, open(broken, "wb") as part:
+        data = whole.read()
+        part.write(data[:len(data) // 2])
+    try:
+        read_exr_rgb(broken)
+        check(False, "a truncated EXR was read")
+    except ExrError as e:
+        check("broken.exr" in str(e), f"the message names no file: {e}")
+
+
+def test_crop_boxes():
+    error = np.zeros((40, 60))
+    error[20:24, 50:55] = 2.0
+    error[2:6, 3:6] = 1.0
+    first, second = crop_boxes(error, 2)
+    check(first[0] <= 50 and first[0] + first[2] >= 55 and first[1] <= 20 and first[1] + first[3] >= 24, f"the worst place is not in {first}")
+    check(second[0] <= 3 and second[0] + second[2] >= 6 and second[1] <= 2 and second[1] + second[3] >= 6, f"the second worst is not in {second}")
+
+
+def test_mistakes(folder, temporary):
+    for options, part in ((["--metric", "nonsense"], "metric nonsense"), ):
+        result = run_figures(folder, os.path.join(temporary, "none"), *options)
+        check(result.returncode == 2 and part in result.stderr and result.stderr.count("\n") == 1, f"{options}: {result.returncode} {result.stderr}")
+    result = run_figures(temporary, os.path.join(temporary, "none"))
+    check(result.returncode == 2 and "manifest.json" in result.stderr, f"a folder without results: {result.returncode} {result.stderr}")
+    check(not os.path.exists(os.path.join(temporary, "none")), "a failed run left a folder")
+
+
+with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
+    folder = os.path.join(temporary, "results")
+    subprocess.run([program, folder], check=True)
+    test_exr(folder)
+    test_crop_boxes()
+    keep_one_shot(folder)
+    test_same_bytes(folder, temporary)
+    test_mistakes(folder, temporary)
