@@ -27,7 +27,7 @@ JsonObject::JsonObject(const nlohmann::json& object, std::string where) : object
     if (!object.is_object()) fail(where_, " must be a JSON object, not ", object.dump());
 }
 
-bool JsonObject::has(const std::string& key) const { return object_->contains(key); }
+bool JsonObject::has(const std::string& key) { return find(key); }
 
 const nlohmann::json* JsonObject::find(const std::string& key) {
     known_.insert(key);

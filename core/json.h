@@ -15,7 +15,7 @@ class JsonObject {
 public:
     JsonObject(const nlohmann::json& object, std::string where);
 
-    bool has(const std::string& key) const;
+    bool has(const std::string& key);  ///< asking makes the key known
 
     float number(const std::string& key, float min, float max);                  ///< required, within [min, max]
     float number(const std::string& key, float min, float max, float fallback);  ///< optional

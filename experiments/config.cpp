@@ -17,7 +17,7 @@ const std::vector<std::string> all_targets = {"specular", "image", "incident"};
 
 /// A text, or an array of texts.
 std::vector<std::string> one_or_more(JsonObject& object, const std::string& key, const std::string& fallback) {
-    if (!object.has(key)) return {object.text(key, fallback)};
+    if (!object.has(key)) return {fallback};
     const nlohmann::json& value = object.any(key);
     if (value.is_string()) return {value.get<std::string>()};
     const bool fits = value.is_array() && !value.empty() && std::ranges::all_of(value, [](const auto& v) { return v.is_string(); });
@@ -27,10 +27,7 @@ std::vector<std::string> one_or_more(JsonObject& object, const std::string& key,
 
 std::vector<std::string> known_names(JsonObject& object, const std::string& key, const std::vector<std::string>& known,
                                      const std::vector<std::string>& fallback) {
-    if (!object.has(key)) {
-        object.text(key, "");  // makes the key known for near misses
-        return fallback;
-    }
+    if (!object.has(key)) return fallback;
     const std::vector<std::string> names = one_or_more(object, key, "");
     for (const std::string& name : names)
         if (std::ranges::find(known, name) == known.end()) fail(object.where(), ": '", key, "' names \"", name, "\", which is not known", suggestion(name, known));
@@ -39,10 +36,7 @@ std::vector<std::string> known_names(JsonObject& object, const std::string& key,
 
 /// A count n, which stands for 0 .. n-1, or an array of whole numbers.
 std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsigned max, const std::vector<unsigned>& fallback) {
-    if (!object.has(key)) {
-        object.integer(key, 0, int(max), 0);
-        return fallback;
-    }
+    if (!object.has(key)) return fallback;
     const nlohmann::json& value = object.any(key);
     std::vector<unsigned> list;
     if (!value.is_array()) {

@@ -12,7 +12,7 @@ HostImage sum(const HostImage& a, const HostImage& b) {
     return total;
 }
 
-std::optional<double> if_finite(double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; }
+std::optional<double> if_finite(std::optional<double> value) { return value && std::isfinite(*value) ? value : std::nullopt; }
 
 const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image) {
     return target == "specular" ? result.specular : target == "incident" ? result.incident : image;
@@ -73,7 +73,7 @@ std::vector<ResultRow> measure_result(const FrameTruth& truth, const CompositedI
             ResultRow r = row;
             r.target = target, r.metric = s.metric->name, r.formula = s.metric->formula, r.mask = s.mask;
             r.value = if_finite(s.value), r.is_corrected = s.corrected, r.uncorrected = if_finite(s.uncorrected);
-            r.low = s.low, r.high = s.high, r.floor = s.floor;
+            r.low = if_finite(s.low), r.high = if_finite(s.high), r.floor = if_finite(s.floor);
             r.pixels = s.pixels, r.non_finite = counts.non_finite(), r.negative = counts.negative;
             rows.push_back(std::move(r));
         }

@@ -1,0 +1,130 @@
+#include "groundtruth/reference.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "groundtruth/code_version.h"
+#include "groundtruth/path_tracer.h"
+#include "groundtruth/reference_stopping.h"
+
+#include <charconv>
+#include <span>
+
+namespace {
+
+/// Shortest digits that read back exactly.
+std::string digits(auto value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
+}
+
+void add(ContentHash& hash, const glm::mat4& matrix) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) hash.add(matrix[column][row]);
+}
+
+void add(ContentHash& hash, glm::vec3 v) {
+    for (int i = 0; i < 3; ++i) hash.add(v[i]);
+}
+
+void add(ContentHash& hash, const ScenePose& pose) {
+    hash.add(pose.world_from_instance.size());
+    for (const glm::mat4& matrix : pose.world_from_instance) add(hash, matrix);
+    hash.add(pose.lights.size());
+    for (const PunctualLight& light : pose.lights) {
+        hash.add(int(light.type));
+        for (const glm::vec3 v : {light.intensity, light.position, light.direction}) add(hash, v);
+        for (const float f : {light.range, light.inner_cone_cos, light.outer_cone_cos}) hash.add(f);
+    }
+}
+
+void add(ContentHash& hash, const CameraPose& camera) {
+    add(hash, camera.world_from_view);
+    hash.add(int(camera.is_orthographic));
+    for (const float f : {camera.vertical_fov, camera.orthographic_height, camera.near, camera.far}) hash.add(f);
+}
+
+void check(glm::uvec2 extent, const ReferenceSettings& settings) {
+    constexpr unsigned max_size = 32768;
+    if (extent.x == 0 || extent.y == 0 || extent.x > max_size || extent.y > max_size)
+        fail("a reference of ", extent.x, " x ", extent.y, " pixels cannot be rendered: width and height must be 1 to ", max_size);
+    if (settings.max_samples == 0 && settings.max_seconds == 0 && settings.target_relative_error == 0)
+        fail("a reference without any limit never ends: set max_samples, max_seconds or target_relative_error");
+    if (!(settings.max_seconds >= 0)) fail("max_seconds of a reference is ", settings.max_seconds, ", but must not be negative");
+    if (!(settings.target_relative_error >= 0 && settings.target_relative_error <= 1))
+        fail("target_relative_error of a reference is ", settings.target_relative_error, ", but must be within 0 and 1");
+    if (settings.max_samples > max_sample_limit)
+        fail("max_samples of a reference is ", settings.max_samples, ", but can be ", max_sample_limit, " at most");
+    if (settings.max_depth == 0) fail("max_depth of a reference is 0, but must be at least 1");
+}
+
+/// Only what yields the bits that a render of its own would: whole doublings without a clock. With a clock there are no such bits.
+bool can_be_added_to(const ReferenceState& found, const ReferenceSettings& settings) {
+    const bool was_timed = found.settings.max_seconds > 0, is_timed = settings.max_seconds > 0;
+    if (found.settings.target_relative_error > 0 || settings.target_relative_error > 0 || was_timed != is_timed) return false;
+    const double held = found.reference.sample_count.values.front();
+    const double limit = settings.max_samples ? double(rounded_samples(settings.max_samples)) : double(max_sample_limit);
+    return is_timed ? held <= limit : held <= limit && (held == limit || held >= double(first_untimed_pass));
+}
+
+/// The state that the file holds of this request, or an empty one.
+ReferenceState pick_up(const ReferenceRun& run, const std::string& stream, glm::uvec2 extent, const ReferenceSettings& settings) {
+    ReferenceState empty;
+    clear_samples(empty, extent);
+    if (!run.state_file.empty() && std::filesystem::exists(run.state_file)) try {
+            ReferenceState found = read_reference_state(run.state_file);
+            const bool is_unfinished = !found.sample_goal.values.empty();
+            const bool is_same = found.reference.hash == reference_key(stream, settings);
+            if (found.reference.stream == stream && found.reference.extent == extent &&
+                (is_unfinished ? is_same : can_be_added_to(found, settings)))
+                return found;
+        } catch (const MachineError&) {
+            throw;
+        } catch (const Error& error) {
+            if (run.notice) run.notice(std::string(error.what()) + "; the reference is rendered anew");
+        }
+    return empty;
+}
+
+}  // namespace
+
+std::string groundtruth_code_version() { return std::string(code_version); }
+
+std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
+                             const ReferenceSettings& settings) {
+    if (scene.content_hash.empty()) fail("the scene '", scene.name, "' has no content hash, so its reference cannot be told from others");
+    ContentHash hash;
+    hash.add(code_version);
+    hash.add(scene.content_hash);
+    add(hash, pose);
+    add(hash, camera);
+    for (const unsigned value : {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.keep_all)}) hash.add(value);
+    return hash.hex();
+}
+
+std::string reference_key(const std::string& stream, const ReferenceSettings& settings) {
+    std::string key = stream + "-n" + digits(settings.max_samples ? rounded_samples(settings.max_samples) : max_sample_limit);
+    if (settings.target_relative_error > 0) key += "-e" + digits(settings.target_relative_error);
+    if (settings.max_seconds > 0) key += "-t" + digits(settings.max_seconds);
+    return key;
+}
+
+Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
+                           const ReferenceSettings& settings, const ReferenceRun& run) {
+    check(extent, settings);
+    const std::string stream = reference_stream(scene, pose, camera, extent, settings);
+    RenderClock clock{.run = run};
+    ReferenceState state = pick_up(run, stream, extent, settings);
+    state.settings = settings;
+    state.reference.stream = stream;
+    state.reference.hash = reference_key(stream, settings);
+    clock.seconds_before = state.reference.seconds;
+    clock.rays_before = state.reference.rays;
+
+    const PathTracer path_tracer(scene, pose, camera, extent, {.max_depth = settings.max_depth, .keep_all = settings.keep_all});
+    const PixelTracer tracer{
+        .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
+        .trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
+                     PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }};
+    render_until_limits(state, tracer, clock);
+    return std::move(state.reference);
+}

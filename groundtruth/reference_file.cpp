@@ -1,0 +1,175 @@
+#include "groundtruth/reference_file.h"
+
+#include "core/error.h"
+#include "core/exr.h"
+
+#include <charconv>
+
+namespace {
+
+struct NamedImage {
+    std::string name;
+    std::string channels;
+    HostImage* image;
+    PixelType type = PixelType::float32;
+};
+
+std::vector<NamedImage> named_images(Reference& reference) {
+    std::vector<NamedImage> images;
+    const std::pair<std::string, ReferenceOutput*> outputs[] = {{"image", &reference.image},
+                                                               {"diffuse", &reference.diffuse},
+                                                               {"specular", &reference.specular},
+                                                               {"incident", &reference.incident}};
+    for (const auto& [name, output] : outputs) {
+        images.push_back({name, "RGB", &output->mean});
+        images.push_back({name + ".a", "RGB", &output->half_a});
+        images.push_back({name + ".b", "RGB", &output->half_b});
+        images.push_back({name + ".variance", "RGB", &output->variance});
+    }
+    images.push_back({"sample_count", "Y", &reference.sample_count, PixelType::uint32});
+    images.push_back({"lobe_samples", "XY", &reference.lobe_samples, PixelType::uint32});
+    images.push_back({"depth", "Z", &reference.depth});
+    images.push_back({"geometric_normal", "XYZ", &reference.geometric_normal});
+    images.push_back({"normal", "XYZ", &reference.normal});
+    images.push_back({"material_id", "Y", &reference.material_id, PixelType::uint32});
+    return images;
+}
+
+std::vector<NamedImage> named_images(ReferenceState& state) {
+    return {{"sample_goal", "Y", &state.sample_goal, PixelType::uint32}, {"rays_per_sample", "Y", &state.rays_per_sample}};
+}
+
+/// Shortest digits that read back exactly.
+std::string digits(auto value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
+}
+
+std::map<std::string, std::string> attributes(const Reference& reference, const ReferenceSettings& settings, bool is_pilot) {
+    return {
+        {"ssrlab.stream", reference.stream},
+        {"ssrlab.hash", reference.hash},
+        {"ssrlab.passes", reference.passes},
+        {"ssrlab.seconds", digits(reference.seconds)},
+        {"ssrlab.rays", digits(reference.rays)},
+        {"ssrlab.non_finite_samples", digits(reference.non_finite_samples)},
+        {"ssrlab.reached_share", digits(reference.reached_share)},
+        {"ssrlab.max_samples", digits(settings.max_samples)},
+        {"ssrlab.max_seconds", digits(settings.max_seconds)},
+        {"ssrlab.target_relative_error", digits(settings.target_relative_error)},
+        {"ssrlab.max_depth", digits(settings.max_depth)},
+        {"ssrlab.seed", digits(settings.seed)},
+        {"ssrlab.keep_all", digits(unsigned(settings.keep_all))},
+        {"ssrlab.is_pilot", digits(unsigned(is_pilot))},
+        {"ssrlab.code_version", groundtruth_code_version()},
+        {"ssrlab.alpha_policy", "ggx alpha = max(roughness^2, 0.001)"},
+    };
+}
+
+/// Reads the attributes of one file, with messages that name it.
+struct Attributes {
+    const std::filesystem::path& file;
+    const std::map<std::string, std::string>& values;
+
+    const std::string& text(const std::string& name) const {
+        const auto found = values.find("ssrlab." + name);
+        if (found == values.end()) fail(file.string(), " is no reference: its header lacks 'ssrlab.", name, "'");
+        return found->second;
+    }
+
+    template <class T>
+    void read(const std::string& name, T& value) const {
+        const std::string& digits = text(name);
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        if (error != std::errc() || end != digits.data() + digits.size())
+            fail(file.string(), ": 'ssrlab.", name, "' is '", digits, "', which is no number that it can hold");
+    }
+
+    bool flag(const std::string& name) const {
+        unsigned value = 0;
+        read(name, value);
+        return value != 0;
+    }
+};
+
+/// Images lie in the file's layers while it lives, and move back when it ends, however it ends.
+class BorrowedLayers {
+public:
+    explicit BorrowedLayers(std::vector<NamedImage> images) : images_(std::move(images)) {
+        for (NamedImage& image : images_)
+            file.layers.push_back({.name = image.name, .channel_names = image.channels, .image = std::move(*image.image), .type = image.type});
+    }
+    ~BorrowedLayers() {
+        for (size_t i = 0; i < images_.size(); ++i) *images_[i].image = std::move(file.layers[i].image);
+    }
+    BorrowedLayers(const BorrowedLayers&) = delete;
+    BorrowedLayers& operator=(const BorrowedLayers&) = delete;
+
+    LayeredImage file;
+
+private:
+    std::vector<NamedImage> images_;
+};
+
+void write(const std::filesystem::path& file, std::vector<NamedImage> images, std::map<std::string, std::string> header) {
+    BorrowedLayers borrowed(std::move(images));
+    borrowed.file.attributes = std::move(header);
+    write_exr(file, borrowed.file);
+}
+
+void take_layer(const std::filesystem::path& file, LayeredImage& layers, const NamedImage& into) {
+    for (Layer& layer : layers.layers) {
+        if (layer.name != into.name) continue;
+        if (layer.channel_names != into.channels)
+            fail(file.string(), ": layer '", into.name, "' has the channels ", layer.channel_names, ", but should have ", into.channels);
+        *into.image = std::move(layer.image);
+        return;
+    }
+    fail(file.string(), " is no reference: it lacks the layer '", into.name, "'");
+}
+
+}  // namespace
+
+void write_reference(const std::filesystem::path& file, Reference& reference, const ReferenceSettings& settings) {
+    write(file, named_images(reference), attributes(reference, settings, false));
+}
+
+void write_reference_state(const std::filesystem::path& file, ReferenceState& state) {
+    std::vector<NamedImage> images = named_images(state.reference);
+    for (const NamedImage& image : named_images(state))
+        if (!image.image->values.empty()) images.push_back(image);
+    write(file, std::move(images), attributes(state.reference, state.settings, state.is_pilot));
+}
+
+ReferenceState read_reference_state(const std::filesystem::path& file) {
+    LayeredImage layers = read_exr(file);
+    const Attributes header{file, layers.attributes};
+    ReferenceState state;
+    Reference& reference = state.reference;
+    reference.stream = header.text("stream");
+    reference.hash = header.text("hash");
+    reference.passes = header.text("passes");
+    header.read("seconds", reference.seconds);
+    header.read("rays", reference.rays);
+    header.read("non_finite_samples", reference.non_finite_samples);
+    header.read("reached_share", reference.reached_share);
+    header.read("max_samples", state.settings.max_samples);
+    header.read("max_seconds", state.settings.max_seconds);
+    header.read("target_relative_error", state.settings.target_relative_error);
+    header.read("max_depth", state.settings.max_depth);
+    header.read("seed", state.settings.seed);
+    state.settings.keep_all = header.flag("keep_all");
+    state.is_pilot = header.flag("is_pilot");
+
+    for (const NamedImage& image : named_images(reference)) take_layer(file, layers, image);
+    for (const NamedImage& image : named_images(state))
+        if (layers.find(image.name)) take_layer(file, layers, image);
+    reference.extent = reference.sample_count.extent;
+    return state;
+}
+
+Reference read_reference(const std::filesystem::path& file) {
+    ReferenceState state = read_reference_state(file);
+    if (!state.sample_goal.values.empty()) fail(file.string(), " holds an unfinished render: continue it to get a reference");
+    return std::move(state.reference);
+}

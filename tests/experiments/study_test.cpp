@@ -1,0 +1,97 @@
+// Whole studies, small ones: that a run repeats itself, continues where it stopped, and that leaving work out changes nothing.
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "experiments/run.h"
+#include "experiments/summary.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Study : testing::Test {
+    fs::path folder = fs::temp_directory_path() / ("ssrlab_study_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+
+    void SetUp() override {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    Config config(const std::string& scenes, const std::string& more = "") {
+        write_text(folder / "study.json", R"({"shots": [{"scene": )" + scenes + R"(, "resolution": [96, 54]}], "reference": {"samples": 64},
+            "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2)" + more + "}");
+        return read_config(folder / "study.json");
+    }
+    fs::path run(const Config& study, const std::string& out, bool keep_all = false) {
+        run_study(study, {.out = folder / out, .device = "", .cache = folder / "cache", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}, .keep_all = keep_all});
+        return folder / out;
+    }
+};
+
+double value_of(const std::vector<ResultRow>& rows, const std::string& variant, const std::string& metric, const std::string& mask) {
+    for (const ResultRow& r : rows)
+        if (r.variant == variant && r.metric == metric && r.mask == mask && r.target == "specular") return r.value.value();
+    ADD_FAILURE() << "no row " << variant << " " << metric << " " << mask;
+    return 0;
+}
+
+}  // namespace
+
+TEST_F(Study, RepeatsItselfAndContinues) {
+    const Config study = config(R"(["mirror_pillars", "floating_holes"])");
+    const std::string first = read_text(run(study, "a") / "results.csv");
+    EXPECT_EQ(read_text(run(study, "b") / "results.csv"), first);
+
+    // A killed run leaves cells and no tables; it must end with the same rows.
+    size_t kept = 0;
+    for (const auto& cell : fs::directory_iterator(folder / "a/cells"))
+        if (kept++ % 2) fs::remove(cell.path());
+    for (const char* file : {"results.csv", "times.csv", "manifest.json", "report.html"}) fs::remove(folder / "a" / file);
+    EXPECT_EQ(read_text(run(study, "a") / "results.csv"), first);
+    EXPECT_TRUE(fs::exists(folder / "a/report.html"));
+}
+
+TEST_F(Study, LinearTracingBeatsNothingOnMirrors) {
+    const auto rows = read_result_rows(run(config(R"("mirror_pillars")"), "a") / "results.csv");
+    EXPECT_LT(value_of(rows, "mcguire_dda", "mse", "reflective"), 0.5 * value_of(rows, "none", "mse", "reflective"));
+    for (const ResultRow& r : rows) EXPECT_EQ(r.non_finite, 0u);
+}
+
+TEST_F(Study, LeavingOutChangesNothing) {
+    const Config study = config(R"(["all_rough", "sky_only", "fence"])");
+    const std::string lean = read_text(run(study, "lean") / "results.csv");
+    EXPECT_EQ(read_text(run(study, "all", true) / "results.csv"), lean);
+    const nlohmann::json manifest = read_json(folder / "lean/manifest.json");
+    for (const auto& shot : manifest["shots"]) {
+        if (shot["scene"] == "fence") continue;
+        bool leaves_trace_out = false;
+        for (const auto& part : shot["left_out"]) leaves_trace_out = leaves_trace_out || part["what"].get<std::string>().find("trace") != std::string::npos;
+        EXPECT_TRUE(leaves_trace_out) << shot["scene"] << " " << shot["left_out"].dump();
+    }
+}
+
+TEST_F(Study, SkyIsExact) {
+    const auto rows = read_result_rows(run(config(R"("sky_only")"), "a") / "results.csv");
+    ASSERT_FALSE(rows.empty());
+    for (const ResultRow& r : rows)
+        if (r.metric == "mse" && r.target != "incident") EXPECT_EQ(r.value.value(), 0.0) << r.target << " " << r.mask;
+}
+
+TEST_F(Study, TimesEveryStageByTheProvenClock) {
+    Config study = config(R"("fence")");
+    study.timing = {.frames = 15, .warm_up = 2};
+    const fs::path out = run(study, "a");
+    const auto times = read_time_rows(out / "times.csv");
+    const auto frames_of = [&](const std::string& variant, const std::string& stage) { return std::ranges::count_if(times, [&](const TimeRow& t) { return t.variant == variant && t.stage == stage; }); };
+    EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/trace"), 15);
+    EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/shade"), 15);
+    EXPECT_EQ(frames_of("none", "mcguire_dda/trace"), 0);
+    const nlohmann::json clock = read_json(out / "manifest.json")["clock"];
+    EXPECT_EQ(clock["proof"].size(), 3u);
+    EXPECT_GT(clock["empty_submit_ms"].get<double>(), 0.0);
+}
