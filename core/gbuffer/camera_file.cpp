@@ -71,7 +71,8 @@ void read_matrices(JsonObject& object, CameraData& c) {
     c.clip_from_view = matrix(object, "clip_from_view");
     c.view_from_world = matrix(object, "view_from_world");
     c.view_from_clip = matrix(object, "view_from_clip", checked_inverse(c.clip_from_view, object, "clip_from_view"));
-    c.world_from_view = matrix(object, "world_from_view", checked_inverse(c.view_from_world, object, "view_from_world"));
+    c.world_from_view =
+        matrix(object, "world_from_view", checked_inverse(c.view_from_world, object, "view_from_world"));
     c.clip_from_world = matrix(object, "clip_from_world", c.clip_from_view * c.view_from_world);
 
     const std::string clip = "previous_clip_from_view", view = "previous_view_from_world";
@@ -81,9 +82,15 @@ void read_matrices(JsonObject& object, CameraData& c) {
     const glm::mat4 previous_clip_from_view = matrix(object, clip, c.clip_from_view);
     c.previous_view_from_world = matrix(object, view, c.view_from_world);
     const bool is_first = c.frame.w == 0;
-    c.previous_view_from_clip = matrix(object, "previous_view_from_clip", is_first ? c.view_from_clip : checked_inverse(previous_clip_from_view, object, clip));
-    c.previous_world_from_view = matrix(object, "previous_world_from_view", is_first ? c.world_from_view : checked_inverse(c.previous_view_from_world, object, view));
-    c.previous_clip_from_world = matrix(object, "previous_clip_from_world", is_first ? c.clip_from_world : previous_clip_from_view * c.previous_view_from_world);
+    c.previous_view_from_clip =
+        matrix(object, "previous_view_from_clip",
+               is_first ? c.view_from_clip : checked_inverse(previous_clip_from_view, object, clip));
+    c.previous_world_from_view =
+        matrix(object, "previous_world_from_view",
+               is_first ? c.world_from_view : checked_inverse(c.previous_view_from_world, object, view));
+    c.previous_clip_from_world =
+        matrix(object, "previous_clip_from_world",
+               is_first ? c.clip_from_world : previous_clip_from_view * c.previous_view_from_world);
 }
 
 }  // namespace
@@ -134,7 +141,8 @@ CameraFile read_camera(const std::filesystem::path& file) {
     const std::string format = object.choice("depth_format", depth_formats, "d32f");
     result.depth_format = DepthFormat(std::ranges::find(depth_formats, format) - depth_formats.begin());
     const float near = object.number("near", std::numeric_limits<float>::min(), std::numeric_limits<float>::max());
-    c.depth = {near, object.number("far", near, std::numeric_limits<float>::infinity()), is_reversed ? 0 : 1, is_reversed ? 1 : 0};
+    c.depth = {near, object.number("far", near, std::numeric_limits<float>::infinity()), is_reversed ? 0 : 1,
+               is_reversed ? 1 : 0};
     if (c.depth.y == near) fail(object.where(), ": 'far' is ", near, ", but must be beyond 'near'");
 
     c.frame = {object.integer("frame", 0, max_integer, 0), 0, object.boolean("is_orthographic", false), 0};

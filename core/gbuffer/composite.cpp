@@ -26,27 +26,35 @@ glm::vec2 split_sum_factors(float mu_o, float roughness) {
 /// Unit, world space, from the camera through the pixel's sample: pixel.glsl.
 glm::vec3 pixel_direction(const CameraData& camera, unsigned x, unsigned y) {
     if (camera.frame.z == 1u) return -glm::normalize(glm::vec3(camera.world_from_view[2]));
-    const glm::vec2 uv = (glm::vec2(x, y) + 0.5f + glm::vec2(camera.jitter)) * glm::vec2(camera.extent.z, camera.extent.w);
+    const glm::vec2 uv =
+        (glm::vec2(x, y) + 0.5f + glm::vec2(camera.jitter)) * glm::vec2(camera.extent.z, camera.extent.w);
     const glm::vec4 point = camera.view_from_clip * glm::vec4(uv * 2.0f - 1.0f, 0.5f, 1.0f);
     return glm::mat3(camera.world_from_view) * glm::normalize(glm::vec3(point) / point.w);
 }
 
 void check_extent(const HostGBuffer& gbuffer, const HostImage& image, const char* what) {
     if (image.extent != gbuffer.extent())
-        fail(what, " is ", image.extent.x, " x ", image.extent.y, ", but the G-buffer is ", gbuffer.extent().x, " x ", gbuffer.extent().y);
+        fail(what, " is ", image.extent.x, " x ", image.extent.y, ", but the G-buffer is ", gbuffer.extent().x, " x ",
+             gbuffer.extent().y);
 }
 
 }  // namespace
 
-Compositor::Compositor(PassGraph& graph) : graph_(graph), split_sum_(graph.image_of("split_sum", Format::rg32f, table().extent)) {
+Compositor::Compositor(PassGraph& graph)
+    : graph_(graph), split_sum_(graph.image_of("split_sum", Format::rg32f, table().extent)) {
     graph.upload(split_sum_, table());
 }
 
 Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
     const Composite result{graph_.image("specular", Format::rgba32f), graph_.image("image", Format::rgba32f)};
     auto pass = graph_.compute("gbuffer/composite.comp");
-    for (const Image& image : {g.depth, g.normal, g.base_color, g.emission, g.lit, g.fallback, split_sum_}) pass.read(image);
-    pass.read(reflections.radiance.as("radiance")).read(reflections.confidence.as("confidence")).write(result.image).write(result.specular).run();
+    for (const Image& image : {g.depth, g.normal, g.base_color, g.emission, g.lit, g.fallback, split_sum_})
+        pass.read(image);
+    pass.read(reflections.radiance.as("radiance"))
+        .read(reflections.confidence.as("confidence"))
+        .write(result.image)
+        .write(result.specular)
+        .run();
     return result;
 }
 

@@ -8,7 +8,8 @@ struct Composite {
     Image image;     ///< rgba32f: lit + specular
 };
 
-/// The one compositor for all variants (design: the factorisation of Karis 2013, with the split-sum integral of our BRDF).
+/// The one compositor for all variants (design: the factorisation of Karis 2013, with the split-sum integral of our
+/// BRDF).
 class Compositor {
 public:
     explicit Compositor(PassGraph& graph);  ///< `graph` must outlive it

@@ -16,27 +16,34 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
 
 const TextureSlot& slot_of(const Material& material, unsigned slot) {
     switch (slot) {
-        case slot_base_color: return material.base_color_texture;
-        case slot_metalness_roughness: return material.metalness_roughness_texture;
-        case slot_normal: return material.normal_texture;
-        default: return material.emission_texture;
+        case slot_base_color:
+            return material.base_color_texture;
+        case slot_metalness_roughness:
+            return material.metalness_roughness_texture;
+        case slot_normal:
+            return material.normal_texture;
+        default:
+            return material.emission_texture;
     }
 }
 
-const char* const slot_names[] = {"base_color_texture", "metalness_roughness_texture", "normal_texture", "emission_texture"};
+const char* const slot_names[] = {"base_color_texture", "metalness_roughness_texture", "normal_texture",
+                                  "emission_texture"};
 
 uint32_t sampling_of(const Scene& scene, const TextureSlot& slot) {
     if (slot.texture < 0) return 0;
     const Texture& texture = scene.textures[slot.texture];
-    return sampling_has_texture | (texture.is_srgb ? sampling_is_srgb : 0) | (texture.is_nearest ? sampling_is_nearest : 0) |
-           uint32_t(texture.wrap_u) << sampling_wrap_u_shift | uint32_t(texture.wrap_v) << sampling_wrap_v_shift;
+    return sampling_has_texture | (texture.is_srgb ? sampling_is_srgb : 0) |
+           (texture.is_nearest ? sampling_is_nearest : 0) | uint32_t(texture.wrap_u) << sampling_wrap_u_shift |
+           uint32_t(texture.wrap_v) << sampling_wrap_v_shift;
 }
 
 DrawnMaterial drawn(const Scene& scene, const Material& m) {
-    DrawnMaterial result{.base_color = {m.base_color, m.alpha},
-                         .factors = {m.metalness, m.roughness, m.normal_scale, m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 0.0f},
-                         .emission = {m.emission, m.specular},
-                         .flags = {m.is_unlit, m.is_double_sided, 0, 0}};
+    DrawnMaterial result{
+        .base_color = {m.base_color, m.alpha},
+        .factors = {m.metalness, m.roughness, m.normal_scale, m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 0.0f},
+        .emission = {m.emission, m.specular},
+        .flags = {m.is_unlit, m.is_double_sided, 0, 0}};
     for (unsigned slot = 0; slot < 4; ++slot) {
         const TextureSlot& source = slot_of(m, slot);
         const glm::mat3 rows = glm::transpose(source.uv_transform);
@@ -110,7 +117,8 @@ Image DrawnScene::texture_image(const TextureSlot& slot) {
 
 Draw DrawnScene::make_draw(unsigned instance, const MeshBuffers& buffers, Kind kind) {
     const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
-    Draw draw{.indices = buffers.indices, .index_count = unsigned(mesh.indices.size() / 3 * 3), .first_instance = instance};
+    Draw draw{
+        .indices = buffers.indices, .index_count = unsigned(mesh.indices.size() / 3 * 3), .first_instance = instance};
     draw.buffers = {buffers.vertices.as("Vertices"), instances_, materials_};
     if (kind == Kind::plain) return draw;
     for (unsigned slot = 0; slot < 4; ++slot)
@@ -124,10 +132,11 @@ void DrawnScene::pose(const ScenePose& pose, const ScenePose& previous) {
     for (size_t i = 0; i < scene_.instances.size(); ++i) {
         const glm::mat4& world_from_object = pose.world_from_instance[i];
         const glm::mat3 linear(world_from_object);
-        instances.push_back({.world_from_object = world_from_object,
-                             .previous_world_from_object = previous.world_from_instance[i],
-                             .normal_matrix = glm::mat4(glm::inverse(glm::transpose(linear))),
-                             .ids = {scene_.meshes[scene_.instances[i].mesh].material, glm::determinant(linear) < 0, 0, 0}});
+        instances.push_back(
+            {.world_from_object = world_from_object,
+             .previous_world_from_object = previous.world_from_instance[i],
+             .normal_matrix = glm::mat4(glm::inverse(glm::transpose(linear))),
+             .ids = {scene_.meshes[scene_.instances[i].mesh].material, glm::determinant(linear) < 0, 0, 0}});
     }
     graph_.upload(instances_, bytes_of(instances));
 }

@@ -14,8 +14,10 @@ Image upload_rgb(PassGraph& graph, const std::string& name, const HostImage& rgb
 }  // namespace
 
 EnvironmentImages::EnvironmentImages(PassGraph& graph, const Environment& environment, bool prefilter)
-    : environment_(environment), prefiltered_(prefilter ? prefilter_environment(environment) : PrefilteredEnvironment{}) {
-    sharp_ = upload_rgb(graph, "environment", environment.type == Environment::Type::image ? environment.latlong : HostImage());
+    : environment_(environment),
+      prefiltered_(prefilter ? prefilter_environment(environment) : PrefilteredEnvironment{}) {
+    sharp_ = upload_rgb(graph, "environment",
+                        environment.type == Environment::Type::image ? environment.latlong : HostImage());
     atlas_ = upload_rgb(graph, "prefiltered_environment", prefiltered_.atlas);
 }
 

@@ -20,7 +20,8 @@ HostImage texels(const Environment& environment) {
     for (unsigned y = 0; y < image.extent.y; ++y)
         for (unsigned x = 0; x < image.extent.x; ++x) {
             const glm::vec2 uv = (glm::vec2(x, y) + 0.5f) / glm::vec2(image.extent);
-            image.set_rgb(size_t(y) * image.extent.x + x, environment.radiance(environment_direction(uv, environment.rotation)));
+            image.set_rgb(size_t(y) * image.extent.x + x,
+                          environment.radiance(environment_direction(uv, environment.rotation)));
         }
     return image;
 }
@@ -43,8 +44,8 @@ EnvironmentTree::Level leaves(const HostImage& image, float rotation) {
     return level;
 }
 
-/// How much the light of a node pulls the mean direction of its parent; negative radiance, which broken files hold, counts
-/// as light too, so that the mean stays inside the node.
+/// How much the light of a node pulls the mean direction of its parent; negative radiance, which broken files hold,
+/// counts as light too, so that the mean stays inside the node.
 float pull(glm::vec3 flux) { return std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z); }
 
 EnvironmentTree::Level parents(const EnvironmentTree::Level& below) {
@@ -64,7 +65,9 @@ EnvironmentTree::Level parents(const EnvironmentTree::Level& below) {
                 radius = std::max(radius, below.radius[i]);
             }
             // A ring around a pole, or the whole sphere, has no mean direction; such nodes are always split.
-            const auto unit = [](glm::vec3 v, glm::vec3 fallback) { return glm::length(v) > 0 ? glm::normalize(v) : fallback; };
+            const auto unit = [](glm::vec3 v, glm::vec3 fallback) {
+                return glm::length(v) > 0 ? glm::normalize(v) : fallback;
+            };
             level.flux.push_back(flux);
             level.solid_angle.push_back(solid_angle);
             level.centre.push_back(unit(centre, glm::vec3(0, 1, 0)));

@@ -41,7 +41,8 @@ const LayerMap layer_maps[] = {
 
 void copy_channels(const HostImage& from, unsigned from_channel, HostImage& to, unsigned to_channel, unsigned count) {
     for (size_t i = 0; i < from.pixel_count(); ++i)
-        for (unsigned c = 0; c < count; ++c) to.values[i * to.channels + to_channel + c] = from.values[i * from.channels + from_channel + c];
+        for (unsigned c = 0; c < count; ++c)
+            to.values[i * to.channels + to_channel + c] = from.values[i * from.channels + from_channel + c];
 }
 
 std::vector<std::string> layer_names() {
@@ -51,7 +52,8 @@ std::vector<std::string> layer_names() {
 }
 
 /// Copies the layer of `map` into its image, or leaves it black.
-void read_layer(const LayeredImage& file, const LayerMap& map, const std::string& where, HostGBuffer& gbuffer, std::set<std::string>& found) {
+void read_layer(const LayeredImage& file, const LayerMap& map, const std::string& where, HostGBuffer& gbuffer,
+                std::set<std::string>& found) {
     const Layer* layer = file.find(map.name);
     if (!layer) {
         if (!map.is_required) return;
@@ -62,9 +64,11 @@ void read_layer(const LayeredImage& file, const LayerMap& map, const std::string
     }
     const unsigned count = unsigned(std::string(map.channels).size());
     if (layer->image.channels != count)
-        fail(where, ": layer '", map.name, "' has ", layer->image.channels, " channels, but needs ", count, " (", map.channels, ")");
+        fail(where, ": layer '", map.name, "' has ", layer->image.channels, " channels, but needs ", count, " (",
+             map.channels, ")");
     if (layer->image.extent != glm::uvec2(gbuffer.camera.extent))
-        fail(where, ": is ", layer->image.extent.x, " x ", layer->image.extent.y, ", but camera.json says ", gbuffer.camera.extent.x, " x ", gbuffer.camera.extent.y);
+        fail(where, ": is ", layer->image.extent.x, " x ", layer->image.extent.y, ", but camera.json says ",
+             gbuffer.camera.extent.x, " x ", gbuffer.camera.extent.y);
     HostImage& image = gbuffer.*map.image;
     if (image.values.empty()) image = HostImage(layer->image.extent, map.image_channels);
     copy_channels(layer->image, 0, image, map.first_channel, count);
@@ -84,7 +88,8 @@ void fill_defaults(HostGBuffer& g, const std::set<std::string>& found, std::vect
     ensure(g.geometric_normal, 4), ensure(g.emission, 4), ensure(g.motion, 2), ensure(g.material_id, 1);
     ensure(g.previous_depth, 1), ensure(g.previous_normal, 4);
 
-    if (missing("geometric_normal", "the shading normal is taken")) copy_channels(g.normal, 0, g.geometric_normal, 0, 3);
+    if (missing("geometric_normal", "the shading normal is taken"))
+        copy_channels(g.normal, 0, g.geometric_normal, 0, 3);
     missing("emission", "0 is taken");
     missing("motion", "0 is taken");
     missing("fallback", "0 is taken");
@@ -112,7 +117,8 @@ void note_suspicious_values(const HostGBuffer& g, std::vector<std::string>& note
         const float depth = g.depth.values[i], *n = &g.normal.values[4 * i];
         bad_depth += !(depth >= 0 && depth <= 1);
         if (depth == g.camera.depth.z) continue;
-        bad_normal += !(std::abs(glm::length(glm::vec3(n[0], n[1], n[2])) - 1) < 0.02f);  // 8-bit normals are within 0.01
+        bad_normal +=
+            !(std::abs(glm::length(glm::vec3(n[0], n[1], n[2])) - 1) < 0.02f);  // 8-bit normals are within 0.01
         bad_roughness += !(n[3] >= 0 && n[3] <= 1);
     }
     if (bad_depth) notes.push_back(std::to_string(bad_depth) + " pixels have a depth outside [0, 1].");
@@ -136,7 +142,8 @@ void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffe
         const HostImage& image = gbuffer.*map.image;
         if (image.values.empty()) continue;
         const unsigned count = unsigned(std::string(map.channels).size());
-        Layer layer{.name = map.name, .channel_names = map.channels, .image = HostImage(image.extent, count), .type = map.type};
+        Layer layer{
+            .name = map.name, .channel_names = map.channels, .image = HostImage(image.extent, count), .type = map.type};
         copy_channels(image, map.first_channel, layer.image, 0, count);
         file.layers.push_back(std::move(layer));
     }

@@ -24,8 +24,8 @@ struct HostGBuffer {
     glm::uvec2 extent() const { return depth.extent; }
 };
 
-/// A folder with gbuffer.exr and camera.json, so that captures of other engines can stand in for a scene. All images are
-/// float32 or half, of one extent, pixel for pixel in screen order (first row at the top).
+/// A folder with gbuffer.exr and camera.json, so that captures of other engines can stand in for a scene. All images
+/// are float32 or half, of one extent, pixel for pixel in screen order (first row at the top).
 ///
 /// gbuffer.exr: layer (channels)    meaning                                                   if absent
 ///   depth (Z)                      device depth of camera.json's direction and format; the   required
@@ -46,12 +46,13 @@ struct HostGBuffer {
 ///   previous_normal (X Y Z), previous_roughness (Y)                                          normal, roughness
 ///   fallback (R G B)               radiance to reflect where the technique finds nothing     0
 ///
-/// camera.json: "extent" [width, height], "depth_direction" "standard" or "reversed", "depth_format" "d32f", "d24" or "d16",
-/// "near" and "far" (m), "clip_from_view" and "view_from_world" (each four rows of four numbers; Vulkan clip space: y down,
-/// z in [0, 1]; without jitter). Optional: "frame" and "seed" (0), "is_orthographic" (false), "jitter" and "previous_jitter"
-/// (pixels, [0, 0]), "previous_clip_from_view" and "previous_view_from_world" (of the frame before; both or none), and what
-/// is derived from them: "view_from_clip", "world_from_view", "clip_from_world", "previous_clip_from_world",
-/// "previous_world_from_view", "previous_view_from_clip", which ssrlab writes so that its own files come back bit by bit.
+/// camera.json: "extent" [width, height], "depth_direction" "standard" or "reversed", "depth_format" "d32f", "d24" or
+/// "d16", "near" and "far" (m), "clip_from_view" and "view_from_world" (each four rows of four numbers; Vulkan clip
+/// space: y down, z in [0, 1]; without jitter). Optional: "frame" and "seed" (0), "is_orthographic" (false), "jitter"
+/// and "previous_jitter" (pixels, [0, 0]), "previous_clip_from_view" and "previous_view_from_world" (of the frame
+/// before; both or none), and what is derived from them: "view_from_clip", "world_from_view", "clip_from_world",
+/// "previous_clip_from_world", "previous_world_from_view", "previous_view_from_clip", which ssrlab writes so that its
+/// own files come back bit by bit.
 void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffer);
 
 struct LoadedGBuffer {

@@ -33,7 +33,8 @@ HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& g, const CameraDat
 
 GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& g) {
     if (graph.extent() != g.extent())
-        fail("a G-buffer of ", g.extent().x, " x ", g.extent().y, " does not fit the pass graph of ", graph.extent().x, " x ", graph.extent().y);
+        fail("a G-buffer of ", g.extent().x, " x ", g.extent().y, " does not fit the pass graph of ", graph.extent().x,
+             " x ", graph.extent().y);
     return {.depth = uploaded(graph, "depth", Format::r32f, g.depth),
             .geometric_normal = uploaded(graph, "geometric_normal", Format::rgba32f, g.geometric_normal),
             .normal = uploaded(graph, "normal", Format::rgba32f, g.normal),

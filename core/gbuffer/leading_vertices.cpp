@@ -7,7 +7,8 @@ namespace {
 /// In double precision: long thin triangles lose theirs otherwise. Zero for triangles without area.
 glm::vec3 triangle_normal(const Mesh& mesh, const uint32_t* corner) {
     const glm::dvec3 p(mesh.vertices[corner[0]].position);
-    const glm::dvec3 n = glm::cross(glm::dvec3(mesh.vertices[corner[1]].position) - p, glm::dvec3(mesh.vertices[corner[2]].position) - p);
+    const glm::dvec3 n = glm::cross(glm::dvec3(mesh.vertices[corner[1]].position) - p,
+                                    glm::dvec3(mesh.vertices[corner[2]].position) - p);
     const double length = glm::length(n);
     return length > 0 ? glm::vec3(n / length) : glm::vec3(0);
 }

@@ -2,12 +2,13 @@
 #include "core/scene/scene.h"
 
 /// A mesh whose triangles each begin with a vertex that begins no other triangle, so that this vertex can carry what
-/// belongs to the triangle: Vulkan takes flat values from the first vertex. Triangles are turned, keeping their winding,
-/// and vertices are repeated where turning does not help.
+/// belongs to the triangle: Vulkan takes flat values from the first vertex. Triangles are turned, keeping their
+/// winding, and vertices are repeated where turning does not help.
 struct LeadingVertices {
-    std::vector<uint32_t> source;           ///< per vertex: its index in the mesh
-    std::vector<uint32_t> indices;          ///< three per triangle, the leading vertex first
-    std::vector<glm::vec3> triangle_normal;  ///< per vertex: the unit normal of the triangle it leads, in object space; 0 if none
+    std::vector<uint32_t> source;   ///< per vertex: its index in the mesh
+    std::vector<uint32_t> indices;  ///< three per triangle, the leading vertex first
+    std::vector<glm::vec3>
+        triangle_normal;  ///< per vertex: the unit normal of the triangle it leads, in object space; 0 if none
 };
 
 LeadingVertices find_leading_vertices(const Mesh& mesh);

@@ -4,10 +4,11 @@
 #include "core/shared/brdf.h"
 #include "core/shared/environment.h"
 
-#include <array>
 #include <tbb/parallel_for.h>
+#include <array>
 
-/// Compiled twice, for processors with and without 8-wide arithmetic; the one that suits is chosen when the program starts.
+/// Compiled twice, for processors with and without 8-wide arithmetic; the one that suits is chosen when the program
+/// starts.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
 #define SSRLAB_WIDE __attribute__((target_clones("avx2", "default")))
 #else
@@ -22,18 +23,19 @@ const float max_relative_radius = 0.3f;
 
 const unsigned block_size = 8, block_texels = block_size * block_size;
 
-/// The reflection lobe along the normal has density D(m) / 4 (core/shared/brdf.h with mu_o = 1); alpha = 0 stands for the
-/// cosine lobe of irradiance. Both are needed up to a factor only.
+/// The reflection lobe along the normal has density D(m) / 4 (core/shared/brdf.h with mu_o = 1); alpha = 0 stands for
+/// the cosine lobe of irradiance. Both are needed up to a factor only.
 struct Lobe {
     float alpha;
 
-    /// `q` = sin^2 of half the angle to the axis. `sharpness` = 1 / width of the node: nodes cut by the horizon count by
-    /// the share above it.
+    /// `q` = sin^2 of half the angle to the axis. `sharpness` = 1 / width of the node: nodes cut by the horizon count
+    /// by the share above it.
     float density(float q, float sharpness) const {
         const float a2 = alpha * alpha;
         const float d = a2 / (q + a2 * (1 - q));
         const float above = 0.5f + (1 - 2 * q) * sharpness;
-        return d * d * 0.5f * (1 + std::abs(above) - std::abs(above - 1));  // above clamped to [0, 1], in a form GCC vectorises
+        return d * d * 0.5f *
+               (1 + std::abs(above) - std::abs(above - 1));  // above clamped to [0, 1], in a form GCC vectorises
     }
 
     /// Angle (rad) over which the density changes much, at an angular distance from the axis.
@@ -147,14 +149,17 @@ PrefilteredEnvironment prefilter_environment(const Environment& environment) {
     return result;
 }
 
-glm::vec3 mean_over_lobe(const Environment& environment, const PrefilteredEnvironment& prefiltered, glm::vec3 direction, float roughness) {
+glm::vec3 mean_over_lobe(const Environment& environment, const PrefilteredEnvironment& prefiltered, glm::vec3 direction,
+                         float roughness) {
     if (prefiltered.atlas.values.empty()) return environment.radiance(direction);
     const PrefilterBlend blend = prefilter_blend(roughness);
-    const glm::vec3 sharp = blend.level == 0 ? environment.radiance(direction) : sample_level(prefiltered.atlas, blend.level, direction);
+    const glm::vec3 sharp =
+        blend.level == 0 ? environment.radiance(direction) : sample_level(prefiltered.atlas, blend.level, direction);
     return mix(sharp, sample_level(prefiltered.atlas, blend.level + 1, direction), blend.fraction);
 }
 
-glm::vec3 environment_irradiance(const Environment& environment, const PrefilteredEnvironment& prefiltered, glm::vec3 normal) {
+glm::vec3 environment_irradiance(const Environment& environment, const PrefilteredEnvironment& prefiltered,
+                                 glm::vec3 normal) {
     if (prefiltered.atlas.values.empty()) return pi * environment.radiance(normal);
     return pi * sample_level(prefiltered.atlas, prefilter_irradiance_level, normal);
 }

@@ -41,7 +41,8 @@ Rasterizer::Rasterizer(Device& device, const Scene& scene, const RasterizerOptio
       drawn_(graph_, scene, options.keep_all),
       environment_(graph_, scene.environment, options.keep_all || facts_.has_geometry) {
     if (!device.supports(format_of(options.depth_format)))
-        fail_machine("the device ", device.info().name, " has no depth format ", name_of(options.depth_format), "; choose d32f or d16");
+        fail_machine("the device ", device.info().name, " has no depth format ", name_of(options.depth_format),
+                     "; choose d32f or d16");
     if (!options.keep_all) list_left_out();
 }
 
@@ -53,7 +54,8 @@ void Rasterizer::list_left_out() {
     }
     if (!facts_.has_textures) left_out_.push_back({"texture reads", "no textures", "All materials are constant."});
     if (!facts_.has_alpha_masks) left_out_.push_back({"alpha tests", "no alpha masks", "No fragment is discarded."});
-    if (!facts_.has_reflective) left_out_.push_back({"fallback", "nothing reflective", "Its weight in the composite is 0."});
+    if (!facts_.has_reflective)
+        left_out_.push_back({"fallback", "nothing reflective", "Its weight in the composite is 0."});
 }
 
 Rasterizer::Frame Rasterizer::pose(const SceneCamera& camera, const FrameView& view) const {
@@ -72,8 +74,10 @@ Rasterizer::Frame Rasterizer::pose(const SceneCamera& camera, const FrameView& v
 
 GBuffer Rasterizer::render(const SceneCamera& camera, const FrameView& view) {
     if (view.extent != options_.extent)
-        fail("a frame of ", view.extent.x, " x ", view.extent.y, " was asked of a rasteriser of ", options_.extent.x, " x ", options_.extent.y);
-    const bool follows = last_camera_ == &camera && last_view_.frame + 1 == view.frame && last_view_.jitter == view.previous_jitter &&
+        fail("a frame of ", view.extent.x, " x ", view.extent.y, " was asked of a rasteriser of ", options_.extent.x,
+             " x ", options_.extent.y);
+    const bool follows = last_camera_ == &camera && last_view_.frame + 1 == view.frame &&
+                         last_view_.jitter == view.previous_jitter &&
                          last_view_.depth_direction == view.depth_direction;
     if (view.frame > 0 && !follows) {
         FrameView before = view;
@@ -97,7 +101,8 @@ GBuffer Rasterizer::draw(const Frame& frame) {
     scene_pose_ = frame.scene;
     graph_.begin_frame(camera_, no_params_, {});
     drawn_.pose(frame.scene, frame.previous_scene);
-    const PassGraph::History depth = graph_.history("depth", Format::r32f), normal = graph_.history("normal", Format::rgba32f);
+    const PassGraph::History depth = graph_.history("depth", Format::r32f),
+                             normal = graph_.history("normal", Format::rgba32f);
     GBuffer g{.depth = depth.current,
               .geometric_normal = graph_.image("geometric_normal", Format::rgba32f),
               .normal = normal.current,
@@ -113,7 +118,12 @@ GBuffer Rasterizer::draw(const Frame& frame) {
     const Image depth_buffer = graph_.image("depth_buffer", format_of(options_.depth_format));
     graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
     graph_.fragment("gbuffer/background.frag")
-        .write(g.geometric_normal).write(g.normal).write(g.base_color).write(g.emission).write(g.motion).write(g.material_id)
+        .write(g.geometric_normal)
+        .write(g.normal)
+        .write(g.base_color)
+        .write(g.emission)
+        .write(g.motion)
+        .write(g.material_id)
         .run();
     draw_kind(g, depth_buffer, DrawnScene::Kind::plain, "plain");
     draw_kind(g, depth_buffer, DrawnScene::Kind::textured, "textured");
@@ -134,8 +144,15 @@ void Rasterizer::draw_kind(const GBuffer& g, const Image& depth_buffer, DrawnSce
     if (drawn_.draws(kind).empty()) return;
     const bool is_reversed = camera_.depth.w == 1;
     graph_.draw("gbuffer/mesh.vert", std::string("gbuffer/") + name + ".frag", drawn_.draws(kind))
-        .write(g.geometric_normal).write(g.normal).write(g.base_color).write(g.emission).write(g.motion).write(g.material_id)
-        .depth({.compare = is_reversed ? DepthTest::Compare::greater : DepthTest::Compare::less, .is_written = true, .image = depth_buffer})
+        .write(g.geometric_normal)
+        .write(g.normal)
+        .write(g.base_color)
+        .write(g.emission)
+        .write(g.motion)
+        .write(g.material_id)
+        .depth({.compare = is_reversed ? DepthTest::Compare::greater : DepthTest::Compare::less,
+                .is_written = true,
+                .image = depth_buffer})
         .label(std::string("gbuffer/draw_") + name)
         .run();
 }
@@ -153,8 +170,8 @@ void Rasterizer::light_directly(const GBuffer& g) {
 
 void Rasterizer::upload_lit(const GBuffer& g, const HostImage& rgb) {
     if (rgb.extent != options_.extent || rgb.channels < 3)
-        fail("the lit colour is ", rgb.extent.x, " x ", rgb.extent.y, " with ", rgb.channels, " channels, but the G-buffer is ",
-             options_.extent.x, " x ", options_.extent.y, " and needs 3");
+        fail("the lit colour is ", rgb.extent.x, " x ", rgb.extent.y, " with ", rgb.channels,
+             " channels, but the G-buffer is ", options_.extent.x, " x ", options_.extent.y, " and needs 3");
     HostImage rgba(rgb.extent, 4);
     for (size_t i = 0; i < rgb.pixel_count(); ++i) rgba.set_rgb(i, rgb.rgb(i));
     graph_.upload(g.lit, rgba);

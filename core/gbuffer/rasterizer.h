@@ -11,24 +11,24 @@ struct RasterizerOptions {
     bool keep_all = false;  ///< run and compile also what left_out() names: the same images, slower
 };
 
-/// Draws the G-buffer of a scene. It has a pass graph of its own, so that its times are not those of a variant; variants
-/// read its images through theirs, after render() has waited for the device.
+/// Draws the G-buffer of a scene. It has a pass graph of its own, so that its times are not those of a variant;
+/// variants read its images through theirs, after render() has waited for the device.
 ///
 /// Surfaces are drawn from both sides, their normals turned to the camera, as the path tracer sees them; the back of a
 /// single-sided emitter is dark.
 class Rasterizer {
 public:
-    /// Uploads the scene and prefilters its environment. `scene` must outlive the rasteriser. Fails with MachineError if
-    /// the device lacks the depth format.
+    /// Uploads the scene and prefilters its environment. `scene` must outlive the rasteriser. Fails with MachineError
+    /// if the device lacks the depth format.
     Rasterizer(Device& device, const Scene& scene, const RasterizerOptions& options);
 
-    /// The G-buffer of one frame, all but `lit`, which one of the functions below fills. view.extent must be that of the
-    /// options. Frame 0 has no predecessor; others need the frame before, which is drawn first unless it was the last one.
-    /// With view.jitter samples lie at pixel centre + jitter.
+    /// The G-buffer of one frame, all but `lit`, which one of the functions below fills. view.extent must be that of
+    /// the options. Frame 0 has no predecessor; others need the frame before, which is drawn first unless it was the
+    /// last one. With view.jitter samples lie at pixel centre + jitter.
     GBuffer render(const SceneCamera& camera, const FrameView& view);
 
-    /// Emission and direct diffuse light, of punctual lights and of the environment, without any shadow. Seconds faster than
-    /// tracing paths, and so wrong that results must say that it was used.
+    /// Emission and direct diffuse light, of punctual lights and of the environment, without any shadow. Seconds faster
+    /// than tracing paths, and so wrong that results must say that it was used.
     void light_directly(const GBuffer& gbuffer);
     /// Path-traced lit colour: RGB of the same extent.
     void upload_lit(const GBuffer& gbuffer, const HostImage& rgb);

@@ -32,11 +32,13 @@ glm::vec2 channel_range(const Scene& scene, const TextureSlot& slot, unsigned ch
 
 bool is_reflective(const Scene& scene, const Material& material) {
     if (material.is_unlit) return false;
-    return material.specular > 0 || material.metalness * channel_range(scene, material.metalness_roughness_texture, 2).y > 0;
+    return material.specular > 0 ||
+           material.metalness * channel_range(scene, material.metalness_roughness_texture, 2).y > 0;
 }
 
 bool has_texture(const Material& m) {
-    for (const TextureSlot* slot : {&m.base_color_texture, &m.metalness_roughness_texture, &m.normal_texture, &m.emission_texture})
+    for (const TextureSlot* slot :
+         {&m.base_color_texture, &m.metalness_roughness_texture, &m.normal_texture, &m.emission_texture})
         if (slot->texture >= 0) return true;
     return false;
 }
@@ -59,13 +61,17 @@ void add_material(SceneFacts& facts, const Scene& scene, const Material& materia
 
 bool has_vertex_colors(const Scene& scene) {
     return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
-        return std::ranges::any_of(scene.meshes[instance.mesh].vertices, [](const Vertex& v) { return v.color != glm::vec4(1); });
+        return std::ranges::any_of(scene.meshes[instance.mesh].vertices,
+                                   [](const Vertex& v) { return v.color != glm::vec4(1); });
     });
 }
 
-bool lights_differ(const PunctualLight& a, const PunctualLight& b) { return a.position != b.position || a.direction != b.direction; }
+bool lights_differ(const PunctualLight& a, const PunctualLight& b) {
+    return a.position != b.position || a.direction != b.direction;
+}
 
-void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count) {
+void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera, unsigned first_frame,
+                unsigned frame_count) {
     ScenePose before = pose_scene(scene, first_frame > 0 ? first_frame - 1 : 0);
     glm::mat4 view_before = pose_camera(camera, before, first_frame > 0 ? first_frame - 1 : 0).world_from_view;
     for (unsigned frame = first_frame; frame < first_frame + frame_count; ++frame) {
@@ -118,8 +124,8 @@ SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned 
 
 std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
     const auto yes = [](bool value) { return value ? "yes" : "no"; };
-    const std::string roughness = f.has_reflective ? "perceptual roughness of reflective surfaces is " + decimal(f.min_roughness) +
-                                                         " to " + decimal(f.max_roughness)
+    const std::string roughness = f.has_reflective ? "perceptual roughness of reflective surfaces is " +
+                                                         decimal(f.min_roughness) + " to " + decimal(f.max_roughness)
                                                    : "no drawn surface reflects specularly";
     const std::string mirror = " than " + decimal(std::sqrt(min_ggx_alpha)) + ", the roughness of a mirror";
     return {
@@ -132,15 +138,21 @@ std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
         {"camera_moves", yes(f.camera_moves), "camera poses of successive frames of the shot"},
         {"objects_move", yes(f.objects_move), "transforms of drawn nodes in successive frames of the shot"},
         {"lights_move", yes(f.lights_move), "transforms of lights in successive frames of the shot"},
-        {"has_environment", yes(f.has_environment), f.has_environment ? "the environment is not black" : "the environment is black"},
+        {"has_environment", yes(f.has_environment),
+         f.has_environment ? "the environment is not black" : "the environment is black"},
         {"has_punctual_lights", yes(f.has_punctual_lights), std::to_string(scene.lights.size()) + " punctual lights"},
-        {"has_emitters", yes(f.has_emitters), names_of(scene, [](const Material& m) { return !m.is_unlit && m.emission != glm::vec3(0); })},
+        {"has_emitters", yes(f.has_emitters),
+         names_of(scene, [](const Material& m) { return !m.is_unlit && m.emission != glm::vec3(0); })},
         {"has_textures", yes(f.has_textures), names_of(scene, has_texture)},
-        {"has_alpha_masks", yes(f.has_alpha_masks), names_of(scene, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
-        {"has_normal_maps", yes(f.has_normal_maps), names_of(scene, [](const Material& m) { return m.normal_texture.texture >= 0; })},
+        {"has_alpha_masks", yes(f.has_alpha_masks),
+         names_of(scene, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
+        {"has_normal_maps", yes(f.has_normal_maps),
+         names_of(scene, [](const Material& m) { return m.normal_texture.texture >= 0; })},
         {"has_vertex_colors", yes(f.has_vertex_colors), "vertex colours other than white"},
         {"has_unlit", yes(f.has_unlit), names_of(scene, [](const Material& m) { return m.is_unlit; })},
-        {"has_single_sided", yes(f.has_single_sided), names_of(scene, [](const Material& m) { return !m.is_double_sided; })},
-        {"has_double_sided", yes(f.has_double_sided), names_of(scene, [](const Material& m) { return m.is_double_sided; })},
+        {"has_single_sided", yes(f.has_single_sided),
+         names_of(scene, [](const Material& m) { return !m.is_double_sided; })},
+        {"has_double_sided", yes(f.has_double_sided),
+         names_of(scene, [](const Material& m) { return m.is_double_sided; })},
     };
 }

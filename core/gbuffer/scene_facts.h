@@ -1,4 +1,5 @@
 #pragma once
+#include "core/gbuffer/gbuffer_file.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
@@ -6,25 +7,37 @@
 /// counts: materials of visible triangles, lights that shine, motion within the frames of the shot.
 struct SceneFacts {
     bool has_geometry = false;
-    bool has_reflective = false;        ///< a surface whose specular reflectance is not zero
-    bool has_mirrors = false;           ///< ... and which both renderers treat as perfectly smooth (brdf.h, min_ggx_alpha)
+    bool has_reflective = false;  ///< a surface whose specular reflectance is not zero
+    bool has_mirrors = false;     ///< ... and which both renderers treat as perfectly smooth (brdf.h, min_ggx_alpha)
     bool has_rough_reflectors = false;  ///< ... and which is rougher than that
-    float min_roughness = 1.0f, max_roughness = 0.0f;  ///< perceptual, over reflective surfaces and all texels of their textures
+    float min_roughness = 1.0f,
+          max_roughness = 0.0f;  ///< perceptual, over reflective surfaces and all texels of their textures
     bool camera_moves = false, objects_move = false, lights_move = false;
     bool has_environment = false, has_punctual_lights = false, has_emitters = false;
     bool has_textures = false, has_alpha_masks = false, has_normal_maps = false, has_vertex_colors = false;
     bool has_unlit = false, has_single_sided = false, has_double_sided = false;
 };
 
-/// The facts of frames first_frame ... first_frame + frame_count - 1 of one camera. Frame 0 has no predecessor, so nothing
-/// moves in it.
+/// The facts of frames first_frame ... first_frame + frame_count - 1 of one camera. Frame 0 has no predecessor, so
+/// nothing moves in it.
 SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count);
 
 /// The same without what depends on a shot: nothing moves.
 SceneFacts material_facts(const Scene& scene);
+
+/// What the pixels of one frame show, as shares of all pixels.
+struct PixelFacts {
+    float background = 0.0f;
+    float reflective = 0.0f;                           ///< specular reflectance is not zero
+    float mirror = 0.0f;                               ///< ... and as smooth as both renderers tell apart
+    float moving = 0.0f;                               ///< surfaces whose motion vector exceeds a hundredth of a pixel
+    float min_roughness = 1.0f, max_roughness = 0.0f;  ///< of reflective pixels
+};
+PixelFacts pixel_facts(const HostGBuffer& gbuffer);
 
 /// One line of `ssrlab needs`.
 struct SceneFact {
     std::string name, value, why;
 };
 std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& facts);
+std::vector<SceneFact> list_facts(const PixelFacts& facts);

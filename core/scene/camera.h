@@ -21,7 +21,7 @@ struct FrameView {
     glm::uvec2 extent{0, 0};
     DepthDirection depth_direction = DepthDirection::standard;
     unsigned frame = 0, seed = 0;
-    glm::vec2 jitter{0.0f}, previous_jitter{0.0f};  ///< pixels, y down
+    glm::vec2 jitter{0.0f}, previous_jitter{0.0f};  ///< pixels, y down: samples lie at pixel centre + jitter
 };
 
 /// The block which shaders see. `previous` is the pose of the frame before, or nullptr for the first frame.

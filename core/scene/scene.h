@@ -49,7 +49,7 @@ struct Material {
     float specular = 1.0f;  ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term; 0: no dielectric reflection
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;  ///< a hit counts where alpha >= cutoff (AlphaMode::mask)
-    bool is_double_sided = false;
+    bool is_double_sided = false;  ///< both renderers draw all surfaces from both sides; this decides whether the back emits
     bool is_unlit = false;  ///< KHR_materials_unlit: radiates its base colour and reflects nothing
 };
 

@@ -34,7 +34,8 @@ struct DrawnInstance {
     uvec4 ids;           ///< material, 1 if the determinant is negative
 };
 
-/// Floats per vertex: position, normal, tangent (4), two uv, colour (4), geometric normal of the triangle that it leads.
+/// Floats per vertex: position, normal, tangent (4), two uv, colour (4), geometric normal of the triangle that it
+/// leads.
 const uint vertex_stride = 21u;
 
 /// Texel column or row for an index that may lie outside (glTF 2.0, sampler.wrapS); mode: TextureWrap.

@@ -3,8 +3,8 @@
 #include "core/shared/language.h"
 
 // Where the lat-long maps of the prefiltered environment lie in their atlas, one below the other, narrower ones at the
-// left. Level k >= 1 holds perceptual roughness k / prefilter_roughness_steps; a mirror reads the environment itself. The
-// last map, level prefilter_irradiance_level, holds irradiance / pi.
+// left. Level k >= 1 holds perceptual roughness k / prefilter_roughness_steps; a mirror reads the environment itself.
+// The last map, level prefilter_irradiance_level, holds irradiance / pi.
 
 const uint prefilter_roughness_steps = 16u;
 const uint prefilter_irradiance_level = 17u;

@@ -2,7 +2,8 @@
 #define SHARED_SPLIT_SUM_TAP_H
 #include "core/shared/language.h"
 
-/// The four texels of split_sum_table() around a point: column = mu_o, row = perceptual roughness, clamped at the edges.
+/// The four texels of split_sum_table() around a point: column = mu_o, row = perceptual roughness, clamped at the
+/// edges.
 struct SplitSumTap {
     uvec2 first, last;
     vec2 fraction;  ///< of `last`

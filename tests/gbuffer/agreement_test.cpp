@@ -1,16 +1,10 @@
-#include "core/gbuffer/gbuffer_transfer.h"
-#include "groundtruth/path_tracer.h"
-#include "tests/gbuffer/test_scenes.h"
+#include "tests/gbuffer/agreement.h"
 
-#include <cstdio>
+#include "core/scene/load_scene.h"
+
 #include <gtest/gtest.h>
 
 namespace {
-
-/// How many of the pixels that are not next to an edge agree with Embree's ray through the pixel's centre.
-struct Agreement {
-    size_t compared = 0, depth = 0, geometric_normal = 0, normal = 0, material = 0, surface = 0;
-};
 
 struct Case {
     const char* name;
@@ -19,92 +13,6 @@ struct Case {
     DepthDirection direction;
     DepthFormat format;
 };
-
-/// Device depth between neighbouring values of the format around `depth`; float32 near 1 counts as 24 bits.
-double depth_step(DepthFormat format, double depth) {
-    if (format == DepthFormat::d16) return 1.0 / 65535;
-    if (format == DepthFormat::d24) return 1.0 / 16777215;
-    return std::max(std::abs(depth), 1e-30) * 0x1p-23;
-}
-
-/// What the hit and the G-buffer may differ by in view distance. The depth format's resolution: half a step of it and the
-/// float32 rounding of the interpolation, 4 steps in all (for float32: 16, as z = a + b x + c y is summed in it). And where the
-/// surface is: vertices are snapped to 1/256 of a pixel, so that depth shifts by its change over 1/64 of a pixel at most.
-double depth_tolerance(const CameraData& camera, DepthFormat format, double device_depth, double distance, double change_per_pixel) {
-    const double step = depth_step(format, device_depth) * (format == DepthFormat::d32f ? 16 : 4);
-    const double nudged = view_distance(camera, float(device_depth + (device_depth > 0.5 ? -step : step)));
-    return std::abs(nudged - view_distance(camera, float(device_depth))) + change_per_pixel / 64 + 1e-5 * distance;
-}
-
-bool is_edge(const std::vector<FirstHit>& hits, glm::uvec2 extent, unsigned x, unsigned y, double& depth_change) {
-    const FirstHit& hit = hits[y * extent.x + x];
-    depth_change = 0;
-    for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-            const int nx = int(x) + dx, ny = int(y) + dy;
-            if (nx < 0 || ny < 0 || nx >= int(extent.x) || ny >= int(extent.y)) return true;
-            const FirstHit& other = hits[ny * extent.x + nx];
-            if (other.is_hit != hit.is_hit) return true;
-            if (!hit.is_hit) continue;
-            if (other.instance != hit.instance || glm::dot(other.geometric_normal, hit.geometric_normal) < 0.98f) return true;
-            if (std::abs(glm::dot(hit.geometric_normal, other.position - hit.position)) > 0.01f * hit.depth) return true;
-            depth_change = std::max<double>(depth_change, std::abs(other.depth - hit.depth));
-        }
-    return false;
-}
-
-float angle(glm::vec3 a, const float* b) { return glm::length(a - glm::vec3(b[0], b[1], b[2])); }
-
-Agreement compare(const Scene& scene, const SceneCamera& camera, const FrameView& view, DepthFormat format, bool keep_all = false) {
-    Rasterizer rasterizer(test_device(), scene, {.extent = view.extent, .depth_format = format, .keep_all = keep_all});
-    const GBuffer gbuffer = rasterizer.render(camera, view);
-    const HostGBuffer g = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), format);
-
-    const ScenePose pose = pose_scene(scene, float(view.frame));
-    const PathTracer tracer(scene, pose, pose_camera(camera, pose, float(view.frame)), view.extent, {});
-    std::vector<FirstHit> hits;
-    for (unsigned y = 0; y < view.extent.y; ++y)
-        for (unsigned x = 0; x < view.extent.x; ++x) hits.push_back(tracer.first_hit(x, y));
-
-    Agreement result;
-    for (unsigned y = 0; y < view.extent.y; ++y)
-        for (unsigned x = 0; x < view.extent.x; ++x) {
-            double change;
-            if (is_edge(hits, view.extent, x, y, change)) continue;
-            const FirstHit& hit = hits[y * view.extent.x + x];
-            ++result.compared;
-            const float depth = *g.depth.pixel(x, y);
-            result.material += *g.material_id.pixel(x, y) == (hit.is_hit ? hit.material + 1 : 0);
-            if (!hit.is_hit) {
-                const bool is_far = depth == g.camera.depth.z;
-                result.depth += is_far, ++result.geometric_normal, ++result.normal, ++result.surface;
-                continue;
-            }
-            const double tolerance = depth_tolerance(g.camera, format, depth, hit.depth, change);
-            result.depth += std::abs(view_distance(g.camera, depth) - hit.depth) <= tolerance;
-            // Both transform the same float32 normal of the triangle.
-            result.geometric_normal += angle(hit.geometric_normal, g.geometric_normal.pixel(x, y)) < 1e-4f;
-            // Shading normals and textures change over the surface: 1/100 for where in the pixel they are read.
-            result.normal += angle(hit.normal, g.normal.pixel(x, y)) < 0.01f;
-            const float *c = g.base_color.pixel(x, y), *e = g.emission.pixel(x, y);
-            const glm::vec4 color = hit.is_unlit ? glm::vec4(0) : glm::vec4(hit.base_color, hit.metalness);
-            const float difference = glm::length(color - glm::vec4(c[0], c[1], c[2], c[3])) + angle(hit.emitted, e) +
-                                     std::abs(hit.roughness - (hit.is_unlit ? hit.roughness : g.normal.pixel(x, y)[3])) + std::abs(hit.specular - e[3]);
-            result.surface += difference < 0.02f;
-        }
-    return result;
-}
-
-void expect_agreement(const Agreement& a, const std::string& name) {
-    const auto percent = [&](size_t n) { return 100.0 * n / std::max<size_t>(a.compared, 1); };
-    std::printf("%-40s %6zu pixels: depth %.3f %%, geometric normal %.3f %%, normal %.3f %%, material %.3f %%, surface %.3f %%\n", name.c_str(),
-                a.compared, percent(a.depth), percent(a.geometric_normal), percent(a.normal), percent(a.material), percent(a.surface));
-    EXPECT_GE(percent(a.depth), 99.9) << name;
-    EXPECT_GE(percent(a.geometric_normal), 99.9) << name;
-    EXPECT_GE(percent(a.normal), 99.9) << name;
-    EXPECT_GE(percent(a.material), 99.9) << name;
-    EXPECT_GE(percent(a.surface), 99.0) << name << ": texels of a checker change from one to the next within a pixel";
-}
 
 const Case cases[] = {
     {"perspective", "main", 0, DepthDirection::standard, DepthFormat::d32f},
@@ -125,11 +33,38 @@ TEST_P(agreement, with_rays_through_pixel_centres) {
     const Scene scene = varied_scene();
     const Case c = GetParam();
     if (c.format == DepthFormat::d24 && !test_device().supports(Format::d24)) GTEST_SKIP() << "the device has no D24";
-    expect_agreement(compare(scene, scene.camera(c.camera), view_of({317, 241}, c.frame, c.direction), c.format), c.name);
+    expect_agreement(compare_with_rays(scene, scene.camera(c.camera), view_of({317, 241}, c.frame, c.direction),
+                                       {.depth_format = c.format}),
+                     c.name);
 }
 INSTANTIATE_TEST_SUITE_P(varied_scene, agreement, testing::ValuesIn(cases));
 
 TEST(agreement, keep_all_shaders_see_the_same) {
     const Scene scene = varied_scene();
-    expect_agreement(compare(scene, scene.camera("main"), view_of({160, 90}), DepthFormat::d32f, true), "keep all");
+    expect_agreement(compare_with_rays(scene, scene.camera("main"), view_of({160, 90}), {.keep_all = true}),
+                     "keep all");
 }
+
+TEST(agreement, a_quarter_of_a_pixel_is_noticed) {
+    const Scene scene = varied_scene();
+    FrameView view = view_of({160, 90});
+    view.jitter = {0.25f, 0.25f};
+    const Agreement a = compare_with_rays(scene, scene.camera("main"), view);
+    EXPECT_LT(a.depth, 0.7 * a.compared);
+}
+
+/// Scenes of the repository: every procedural one whose geometry differs from the others in kind.
+class scene_agreement : public testing::TestWithParam<const char*> {};
+
+TEST_P(scene_agreement, with_rays_through_pixel_centres) {
+    const Scene scene = load_scene(GetParam(), scene_search_path());
+    for (const SceneCamera& camera : scene.cameras) {
+        const unsigned frame = camera.frame_count / 2;
+        expect_agreement(compare_with_rays(scene, camera, view_of({240, 135}, frame, DepthDirection::reversed)),
+                         scene.name + ", " + camera.name);
+    }
+}
+INSTANTIATE_TEST_SUITE_P(procedural, scene_agreement,
+                         testing::Values("mirror_pillars", "roughness_gradient", "grazing", "fence", "floating_holes",
+                                         "offscreen_mirror", "curved_mirror", "axis_parallel", "depth_range",
+                                         "normal_mapped", "moving_objects", "all_rough", "sky_only", "furnace"));

@@ -21,7 +21,8 @@ TEST(composite, on_the_gpu_is_the_formula_on_the_cpu) {
             confidence.values[i] = (i % 11) / 10.0f;
         }
         PassGraph& graph = rasterizer.graph();
-        const Reflections reflections{graph.image("some_radiance", Format::rgba32f), graph.image("some_confidence", Format::r32f)};
+        const Reflections reflections{graph.image("some_radiance", Format::rgba32f),
+                                      graph.image("some_confidence", Format::r32f)};
         graph.upload(reflections.radiance, radiance);
         graph.upload(reflections.confidence, confidence);
         Compositor compositor(graph);
@@ -55,7 +56,8 @@ TEST(composite, reflectance_is_the_split_sum_of_the_brdf) {
         scene.materials[0].roughness = roughness;
         scene.materials[0].metalness = 0.5f;
         Rasterizer rasterizer(test_device(), scene, {.extent = extent});
-        const HostGBuffer g = download_gbuffer(rasterizer.graph(), rasterizer.render(camera, view_of(extent)), rasterizer.camera(), DepthFormat::d32f);
+        const HostGBuffer g = download_gbuffer(rasterizer.graph(), rasterizer.render(camera, view_of(extent)),
+                                               rasterizer.camera(), DepthFormat::d32f);
         const HostImage reflectance = specular_reflectance(g);
         const CameraPose pose = pose_camera(camera, pose_scene(scene, 0), 0);
         for (unsigned y = 0; y < extent.y; ++y) {
@@ -68,4 +70,24 @@ TEST(composite, reflectance_is_the_split_sum_of_the_brdf) {
             EXPECT_NEAR(reflectance.pixel(3, y)[0], expected, 5e-3) << "roughness " << roughness << ", cosine " << mu_o;
         }
     }
+}
+
+TEST(composite, of_what_reflects_nothing_does_not_need_the_fallback) {
+    Scene scene = varied_scene();
+    for (Material& material : scene.materials) material.specular = material.metalness = 0;
+    const glm::uvec2 extent(50, 40);
+    HostImage images[2];
+    for (const bool keep_all : {false, true}) {
+        Rasterizer rasterizer(test_device(), scene, {.extent = extent, .keep_all = keep_all});
+        const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view_of(extent));
+        rasterizer.light_directly(gbuffer);
+        PassGraph& graph = rasterizer.graph();
+        const Reflections none{graph.image("radiance", Format::rgba32f), graph.image("confidence", Format::r32f)};
+        graph.clear(none.radiance, glm::vec4(0));
+        graph.clear(none.confidence, glm::vec4(0));
+        Compositor compositor(graph);
+        images[keep_all] = graph.download(compositor.render(gbuffer, none).image);
+        EXPECT_EQ(rasterizer.left_out().size(), keep_all ? 0u : 1u);
+    }
+    EXPECT_EQ(differing_bits(images[0], images[1]), 0u);
 }

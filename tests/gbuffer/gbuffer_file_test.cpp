@@ -1,18 +1,20 @@
-#include "core/gbuffer/gbuffer_transfer.h"
 #include "core/error.h"
 #include "core/exr.h"
 #include "core/files.h"
+#include "core/gbuffer/gbuffer_transfer.h"
 #include "core/json.h"
 #include "tests/gbuffer/test_scenes.h"
 
-#include <cstring>
 #include <gtest/gtest.h>
+#include <cstring>
 
 namespace {
 
 class gbuffer_file : public testing::Test {
 protected:
-    gbuffer_file() : folder_(std::filesystem::path(testing::TempDir()) / ("ssrlab_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+    gbuffer_file()
+        : folder_(std::filesystem::path(testing::TempDir()) /
+                  ("ssrlab_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
         std::filesystem::remove_all(folder_);
     }
     ~gbuffer_file() override { std::filesystem::remove_all(folder_); }
@@ -43,8 +45,10 @@ HostGBuffer rendered(unsigned frame) {
 }
 
 void expect_same_bits(const HostGBuffer& a, const HostGBuffer& b) {
-    for (const auto image : {&HostGBuffer::depth, &HostGBuffer::geometric_normal, &HostGBuffer::normal, &HostGBuffer::base_color, &HostGBuffer::emission, &HostGBuffer::motion,
-                             &HostGBuffer::material_id, &HostGBuffer::previous_depth, &HostGBuffer::previous_normal, &HostGBuffer::lit, &HostGBuffer::fallback})
+    for (const auto image :
+         {&HostGBuffer::depth, &HostGBuffer::geometric_normal, &HostGBuffer::normal, &HostGBuffer::base_color,
+          &HostGBuffer::emission, &HostGBuffer::motion, &HostGBuffer::material_id, &HostGBuffer::previous_depth,
+          &HostGBuffer::previous_normal, &HostGBuffer::lit, &HostGBuffer::fallback})
         EXPECT_EQ(differing_bits(a.*image, b.*image), 0u);
     EXPECT_EQ(std::memcmp(&a.camera, &b.camera, sizeof a.camera), 0);
     EXPECT_EQ(a.depth_format, b.depth_format);
@@ -70,11 +74,14 @@ TEST_F(gbuffer_file, a_capture_of_another_engine_may_leave_out_the_optional) {
     save_gbuffer(folder_, g);
     LayeredImage file = read_exr(folder_ / "gbuffer.exr");
     const std::vector<std::string> required{"depth", "normal", "roughness", "base_color", "metalness"};
-    std::erase_if(file.layers, [&](const Layer& layer) { return std::ranges::find(required, layer.name) == required.end(); });
+    std::erase_if(file.layers,
+                  [&](const Layer& layer) { return std::ranges::find(required, layer.name) == required.end(); });
     file.layers.push_back({"beauty", "RGB", HostImage(g.extent(), 3, 1)});
     write_exr(folder_ / "gbuffer.exr", file);
     nlohmann::json camera = read_json(folder_ / "camera.json");
-    for (const char* key : {"view_from_clip", "world_from_view", "clip_from_world", "frame", "seed", "jitter", "previous_jitter", "is_orthographic"}) camera.erase(key);
+    for (const char* key : {"view_from_clip", "world_from_view", "clip_from_world", "frame", "seed", "jitter",
+                            "previous_jitter", "is_orthographic"})
+        camera.erase(key);
     write_text(folder_ / "camera.json", camera.dump());
 
     const LoadedGBuffer loaded = load_gbuffer(folder_);

@@ -2,8 +2,8 @@
 #include "core/shared/brdf.h"
 #include "core/shared/environment.h"
 
-#include <cstdio>
 #include <gtest/gtest.h>
+#include <cstdio>
 
 namespace {
 
@@ -14,8 +14,9 @@ Environment sky(float sun) {
     for (unsigned y = 0; y < 128; ++y)
         for (unsigned x = 0; x < 256; ++x) {
             const glm::vec3 d = environment_direction((glm::vec2(x, y) + 0.5f) / glm::vec2(256, 128), 0);
-            environment.latlong.set_rgb(y * 256 + x, glm::mix(glm::vec3(0.3f, 0.2f, 0.1f), glm::vec3(0.2f, 0.4f, 0.9f), 0.5f + 0.5f * d.y) +
-                                                         0.3f * glm::vec3(std::sin(6 * d.x) * std::sin(5 * d.z) + 1));
+            environment.latlong.set_rgb(
+                y * 256 + x, glm::mix(glm::vec3(0.3f, 0.2f, 0.1f), glm::vec3(0.2f, 0.4f, 0.9f), 0.5f + 0.5f * d.y) +
+                                 0.3f * glm::vec3(std::sin(6 * d.x) * std::sin(5 * d.z) + 1));
         }
     environment.latlong.set_rgb(40 * 256 + 100, glm::vec3(sun));
     return environment;
@@ -23,7 +24,8 @@ Environment sky(float sun) {
 
 /// Mean of the texels' radiance over the lobe above the horizon, seen at the cosine mu_o, by direct integration with
 /// `split`^2 points per texel.
-glm::dvec3 integrate(const Environment& environment, glm::vec3 mirror_direction, float mu_o, float roughness, int split) {
+glm::dvec3 integrate(const Environment& environment, glm::vec3 mirror_direction, float mu_o, float roughness,
+                     int split) {
     // The normal lies between the mirror direction and the viewer, in an arbitrary plane.
     const glm::vec3 side = basis_from_normal(mirror_direction)[0];
     const float theta = std::acos(mu_o);
@@ -58,7 +60,8 @@ std::vector<glm::vec3> directions() {
 }
 
 /// Root mean square over directions of the error relative to the mean radiance there.
-double relative_error(const Environment& environment, const PrefilteredEnvironment& prefiltered, float mu_o, float roughness, int split) {
+double relative_error(const Environment& environment, const PrefilteredEnvironment& prefiltered, float mu_o,
+                      float roughness, int split) {
     double sum = 0;
     for (const glm::vec3 d : directions()) {
         const glm::dvec3 truth = integrate(environment, d, mu_o, roughness, split);
@@ -85,22 +88,23 @@ TEST(prefiltered_environment, a_sun_neither_vanishes_nor_sparkles) {
     const Environment environment = sky(64256);
     const PrefilteredEnvironment prefiltered = prefilter_environment(environment);
     const glm::vec3 sun = environment_direction((glm::vec2(100, 40) + 0.5f) / glm::vec2(256, 128), 0);
-    // The sun is far brighter than all else, so this is the relative error of the lobe's density itself, tails and all: bilinear
-    // texels, and between levels (multiples of 1/16) the blend of two lobes, each up to 2 %. Where the sun is within two texels (of
-    // 5.6 degrees) of the horizon of the lobe, the truth jumps, and a map cannot.
+    // The sun is far brighter than all else, so this is the relative error of the lobe's density itself, tails and all:
+    // bilinear texels, and between levels (multiples of 1/16) the blend of two lobes, each up to 2 %. Where the sun is
+    // within two texels (of 5.6 degrees) of the horizon of the lobe, the truth jumps, and a map cannot.
     for (const float roughness : {0.25f, 0.34f, 0.375f, 0.5f, 0.6f, 0.75f, 1.0f})
         for (const glm::vec3 d : directions()) {
             if (std::abs(std::acos(glm::dot(d, sun)) - pi / 2) < 0.2f) continue;
             const double truth = integrate(environment, d, 1, roughness, 2).y;
-            EXPECT_NEAR(mean_over_lobe(environment, prefiltered, d, roughness).y, truth, 0.04 * truth) << "roughness " << roughness;
+            EXPECT_NEAR(mean_over_lobe(environment, prefiltered, d, roughness).y, truth, 0.04 * truth)
+                << "roughness " << roughness;
         }
 }
 
 TEST(prefiltered_environment, the_error_of_a_round_lobe_grows_towards_grazing) {
     const Environment environment = sky(0.5f);
     const PrefilteredEnvironment prefiltered = prefilter_environment(environment);
-    // n = v = r ignores that a lobe seen from the side is cut by the horizon and turned towards the normal. The bounds are
-    // some 1.3 times what was measured for this sky; they say what the fallback is worth, not what would be right.
+    // n = v = r ignores that a lobe seen from the side is cut by the horizon and turned towards the normal. The bounds
+    // are some 1.3 times what was measured for this sky; they say what the fallback is worth, not what would be right.
     const float cosines[] = {1.0f, 0.8f, 0.5f, 0.2f};
     const double bounds[3][4] = {{0.015, 0.02, 0.03, 0.08}, {0.015, 0.05, 0.12, 0.2}, {0.015, 0.1, 0.2, 0.3}};
     const float roughnesses[] = {0.25f, 0.5f, 0.9f};
@@ -136,7 +140,8 @@ TEST(prefiltered_environment, follows_the_rotation_and_gradient) {
     const PrefilteredEnvironment prefiltered = prefilter_environment(gradient);
     for (const glm::vec3 n : directions()) {
         // Irradiance of a + b w.d is pi (a + 2/3 b n.d); 256 x 128 samples and bilinear 128 x 64 texels.
-        EXPECT_NEAR(environment_irradiance(gradient, prefiltered, n).x, pi * (1 + 0.8f * 2 / 3 * glm::dot(n, gradient.axis)), 2e-3f * pi);
+        EXPECT_NEAR(environment_irradiance(gradient, prefiltered, n).x,
+                    pi * (1 + 0.8f * 2 / 3 * glm::dot(n, gradient.axis)), 2e-3f * pi);
     }
     Environment turned = sky(0.5f);
     const PrefilteredEnvironment still = prefilter_environment(turned);
@@ -145,7 +150,8 @@ TEST(prefiltered_environment, follows_the_rotation_and_gradient) {
     const glm::vec3 d = glm::normalize(glm::vec3(1, 0.3f, 0.2f));
     const glm::vec2 uv = environment_uv(d, 1);
     // Texels of the rotated and the still maps do not coincide: two bilinear readings of a smooth function.
-    EXPECT_NEAR(mean_over_lobe(turned, moved, d, 0.5f).x, mean_over_lobe(sky(0.5f), still, environment_direction(uv, 0), 0.5f).x, 5e-3f);
+    EXPECT_NEAR(mean_over_lobe(turned, moved, d, 0.5f).x,
+                mean_over_lobe(sky(0.5f), still, environment_direction(uv, 0), 0.5f).x, 5e-3f);
 }
 
 TEST(prefiltered_environment, irradiance_agrees_with_direct_integration) {

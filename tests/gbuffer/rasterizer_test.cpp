@@ -7,7 +7,8 @@
 
 namespace {
 
-HostGBuffer render(const Scene& scene, const SceneCamera& camera, const FrameView& view, RasterizerOptions options = {}, bool is_lit = false) {
+HostGBuffer render(const Scene& scene, const SceneCamera& camera, const FrameView& view, RasterizerOptions options = {},
+                   bool is_lit = false) {
     options.extent = view.extent;
     Rasterizer rasterizer(test_device(), scene, options);
     const GBuffer gbuffer = rasterizer.render(camera, view);
@@ -17,8 +18,10 @@ HostGBuffer render(const Scene& scene, const SceneCamera& camera, const FrameVie
 
 size_t differing_bits(const HostGBuffer& a, const HostGBuffer& b) {
     size_t count = 0;
-    for (const auto image : {&HostGBuffer::depth, &HostGBuffer::geometric_normal, &HostGBuffer::normal, &HostGBuffer::base_color, &HostGBuffer::emission,
-                             &HostGBuffer::motion, &HostGBuffer::material_id, &HostGBuffer::previous_depth, &HostGBuffer::previous_normal, &HostGBuffer::lit})
+    for (const auto image :
+         {&HostGBuffer::depth, &HostGBuffer::geometric_normal, &HostGBuffer::normal, &HostGBuffer::base_color,
+          &HostGBuffer::emission, &HostGBuffer::motion, &HostGBuffer::material_id, &HostGBuffer::previous_depth,
+          &HostGBuffer::previous_normal, &HostGBuffer::lit})
         count += ::differing_bits(a.*image, b.*image);
     return count;
 }
@@ -30,7 +33,8 @@ glm::dvec2 project(const glm::mat4& clip_from_world, glm::dvec3 p) {
 
 glm::dvec3 world_position(const HostGBuffer& g, unsigned x, unsigned y) {
     const glm::dvec2 uv = (glm::dvec2(x, y) + 0.5 + glm::dvec2(glm::vec2(g.camera.jitter))) / glm::dvec2(g.extent());
-    const glm::dvec4 view = glm::inverse(glm::dmat4(g.camera.clip_from_view)) * glm::dvec4(uv * 2.0 - 1.0, *g.depth.pixel(x, y), 1);
+    const glm::dvec4 view =
+        glm::inverse(glm::dmat4(g.camera.clip_from_view)) * glm::dvec4(uv * 2.0 - 1.0, *g.depth.pixel(x, y), 1);
     return glm::dvec3(glm::dmat4(g.camera.world_from_view) * (view / view.w));
 }
 
@@ -43,7 +47,8 @@ TEST(motion, is_what_two_projections_in_double_precision_give) {
     const HostGBuffer g = render(scene, scene.camera("main"), view);
     const ScenePose now = pose_scene(scene, 8), before = pose_scene(scene, 7);
     // The moving quad is alone in using its material, so its id tells where the pixel's surface was.
-    const glm::dmat4 moved = glm::dmat4(before.world_from_instance[1]) * glm::inverse(glm::dmat4(now.world_from_instance[1]));
+    const glm::dmat4 moved =
+        glm::dmat4(before.world_from_instance[1]) * glm::inverse(glm::dmat4(now.world_from_instance[1]));
     size_t moving = 0, background = 0;
     for (unsigned y = 0; y < g.extent().y; ++y)
         for (unsigned x = 0; x < g.extent().x; ++x) {
@@ -51,15 +56,18 @@ TEST(motion, is_what_two_projections_in_double_precision_give) {
             glm::dvec2 expected;
             if (*g.material_id.pixel(x, y) == 0) {
                 const glm::dvec3 eye(glm::dvec4(g.camera.world_from_view[3]));
-                const glm::dvec4 vs = glm::inverse(glm::dmat4(g.camera.clip_from_view)) * glm::dvec4(glm::dvec2(uv) * 2.0 - 1.0, 0.5, 1);
-                const glm::dvec3 direction = glm::dmat3(g.camera.world_from_view) * glm::normalize(glm::dvec3(vs) / vs.w);
+                const glm::dvec4 vs =
+                    glm::inverse(glm::dmat4(g.camera.clip_from_view)) * glm::dvec4(glm::dvec2(uv) * 2.0 - 1.0, 0.5, 1);
+                const glm::dvec3 direction =
+                    glm::dmat3(g.camera.world_from_view) * glm::normalize(glm::dvec3(vs) / vs.w);
                 expected = glm::dvec2(uv) - project(g.camera.previous_clip_from_world, eye + 1e9 * direction);
                 ++background;
             } else {
                 const glm::dvec3 p = world_position(g, x, y);
                 const bool moves = *g.material_id.pixel(x, y) == 2;
                 moving += moves;
-                expected = glm::dvec2(uv) - project(g.camera.previous_clip_from_world, moves ? glm::dvec3(moved * glm::dvec4(p, 1)) : p);
+                expected = glm::dvec2(uv) -
+                           project(g.camera.previous_clip_from_world, moves ? glm::dvec3(moved * glm::dvec4(p, 1)) : p);
             }
             // 1/50 of a pixel: vertices are snapped to 1/256 of one, and depth has 24 bits.
             ASSERT_NEAR(g.motion.pixel(x, y)[0] * view.extent.x, expected.x * view.extent.x, 0.02) << x << ", " << y;
@@ -85,7 +93,8 @@ TEST(rasterizer, jitter_moves_the_samples_and_not_the_matrices) {
     EXPECT_EQ(plain.camera.clip_from_world, jittered.camera.clip_from_world);
     size_t different = 0;
     for (unsigned y = 0; y < 94; ++y)
-        for (unsigned x = 0; x < 127; ++x) different += *jittered.material_id.pixel(x, y) != *plain.material_id.pixel(x + 1, y + 2);
+        for (unsigned x = 0; x < 127; ++x)
+            different += *jittered.material_id.pixel(x, y) != *plain.material_id.pixel(x + 1, y + 2);
     EXPECT_LT(different, 25u) << "of 12000; snapping may turn single pixels of an edge";
 }
 
@@ -102,7 +111,8 @@ TEST(rasterizer, previous_images_are_those_of_the_frame_before) {
     Rasterizer rasterizer(test_device(), scene, {.extent = {91, 77}});
     rasterizer.render(camera, before);
     const GBuffer g = rasterizer.render(camera, now);
-    EXPECT_EQ(differing_bits(download_gbuffer(rasterizer.graph(), g, rasterizer.camera(), DepthFormat::d32f), jumped), 0u);
+    EXPECT_EQ(differing_bits(download_gbuffer(rasterizer.graph(), g, rasterizer.camera(), DepthFormat::d32f), jumped),
+              0u);
 
     const HostGBuffer first = render(scene, camera, view_of({91, 77}, 0));
     EXPECT_EQ(::differing_bits(first.previous_depth, first.depth), 0u);
@@ -112,12 +122,16 @@ TEST(rasterizer, previous_images_are_those_of_the_frame_before) {
 TEST(rasterizer, leaving_out_changes_no_bit) {
     Scene scene = varied_scene();
     const SceneCamera camera = scene.camera("main");
-    EXPECT_EQ(differing_bits(render(scene, camera, view_of({99, 55}, 2), {}, true), render(scene, camera, view_of({99, 55}, 2), {.keep_all = true}, true)), 0u);
+    EXPECT_EQ(differing_bits(render(scene, camera, view_of({99, 55}, 2), {}, true),
+                             render(scene, camera, view_of({99, 55}, 2), {.keep_all = true}, true)),
+              0u);
 
     scene.instances.resize(1);  // the floor: no textures, no masks
     Rasterizer rasterizer(test_device(), scene, {.extent = {99, 55}});
     EXPECT_EQ(rasterizer.left_out().size(), 2u);
-    EXPECT_EQ(differing_bits(render(scene, camera, view_of({99, 55})), render(scene, camera, view_of({99, 55}), {.keep_all = true})), 0u);
+    EXPECT_EQ(differing_bits(render(scene, camera, view_of({99, 55})),
+                             render(scene, camera, view_of({99, 55}), {.keep_all = true})),
+              0u);
 }
 
 TEST(rasterizer, a_scene_without_geometry_is_all_sky) {
@@ -131,7 +145,8 @@ TEST(rasterizer, a_scene_without_geometry_is_all_sky) {
             ASSERT_EQ(g.depth.values[i], direction == DepthDirection::reversed ? 0.0f : 1.0f);
             ASSERT_EQ(g.lit.rgb(i), scene.environment.color);
         }
-        EXPECT_EQ(differing_bits(g, render(scene, camera, view_of({33, 17}, 1, direction), {.keep_all = true}, true)), 0u);
+        EXPECT_EQ(differing_bits(g, render(scene, camera, view_of({33, 17}, 1, direction), {.keep_all = true}, true)),
+                  0u);
     }
 }
 
@@ -145,7 +160,8 @@ TEST(rasterizer, a_frame_of_another_extent_is_an_error) {
 TEST(fallback, agrees_with_the_cpu) {
     Scene scene = varied_scene();
     scene.environment = {.type = Environment::Type::image, .latlong = HostImage({64, 32}, 3), .rotation = 0.7f};
-    for (unsigned i = 0; i < 64 * 32; ++i) scene.environment.latlong.set_rgb(i, glm::vec3(i % 64 / 64.0f, i / 64 / 32.0f, 0.5f));
+    for (unsigned i = 0; i < 64 * 32; ++i)
+        scene.environment.latlong.set_rgb(i, glm::vec3(i % 64 / 64.0f, i / 64 / 32.0f, 0.5f));
     const SceneCamera camera = scene.camera("main");
     const HostGBuffer g = render(scene, camera, view_of({120, 80}), {}, true);
     const PrefilteredEnvironment prefiltered = prefilter_environment(scene.environment);
@@ -155,10 +171,13 @@ TEST(fallback, agrees_with_the_cpu) {
             const glm::vec3 direction = camera_ray(pose, {120, 80}, {x + 0.5f, y + 0.5f}).direction;
             const float* n = g.normal.pixel(x, y);
             const bool is_sky = *g.material_id.pixel(x, y) == 0;
-            const glm::vec3 expected = is_sky ? scene.environment.radiance(direction)
-                                              : mean_over_lobe(scene.environment, prefiltered, glm::reflect(direction, glm::vec3(n[0], n[1], n[2])), n[3]);
+            const glm::vec3 expected = is_sky
+                                           ? scene.environment.radiance(direction)
+                                           : mean_over_lobe(scene.environment, prefiltered,
+                                                            glm::reflect(direction, glm::vec3(n[0], n[1], n[2])), n[3]);
             const HostImage& image = is_sky ? g.lit : g.fallback;
-            // Drivers approximate acos and atan to some 1e-4 rad: 1e-3 of a texel times a slope of 1 per texel at the seam.
+            // Drivers approximate acos and atan to some 1e-4 rad: 1e-3 of a texel times a slope of 1 per texel at the
+            // seam.
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(image.pixel(x, y)[c], expected[c], 2e-3f) << x << ", " << y;
         }
 }
@@ -174,16 +193,20 @@ TEST(lit_direct, agrees_with_the_formula_under_a_directional_light) {
     size_t lit = 0;
     for (unsigned y = 0; y < 48; ++y)
         for (unsigned x = 0; x < 64; ++x) {
-            const float *n = g.normal.pixel(x, y), *gn = g.geometric_normal.pixel(x, y), *c = g.base_color.pixel(x, y), *e = g.emission.pixel(x, y);
-            const glm::vec3 o = -camera_ray(pose, {64, 48}, {x + 0.5f, y + 0.5f}).direction, i = -scene.lights[0].direction;
+            const float *n = g.normal.pixel(x, y), *gn = g.geometric_normal.pixel(x, y), *c = g.base_color.pixel(x, y),
+                        *e = g.emission.pixel(x, y);
+            const glm::vec3 o = -camera_ray(pose, {64, 48}, {x + 0.5f, y + 0.5f}).direction,
+                            i = -scene.lights[0].direction;
             const float mu_i = glm::dot(glm::vec3(n[0], n[1], n[2]), i);
             glm::vec3 expected(e[0], e[1], e[2]);
             if (mu_i > 0 && glm::dot(glm::vec3(gn[0], gn[1], gn[2]), i) > 0) {
                 const float fresnel = glm::mix(0.04f * e[3], e[3], schlick_weight(glm::dot(i, glm::normalize(i + o))));
-                expected += (1 - c[3]) * (1 - fresnel) * glm::vec3(c[0], c[1], c[2]) / pi * mu_i * scene.lights[0].intensity;
+                expected +=
+                    (1 - c[3]) * (1 - fresnel) * glm::vec3(c[0], c[1], c[2]) / pi * mu_i * scene.lights[0].intensity;
                 ++lit;
             }
-            for (int k = 0; k < 3; ++k) ASSERT_NEAR(g.lit.pixel(x, y)[k], expected[k], 1e-4f) << x << ", " << y;  // float32 sums
+            for (int k = 0; k < 3; ++k)
+                ASSERT_NEAR(g.lit.pixel(x, y)[k], expected[k], 1e-4f) << x << ", " << y;  // float32 sums
         }
     EXPECT_GT(lit, 500u);
 }

@@ -7,8 +7,9 @@
 TEST(scene_facts, of_a_scene_that_has_everything) {
     const Scene scene = varied_scene();
     const SceneFacts f = derive_facts(scene, scene.camera("main"), 0, 10);
-    for (const bool fact : {f.has_geometry, f.has_reflective, f.has_mirrors, f.has_rough_reflectors, f.camera_moves, f.objects_move, f.has_environment, f.has_punctual_lights,
-                            f.has_emitters, f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.has_unlit, f.has_single_sided, f.has_double_sided})
+    for (const bool fact : {f.has_geometry, f.has_reflective, f.has_mirrors, f.has_rough_reflectors, f.camera_moves,
+                            f.objects_move, f.has_environment, f.has_punctual_lights, f.has_emitters, f.has_textures,
+                            f.has_alpha_masks, f.has_normal_maps, f.has_unlit, f.has_single_sided, f.has_double_sided})
         EXPECT_TRUE(fact);
     EXPECT_FALSE(f.lights_move);
     EXPECT_FALSE(f.has_vertex_colors);
@@ -23,7 +24,9 @@ TEST(scene_facts, only_what_is_drawn_counts) {
     EXPECT_TRUE(f.has_rough_reflectors);
     EXPECT_FLOAT_EQ(f.min_roughness, 0.2f);
     EXPECT_FLOAT_EQ(f.max_roughness, 0.2f);
-    for (const bool fact : {f.has_mirrors, f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.has_emitters, f.has_unlit, f.camera_moves, f.objects_move}) EXPECT_FALSE(fact);
+    for (const bool fact : {f.has_mirrors, f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.has_emitters,
+                            f.has_unlit, f.camera_moves, f.objects_move})
+        EXPECT_FALSE(fact);
 }
 
 TEST(scene_facts, ranges_come_from_the_texels) {
@@ -56,10 +59,33 @@ TEST(leading_vertices, each_triangle_leads_with_a_vertex_of_its_own) {
         glm::vec3 p[3];
         for (int c = 0; c < 3; ++c) p[c] = mesh.vertices[leading.source[leading.indices[t + c]]].position;
         const glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-        EXPECT_NEAR(glm::length(normal - leading.triangle_normal[leading.indices[t]]), 0, 1e-6f) << "triangle " << t / 3;
+        EXPECT_NEAR(glm::length(normal - leading.triangle_normal[leading.indices[t]]), 0, 1e-6f)
+            << "triangle " << t / 3;
         glm::vec3 q[3];
         for (int c = 0; c < 3; ++c) q[c] = mesh.vertices[mesh.indices[t + c]].position;
-        EXPECT_NEAR(glm::length(normal - glm::normalize(glm::cross(q[1] - q[0], q[2] - q[0]))), 0, 1e-6f) << "winding of triangle " << t / 3;
+        EXPECT_NEAR(glm::length(normal - glm::normalize(glm::cross(q[1] - q[0], q[2] - q[0]))), 0, 1e-6f)
+            << "winding of triangle " << t / 3;
     }
     EXPECT_EQ(leaders.size(), mesh.indices.size() / 3);
+}
+
+TEST(pixel_facts, count_what_the_frame_shows) {
+    HostGBuffer g;
+    g.camera.depth = {0.1f, 10, 1, 0};
+    g.depth = HostImage({2, 2}, 1, 0.5f);
+    g.normal = HostImage({2, 2}, 4, 0.01f);
+    g.base_color = g.emission = HostImage({2, 2}, 4);
+    g.motion = HostImage({2, 2}, 2);
+    g.depth.values[0] = 1;             // background
+    g.emission.values[1 * 4 + 3] = 1;  // a dielectric
+    g.normal.values[1 * 4 + 3] = 0.4f;
+    g.base_color.values[2 * 4 + 3] = 1;  // a metal, a mirror, that moves
+    g.motion.values[2 * 2] = 0.02f;
+    const PixelFacts facts = pixel_facts(g);
+    EXPECT_EQ(facts.background, 0.25f);
+    EXPECT_EQ(facts.reflective, 0.5f);
+    EXPECT_EQ(facts.mirror, 0.25f);
+    EXPECT_EQ(facts.moving, 0.25f);
+    EXPECT_EQ(facts.min_roughness, 0.01f);
+    EXPECT_EQ(facts.max_roughness, 0.4f);
 }

@@ -1,7 +1,7 @@
 #include "tests/gbuffer/test_scenes.h"
 
-#include <cstring>
 #include <gtest/gtest.h>
+#include <cstring>
 
 namespace {
 
@@ -39,27 +39,57 @@ Scene varied_scene() {
     scene.textures[1].wrap_u = TextureWrap::mirrored_repeat;
     scene.textures[2].wrap_v = TextureWrap::clamp_to_edge;
     scene.textures[3].is_nearest = true;
-    scene.materials = {{.name = "floor", .base_color = glm::vec3(0.5f), .metalness = 0, .roughness = 0.2f},
-                       {.name = "textured", .base_color_texture = {0, 1}, .metalness_roughness_texture = {3}},
-                       {.name = "masked", .base_color_texture = {1}, .metalness = 0, .roughness = 0.02f, .alpha_mode = AlphaMode::mask, .is_double_sided = true},
-                       {.name = "bumpy", .metalness = 1, .roughness = 0.3f, .normal_texture = {2}, .normal_scale = 0.7f},
-                       {.name = "lamp", .emission = {3, 2, 1}, .specular = 0.5f},
-                       {.name = "unlit", .base_color = {0.2f, 0.8f, 0.3f}, .is_unlit = true}};
+    scene.materials = {
+        {.name = "floor", .base_color = glm::vec3(0.5f), .metalness = 0, .roughness = 0.2f},
+        {.name = "textured", .base_color_texture = {0, 1}, .metalness_roughness_texture = {3}},
+        {.name = "masked",
+         .base_color_texture = {1},
+         .metalness = 0,
+         .roughness = 0.02f,
+         .alpha_mode = AlphaMode::mask,
+         .is_double_sided = true},
+        {.name = "bumpy", .metalness = 1, .roughness = 0.3f, .normal_texture = {2}, .normal_scale = 0.7f},
+        {.name = "lamp", .emission = {3, 2, 1}, .specular = 0.5f},
+        {.name = "unlit", .base_color = {0.2f, 0.8f, 0.3f}, .is_unlit = true}};
     scene.materials[2].base_color_texture.uv_transform = glm::mat3(1.5f, 0.5f, 0, -0.5f, 1.5f, 0, 0.1f, 0.2f, 1);
     add(scene, quad(0, {-6, 0, 4}, {12, 0, 0}, {0, 0, -14}));
     add(scene, quad(1, {-3, 0.2f, -3}, {2, 0, 0}, {0, 2, 0.5f}));
     add(scene, quad(2, {-0.7f, 0.4f, -2}, {1.6f, 0, -0.4f}, {0, 1.7f, 0}));
     add(scene, quad(3, {1.2f, 0.3f, -3}, {2, 0, 0.3f}, {0, 2, 0}));
-    add(scene, quad(3, {1.2f, 2.6f, -3}, {2, 0, 0.3f}, {0, 1, 0}), glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));
+    add(scene, quad(3, {1.2f, 2.6f, -3}, {2, 0, 0.3f}, {0, 1, 0}),
+        glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));
     add(scene, quad(4, {-0.5f, 2.7f, -4}, {1, 0, 0}, {0, 0.6f, 0.2f}));
     add(scene, quad(5, {3.6f, 0, -4}, {1, 0, 0}, {0, 1, 0}));
-    scene.animation = {{.property = AnimationChannel::Property::translation, .node = 1, .times = {0, 1}, .values = {glm::vec4(0), glm::vec4(6, 0, 1, 0)}}};
+    scene.animation = {{.property = AnimationChannel::Property::translation,
+                        .node = 1,
+                        .times = {0, 1},
+                        .values = {glm::vec4(0), glm::vec4(6, 0, 1, 0)}}};
     scene.lights = {{.name = "lamp", .intensity = glm::vec3(20), .position = {0, 4, 1}},
-                    {.name = "sun", .type = LightType::directional, .intensity = glm::vec3(2), .direction = glm::normalize(glm::vec3(1, -2, -1))},
-                    {.name = "spot", .type = LightType::spot, .intensity = glm::vec3(30), .range = 9, .inner_cone_cos = 0.95f, .outer_cone_cos = 0.8f, .position = {-4, 3, 2}, .direction = glm::normalize(glm::vec3(1, -0.5f, -1))}};
+                    {.name = "sun",
+                     .type = LightType::directional,
+                     .intensity = glm::vec3(2),
+                     .direction = glm::normalize(glm::vec3(1, -2, -1))},
+                    {.name = "spot",
+                     .type = LightType::spot,
+                     .intensity = glm::vec3(30),
+                     .range = 9,
+                     .inner_cone_cos = 0.95f,
+                     .outer_cone_cos = 0.8f,
+                     .position = {-4, 3, 2},
+                     .direction = glm::normalize(glm::vec3(1, -0.5f, -1))}};
     scene.environment = {.type = Environment::Type::gradient, .color = {0.4f, 0.5f, 0.6f}, .slope = {0.1f, 0.2f, 0.3f}};
-    scene.cameras = {{.name = "main", .vertical_fov = 0.9f, .near = 0.1f, .far = 50, .keys = {{0, {0, 1.6f, 3}, {0, 1, -3}}, {30, {2, 2.6f, 2}, {0, 1, -3}}}, .frame_count = 30},
-                     {.name = "orthographic", .is_orthographic = true, .orthographic_height = 5, .near = 0.1f, .far = 50, .keys = {{0, {1, 3, 4}, {0, 1, -3}}}}};
+    scene.cameras = {{.name = "main",
+                      .vertical_fov = 0.9f,
+                      .near = 0.1f,
+                      .far = 50,
+                      .keys = {{0, {0, 1.6f, 3}, {0, 1, -3}}, {30, {2, 2.6f, 2}, {0, 1, -3}}},
+                      .frame_count = 30},
+                     {.name = "orthographic",
+                      .is_orthographic = true,
+                      .orthographic_height = 5,
+                      .near = 0.1f,
+                      .far = 50,
+                      .keys = {{0, {1, 3, 4}, {0, 1, -3}}}}};
     scene.frame_count = 30;
     return scene;
 }

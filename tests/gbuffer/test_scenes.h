@@ -7,8 +7,9 @@
 
 Mesh quad(unsigned material, glm::vec3 corner, glm::vec3 u, glm::vec3 v);  ///< front side along cross(u, v); uv 0..1
 
-/// A textured, a masked, a normal-mapped and a plain material on quads before a floor; one node moves and one is mirrored
-/// (negative determinant). Camera "main" moves, "orthographic" stands still. All in an environment with a gradient.
+/// A textured, a masked, a normal-mapped and a plain material on quads before a floor; one node moves and one is
+/// mirrored (negative determinant). Camera "main" moves, "orthographic" stands still. All in an environment with a
+/// gradient.
 Scene varied_scene();
 
 Device& test_device();  ///< one for all tests, validated as SSRLAB_VALIDATE says
