@@ -10,13 +10,15 @@
 CsvReader::CsvReader(std::filesystem::path file) : file_(std::move(file)), content_(read_text(file_)) {
     if (!read_record()) fail(file_.string(), " is empty: its first line must name the columns");
     for (size_t i = 0; i < fields_.size(); ++i)
-        if (!columns_.emplace(fields_[i], i).second) fail(file_.string(), ":1: the column '", fields_[i], "' is named twice");
+        if (!columns_.emplace(fields_[i], i).second)
+            fail(file_.string(), ":1: the column '", fields_[i], "' is named twice");
 }
 
 bool CsvReader::next() {
     if (!read_record()) return false;
     if (fields_.size() != columns_.size())
-        fail(file_.string(), ":", record_line_, ": ", fields_.size(), " fields, but the first line names ", columns_.size(), " columns");
+        fail(file_.string(), ":", record_line_, ": ", fields_.size(), " fields, but the first line names ",
+             columns_.size(), " columns");
     return true;
 }
 
@@ -69,7 +71,8 @@ double CsvReader::number(const std::string& column) const {
     const std::string& field = text(column);
     double value = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) fail_at(column, "a finite number");
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
+        fail_at(column, "a finite number");
     return value;
 }
 

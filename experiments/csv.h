@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-/// Reads a CSV file (RFC 4180, header first) row by row; values are asked for by the name of their column. Every mistake is
-/// an Error that names file, line and column.
+/// Reads a CSV file (RFC 4180, header first) row by row; values are asked for by the name of their column. Every
+/// mistake is an Error that names file, line and column.
 ///
 ///     for (CsvReader csv("times.csv"); csv.next();) sum += csv.number("milliseconds");
 class CsvReader {
@@ -31,7 +31,8 @@ private:
     std::vector<std::string> fields_;
 };
 
-/// One line of a CSV file of the given values, with its line feed. Numbers are the shortest text that reads back exactly.
+/// One line of a CSV file of the given values, with its line feed. Numbers are the shortest text that reads back
+/// exactly.
 std::string csv_field(double value);
 std::string csv_field(const std::optional<double>& value);  ///< empty if there is none
 std::string csv_field(unsigned value);

@@ -43,7 +43,11 @@ def main():
         os.makedirs(out, exist_ok=True)
         written = []
         for shot in results.shots():
-            for name, draw in (("error_time", error_time.draw), ("stage_times", stage_times.draw), ("crops", crops.draw)):
+            for name, draw in (
+                ("error_time", error_time.draw),
+                ("stage_times", stage_times.draw),
+                ("crops", crops.draw),
+            ):
                 figure = draw(results, shot, errors, arguments)
                 if figure is not None:
                     written += style.save(figure, out, f"{name}_{shot}")

@@ -18,20 +18,25 @@ using nlohmann::json;
 constexpr size_t page_bytes = 30'000'000;  ///< a page is mailed and opened on slow machines: larger ones are not
 
 /// The page's scripts, in the order in which they build on each other.
-constexpr const char* scripts[] = {"page.js", "sections.js", "summary.js", "axes.js", "charts.js", "image_data.js", "panes.js", "viewer.js", "start.js"};
+constexpr const char* scripts[] = {"page.js",       "sections.js", "summary.js", "axes.js",         "charts.js",
+                                   "image_data.js", "panes.js",    "viewer.js",  "viewer_input.js", "start.js"};
 
-std::string part(const std::string& name) { return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report" / name); }
+std::string part(const std::string& name) {
+    return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report" / name);
+}
 
 std::string html_text(const std::string& text) {
     std::string escaped;
-    for (const char c : text) escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+    for (const char c : text)
+        escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
     return escaped;
 }
 
 /// JSON inside a script element: no "</script>" may end it.
 std::string script_text(const json& value) {
     std::string escaped;
-    for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace)) escaped += c == '<' ? "\\u003c" : std::string(1, c);
+    for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace))
+        escaped += c == '<' ? "\\u003c" : std::string(1, c);
     return escaped;
 }
 
@@ -39,17 +44,22 @@ json optional_json(const std::optional<double>& value) { return value ? json(*va
 
 const char* name_of(Better better) {
     switch (better) {
-        case Better::lower: return "lower";
-        case Better::higher: return "higher";
-        case Better::near_zero: return "near_zero";
-        case Better::near_one: return "near_one";
+        case Better::lower:
+            return "lower";
+        case Better::higher:
+            return "higher";
+        case Better::near_zero:
+            return "near_zero";
+        case Better::near_one:
+            return "near_one";
     }
     return "";
 }
 
 json metric_descriptions() {
     json all = json::object();
-    for (const Metric& m : all_metrics()) all[m.name] = {{"formula", m.formula}, {"unit", m.unit}, {"better", name_of(m.better)}, {"doc", m.doc}};
+    for (const Metric& m : all_metrics())
+        all[m.name] = {{"formula", m.formula}, {"unit", m.unit}, {"better", name_of(m.better)}, {"doc", m.doc}};
     return all;
 }
 
@@ -64,17 +74,20 @@ json table_data(std::span<const MetricSummary> errors, std::span<const TimeSumma
     };
     json error_rows = json::array(), time_rows = json::array();
     for (const MetricSummary& e : errors)
-        error_rows.push_back({code(e.shot), code(e.variant), code(e.point), code(e.target), code(e.metric), code(e.formula), code(e.mask), optional_json(e.value),
-                              optional_json(e.low), optional_json(e.high), optional_json(e.floor), optional_json(e.seed_deviation), e.seeds, e.is_corrected ? 1 : 0,
-                              e.pixels, e.non_finite, e.negative});
+        error_rows.push_back({code(e.shot), code(e.variant), code(e.point), code(e.target), code(e.metric),
+                              code(e.formula), code(e.mask), optional_json(e.value), optional_json(e.low),
+                              optional_json(e.high), optional_json(e.floor), optional_json(e.seed_deviation), e.seeds,
+                              e.is_corrected ? 1 : 0, e.pixels, e.non_finite, e.negative});
     for (const TimeSummary& t : times)
-        time_rows.push_back({code(t.shot), code(t.variant), code(t.point), code(t.stage), code(t.clock), t.frames, t.median, t.low, t.high});
+        time_rows.push_back({code(t.shot), code(t.variant), code(t.point), code(t.stage), code(t.clock), t.frames,
+                             t.median, t.low, t.high});
     return {{"texts", std::move(texts)}, {"errors", std::move(error_rows)}, {"times", std::move(time_rows)}};
 }
 
 /// What a reader without scripts gets: the warnings, and each shot's first metric on its reflective pixels.
 std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
-    std::string html = "<p>Charts, the viewer and sorting need JavaScript. All numbers are in summary.csv and time_summary.csv.</p>\n";
+    std::string html =
+        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in summary.csv and time_summary.csv.</p>\n";
     for (const std::string& warning : warnings) html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
     if (errors.empty()) return html;
     const auto is_reflective = [](const MetricSummary& e) { return e.mask == "reflective"; };
@@ -82,10 +95,14 @@ std::string static_part(const std::vector<std::string>& warnings, std::span<cons
     const MetricSummary& chosen = has_reflective ? *std::ranges::find_if(errors, is_reflective) : errors.front();
     html += "<table><caption>" + html_text(chosen.metric + " of target " + chosen.target + " on mask " + chosen.mask) +
             "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>Low<th>High<th>Floor</tr></thead><tbody>\n";
-    const auto cell = [](const std::optional<double>& value) { return "<td>" + (value ? json(*value).dump() : "&ndash;"); };
+    const auto cell = [](const std::optional<double>& value) {
+        return "<td>" + (value ? json(*value).dump() : "&ndash;");
+    };
     for (const MetricSummary& e : errors)
-        if (e.metric == chosen.metric && e.formula == chosen.formula && e.target == chosen.target && e.mask == chosen.mask)
-            html += "<tr><td>" + html_text(e.shot) + "<td>" + html_text(e.variant) + "<td>" + html_text(e.point) + cell(e.value) + cell(e.low) + cell(e.high) + cell(e.floor) + "</tr>\n";
+        if (e.metric == chosen.metric && e.formula == chosen.formula && e.target == chosen.target &&
+            e.mask == chosen.mask)
+            html += "<tr><td>" + html_text(e.shot) + "<td>" + html_text(e.variant) + "<td>" + html_text(e.point) +
+                    cell(e.value) + cell(e.low) + cell(e.high) + cell(e.floor) + "</tr>\n";
     return html + "</tbody></table>\n";
 }
 
@@ -102,8 +119,8 @@ std::string filled(const std::string& page, const std::map<std::string, std::str
 }
 
 json image_description(const ReportImage& image) {
-    return {{"shot", image.shot}, {"variant", image.variant}, {"point", image.point}, {"kind", image.kind}, {"target", image.target},
-            {"seed", image.seed}, {"width", image.width}, {"height", image.height}};
+    return {{"shot", image.shot},     {"variant", image.variant}, {"point", image.point}, {"kind", image.kind},
+            {"target", image.target}, {"seed", image.seed},       {"width", image.width}, {"height", image.height}};
 }
 
 }  // namespace
@@ -123,7 +140,8 @@ void write_report(const std::filesystem::path& folder) {
     data["warnings"] = warnings;
     std::string script;
     for (const char* name : scripts) script += part(name);
-    std::map<std::string, std::string> values = {{"style", part("style.css")}, {"script", script}, {"static", static_part(warnings, errors)}};
+    std::map<std::string, std::string> values = {
+        {"style", part("style.css")}, {"script", script}, {"static", static_part(warnings, errors)}};
 
     size_t used = script_text(data).size() + 100'000;  // the template, descriptions and notes
     for (const auto& [name, text] : values) used += text.size();
@@ -131,7 +149,8 @@ void write_report(const std::filesystem::path& folder) {
     data["notes"] = images.notes;
     data["images"] = json::array();
     for (const ReportImage& image : images.images) {
-        values["images"] += "<script type=\"text/plain\" id=\"image-" + std::to_string(data["images"].size()) + "\">" + image.data + "</script>\n";
+        values["images"] += "<script type=\"text/plain\" id=\"image-" + std::to_string(data["images"].size()) + "\">" +
+                            image.data + "</script>\n";
         data["images"].push_back(image_description(image));
     }
     values.emplace("images", "");

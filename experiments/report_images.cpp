@@ -5,12 +5,12 @@
 #include "core/json.h"
 
 #include <half.h>
+#include <zlib.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
-#include <zlib.h>
 
 namespace {
 
@@ -25,8 +25,13 @@ std::vector<Entry> read_entries(const std::filesystem::path& folder, const nlohm
     std::vector<Entry> entries;
     JsonObject all(manifest, (folder / "manifest.json").string());
     for (JsonObject& image : all.objects("images")) {
-        Entry e{.shot = image.text("shot"), .variant = image.text("variant"), .point = image.text("point", ""), .kind = image.text("kind"),
-                .target = image.text("target", ""), .seed = image.integer("seed", 0, INT32_MAX, 0), .exr = {}};
+        Entry e{.shot = image.text("shot"),
+                .variant = image.text("variant"),
+                .point = image.text("point", ""),
+                .kind = image.text("kind"),
+                .target = image.text("target", ""),
+                .seed = image.integer("seed", 0, INT32_MAX, 0),
+                .exr = {}};
         if (e.kind != "result" && e.kind != "reference") continue;
         e.exr = folder / image.text("exr");
         entries.push_back(std::move(e));
@@ -62,15 +67,23 @@ HostImage reduced(const HostImage& rgb, unsigned factor) {
 }
 
 ReportImage load(const Entry& e, unsigned reduction) {
-    ReportImage image{.shot = e.shot, .variant = e.variant, .point = e.point, .kind = e.kind, .target = e.target, .seed = unsigned(e.seed), .data = {}};
+    ReportImage image{.shot = e.shot,
+                      .variant = e.variant,
+                      .point = e.point,
+                      .kind = e.kind,
+                      .target = e.target,
+                      .seed = unsigned(e.seed),
+                      .data = {}};
     const HostImage rgb = reduced(read_exr_rgb(e.exr), reduction);
     image.width = rgb.extent.x, image.height = rgb.extent.y, image.reduction = reduction;
     image.data = base64(encode_halves(rgb, image.clamped));
     return image;
 }
 
-/// Appends the entries of one target as long as they fit into `budget` together; false (and nothing appended) otherwise.
-bool append_all(std::vector<ReportImage>& images, const std::vector<Entry>& entries, unsigned reduction, size_t& budget) {
+/// Appends the entries of one target as long as they fit into `budget` together; false (and nothing appended)
+/// otherwise.
+bool append_all(std::vector<ReportImage>& images, const std::vector<Entry>& entries, unsigned reduction,
+                size_t& budget) {
     const size_t before = images.size();
     size_t left = budget;
     for (const Entry& e : entries) {
@@ -107,8 +120,9 @@ void check_extents(const std::vector<ReportImage>& images) {
     for (const ReportImage& image : images) {
         const ReportImage& other = *first.emplace(image.shot, &image).first->second;
         if (image.width != other.width || image.height != other.height)
-            fail("the images of shot ", image.shot, " differ in size: ", image.variant, " ", image.point, " is ", image.width, "x", image.height, ", ",
-                 other.variant, " ", other.point, " is ", other.width, "x", other.height);
+            fail("the images of shot ", image.shot, " differ in size: ", image.variant, " ", image.point, " is ",
+                 image.width, "x", image.height, ", ", other.variant, " ", other.point, " is ", other.width, "x",
+                 other.height);
     }
 }
 
@@ -116,7 +130,9 @@ void check_extents(const std::vector<ReportImage>& images) {
 
 ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest, size_t budget) {
     std::map<int, std::vector<Entry>> by_rank;
-    const auto rank = [](const std::string& target) { return target == "image" ? 0 : target == "specular" ? 1 : target == "incident" ? 2 : 3; };
+    const auto rank = [](const std::string& target) {
+        return target == "image" ? 0 : target == "specular" ? 1 : target == "incident" ? 2 : 3;
+    };
     for (Entry& e : first_seeds(read_entries(folder, manifest))) {
         const int r = rank(e.target);
         by_rank[r].push_back(std::move(e));
@@ -128,17 +144,22 @@ ReportImages report_images(const std::filesystem::path& folder, const nlohmann::
     unsigned reduction = 1;
     while (reduction < 8 && !append_all(report.images, foremost, reduction, budget)) reduction *= 2;
     if (reduction > 1)
-        report.notes.push_back("To keep this page small, each shown pixel is the mean of " + std::to_string(reduction) + " x " + std::to_string(reduction) +
-                               " pixels; tables and charts use all pixels, and the results folder has the full images.");
+        report.notes.push_back(
+            "To keep this page small, each shown pixel is the mean of " + std::to_string(reduction) + " x " +
+            std::to_string(reduction) +
+            " pixels; tables and charts use all pixels, and the results folder has the full images.");
     if (reduction == 8)
         if (const size_t left_out = append_some(report.images, foremost, reduction, budget))
-            report.notes.push_back(std::to_string(left_out) + " of " + std::to_string(foremost.size()) + " images are not in this page, to keep it small; the results folder has them.");
+            report.notes.push_back(std::to_string(left_out) + " of " + std::to_string(foremost.size()) +
+                                   " images are not in this page, to keep it small; the results folder has them.");
     for (auto at = std::next(by_rank.begin()); at != by_rank.end(); ++at)
         if (reduction > 1 || !append_all(report.images, at->second, 1, budget))
-            report.notes.push_back("The images of target '" + at->second.front().target + "' are not in this page, to keep it small; the results folder has them.");
+            report.notes.push_back("The images of target '" + at->second.front().target +
+                                   "' are not in this page, to keep it small; the results folder has them.");
     for (const ReportImage& image : report.images)
         if (image.clamped)
-            report.notes.push_back(image.shot + ", " + image.variant + " " + image.point + ": " + std::to_string(image.clamped) +
+            report.notes.push_back(image.shot + ", " + image.variant + " " + image.point + ": " +
+                                   std::to_string(image.clamped) +
                                    " pixels are brighter than 65504, the largest half float, and are shown as that.");
     check_extents(report.images);
     return report;
@@ -166,7 +187,8 @@ std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped) 
 
     uLongf size = compressBound(bytes.size());
     std::vector<unsigned char> packed(size);
-    if (compress2(packed.data(), &size, bytes.data(), bytes.size(), 6) != Z_OK) fail_machine("not enough memory to compress an image of the report");
+    if (compress2(packed.data(), &size, bytes.data(), bytes.size(), 6) != Z_OK)
+        fail_machine("not enough memory to compress an image of the report");
     packed.resize(size);
     return packed;
 }

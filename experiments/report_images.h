@@ -21,14 +21,15 @@ struct ReportImages {
     std::vector<std::string> notes;  ///< sentences about what was reduced or left out
 };
 
-/// The images that fit into `budget` bytes of text, from manifest.json's `images`: for each shot the references and the first
-/// seed of each variant point; of target `image` first, `specular` and `incident` if there is room. If not even the first fits,
-/// all are reduced to a half, a quarter, an eighth; if that is still too much, the last variant points are left out.
-/// Fails with Error if a file that the manifest lists is missing or broken.
+/// The images that fit into `budget` bytes of text, from manifest.json's `images`: for each shot the references and the
+/// first seed of each variant point; of target `image` first, `specular` and `incident` if there is room. If not even
+/// the first fits, all are reduced to a half, a quarter, an eighth; if that is still too much, the last variant points
+/// are left out. Fails with Error if a file that the manifest lists is missing or broken.
 ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest, size_t budget);
 
 /// IEEE half floats, planar R G B: the low bytes of all values, then the high bytes, each byte minus the one before it
-/// (modulo 256, as neighbours are alike), in a zlib stream. Finite values beyond +-65504 are clamped and their pixels counted.
+/// (modulo 256, as neighbours are alike), in a zlib stream. Finite values beyond +-65504 are clamped and their pixels
+/// counted.
 std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped);
 
 std::string base64(const std::vector<unsigned char>& bytes);

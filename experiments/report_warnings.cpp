@@ -20,47 +20,55 @@ double number(const json& value, double fallback) { return value.is_number() ? v
 std::string text(const json& value) { return value.is_string() ? value.get<std::string>() : "?"; }
 bool is_true(const json& value) { return value.is_boolean() && value.get<bool>(); }
 
-/// The study's warnings are clauses.
-std::string sentence(std::string clause) {
+/// Warnings of the manifest are clauses: this ends them as sentences end.
+std::string ended(std::string clause) {
     if (!clause.empty() && clause.back() != '.') clause += '.';
     return clause;
 }
 
 std::string percent(double share) {
     char buffer[32];
-    // Rounded towards zero: 99.96 % that falls short must not be read as 100 %.
-    std::snprintf(buffer, sizeof buffer, "%.1f %%", std::floor(share * 1000.0) / 10.0);
+    std::snprintf(buffer, sizeof buffer, "%.3g %%", 100.0 * share);
     return buffer;
 }
 
+/// Rounded towards zero: 99.96 % that falls short must not be read as 100 %.
+double rounded_down(double share) { return std::floor(share * 1000.0) / 1000.0; }
+
 void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
     for (const json& warning : member(manifest, "warnings"))
-        if (warning.is_string()) warnings.push_back(sentence(warning.get<std::string>()));
+        if (warning.is_string()) warnings.push_back("This study: " + ended(warning.get<std::string>()));
     if (!member(manifest, "finished").is_string())
         warnings.push_back("This study is not finished: some variants or shots may be missing.");
     if (is_true(member(member(manifest, "ssrlab"), "dirty")))
-        warnings.push_back("The program was built from a source tree with uncommitted changes: the commit alone does not identify it.");
+        warnings.push_back(
+            "The program was built from a source tree with uncommitted changes: the commit alone does not identify "
+            "it.");
 }
 
 void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
     if (!has_times) return;
     const json& proof = member(clock, "proof");
-    if (!proof.is_array() || proof.empty()) warnings.push_back("The clock was not proven in this run: take its times with care.");
-    if (!member(clock, "aa_floor").is_number()) warnings.push_back("No A/A pair was measured: the noise floor of the times is not known.");
+    if (!proof.is_array() || proof.empty())
+        warnings.push_back("The clock was not proven in this run: take its times with care.");
+    if (!member(clock, "aa_floor").is_number())
+        warnings.push_back("No A/A pair was measured: the noise floor of the times is not known.");
 }
 
 void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
     const std::string name = text(member(shot, "shot")) + ": ";
     for (const json& warning : member(shot, "warnings"))
-        if (warning.is_string()) warnings.push_back(name + sentence(warning.get<std::string>()));
+        if (warning.is_string()) warnings.push_back(name + ended(warning.get<std::string>()));
     const json& reference = member(shot, "reference");
     const double target_error = number(member(reference, "target_relative_error"), 0.0);
     const double reached = number(member(reference, "reached_share"), 1.0);
     if (target_error > 0 && reached < 1.0)
-        warnings.push_back(name + "only " + percent(reached) + " of the reference's pixels reached the relative error of " + percent(target_error) +
+        warnings.push_back(name + "only " + percent(rounded_down(reached)) +
+                           " of the reference's pixels reached the relative error of " + percent(target_error) +
                            " that was asked for; the intervals below account for the noise that is left.");
     if (const double bad = number(member(reference, "non_finite_samples"), 0.0); bad > 0)
-        warnings.push_back(name + std::to_string(uint64_t(bad)) + " samples of the reference were not finite and were left out: its mean may be biased.");
+        warnings.push_back(name + std::to_string(uint64_t(bad)) +
+                           " samples of the reference were not finite and were left out: its mean may be biased.");
 }
 
 void warn_of_pixels(std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
@@ -71,14 +79,20 @@ void warn_of_pixels(std::vector<std::string>& warnings, std::span<const MetricSu
         negative = std::max(negative, e.negative);
     }
     for (const auto& [where, counts] : worst) {
-        if (counts.first) warnings.push_back(where + std::to_string(counts.first) + (counts.first == 1 ? " pixel is" : " pixels are") + " NaN or infinite and left out of every mean.");
-        if (counts.second) warnings.push_back(where + std::to_string(counts.second) + (counts.second == 1 ? " pixel is" : " pixels are") + " negative.");
+        if (counts.first)
+            warnings.push_back(where + std::to_string(counts.first) +
+                               (counts.first == 1 ? " pixel is" : " pixels are") +
+                               " NaN or infinite and left out of every mean.");
+        if (counts.second)
+            warnings.push_back(where + std::to_string(counts.second) +
+                               (counts.second == 1 ? " pixel is" : " pixels are") + " negative.");
     }
 }
 
 }  // namespace
 
-std::vector<std::string> report_warnings(const json& manifest, std::span<const MetricSummary> errors, std::span<const TimeSummary> times) {
+std::vector<std::string> report_warnings(const json& manifest, std::span<const MetricSummary> errors,
+                                         std::span<const TimeSummary> times) {
     std::vector<std::string> warnings;
     warn_of_study(warnings, manifest);
     warn_of_clock(warnings, member(manifest, "clock"), !times.empty());

@@ -32,7 +32,8 @@ double standard_deviation(const std::vector<double>& values) {
 }
 
 /// The values of all rows, or none if one row has none.
-std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>& rows, std::optional<double> ResultRow::*member) {
+std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>& rows,
+                                             std::optional<double> ResultRow::*member) {
     std::vector<double> values;
     for (const ResultRow* row : rows) {
         if (!(row->*member)) return {};
@@ -46,7 +47,8 @@ void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows) {
     const bool has_interval = lows && highs;
     const bool reference_is_exact = !has_interval && s.floor.value_or(0.0) == 0.0;
     if (!has_interval && !(reference_is_exact && s.seed_deviation)) return;
-    const double from_seeds = s.seed_deviation ? student_t_975(s.seeds - 1) * *s.seed_deviation / std::sqrt(double(s.seeds)) : 0.0;
+    const double from_seeds =
+        s.seed_deviation ? student_t_975(s.seeds - 1) * *s.seed_deviation / std::sqrt(double(s.seeds)) : 0.0;
     s.low = *s.value - std::hypot(from_seeds, has_interval ? *s.value - mean(*lows) : 0.0);
     s.high = *s.value + std::hypot(from_seeds, has_interval ? mean(*highs) - *s.value : 0.0);
 }
@@ -92,9 +94,12 @@ std::vector<ResultRow> read_result_rows(const std::filesystem::path& file) {
         r.shot = csv.text("shot"), r.scene = csv.text("scene"), r.camera = csv.text("camera");
         r.frame = small_count(csv, "frame"), r.width = small_count(csv, "width"), r.height = small_count(csv, "height");
         r.variant = csv.text("variant"), r.point = csv.text("point"), r.seed = small_count(csv, "seed");
-        r.target = csv.text("target"), r.metric = csv.text("metric"), r.formula = csv.text("formula"), r.mask = csv.text("mask");
-        r.value = csv.optional_number("value"), r.is_corrected = csv.count("corrected") != 0, r.uncorrected = csv.optional_number("uncorrected");
-        r.low = csv.optional_number("low"), r.high = csv.optional_number("high"), r.floor = csv.optional_number("floor");
+        r.target = csv.text("target"), r.metric = csv.text("metric"), r.formula = csv.text("formula"),
+        r.mask = csv.text("mask");
+        r.value = csv.optional_number("value"), r.is_corrected = csv.count("corrected") != 0,
+        r.uncorrected = csv.optional_number("uncorrected");
+        r.low = csv.optional_number("low"), r.high = csv.optional_number("high"),
+        r.floor = csv.optional_number("floor");
         r.pixels = csv.count("pixels"), r.non_finite = csv.count("non_finite"), r.negative = csv.count("negative");
         rows.push_back(std::move(r));
     }
@@ -104,14 +109,16 @@ std::vector<ResultRow> read_result_rows(const std::filesystem::path& file) {
 std::vector<TimeRow> read_time_rows(const std::filesystem::path& file) {
     std::vector<TimeRow> rows;
     for (CsvReader csv(file); csv.next();)
-        rows.push_back({csv.text("shot"), csv.text("variant"), csv.text("point"), small_count(csv, "seed"), csv.text("stage"),
-                        small_count(csv, "frame"), csv.number("milliseconds"), csv.text("clock")});
+        rows.push_back({csv.text("shot"), csv.text("variant"), csv.text("point"), small_count(csv, "seed"),
+                        csv.text("stage"), small_count(csv, "frame"), csv.number("milliseconds"), csv.text("clock")});
     return rows;
 }
 
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows) {
     std::vector<MetricSummary> summaries;
-    const auto key = [](const ResultRow& r) { return std::tie(r.shot, r.variant, r.point, r.target, r.metric, r.formula, r.mask); };
+    const auto key = [](const ResultRow& r) {
+        return std::tie(r.shot, r.variant, r.point, r.target, r.metric, r.formula, r.mask);
+    };
     for (const auto& group : grouped(rows, key)) summaries.push_back(summary_of(group));
     return summaries;
 }
@@ -126,30 +133,37 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
         for (const auto& [frame, milliseconds] : of_frame) times.push_back(milliseconds);
         const TimeRow& first = *group.front();
         const MedianInterval m = median_interval(times);
-        summaries.push_back({first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median, m.low, m.high});
+        summaries.push_back(
+            {first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median, m.low, m.high});
     }
     return summaries;
 }
 
-void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors, std::span<const TimeSummary> times) {
-    std::string text = "shot,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,pixels,non_finite,negative\n";
+void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors,
+                     std::span<const TimeSummary> times) {
+    std::string text =
+        "shot,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,pixels,non_"
+        "finite,negative\n";
     for (const MetricSummary& e : errors)
-        text += csv_line(e.shot, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value, e.low, e.high, e.seed_deviation, e.floor,
-                         e.is_corrected, e.pixels, e.non_finite, e.negative);
+        text += csv_line(e.shot, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value, e.low,
+                         e.high, e.seed_deviation, e.floor, e.is_corrected, e.pixels, e.non_finite, e.negative);
     write_text(folder / "summary.csv", text);
 
     text = "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms\n";
-    for (const TimeSummary& t : times) text += csv_line(t.shot, t.variant, t.point, t.stage, t.clock, t.frames, t.median, t.low, t.high);
+    for (const TimeSummary& t : times)
+        text += csv_line(t.shot, t.variant, t.point, t.stage, t.clock, t.frames, t.median, t.low, t.high);
     write_text(folder / "time_summary.csv", text);
 }
 
 double student_t_975(unsigned degrees) {
     if (degrees == 0) fail("Student's t distribution needs at least one degree of freedom");
     // Any table of the distribution; above its end the expansion of Abramowitz & Stegun 26.7.5 is good to 2e-5.
-    constexpr std::array table = {12.70620, 4.30265, 3.18245, 2.77645, 2.57058, 2.44691, 2.36462, 2.30600, 2.26216, 2.22814};
+    constexpr std::array table = {12.70620, 4.30265, 3.18245, 2.77645, 2.57058,
+                                  2.44691,  2.36462, 2.30600, 2.26216, 2.22814};
     if (degrees <= table.size()) return table[degrees - 1];
     constexpr double z = 1.959963984540054, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, z9 = z7 * z * z;
     const double n = degrees;
-    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) + (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n) +
+    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
+           (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n) +
            (79 * z9 + 776 * z7 + 1482 * z5 - 1920 * z3 - 945 * z) / (92160 * n * n * n * n);
 }

@@ -23,12 +23,14 @@ struct MetricSummary {
     size_t pixels = 0, non_finite = 0, negative = 0;  ///< the last two are the worst seed's
 };
 
-/// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same reference for
-/// all seeds, so the mean of the rows' intervals) and Student's t interval of the seeds, t(0.975, n-1) s / sqrt(n). A metric
-/// whose rows give no interval although the reference has noise (a floor above 0) gets none: the seeds alone would understate it.
+/// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same
+/// reference for all seeds, so the mean of the rows' intervals) and Student's t interval of the seeds, t(0.975, n-1) s
+/// / sqrt(n). A metric whose rows give no interval although the reference has noise (a floor above 0) gets none: the
+/// seeds alone would understate it.
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows);
 
-/// One stage of one variant point: the median over the measured frames of all seeds of its time in a frame, with its interval from order statistics.
+/// One stage of one variant point: the median over the measured frames of all seeds of its time in a frame, with its
+/// interval from order statistics.
 struct TimeSummary {
     std::string shot, variant, point, stage, clock;
     size_t frames = 0;
@@ -37,7 +39,8 @@ struct TimeSummary {
 std::vector<TimeSummary> summarise(std::span<const TimeRow> rows);
 
 /// Writes summary.csv and time_summary.csv, which the report and the figures show.
-void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors, std::span<const TimeSummary> times);
+void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors,
+                     std::span<const TimeSummary> times);
 
 /// The 97.5 % quantile of Student's t distribution; degrees >= 1.
 double student_t_975(unsigned degrees);

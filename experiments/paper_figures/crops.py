@@ -15,7 +15,7 @@ BOX_COLORS = ["#e69f00", "#56b4e9"]
 
 def _display(image, exposure):
     """sRGB (IEC 61966-2-1) at this exposure; pixels that are not finite are magenta."""
-    linear = np.clip(np.nan_to_num(image.astype(np.float64) * 2.0 ** exposure), 0.0, 1.0)
+    linear = np.clip(np.nan_to_num(image.astype(np.float64) * 2.0**exposure), 0.0, 1.0)
     coded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     coded[~np.isfinite(image).all(axis=-1)] = (1.0, 0.0, 1.0)
     return coded
@@ -34,14 +34,19 @@ def crop_boxes(error, count):
     size_y = max(height // 4, min(height, 4))
     size_x = min(width, max(round(size_y * 4 / 3), 4))
     integral = np.pad(np.nan_to_num(error), ((1, 0), (1, 0))).cumsum(0).cumsum(1)
-    sums = integral[size_y:, size_x:] - integral[:-size_y, size_x:] - integral[size_y:, :-size_x] + integral[:-size_y, :-size_x]
+    sums = (
+        integral[size_y:, size_x:]
+        - integral[:-size_y, size_x:]
+        - integral[size_y:, :-size_x]
+        + integral[:-size_y, :-size_x]
+    )
     boxes = []
     for _ in range(count):
         y, x = np.unravel_index(np.argmax(sums), sums.shape)
         if not np.isfinite(sums[y, x]):
             break
         boxes.append((int(x), int(y), size_x, size_y))
-        sums[max(y - size_y + 1, 0):y + size_y, max(x - size_x + 1, 0):x + size_x] = -np.inf
+        sums[max(y - size_y + 1, 0) : y + size_y, max(x - size_x + 1, 0) : x + size_x] = -np.inf
     return boxes
 
 
@@ -62,11 +67,15 @@ def _frame(axes, color):
 def _pick(images):
     """`none` and the first points of the others: what fits beside the reference."""
     variants = [key for key in images if key[0] != "reference"]
-    return [k for k in variants if k[0] == "none"][:1] + [k for k in variants if k[0] != "none"][:MOST_VARIANTS - 1]
+    return [k for k in variants if k[0] == "none"][:1] + [k for k in variants if k[0] != "none"][: MOST_VARIANTS - 1]
 
 
 def _target(results, shot):
-    found = {i.get("target") for i in results.manifest.get("images", []) if i.get("shot") == shot and i.get("kind") == "reference"}
+    found = {
+        i.get("target")
+        for i in results.manifest.get("images", [])
+        if i.get("shot") == shot and i.get("kind") == "reference"
+    }
     return next((t for t in ("image", "specular", "incident") if t in found), None)
 
 
@@ -85,7 +94,17 @@ def draw(results, shot, errors, chosen):
     techniques = [maps[k] for k in keys if k[0] != "none"] or list(maps.values())
     boxes = crop_boxes(np.nanmean(np.nan_to_num(np.stack(techniques)), axis=0), 2)
     maximum = max(float(np.nanquantile(m, 0.99)) for m in maps.values()) or 1.0
-    return _compose(results, shot, target, errors, chosen, {("reference", ""): reference, **{k: images[k] for k in keys}}, maps, boxes, maximum)
+    return _compose(
+        results,
+        shot,
+        target,
+        errors,
+        chosen,
+        {("reference", ""): reference, **{k: images[k] for k in keys}},
+        maps,
+        boxes,
+        maximum,
+    )
 
 
 def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum):
@@ -93,26 +112,58 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
     height, width = reference.shape[:2]
     cell = style.DOUBLE_COLUMN / len(images)
     ratios = [height / width] + [b[3] / b[2] for b in boxes for _ in range(2)]
-    figure = plt.figure(figsize=(style.DOUBLE_COLUMN, cell * sum(ratios) + (1.6 + 0.45 * len(boxes)) * style.CENTIMETRE), layout="constrained")
+    figure = plt.figure(
+        figsize=(style.DOUBLE_COLUMN, cell * sum(ratios) + (1.6 + 0.45 * len(boxes)) * style.CENTIMETRE),
+        layout="constrained",
+    )
     figure.set_constrained_layout_pads(w_pad=0.02, h_pad=0.02, wspace=0.01, hspace=0.01)
     grid = figure.subplots(len(ratios), len(images), squeeze=False, gridspec_kw={"height_ratios": ratios})
     for column, (key, image) in enumerate(images.items()):
         _show(grid[0, column], _display(image, exposure))
         error = errors.get((shot, *key))
-        number = "" if error is None else f"\n{chosen.metric} {style.number(error.value)}" + ("" if error.low is None else f" [{style.number(error.low)}, {style.number(error.high)}]")
+        number = (
+            ""
+            if error is None
+            else f"\n{chosen.metric} {style.number(error.value)}"
+            + ("" if error.low is None else f" [{style.number(error.low)}, {style.number(error.high)}]")
+        )
         grid[0, column].set_title(label(*key) + number)
         for index, box in enumerate(boxes):
-            _draw_crop(grid[1 + 2 * index, column], grid[2 + 2 * index, column], image, reference, maps.get(key), box, BOX_COLORS[index], exposure, maximum)
-            grid[0, column].add_patch(Rectangle((box[0] - 0.5, box[1] - 0.5), box[2], box[3], fill=False, edgecolor=BOX_COLORS[index], linewidth=1.0))
-    bar = figure.colorbar(ScalarMappable(Normalize(0, maximum), "magma"), ax=grid[-1, :], orientation="horizontal", shrink=0.5, aspect=40, extend="max")
-    bar.set_label(f"{shot}, {target}: absolute error, mean over channels (one scale); top row: {chosen.metric} of {chosen.target} on {chosen.mask} pixels; "
-                  "crops: MSE with the reference's noise in it", fontsize=5.5)
+            _draw_crop(
+                grid[1 + 2 * index, column],
+                grid[2 + 2 * index, column],
+                image,
+                reference,
+                maps.get(key),
+                box,
+                BOX_COLORS[index],
+                exposure,
+                maximum,
+            )
+            grid[0, column].add_patch(
+                Rectangle(
+                    (box[0] - 0.5, box[1] - 0.5), box[2], box[3], fill=False, edgecolor=BOX_COLORS[index], linewidth=1.0
+                )
+            )
+    bar = figure.colorbar(
+        ScalarMappable(Normalize(0, maximum), "magma"),
+        ax=grid[-1, :],
+        orientation="horizontal",
+        shrink=0.5,
+        aspect=40,
+        extend="max",
+    )
+    bar.set_label(
+        f"{shot}, {target}: absolute error, mean over channels (one scale); top row: {chosen.metric} of {chosen.target} on {chosen.mask} pixels; "
+        "crops: MSE with the reference's noise in it",
+        fontsize=5.5,
+    )
     return figure
 
 
 def _draw_crop(picture_axes, map_axes, image, reference, error, box, color, exposure, maximum):
     x, y, w, h = box
-    part = np.s_[y:y + h, x:x + w]
+    part = np.s_[y : y + h, x : x + w]
     _show(picture_axes, _display(image[part], exposure))
     _frame(picture_axes, color)
     if error is None:
@@ -123,4 +174,6 @@ def _draw_crop(picture_axes, map_axes, image, reference, error, box, color, expo
     _show(map_axes, error[part], cmap=colors, vmin=0, vmax=maximum)
     _frame(map_axes, color)
     squared = (image[part].astype(np.float64) - reference[part]) ** 2
-    map_axes.set_xlabel(f"MSE {style.number(float(np.nanmean(squared[np.isfinite(squared).all(axis=-1)])))}", labelpad=1.5)
+    map_axes.set_xlabel(
+        f"MSE {style.number(float(np.nanmean(squared[np.isfinite(squared).all(axis=-1)])))}", labelpad=1.5
+    )

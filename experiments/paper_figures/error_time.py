@@ -26,9 +26,20 @@ def _draw_points(axes, errors, times, shot):
             if error.value <= 0:
                 has_nonpositive = True
                 continue
-            axes.errorbar([total.value], [error.value], xerr=total.whiskers(), yerr=error.whiskers(), fmt=mark, color=color, markeredgewidth=0, label=variant if is_first else None)
+            axes.errorbar(
+                [total.value],
+                [error.value],
+                xerr=total.whiskers(),
+                yerr=error.whiskers(),
+                fmt=mark,
+                color=color,
+                markeredgewidth=0,
+                label=variant if is_first else None,
+            )
             if point != "default":
-                axes.annotate(point, (total.value, error.value), (3, 3), textcoords="offset points", fontsize=5, color="#444444")
+                axes.annotate(
+                    point, (total.value, error.value), (3, 3), textcoords="offset points", fontsize=5, color="#444444"
+                )
             is_first = False
     return has_nonpositive
 
@@ -39,13 +50,21 @@ def draw(results, shot, errors, chosen):
         return None
     figure, axes = plt.subplots(figsize=(style.SINGLE_COLUMN, 0.75 * style.SINGLE_COLUMN), layout="constrained")
     has_nonpositive = _draw_points(axes, errors, times, shot)
-    axes.set(xscale="log", yscale="log", xlabel="total time (ms), median with 95 % interval", ylabel=f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels", title=shot)
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="total time (ms), median with 95 % interval",
+        ylabel=f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels",
+        title=shot,
+    )
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.set_major_formatter(FuncFormatter(lambda x, _: style.number(x)))
         axis.set_minor_formatter(NullFormatter())
     axes.margins(0.12)
     if has_nonpositive:
-        axes.text(0.02, 0.02, "errors not above 0 after noise correction are not shown", transform=axes.transAxes, fontsize=5)
+        axes.text(
+            0.02, 0.02, "errors not above 0 after noise correction are not shown", transform=axes.transAxes, fontsize=5
+        )
     axes.legend(loc="best")
     return figure

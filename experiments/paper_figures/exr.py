@@ -41,7 +41,7 @@ def _header(data):
         name, at = _text(data, at)
         _, at = _text(data, at)
         (size,) = struct.unpack_from("<i", data, at)
-        attributes[name] = data[at + 4:at + 4 + size]
+        attributes[name] = data[at + 4 : at + 4 + size]
         at += 4 + size
     return attributes, at + 1
 
@@ -65,7 +65,7 @@ def _unpacked(block, size):
     data[1:] -= 128
     data = np.cumsum(data).astype(np.uint8)
     out = np.empty(size, np.uint8)
-    out[0::2], out[1::2] = data[:(size + 1) // 2], data[(size + 1) // 2:]
+    out[0::2], out[1::2] = data[: (size + 1) // 2], data[(size + 1) // 2 :]
     return out.tobytes()
 
 
@@ -81,7 +81,7 @@ def _decode(data):
     for offset in struct.unpack_from(f"<{blocks}Q", data, at):
         first, size = struct.unpack_from("<ii", data, offset)
         rows = min(rows_per_block, bottom + 1 - first)
-        raw, position = _unpacked(data[offset + 8:offset + 8 + size], rows * row_bytes), 0
+        raw, position = _unpacked(data[offset + 8 : offset + 8 + size], rows * row_bytes), 0
         for y in range(first - top, first - top + rows):
             for name, kind in channels:
                 planes[name][y] = np.frombuffer(raw, kind, width, position)

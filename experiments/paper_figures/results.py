@@ -15,6 +15,7 @@ class ResultsError(Exception):
 @dataclass
 class Measured:
     """A value with its 95 % interval; low and high are None where there is none."""
+
     value: float
     low: float
     high: float
@@ -73,8 +74,15 @@ class Results:
         rows = [r for r in self.errors if (r["target"], r["metric"], r["mask"]) == (target, metric, mask)]
         if not rows:
             found = sorted({f"{r['target']} {r['metric']} {r['mask']}" for r in self.errors})
-            raise ResultsError(f"{os.path.join(self.folder, 'summary.csv')} has no rows of target {target}, metric {metric}, mask {mask}; it has: {', '.join(found)}")
-        read = {(r["shot"], r["variant"], r["point"]): Measured(*(self._number(r, c, "summary.csv") for c in ("value", "low", "high"))) for r in rows}
+            raise ResultsError(
+                f"{os.path.join(self.folder, 'summary.csv')} has no rows of target {target}, metric {metric}, mask {mask}; it has: {', '.join(found)}"
+            )
+        read = {
+            (r["shot"], r["variant"], r["point"]): Measured(
+                *(self._number(r, c, "summary.csv") for c in ("value", "low", "high"))
+            )
+            for r in rows
+        }
         return {key: value for key, value in read.items() if value.value is not None}
 
     def times_of(self, shot):
@@ -92,7 +100,11 @@ class Results:
 
     def images_of(self, shot, target):
         """(variant, point) to RGB image of the first seed; the reference's key is ("reference", "")."""
-        entries = [i for i in self.manifest.get("images", []) if i.get("shot") == shot and i.get("target") == target and i.get("kind") in ("result", "reference")]
+        entries = [
+            i
+            for i in self.manifest.get("images", [])
+            if i.get("shot") == shot and i.get("target") == target and i.get("kind") in ("result", "reference")
+        ]
         first = {}
         for entry in sorted(entries, key=lambda i: i.get("seed") or 0):
             first.setdefault((entry["variant"], entry.get("point") or ""), entry["exr"])

@@ -12,18 +12,42 @@ def draw(results, shot, errors, chosen):
         return None
     names = list(dict.fromkeys(s for stages in times.values() for s in stages if s != "total"))
     height = (2.0 + 0.35 * len(names) + 0.6 * len(times)) * style.CENTIMETRE
-    figure, (legend_axes, axes) = plt.subplots(2, figsize=(style.SINGLE_COLUMN, height), layout="constrained", gridspec_kw={"height_ratios": [0.35 * len(names), 0.6 * len(times)]})
+    figure, (legend_axes, axes) = plt.subplots(
+        2,
+        figsize=(style.SINGLE_COLUMN, height),
+        layout="constrained",
+        gridspec_kw={"height_ratios": [0.35 * len(names), 0.6 * len(times)]},
+    )
     for row, stages in enumerate(times.values()):
         start = 0.0
         for name, time in ((n, stages[n]) for n in names if n in stages):
             color = style.COLORS[names.index(name) % len(style.COLORS)]
-            axes.barh(row, time.value, left=start, height=0.62, color=color, edgecolor="white", linewidth=0.4, label=name)
+            axes.barh(
+                row, time.value, left=start, height=0.62, color=color, edgecolor="white", linewidth=0.4, label=name
+            )
             start += time.value
-            axes.errorbar([start], [row + 0.12], xerr=time.whiskers(), fmt="none", ecolor="#ffffff", elinewidth=1.6, capsize=0)
-            axes.errorbar([start], [row + 0.12], xerr=time.whiskers(), fmt="none", ecolor="#000000", elinewidth=0.5, capsize=1.2, capthick=0.5)
+            axes.errorbar(
+                [start], [row + 0.12], xerr=time.whiskers(), fmt="none", ecolor="#ffffff", elinewidth=1.6, capsize=0
+            )
+            axes.errorbar(
+                [start],
+                [row + 0.12],
+                xerr=time.whiskers(),
+                fmt="none",
+                ecolor="#000000",
+                elinewidth=0.5,
+                capsize=1.2,
+                capthick=0.5,
+            )
         if "total" in stages:
             total = stages["total"]
-            axes.text(max(start, total.high), row, f"  {style.number(total.value)} [{style.number(total.low)}, {style.number(total.high)}]", va="center", fontsize=5.5)
+            axes.text(
+                max(start, total.high),
+                row,
+                f"  {style.number(total.value)} [{style.number(total.low)}, {style.number(total.high)}]",
+                va="center",
+                fontsize=5.5,
+            )
     axes.set_yticks(range(len(times)), [label(*key) for key in times])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)

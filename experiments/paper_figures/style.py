@@ -16,12 +16,29 @@ MARKS = ["o", "s", "^", "D", "v", "P", "X"]
 
 def apply():
     matplotlib.rcdefaults()
-    matplotlib.rcParams.update({
-        "font.family": "DejaVu Sans", "font.size": 7, "axes.titlesize": 7, "legend.fontsize": 6.5, "axes.linewidth": 0.6,
-        "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.5, "axes.axisbelow": True,
-        "lines.linewidth": 0.9, "lines.markersize": 4, "errorbar.capsize": 1.8, "legend.frameon": False, "figure.dpi": 100, "savefig.dpi": 300,
-        "pdf.fonttype": 42, "svg.hashsalt": "ssrlab",
-    })
+    matplotlib.rcParams.update(
+        {
+            "font.family": "DejaVu Sans",
+            "font.size": 7,
+            "axes.titlesize": 7,
+            "legend.fontsize": 6.5,
+            "axes.linewidth": 0.6,
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "axes.grid": True,
+            "grid.color": "#dddddd",
+            "grid.linewidth": 0.5,
+            "axes.axisbelow": True,
+            "lines.linewidth": 0.9,
+            "lines.markersize": 4,
+            "errorbar.capsize": 1.8,
+            "legend.frameon": False,
+            "figure.dpi": 100,
+            "savefig.dpi": 300,
+            "pdf.fonttype": 42,
+            "svg.hashsalt": "ssrlab",
+        }
+    )
 
 
 def number(x):
@@ -30,7 +47,11 @@ def number(x):
 
 def save(figure, folder, name):
     """Writes name.pdf, .svg and .png, each to a temporary name and renamed."""
-    metadata = {"pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": "ssrlab"}, "svg": {"Date": None, "Creator": "ssrlab"}, "png": {"Software": None}}
+    metadata = {
+        "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": "ssrlab"},
+        "svg": {"Date": None, "Creator": "ssrlab"},
+        "png": {"Software": None},
+    }
     files = []
     for kind, tags in metadata.items():
         file = os.path.join(folder, f"{name}.{kind}")

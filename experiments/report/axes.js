@@ -9,8 +9,9 @@ function logScale(values, from, to) {
     if (!positive.length) [low, high] = [0, 1];
     const air = Math.max(0.08 * (high - low), 0.15);
     [low, high] = [low - air, high + air];
-    const toPixel = v => from + (to - from) * Math.min(Math.max(((v > 0 ? Math.log10(v) : -Infinity) - low) / (high - low), 0), 1);
-    return { toPixel, ticks: logTicks(low, high), isInside: v => v > 0 };
+    const toPixel = v =>
+        from + (to - from) * Math.min(Math.max(((v > 0 ? Math.log10(v) : -Infinity) - low) / (high - low), 0), 1);
+    return {toPixel, ticks: logTicks(low, high), isInside: v => v > 0};
 }
 
 /// Decades, and 2 and 5 between them where there are few.
@@ -24,7 +25,8 @@ function logTicks(low, high) {
 }
 
 function linearScale(values, from, to, mustShowZero = false) {
-    let low = Math.min(...values, ...(mustShowZero ? [0] : [])), high = Math.max(...values, ...(mustShowZero ? [0] : []));
+    let low = Math.min(...values, ...(mustShowZero ? [0] : [])),
+        high = Math.max(...values, ...(mustShowZero ? [0] : []));
     if (!(high > low)) [low, high] = [low - 0.5, low + 0.5];
     const air = mustShowZero ? [0, 0.03] : [0.08, 0.08];
     [low, high] = [low - air[0] * (high - low), high + air[1] * (high - low)];
@@ -32,33 +34,53 @@ function linearScale(values, from, to, mustShowZero = false) {
     const step = unit * [1, 2, 5, 10].find(s => s * unit >= rough);
     const ticks = [];
     for (let i = Math.ceil(low / step); i * step <= high; ++i) ticks.push(Number((i * step).toPrecision(12)));
-    return { toPixel: v => from + (to - from) * (v - low) / (high - low), ticks, isInside: () => true };
+    return {toPixel: v => from + (to - from) * (v - low) / (high - low), ticks, isInside: () => true};
 }
 
 /// A mark about 8 wide at (x, y): each series has a shape of its own beside its colour.
 function mark(series, x, y) {
-    const style = { fill: seriesColor(series), stroke: "var(--card)", "stroke-width": 1 };
-    const polygon = (n, turn, r) => Array.from({ length: n }, (_, i) => {
-        const a = turn + 2 * Math.PI * i / n;
-        return `${(x + r * Math.sin(a)).toFixed(2)},${(y - r * Math.cos(a)).toFixed(2)}`;
-    }).join(" ");
+    const style = {fill: seriesColor(series), stroke: "var(--card)", "stroke-width": 1};
+    const polygon = (n, turn, r) =>
+        Array
+            .from(
+                {length: n},
+                (_, i) => {
+                    const a = turn + 2 * Math.PI * i / n;
+                    return `${(x + r * Math.sin(a)).toFixed(2)},${(y - r * Math.cos(a)).toFixed(2)}`;
+                })
+            .join(" ");
     switch (series % 5) {
-        case 0: return svg("circle", { cx: x, cy: y, r: 4, ...style });
-        case 1: return svg("polygon", { points: polygon(4, Math.PI / 4, 5), ...style });
-        case 2: return svg("polygon", { points: polygon(3, 0, 5.6), ...style });
-        case 3: return svg("polygon", { points: polygon(4, 0, 5.6), ...style });
-        default: return svg("polygon", { points: polygon(3, Math.PI, 5.6), ...style });
+        case 0:
+            return svg("circle", {cx: x, cy: y, r: 4, ...style});
+        case 1:
+            return svg("polygon", {points: polygon(4, Math.PI / 4, 5), ...style});
+        case 2:
+            return svg("polygon", {points: polygon(3, 0, 5.6), ...style});
+        case 3:
+            return svg("polygon", {points: polygon(4, 0, 5.6), ...style});
+        default:
+            return svg("polygon", {points: polygon(3, Math.PI, 5.6), ...style});
     }
 }
 
 function horizontalAxis(scale, top, bottom, label) {
-    const lines = scale.ticks.map(v => [svg("line", { class: "axis", x1: scale.toPixel(v), x2: scale.toPixel(v), y1: top, y2: bottom }),
-        svg("text", { x: scale.toPixel(v), y: bottom + 15, "text-anchor": "middle" }, number(v, 3))]);
-    return [...lines.flat(), svg("text", { class: "faint", x: (scale.from + scale.to) / 2, y: bottom + 32, "text-anchor": "middle" }, label)];
+    const lines = scale.ticks.map(
+        v =>
+            [svg("line", {class: "axis", x1: scale.toPixel(v), x2: scale.toPixel(v), y1: top, y2: bottom}),
+             svg("text", {x: scale.toPixel(v), y: bottom + 15, "text-anchor": "middle"}, number(v, 3))]);
+    return [
+        ...lines.flat(),
+        svg("text", {class: "faint", x: (scale.from + scale.to) / 2, y: bottom + 32, "text-anchor": "middle"}, label)
+    ];
 }
 
 function verticalAxis(scale, left, right, label, middle) {
-    const lines = scale.ticks.map(v => [svg("line", { class: "axis", x1: left, x2: right, y1: scale.toPixel(v), y2: scale.toPixel(v) }),
-        svg("text", { x: left - 6, y: scale.toPixel(v) + 4, "text-anchor": "end" }, number(v, 3))]);
-    return [...lines.flat(), svg("text", { class: "faint", transform: `translate(13 ${middle}) rotate(-90)`, "text-anchor": "middle" }, label)];
+    const lines = scale.ticks.map(
+        v =>
+            [svg("line", {class: "axis", x1: left, x2: right, y1: scale.toPixel(v), y2: scale.toPixel(v)}),
+             svg("text", {x: left - 6, y: scale.toPixel(v) + 4, "text-anchor": "end"}, number(v, 3))]);
+    return [
+        ...lines.flat(),
+        svg("text", {class: "faint", transform: `translate(13 ${middle}) rotate(-90)`, "text-anchor": "middle"}, label)
+    ];
 }

@@ -7,19 +7,49 @@ function readData() {
     const raw = JSON.parse(document.getElementById("data").textContent);
     const t = raw.texts;
     const errors = raw.errors.map(r => ({
-        shot: t[r[0]], variant: t[r[1]], point: t[r[2]], target: t[r[3]], metric: t[r[4]], formula: t[r[5]], mask: t[r[6]],
-        value: r[7], low: r[8], high: r[9], floor: r[10], deviation: r[11], seeds: r[12], corrected: r[13] === 1, pixels: r[14], nonFinite: r[15], negative: r[16]
-    }));
+                                      shot: t[r[0]],
+                                      variant: t[r[1]],
+                                      point: t[r[2]],
+                                      target: t[r[3]],
+                                      metric: t[r[4]],
+                                      formula: t[r[5]],
+                                      mask: t[r[6]],
+                                      value: r[7],
+                                      low: r[8],
+                                      high: r[9],
+                                      floor: r[10],
+                                      deviation: r[11],
+                                      seeds: r[12],
+                                      corrected: r[13] === 1,
+                                      pixels: r[14],
+                                      nonFinite: r[15],
+                                      negative: r[16]
+                                  }));
     const times = raw.times.map(r => ({
-        shot: t[r[0]], variant: t[r[1]], point: t[r[2]], stage: t[r[3]], clock: t[r[4]], frames: r[5], value: r[6], low: r[7], high: r[8]
-    }));
-    return { manifest: raw.manifest, metrics: raw.metrics, warnings: raw.warnings, notes: raw.notes, images: raw.images, errors, times };
+                                    shot: t[r[0]],
+                                    variant: t[r[1]],
+                                    point: t[r[2]],
+                                    stage: t[r[3]],
+                                    clock: t[r[4]],
+                                    frames: r[5],
+                                    value: r[6],
+                                    low: r[7],
+                                    high: r[8]
+                                }));
+    return {
+        manifest: raw.manifest,
+        metrics: raw.metrics,
+        warnings: raw.warnings,
+        notes: raw.notes,
+        images: raw.images,
+        errors,
+        times
+    };
 }
 
-/// An element: `h("td", {class: "number"}, "12")`. Attributes that are functions become listeners, null ones are left out.
-function h(tag, attributes = {}, ...children) {
-    return fill(document.createElement(tag), attributes, children);
-}
+/// An element: `h("td", {class: "number"}, "12")`. Attributes that are functions become listeners, null ones are left
+/// out.
+function h(tag, attributes = {}, ...children) { return fill(document.createElement(tag), attributes, children); }
 
 function svg(tag, attributes = {}, ...children) {
     return fill(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
@@ -27,8 +57,10 @@ function svg(tag, attributes = {}, ...children) {
 
 function fill(element, attributes, children) {
     for (const [name, value] of Object.entries(attributes)) {
-        if (typeof value === "function") element.addEventListener(name, value);
-        else if (value !== null && value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : value);
+        if (typeof value === "function")
+            element.addEventListener(name, value);
+        else if (value !== null && value !== undefined && value !== false)
+            element.setAttribute(name, value === true ? "" : value);
     }
     element.append(...children.flat().filter(c => c !== null && c !== undefined));
     return element;
@@ -55,23 +87,41 @@ function number(x, digits = 4) {
 const interval = row => row.low === null || row.low === undefined ? "" : `[${number(row.low)}, ${number(row.high)}]`;
 
 function select(label, options, value, changed) {
-    const box = h("select", { change: event => changed(event.target.value) }, options.map(o => {
+    const box = h("select", {change: event => changed(event.target.value)}, options.map(o => {
         const [key, text] = Array.isArray(o) ? o : [o, o];
-        return h("option", { value: key, selected: key === value }, text);
+        return h("option", {value: key, selected: key === value}, text);
     }));
     return h("label", {}, label, box);
 }
 
-/// Rows are arrays of cells; a cell is a text, an element, or {sort, content}. Columns with `number` are right-aligned; a sortable
-/// table has a button in each head.
+/// Rows are arrays of cells; a cell is a text, an element, or {sort, content}. Columns with `number` are right-aligned;
+/// a sortable table has a button in each head.
 function table(columns, rows, options = {}) {
     const body = h("tbody");
-    const heads = columns.map((column, i) => h("th", { class: column.number ? "number" : null, scope: "col" },
-        options.sortable ? h("button", { click: () => sortBy(i), title: "Sort by " + column.name }, column.name) : column.name));
-    const show = ordered => body.replaceChildren(...ordered.map((row, i) => h("tr", {
-        class: options.groupBy !== undefined && i > 0 && sortKey(row[options.groupBy]) !== sortKey(ordered[i - 1][options.groupBy]) ? "group" : null
-    }, row.map((cell, c) => h("td", { class: columns[c].number ? "number" : null, "data-value": cell && cell.sort !== undefined ? String(cell.sort) : null },
-        cell && cell.content !== undefined ? cell.content : cell)))));
+    const heads = columns.map(
+        (column, i) =>
+            h("th", {class: column.number ? "number" : null, scope: "col"},
+              options.sortable ? h("button", {click: () => sortBy(i), title: "Sort by " + column.name}, column.name) :
+                                 column.name));
+    const show =
+        ordered =>
+            body.replaceChildren(
+                ...ordered.map(
+                    (row, i) =>
+                        h("tr", {
+                            class: options.groupBy !== undefined && i > 0 &&
+                                    sortKey(row[options.groupBy]) !== sortKey(ordered[i - 1][options.groupBy]) ?
+                                "group" :
+                                null
+                        },
+                          row.map(
+                              (cell, c) =>
+                                  h(
+                                      "td", {
+                                          class: columns[c].number ? "number" : null,
+                                          "data-value": cell && cell.sort !== undefined ? String(cell.sort) : null
+                                      },
+                                      cell && cell.content !== undefined ? cell.content : cell)))));
     function sortBy(i) {
         const up = heads[i].getAttribute("aria-sort") !== "ascending";
         heads.forEach(head => head.removeAttribute("aria-sort"));
@@ -79,7 +129,9 @@ function table(columns, rows, options = {}) {
         show([...rows].sort((a, b) => compareCells(sortKey(a[i]), sortKey(b[i]), up)));
     }
     show(rows);
-    return h("table", {}, options.caption ? h("caption", {}, options.caption) : null, h("thead", {}, h("tr", {}, heads)), body);
+    return h(
+        "table", {}, options.caption ? h("caption", {}, options.caption) : null, h("thead", {}, h("tr", {}, heads)),
+        body);
 }
 
 const sortKey = cell => cell && cell.sort !== undefined ? cell.sort : cell instanceof Node ? cell.textContent : cell;
@@ -87,13 +139,15 @@ const sortKey = cell => cell && cell.sort !== undefined ? cell.sort : cell insta
 /// Missing numbers come last in both directions.
 function compareCells(a, b, up) {
     if (a === null || b === null) return (a === null) - (b === null);
-    const order = typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en", { numeric: true });
+    const order = typeof a === "number" && typeof b === "number" ?
+        a - b :
+        String(a).localeCompare(String(b), "en", {numeric: true});
     return up ? order : -order;
 }
 
-const cell = (sort, ...content) => ({ sort: sort === undefined ? null : sort, content: h("span", {}, ...content) });
+const cell = (sort, ...content) => ({sort: sort === undefined ? null : sort, content: h("span", {}, ...content)});
 
-const tip = h("div", { class: "tip", hidden: true, role: "tooltip" });
+const tip = h("div", {class: "tip", hidden: true, role: "tooltip"});
 
 /// Shows `text` beside the pointer, or beside the element for keyboard users.
 function withTip(element, text) {
@@ -104,7 +158,9 @@ function withTip(element, text) {
         tip.style.left = Math.min((event.clientX ?? box.right) + 14, innerWidth - tip.offsetWidth - 8) + "px";
         tip.style.top = Math.min((event.clientY ?? box.top) + 14, innerHeight - tip.offsetHeight - 8) + "px";
     };
-    const hide = () => { tip.hidden = true; };
+    const hide = () => {
+        tip.hidden = true;
+    };
     for (const name of ["pointermove", "focus"]) element.addEventListener(name, show);
     for (const name of ["pointerleave", "blur"]) element.addEventListener(name, hide);
     element.setAttribute("tabindex", "0");

@@ -1,7 +1,12 @@
 // One picture in a frame: it draws its image at the view that all panes share.
 
-/// The shared view: `x`, `y` in [0, 1] is the image point in the middle of each pane; `zoom` 1 fits the image to the pane.
-const view = { x: 0.5, y: 0.5, zoom: 1 };
+/// The shared view: `x`, `y` in [0, 1] is the image point in the middle of each pane; `zoom` 1 fits the image to the
+/// pane.
+const view = {
+    x: 0.5,
+    y: 0.5,
+    zoom: 1
+};
 const maximumZoom = 64;
 
 function limitView() {
@@ -12,9 +17,17 @@ function limitView() {
 }
 
 function createPane(listeners) {
-    const canvas = h("canvas", { tabindex: 0, role: "img", ...listeners });
+    const canvas = h("canvas", {tabindex: 0, role: "img", ...listeners});
     const caption = h("figcaption");
-    return { canvas, caption, element: h("figure", { class: "pane" }, caption, canvas), image: null, pixels: null, picture: document.createElement("canvas"), shown: null };
+    return {
+        canvas,
+        caption,
+        element: h("figure", {class: "pane"}, caption, canvas),
+        image: null,
+        pixels: null,
+        picture: document.createElement("canvas"),
+        shown: null
+    };
 }
 
 /// Makes the pane show `pixels` (ImageData) of `image`; `key` says what they depend on.
@@ -31,20 +44,26 @@ function setPane(pane, image, pixels, caption) {
 /// Canvas pixels per image pixel, and the canvas position of the image's corner.
 function paneTransform(pane) {
     const scale = pane.canvas.width / pane.image.width * view.zoom;
-    return { scale, left: pane.canvas.width / 2 - view.x * pane.image.width * scale, top: pane.canvas.height / 2 - view.y * pane.image.height * scale };
+    return {
+        scale,
+        left: pane.canvas.width / 2 - view.x * pane.image.width * scale,
+        top: pane.canvas.height / 2 - view.y * pane.image.height * scale
+    };
 }
 
 function drawPane(pane, pinned) {
-    const { canvas, image } = pane;
-    const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)), height = Math.max(1, Math.round(width * image.height / image.width));
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const context = canvas.getContext("2d"), { scale, left, top } = paneTransform(pane);
+    const {canvas, image} = pane;
+    const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)),
+          height = Math.max(1, Math.round(width * image.height / image.width));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
+    const context = canvas.getContext("2d"), {scale, left, top} = paneTransform(pane);
     context.fillStyle = "#000";
     context.fillRect(0, 0, width, height);
     context.imageSmoothingEnabled = scale < 1;
     context.drawImage(pane.picture, left, top, image.width * scale, image.height * scale);
     if (!pinned) return;
-    const size = Math.max(scale, 5), x = left + (pinned.x + 0.5) * scale - size / 2, y = top + (pinned.y + 0.5) * scale - size / 2;
+    const size = Math.max(scale, 5), x = left + (pinned.x + 0.5) * scale - size / 2,
+          y = top + (pinned.y + 0.5) * scale - size / 2;
     context.lineWidth = 1;
     for (const [color, grow] of [["#000", 1.5], ["#fff", 0.5]]) {
         context.strokeStyle = color;
@@ -57,7 +76,12 @@ function pointerPlace(pane, event) {
     const box = pane.canvas.getBoundingClientRect();
     const u = (event.clientX - box.left) / box.width, v = (event.clientY - box.top) / box.height;
     const clampTo = (value, size) => Math.min(Math.max(Math.floor(value * size), 0), size - 1);
-    return { u, v, x: clampTo(view.x + (u - 0.5) / view.zoom, pane.image.width), y: clampTo(view.y + (v - 0.5) / view.zoom, pane.image.height) };
+    return {
+        u,
+        v,
+        x: clampTo(view.x + (u - 0.5) / view.zoom, pane.image.width),
+        y: clampTo(view.y + (v - 0.5) / view.zoom, pane.image.height)
+    };
 }
 
 /// Zooms about the point at `u`, `v` of the panes, which stays where it is.

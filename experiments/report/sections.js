@@ -1,48 +1,81 @@
 // Head, warnings and the tables that do not change: what was run, references, needs, parameters.
 
-const known = (value, text = String(value)) => value === null || value === undefined || value === "" ? "not recorded" : text;
+const known = (value, text = String(value)) =>
+    value === null || value === undefined || value === "" ? "not recorded" : text;
 const percent = x => x === null || x === undefined ? "–" : number(100 * x, 3) + " %";
 
 function showHead() {
-    const { manifest } = report;
+    const {manifest} = report;
     const shots = list(manifest.shots).length, points = unique(report.errors.map(pointLabel)).length;
-    const parts = [`${shots} ${shots === 1 ? "shot" : "shots"}`, `${points} ${points === 1 ? "variant point" : "variant points"}`, manifest.device?.name, manifest.started];
+    const parts = [
+        `${shots} ${shots === 1 ? "shot" : "shots"}`, `${points} ${points === 1 ? "variant point" : "variant points"}`,
+        manifest.device?.name, manifest.started
+    ];
     at("subtitle").textContent = parts.filter(Boolean).join(" · ");
     const all = [...report.warnings];
-    at("warnings").replaceChildren(...all.map(text => h("p", { class: "warning", role: "note" }, text)));
+    at("warnings").replaceChildren(...all.map(text => h("p", {class: "warning", role: "note"}, text)));
 
-    const { device = {}, host = {}, ssrlab = {}, clock } = manifest;
+    const {device = {}, host = {}, ssrlab = {}, clock} = manifest;
     const facts = [
         ["Device", known(device.name, [device.name, device.type && `(${device.type})`].filter(Boolean).join(" "))],
-        ["Driver", known(device.driver, [device.driver, device.api && `Vulkan ${device.api}`].filter(Boolean).join(", "))],
-        ["Host", known(host.cpu, [host.cpu, host.cores && `${host.cores} cores`, host.memory_gib && `${number(host.memory_gib)} GiB`].filter(Boolean).join(", "))],
+        [
+            "Driver",
+            known(device.driver, [device.driver, device.api && `Vulkan ${device.api}`].filter(Boolean).join(", "))
+        ],
+        [
+            "Host",
+            known(
+                host.cpu,
+                [host.cpu, host.cores && `${host.cores} cores`, host.memory_gib && `${number(host.memory_gib)} GiB`]
+                    .filter(Boolean)
+                    .join(", "))
+        ],
         ["Kernel", known(host.kernel)],
         ["ssrlab", known(ssrlab.version, [ssrlab.version, ssrlab.build, ssrlab.compiler].filter(Boolean).join(", "))],
-        ["Commit", h("span", { class: "hash" }, known(ssrlab.commit, String(ssrlab.commit).slice(0, 12)) + (ssrlab.dirty ? " with changes" : ""))],
+        [
+            "Commit",
+            h("span", {class: "hash"},
+              known(ssrlab.commit, String(ssrlab.commit).slice(0, 12)) + (ssrlab.dirty ? " with changes" : ""))
+        ],
         ["Run", `${known(manifest.started)} to ${known(manifest.finished)}`],
         ["Clock", known(clock?.method)],
         ["Clock proof", clockProof(clock)],
         ["A/A floor of times", known(clock?.aa_floor, percent(clock?.aa_floor))],
         ["Empty submit", known(clock?.empty_submit_ms, number(clock?.empty_submit_ms, 3) + " ms")],
     ];
-    at("facts").replaceChildren(h("dl", { class: "facts" }, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))));
+    at("facts").replaceChildren(
+        h("dl", {class: "facts"}, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))));
 }
 
 function clockProof(clock) {
     const proof = list(clock?.proof);
     if (!proof.length) return "not recorded";
-    return proof.map(p => `${p.stage_kind}: ${p.passed ? "passed" : "FAILED"} (${list(p.ratio).map(r => number(r, 3)).join(" : ")} for ${list(p.expected).join(" : ")})`).join("; ");
+    return proof
+        .map(
+            p => `${p.stage_kind}: ${p.passed ? "passed" : "FAILED"} (${
+                list(p.ratio).map(r => number(r, 3)).join(" : ")} for ${list(p.expected).join(" : ")})`)
+        .join("; ");
 }
 
 function showReferences() {
-    const columns = ["Shot", "Samples per pixel", "Seconds", "Rays", "Longest path", "Error, median", "Error, 95 %", "Reached target", "Lit colour", "Hash"]
-        .map((name, i) => ({ name, number: i > 0 && i < 8 }));
+    const columns = [
+        "Shot", "Samples per pixel", "Seconds", "Rays", "Longest path", "Error, median", "Error, 95 %",
+        "Reached target", "Lit colour", "Hash"
+    ].map((name, i) => ({name, number: i > 0 && i < 8}));
     const rows = list(manifestShots()).map(s => {
         const r = s.reference ?? {}, e = r.relative_error ?? {};
-        return [s.shot, number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""), number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95),
-            percent(r.reached_share), known(s.lit, String(s.lit).replace("_", "\u2011")), h("span", { class: "hash", title: r.hash ?? "" }, known(r.hash, String(r.hash).slice(0, 12)))];
+        return [
+            s.shot, number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""),
+            number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95), percent(r.reached_share),
+            known(s.lit, String(s.lit).replace("_", "\u2011")),
+            h("span", {class: "hash", title: r.hash ?? ""}, known(r.hash, String(r.hash).slice(0, 12)))
+        ];
     });
-    at("references").append(h("p", { class: "note" }, "Relative standard error of the truth's specular light at a pixel. Every comparison accounts for it."), h("div", { class: "scroll" }, table(columns, rows)));
+    at("references")
+        .append(
+            h("p", {class: "note"},
+              "Relative standard error of the truth's specular light at a pixel. Every comparison accounts for it."),
+            h("div", {class: "scroll"}, table(columns, rows)));
 }
 
 const manifestShots = () => list(report.manifest.shots);
@@ -51,23 +84,45 @@ function showNeeds() {
     for (const shot of manifestShots()) {
         const needs = list(shot.needs), leftOut = list(shot.left_out);
         if (!needs.length && !leftOut.length) continue;
-        at("needs").append(h("details", {}, h("summary", {}, `${shot.shot}: ${leftOut.length ? "left out " + leftOut.map(l => l.what).join(", ") : "nothing left out"}`),
-            table([{ name: "Fact" }, { name: "Value" }, { name: "Why" }], needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
-            leftOut.length ? table([{ name: "Left out" }, { name: "Serves only" }, { name: "Why" }, { name: "Time saved", number: true }],
-                leftOut.map(l => [l.what, known(l.fact), known(l.why), l.saved_ms === null || l.saved_ms === undefined ? "not measured" : number(l.saved_ms) + " ms"])) : null));
+        at("needs").append(
+            h("details", {},
+              h("summary", {},
+                `${shot.shot}: ${
+                    leftOut.length ? "left out " + leftOut.map(l => l.what).join(", ") : "nothing left out"}`),
+              table(
+                  [{name: "Fact"}, {name: "Value"}, {name: "Why"}],
+                  needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
+              leftOut.length ?
+                  table(
+                      [{name: "Left out"}, {name: "Serves only"}, {name: "Why"}, {name: "Time saved", number: true}],
+                      leftOut.map(
+                          l =>
+                              [l.what, known(l.fact), known(l.why),
+                               l.saved_ms === null || l.saved_ms === undefined ? "not measured" :
+                                                                                 number(l.saved_ms) + " ms"])) :
+                  null));
     }
 }
 
 function showParameters() {
     for (const name of unique(list(report.manifest.variants).map(v => v.variant))) {
         const points = report.manifest.variants.filter(v => v.variant === name);
-        const first = points[0], stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
-        at("parameters").append(h("h3", {}, first.title ?? name), h("p", { class: "note" }, [first.source, stages.length && "Stages: " + stages.join(", ")].filter(Boolean).join(". ")));
+        const first = points[0],
+              stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
+        at("parameters").append(h("h3", {}, first.title ?? name), h("p", {class: "note"}, [
+                                    first.source, stages.length && "Stages: " + stages.join(", ")
+                                ].filter(Boolean).join(". ")));
         const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
         if (!keys.length) continue;
-        const text = value => value === undefined ? "–" : typeof value === "number" ? number(value, 6) : JSON.stringify(value);
+        const text = value => value === undefined ? "–" :
+            typeof value === "number"             ? number(value, 6) :
+                                                    JSON.stringify(value);
         const differs = key => unique(points.map(p => JSON.stringify(p.parameters?.[key]))).length > 1;
-        const rows = keys.map(key => [differs(key) ? h("b", {}, key) : key, ...points.map(p => text(p.parameters?.[key]))]);
-        at("parameters").append(h("div", { class: "scroll" }, table([{ name: "Parameter" }, ...points.map(p => ({ name: p.point, number: true }))], rows)));
+        const rows =
+            keys.map(key => [differs(key) ? h("b", {}, key) : key, ...points.map(p => text(p.parameters?.[key]))]);
+        at("parameters")
+            .append(
+                h("div", {class: "scroll"},
+                  table([{name: "Parameter"}, ...points.map(p => ({name: p.point, number: true}))], rows)));
     }
 }

@@ -7,7 +7,7 @@ if (report.errors.length) {
     choiceListeners.push(showSummary, showScatter);
     choiceListeners.forEach(f => f());
 } else {
-    at("summary").append(h("p", { class: "note" }, "results.csv has no rows."));
+    at("summary").append(h("p", {class: "note"}, "results.csv has no rows."));
 }
 showStages();
 showReferences();

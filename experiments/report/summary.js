@@ -1,35 +1,55 @@
 // The summary table, and the choice of target, metric and mask that it shares with the error-time charts.
 
-const choice = { target: null, metric: null, mask: null };
+const choice = {
+    target: null,
+    metric: null,
+    mask: null
+};
 const choiceListeners = [];
 
 const better = metric => report.metrics[metric]?.better;
 const metricKey = row => `${row.metric}|${row.formula}`;
-const totalTime = row => report.times.find(t => t.shot === row.shot && t.variant === row.variant && t.point === row.point && t.stage === "total");
-const chosenRows = () => report.errors.filter(r => r.target === choice.target && metricKey(r) === choice.metric && r.mask === choice.mask);
+const totalTime = row => report.times.find(
+    t => t.shot === row.shot && t.variant === row.variant && t.point === row.point && t.stage === "total");
+const chosenRows = () =>
+    report.errors.filter(r => r.target === choice.target && metricKey(r) === choice.metric && r.mask === choice.mask);
 
 /// The value if it is present, else the first one.
 const preferred = (values, value) => values.includes(value) ? value : values[0];
 
 function showChoice() {
-    const targets = unique(report.errors.map(r => r.target)), metrics = unique(report.errors.map(metricKey)), masks = unique(report.errors.map(r => r.mask));
+    const targets = unique(report.errors.map(r => r.target)), metrics = unique(report.errors.map(metricKey)),
+          masks = unique(report.errors.map(r => r.mask));
     choice.target = preferred(targets, "specular");
     choice.metric = metrics.find(m => m.startsWith("mse|")) ?? metrics[0];
     choice.mask = preferred(masks, "reflective");
-    const changed = key => value => { choice[key] = value; choiceListeners.forEach(f => f()); };
-    const name = key => { const [metric, formula] = key.split("|"); return metric === formula || !formula ? metric : `${metric} (${formula})`; };
-    at("choice").append(select("Target", targets, choice.target, changed("target")),
-        select("Metric", metrics.map(m => [m, name(m)]), choice.metric, changed("metric")), select("Mask", masks, choice.mask, changed("mask")));
+    const changed = key => value => {
+        choice[key] = value;
+        choiceListeners.forEach(f => f());
+    };
+    const name = key => {
+        const [metric, formula] = key.split("|");
+        return metric === formula || !formula ? metric : `${metric} (${formula})`;
+    };
+    at("choice").append(
+        select("Target", targets, choice.target, changed("target")),
+        select("Metric", metrics.map(m => [m, name(m)]), choice.metric, changed("metric")),
+        select("Mask", masks, choice.mask, changed("mask")));
 }
 
 /// Distance from perfect, so that less is better for every metric; null if its direction is not known.
 function badness(metric, value) {
     switch (better(metric)) {
-        case "lower": return value;
-        case "higher": return -value;
-        case "near_zero": return Math.abs(value);
-        case "near_one": return Math.abs(value - 1);
-        default: return null;
+        case "lower":
+            return value;
+        case "higher":
+            return -value;
+        case "near_zero":
+            return Math.abs(value);
+        case "near_one":
+            return Math.abs(value - 1);
+        default:
+            return null;
     }
 }
 
@@ -38,7 +58,7 @@ function badnessInterval(row) {
     if (row.low === null) return null;
     const ends = [badness(row.metric, row.low), badness(row.metric, row.high)];
     if (ends[0] === null) return null;
-    const perfect = { near_zero: 0, near_one: 1 }[better(row.metric)];
+    const perfect = {near_zero: 0, near_one: 1}[better(row.metric)];
     const least = perfect !== undefined && row.low <= perfect && perfect <= row.high ? 0 : Math.min(...ends);
     return [least, Math.max(...ends)];
 }
@@ -56,37 +76,66 @@ function againstNone(row, rows) {
     const none = rows.find(r => r.shot === row.shot && r.variant === "none");
     if (!none || none === row || better(row.metric) !== "lower" || row.value === null || !(none.value > 0)) return null;
     const isBounded = row.low !== null && none.low > 0;
-    const ends = isBounded ? [row.low / (row.low < 0 ? none.low : none.high), row.high / (row.high < 0 ? none.high : none.low)] : [null, null];
-    return { value: row.value / none.value, low: ends[0], high: ends[1] };
+    const ends = isBounded ?
+        [row.low / (row.low < 0 ? none.low : none.high), row.high / (row.high < 0 ? none.high : none.low)] :
+        [null, null];
+    return {value: row.value / none.value, low: ends[0], high: ends[1]};
 }
 
 function valueCell(row, isBest) {
     const notes = [];
-    if (row.value === null) notes.push("not finite");
-    else if (row.corrected && row.low !== null && row.low <= 0 && row.high >= 0) notes.push("not distinct from 0");
-    else if (!row.corrected && better(row.metric) === "lower" && row.floor > 0 && row.value <= row.floor) notes.push("within the floor");
-    return cell(row.value, h(isBest ? "b" : "span", { class: notes.length ? "below-floor" : null }, number(row.value)), " ", h("small", {}, [interval(row), ...notes].join(" ")));
+    if (row.value === null)
+        notes.push("not finite");
+    else if (row.corrected && row.low !== null && row.low <= 0 && row.high >= 0)
+        notes.push("not distinct from 0");
+    else if (!row.corrected && better(row.metric) === "lower" && row.floor > 0 && row.value <= row.floor)
+        notes.push("within the floor");
+    return cell(
+        row.value, h(isBest ? "b" : "span", {class: notes.length ? "below-floor" : null}, number(row.value)), " ",
+        h("small", {}, [interval(row), ...notes].join(" ")));
 }
 
 function summaryRow(row, rows, best) {
     const ratio = againstNone(row, rows), time = totalTime(row);
-    return [row.shot, row.variant, row.point, valueCell(row, best.has(row)), cell(row.floor, number(row.floor)),
-        cell(ratio?.value ?? null, ratio ? number(ratio.value, 3) : "", " ", h("small", {}, ratio ? interval({ low: ratio.low, high: ratio.high }) : "")),
+    return [
+        row.shot, row.variant, row.point, valueCell(row, best.has(row)), cell(row.floor, number(row.floor)),
+        cell(
+            ratio?.value ?? null, ratio ? number(ratio.value, 3) : "", " ",
+            h("small", {}, ratio ? interval({low: ratio.low, high: ratio.high}) : "")),
         cell(time?.value ?? null, time ? number(time.value) : "–", " ", h("small", {}, time ? interval(time) : "")),
-        cell(row.seeds, String(row.seeds), row.deviation === null ? "" : h("small", {}, ` (±${number(row.deviation, 2)})`)), cell(row.pixels, String(row.pixels)),
-        ...(rows.some(r => r.nonFinite) ? [cell(row.nonFinite, String(row.nonFinite))] : [])];
+        cell(
+            row.seeds, String(row.seeds),
+            row.deviation === null ? "" : h("small", {}, ` (±${number(row.deviation, 2)})`)),
+        cell(row.pixels, String(row.pixels)),
+        ...(rows.some(r => r.nonFinite) ? [cell(row.nonFinite, String(row.nonFinite))] : [])
+    ];
 }
 
 function showSummary() {
     const rows = chosenRows();
     const best = new Set(unique(rows.map(r => r.shot)).map(shot => clearlyBest(rows.filter(r => r.shot === shot))));
     const name = choice.metric.split("|")[0];
-    const columns = [{ name: "Shot" }, { name: "Variant" }, { name: "Point" }, { name: name, number: true }, { name: "Noise floor", number: true }, { name: "× none", number: true },
-        { name: "Total ms", number: true }, { name: "Seeds", number: true }, { name: "Pixels", number: true },
-        ...(rows.some(r => r.nonFinite) ? [{ name: "Non-finite", number: true }] : [])];
-    at("summary").replaceChildren(table(columns, rows.map(r => summaryRow(r, rows, best)), { sortable: true, groupBy: 0 }));
+    const columns = [
+        {name: "Shot"}, {name: "Variant"}, {name: "Point"}, {name: name, number: true},
+        {name: "Noise floor", number: true}, {name: "× none", number: true}, {name: "Total ms", number: true},
+        {name: "Seeds", number: true}, {name: "Pixels", number: true},
+        ...(rows.some(r => r.nonFinite) ? [{name: "Non-finite", number: true}] : [])
+    ];
+    at("summary").replaceChildren(
+        table(columns, rows.map(r => summaryRow(r, rows, best)), {sortable: true, groupBy: 0}));
     const about = report.metrics[name];
-    const direction = { lower: "Less is better.", higher: "More is better.", near_zero: "Nearer to 0 is better.", near_one: "Nearer to 1 is better." }[about?.better] ?? "Its direction is not known, so nothing is printed bold.";
-    const corrected = rows.some(r => r.corrected) ? "The reference's noise is subtracted." : "The reference's noise cannot be subtracted from this metric: compare with the noise floor.";
-    at("summary-note").textContent = [about?.doc && about.doc + ".", direction, corrected, "Brackets: 95 % interval. ± after the seeds: their standard deviation."].filter(Boolean).join(" ").replaceAll("..", ".");
+    const direction = {
+        lower: "Less is better.",
+        higher: "More is better.",
+        near_zero: "Nearer to 0 is better.",
+        near_one: "Nearer to 1 is better."
+    }[about?.better] ??
+        "Its direction is not known, so nothing is printed bold.";
+    const corrected = rows.some(r => r.corrected) ?
+        "The reference's noise is subtracted." :
+        "The reference's noise cannot be subtracted from this metric: compare with the noise floor.";
+    at("summary-note").textContent = [
+        about?.doc && about.doc + ".", direction, corrected,
+        "Brackets: 95 % interval. ± after the seeds: their standard deviation."
+    ].filter(Boolean).join(" ").replaceAll("..", ".");
 }

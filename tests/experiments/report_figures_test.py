@@ -29,7 +29,9 @@ def check(is_true, what):
 
 
 def run_figures(folder, out, *options):
-    return subprocess.run([sys.executable, "-B", script, folder, "--out", out, *options], capture_output=True, text=True)
+    return subprocess.run(
+        [sys.executable, "-B", script, folder, "--out", out, *options], capture_output=True, text=True
+    )
 
 
 def keep_one_shot(folder):
@@ -48,7 +50,9 @@ def test_same_bytes(folder, temporary):
     for out in outs:
         result = run_figures(folder, out)
         check(result.returncode == 0, f"figures.py ends with {result.returncode}: {result.stderr}")
-    expected = sorted(f"{name}_{SHOT}.{kind}" for name in ("error_time", "stage_times", "crops") for kind in ("pdf", "svg", "png"))
+    expected = sorted(
+        f"{name}_{SHOT}.{kind}" for name in ("error_time", "stage_times", "crops") for kind in ("pdf", "svg", "png")
+    )
     for out in outs:
         check(sorted(os.listdir(out)) == expected, f"files: {sorted(os.listdir(out))}")
     for name in expected:
@@ -63,12 +67,17 @@ def test_exr(folder):
         file = os.path.join(folder, "images", name)
         image = read_exr_rgb(file)
         for x, y in ((0, 0), (3, 17), (image.shape[1] - 1, image.shape[0] - 1)):
-            printed = subprocess.run([program, "--halves", file, str(x), str(y)], check=True, capture_output=True, text=True).stdout
-            check([float(np.float16(v)) for v in image[y, x]] == [float(v) for v in printed.split()], f"pixel {x}, {y} of {name}: {image[y, x]}, and C++ reads {printed}")
+            printed = subprocess.run(
+                [program, "--halves", file, str(x), str(y)], check=True, capture_output=True, text=True
+            ).stdout
+            check(
+                [float(np.float16(v)) for v in image[y, x]] == [float(v) for v in printed.split()],
+                f"pixel {x}, {y} of {name}: {image[y, x]}, and C++ reads {printed}",
+            )
     broken = os.path.join(folder, "broken.exr")
     with open(file, "rb") as whole, open(broken, "wb") as part:
         data = whole.read()
-        part.write(data[:len(data) // 2])
+        part.write(data[: len(data) // 2])
     try:
         read_exr_rgb(broken)
         check(False, "a truncated EXR was read")
@@ -81,16 +90,28 @@ def test_crop_boxes():
     error[20:24, 50:55] = 2.0
     error[2:6, 3:6] = 1.0
     first, second = crop_boxes(error, 2)
-    check(first[0] <= 50 and first[0] + first[2] >= 55 and first[1] <= 20 and first[1] + first[3] >= 24, f"the worst place is not in {first}")
-    check(second[0] <= 3 and second[0] + second[2] >= 6 and second[1] <= 2 and second[1] + second[3] >= 6, f"the second worst is not in {second}")
+    check(
+        first[0] <= 50 and first[0] + first[2] >= 55 and first[1] <= 20 and first[1] + first[3] >= 24,
+        f"the worst place is not in {first}",
+    )
+    check(
+        second[0] <= 3 and second[0] + second[2] >= 6 and second[1] <= 2 and second[1] + second[3] >= 6,
+        f"the second worst is not in {second}",
+    )
 
 
 def test_mistakes(folder, temporary):
-    for options, part in ((["--metric", "nonsense"], "metric nonsense"), ):
+    for options, part in ((["--metric", "nonsense"], "metric nonsense"),):
         result = run_figures(folder, os.path.join(temporary, "none"), *options)
-        check(result.returncode == 2 and part in result.stderr and result.stderr.count("\n") == 1, f"{options}: {result.returncode} {result.stderr}")
+        check(
+            result.returncode == 2 and part in result.stderr and result.stderr.count("\n") == 1,
+            f"{options}: {result.returncode} {result.stderr}",
+        )
     result = run_figures(temporary, os.path.join(temporary, "none"))
-    check(result.returncode == 2 and "manifest.json" in result.stderr, f"a folder without results: {result.returncode} {result.stderr}")
+    check(
+        result.returncode == 2 and "manifest.json" in result.stderr,
+        f"a folder without results: {result.returncode} {result.stderr}",
+    )
     check(not os.path.exists(os.path.join(temporary, "none")), "a failed run left a folder")
 
 

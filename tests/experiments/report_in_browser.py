@@ -10,48 +10,29 @@ import subprocess
 import sys
 import tempfile
 
-try:
-    from selenium import webdriver
-    from selenium.common.exceptions import WebDriverException
-    from selenium.webdriver.common.action_chains import ActionChains
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.support.ui import Select, WebDriverWait
-except ImportError:
-    sys.exit("the report is tested in a browser: install python3-selenium, chromium and chromium-driver (tests/run.sh does)")
-
-CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
-FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync", "--window-size=1400,1000", "--force-device-scale-factor=1"]
-
-
-def open_browser(profile):
-    for program in (CHROMIUM, DRIVER):
-        if not os.path.exists(program):
-            sys.exit(f"{program} is missing: install chromium and chromium-driver (tests/run.sh does)")
-    options = webdriver.ChromeOptions()
-    options.binary_location = CHROMIUM
-    for flag in FLAGS + [f"--user-data-dir={profile}"]:
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    try:
-        return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
-    except WebDriverException as e:
-        sys.exit(f"chromium does not start: {e.msg}")
-
-
-def check(is_true, what):
-    if not is_true:
-        sys.exit(f"report_in_browser: {what}")
-
-
-def equal(found, expected, what):
-    check(found == expected, f"{what}: found {found!r}, expected {expected!r}")
+from report_browser import (
+    By,
+    Select,
+    canvas,
+    check,
+    choose,
+    equal,
+    open_browser,
+    pane_count,
+    pixels,
+    srgb_code,
+    webdriver,
+)
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.support.ui import WebDriverWait
 
 
 def rows_of(page):
     """The summary table as the reader sees it; numbers with all digits from data-value."""
-    return page.execute_script("""return [...document.querySelectorAll('#summary tbody tr')].map(tr =>
-        [...tr.cells].map(td => [td.innerText, td.dataset.value ?? null]))""")
+    return page.execute_script(
+        """return [...document.querySelectorAll('#summary tbody tr')].map(tr =>
+        [...tr.cells].map(td => [td.innerText, td.dataset.value ?? null]))"""
+    )
 
 
 def summary_rows(folder, target, metric, mask):
@@ -63,15 +44,24 @@ def check_table(page, folder, target, metric, mask):
     shown, expected = rows_of(page), summary_rows(folder, target, metric, mask)
     equal(len(shown), len(expected), f"rows of {target} {metric} {mask}")
     with open(os.path.join(folder, "time_summary.csv"), newline="") as file:
-        totals = {(t["shot"], t["variant"], t["point"]): t["median_ms"] for t in csv.DictReader(file) if t["stage"] == "total"}
+        totals = {
+            (t["shot"], t["variant"], t["point"]): t["median_ms"] for t in csv.DictReader(file) if t["stage"] == "total"
+        }
     for cells, row in zip(shown, expected):
         equal([c[0] for c in cells[:3]], [row["shot"], row["variant"], row["point"]], "first columns")
         equal(float(cells[3][1]), float(row["value"]), f"{metric} of {row['shot']} {row['variant']} {row['point']}")
         text = cells[3][0].split("[")[0].split()[0]
-        check(abs(float(text) - float(row["value"])) <= 5.1e-4 * abs(float(row["value"])), f"the shown {text} is not {row['value']}")
+        check(
+            abs(float(text) - float(row["value"])) <= 5.1e-4 * abs(float(row["value"])),
+            f"the shown {text} is not {row['value']}",
+        )
         if row["low"]:
             low, high = (float(x) for x in cells[3][0].split("[")[1].split("]")[0].split(","))
-            check(abs(low - float(row["low"])) <= 5.1e-4 * abs(low) and abs(high - float(row["high"])) <= 5.1e-4 * abs(high), f"interval {low}, {high}")
+            check(
+                abs(low - float(row["low"])) <= 5.1e-4 * abs(low)
+                and abs(high - float(row["high"])) <= 5.1e-4 * abs(high),
+                f"interval {low}, {high}",
+            )
         else:
             check("[" not in cells[3][0], "an interval is shown where there is none")
         equal(float(cells[4][1]), float(row["floor"]), "floor")
@@ -81,21 +71,20 @@ def check_table(page, folder, target, metric, mask):
             equal(float(cells[6][1]), float(total), "total time")
 
 
-def choose(page, label, text):
-    element = page.find_element(By.XPATH, f"//label[normalize-space(text())='{label}']/select[ancestor::section[@id='results' or @id='viewer']]")
-    Select(element).select_by_visible_text(text)
-
-
 def test_table(page, folder):
     check_table(page, folder, "specular", "mse", "reflective")
     choose(page, "Metric", "ssim (ssim_gauss11)")
     check_table(page, folder, "specular", "ssim", "reflective")
-    equal(page.execute_script("return document.querySelectorAll('#summary b').length"), 0, "bold values without intervals")
+    equal(
+        page.execute_script("return document.querySelectorAll('#summary b').length"), 0, "bold values without intervals"
+    )
     page.find_element(By.CSS_SELECTOR, "#results #choice label:nth-child(1) select").send_keys("image")
     Select(page.find_element(By.CSS_SELECTOR, "#choice label:nth-child(3) select")).select_by_visible_text("all")
     choose(page, "Metric", "mse")
     check_table(page, folder, "image", "mse", "all")
-    bold = page.execute_script("return [...document.querySelectorAll('#summary b')].map(b => b.closest('tr').cells[2].innerText)")
+    bold = page.execute_script(
+        "return [...document.querySelectorAll('#summary b')].map(b => b.closest('tr').cells[2].innerText)"
+    )
     equal(bold, ["stride=1"] * 3, "the best of each shot")
 
 
@@ -105,8 +94,12 @@ def test_sorting(page):
         values = [r[column][1] for r in rows_of(page)]
         numbers = [direction * float(v) for v in values if v != "null"]
         equal(numbers, sorted(numbers), f"order of column {column}")
-        check("null" not in values[:len(numbers)], "missing numbers must come last")
-    equal(page.find_element(By.CSS_SELECTOR, "#summary th:nth-child(7)").get_attribute("aria-sort"), "ascending", "aria-sort")
+        check("null" not in values[: len(numbers)], "missing numbers must come last")
+    equal(
+        page.find_element(By.CSS_SELECTOR, "#summary th:nth-child(7)").get_attribute("aria-sort"),
+        "ascending",
+        "aria-sort",
+    )
 
 
 def test_charts(page, folder):
@@ -115,28 +108,17 @@ def test_charts(page, folder):
     label = page.find_element(By.CSS_SELECTOR, "#scatter .point").get_attribute("aria-label")
     check("mcguire_dda · stride=1; mse" in label and "ms [" in label, f"label of a point: {label}")
     with open(os.path.join(folder, "time_summary.csv"), newline="") as file:
-        expected = [float(t["median_ms"]) for t in csv.DictReader(file) if t["shot"].startswith("mirror") and t["variant"] == "mcguire_dda" and t["stage"] != "total"]
-    bars = page.execute_script("return [...document.querySelectorAll('#bars .bar')].map(b => [+b.dataset.value, +b.getAttribute('width')])")
+        expected = [
+            float(t["median_ms"])
+            for t in csv.DictReader(file)
+            if t["shot"].startswith("mirror") and t["variant"] == "mcguire_dda" and t["stage"] != "total"
+        ]
+    bars = page.execute_script(
+        "return [...document.querySelectorAll('#bars .bar')].map(b => [+b.dataset.value, +b.getAttribute('width')])"
+    )
     equal([b[0] for b in bars], expected, "times of the bars")
     for value, width in bars:
         check(abs(width / bars[0][1] - value / bars[0][0]) < 1e-3, "a bar's length is not in proportion to its time")
-
-
-def pixels(page, pane, x=None, y=None):
-    """RGBA of one canvas pixel, or a number that tells pictures apart."""
-    where = f"{x}, {y}, 1, 1" if x is not None else "0, 0, c.width, c.height"
-    script = f"const c = document.querySelectorAll('#panes canvas')[{pane}]; const d = c.getContext('2d').getImageData({where}).data;"
-    if x is not None:
-        return page.execute_script(script + "return [...d]")
-    return page.execute_script(script + "let s = 0; for (let i = 0; i < d.length; ++i) s = (s * 31 + d[i]) % 1e9; return s")
-
-
-def pane_count(page):
-    return len(page.find_elements(By.CSS_SELECTOR, "#panes canvas"))
-
-
-def canvas(page, pane):
-    return page.find_elements(By.CSS_SELECTOR, "#panes canvas")[pane]
 
 
 def test_linked_zoom(page):
@@ -150,13 +132,21 @@ def test_linked_zoom(page):
     check(all(pixels(page, i) != before[i] for i in range(4)), "zooming one pane must zoom all")
     # Nearest neighbour: across one magnified image pixel the colour stays, and few colours are seen in a row.
     width = page.execute_script("return document.querySelectorAll('#panes canvas')[3].width")
-    row = page.execute_script(f"return [...document.querySelectorAll('#panes canvas')[3].getContext('2d').getImageData(0, 40, {width}, 1).data]")
-    colors = [tuple(row[i:i + 3]) for i in range(0, len(row), 4)]
+    row = page.execute_script(
+        f"return [...document.querySelectorAll('#panes canvas')[3].getContext('2d').getImageData(0, 40, {width}, 1).data]"
+    )
+    colors = [tuple(row[i : i + 3]) for i in range(0, len(row), 4)]
     changes = sum(a != b for a, b in zip(colors, colors[1:]))
-    check(0 < changes <= 160 / view["zoom"] + 1, f"{changes} colour changes in a row of {160 / view['zoom']:.1f} magnified pixels: it is smoothed")
+    check(
+        0 < changes <= 160 / view["zoom"] + 1,
+        f"{changes} colour changes in a row of {160 / view['zoom']:.1f} magnified pixels: it is smoothed",
+    )
     ActionChains(page).drag_and_drop_by_offset(canvas(page, 2), -60, 0).perform()
     moved = page.execute_script("return {...view}")
-    check(moved["x"] > view["x"] and moved["zoom"] == view["zoom"], "dragging to the left must show what lies to the right")
+    check(
+        moved["x"] > view["x"] and moved["zoom"] == view["zoom"],
+        "dragging to the left must show what lies to the right",
+    )
     page.find_element(By.ID, "reset").click()
     equal([pixels(page, i) for i in range(4)], before, "reset")
 
@@ -180,16 +170,13 @@ def test_flip(page):
 
 def test_exposure(page):
     before = pixels(page, 0, 100, 30)
-    page.execute_script("const e = document.getElementById('exposure'); e.value = -3; e.dispatchEvent(new Event('input'))")
+    page.execute_script(
+        "const e = document.getElementById('exposure'); e.value = -3; e.dispatchEvent(new Event('input'))"
+    )
     after = pixels(page, 0, 100, 30)
     check(sum(after[:3]) < sum(before[:3]), f"a lower exposure must darken: {before} to {after}")
     page.find_element(By.ID, "reset").click()
     equal(pixels(page, 0, 100, 30), before, "exposure after reset")
-
-
-def srgb_code(v):
-    v = min(max(v, 0), 1)
-    return round(255 * (12.92 * v if v <= 0.0031308 else 1.055 * v ** (1 / 2.4) - 0.055))
 
 
 def test_readout(page, folder, expected):
@@ -197,22 +184,33 @@ def test_readout(page, folder, expected):
     x, y = 37, 71
     page.execute_script(f"Object.assign(view, {{x: {(x + 0.5) / 160}, y: {(y + 0.5) / 90}, zoom: 32}}); drawAll()")
     page.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas(page, 0))
-    middle = page.execute_script("const c = document.querySelectorAll('#panes canvas')[0]; return [Math.floor(c.width / 2), Math.floor(c.height / 2)]")
+    middle = page.execute_script(
+        "const c = document.querySelectorAll('#panes canvas')[0]; return [Math.floor(c.width / 2), Math.floor(c.height / 2)]"
+    )
     colors = [pixels(page, i, *middle)[:3] for i in range(4)]
     ActionChains(page).move_to_element(canvas(page, 0)).click().perform()
     caption = page.find_element(By.CSS_SELECTOR, "#readout caption").text
     check(f"Pixel {x}, {y} (pinned" in caption, f"the pointer is over pixel {x}, {y}, but it says {caption}")
-    shown = page.execute_script("return [...document.querySelectorAll('#readout tbody tr')].map(tr => [tr.cells[0].innerText, ...[1, 2, 3].map(c => +tr.cells[c].dataset.value)])")
+    shown = page.execute_script(
+        "return [...document.querySelectorAll('#readout tbody tr')].map(tr => [tr.cells[0].innerText, ...[1, 2, 3].map(c => +tr.cells[c].dataset.value)])"
+    )
     files = ["reference_image", "none_default_0_image", "mcguire_dda_stride=1_0_image", "mcguire_dda_stride=4_0_image"]
     for row, name in zip(shown, files):
         equal(row[1:], expected(f"mirror_pillars.front.160x90/{name}.exr", x, y), f"values of {row[0]}")
-    codes = [[srgb_code(v * 2 ** 0.5) for v in row[1:]] for row in shown]  # the fixture's exposure is 0.5 EV
-    check(all(abs(a - b) <= 1 for c, d in zip(codes, colors) for a, b in zip(c, d)), f"colours {colors} of pixels whose codes are {codes}")
+    codes = [[srgb_code(v * 2**0.5) for v in row[1:]] for row in shown]  # the fixture's exposure is 0.5 EV
+    check(
+        all(abs(a - b) <= 1 for c, d in zip(codes, colors) for a, b in zip(c, d)),
+        f"colours {colors} of pixels whose codes are {codes}",
+    )
     equal(len(shown), 4, "images in the readout")
-    errors = page.execute_script("return [...document.querySelectorAll('#readout tbody tr')].map(tr => tr.cells[5].innerText)")
+    errors = page.execute_script(
+        "return [...document.querySelectorAll('#readout tbody tr')].map(tr => tr.cells[5].innerText)"
+    )
     reference, test = shown[0][1:], shown[3][1:]
     mean = sum(abs(a - b) for a, b in zip(test, reference)) / 3
-    check(errors[0] == "–" and abs(float(errors[3]) - mean) <= 1e-4 * mean, f"absolute error {errors[3]}, expected {mean}")
+    check(
+        errors[0] == "–" and abs(float(errors[3]) - mean) <= 1e-4 * mean, f"absolute error {errors[3]}, expected {mean}"
+    )
 
 
 def test_false_color(page):
@@ -221,27 +219,36 @@ def test_false_color(page):
     scale = page.find_element(By.ID, "scale-text").text
     check("one scale for all" in scale, scale)
     # Two panes, one scale: recompute the colour of a pixel of each from the values and the printed maximum.
-    result = page.execute_script("""
+    result = page.execute_script(
+        """
         const maximum = sharedMaximum(viewer.images.slice(1), viewer.images[0], 'absolute');
         return [1, 2, 3].map(i => { const im = viewer.images[i], at = 80 * im.width + 21, v = scalarModes.absolute.of(pixelRgb(im, at), pixelRgb(viewer.images[0], at));
             const c = document.querySelectorAll('#panes canvas')[i], s = c.width / im.width;
-            return {expected: magma[Math.round(255 * Math.min(v / maximum, 1))], shown: [...c.getContext('2d').getImageData(Math.floor(21.5 * s), Math.floor(80.5 * s), 1, 1).data].slice(0, 3)}; })""")
+            return {expected: magma[Math.round(255 * Math.min(v / maximum, 1))], shown: [...c.getContext('2d').getImageData(Math.floor(21.5 * s), Math.floor(80.5 * s), 1, 1).data].slice(0, 3)}; })"""
+    )
     for r in result:
         equal(r["shown"], r["expected"], "false colour at the shared scale")
     before = pixels(page, 1)
     page.execute_script("const e = document.getElementById('scale'); e.value = -2; e.dispatchEvent(new Event('input'))")
     check(pixels(page, 1) != before, "the scale does nothing")
-    check(float(page.find_element(By.ID, "scale-text").text.split()[0]) < float(scale.split()[0]), "the printed scale must follow")
+    check(
+        float(page.find_element(By.ID, "scale-text").text.split()[0]) < float(scale.split()[0]),
+        "the printed scale must follow",
+    )
     choose(page, "Show", "colour")
     page.find_element(By.ID, "error-row").click()
     equal(pane_count(page), 7, "panes with errors below")
 
 
 def test_other_shot(page):
-    Select(page.find_element(By.CSS_SELECTOR, "#viewer-choice label:nth-child(1) select")).select_by_visible_text("fence.low.160x90")
+    Select(page.find_element(By.CSS_SELECTOR, "#viewer-choice label:nth-child(1) select")).select_by_visible_text(
+        "fence.low.160x90"
+    )
     WebDriverWait(page, 10).until(lambda p: p.execute_script("return viewer.images[0]?.shot") == "fence.low.160x90")
-    color = page.execute_script("""const c = viewer.panes.find(p => p.wanted.image === viewer.images[3]).canvas, s = c.width / 160;
-        return [...c.getContext('2d').getImageData(Math.floor(20.5 * s), Math.floor(60.5 * s), 1, 1).data].slice(0, 3)""")
+    color = page.execute_script(
+        """const c = viewer.panes.find(p => p.wanted.image === viewer.images[3]).canvas, s = c.width / 160;
+        return [...c.getContext('2d').getImageData(Math.floor(20.5 * s), Math.floor(60.5 * s), 1, 1).data].slice(0, 3)"""
+    )
     equal(color, [255, 0, 255], "a NaN pixel")
 
 
@@ -251,7 +258,11 @@ def check_quiet(page, url):
     equal(errors, [], "console messages")
     requests = [json.loads(e["message"])["message"] for e in page.get_log("performance")]
     # The browser's own start page makes requests too; they name another document.
-    urls = [m["params"]["request"]["url"] for m in requests if m["method"] == "Network.requestWillBeSent" and m["params"]["documentURL"] == url]
+    urls = [
+        m["params"]["request"]["url"]
+        for m in requests
+        if m["method"] == "Network.requestWillBeSent" and m["params"]["documentURL"] == url
+    ]
     check(url in urls, f"the log of requests does not even have the page: {urls}")
     equal([u for u in urls if u != url and not u.startswith("data:")], [], "requests")
 
@@ -260,23 +271,35 @@ def test_without_scripts(page, url):
     page.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     page.get(url)
     text = page.find_element(By.TAG_NAME, "noscript").text
-    check("the clock did not prove itself" in text and "mcguire_dda" in text and "mse" in text, f"the part for readers without scripts: {text!r}")
+    check(
+        "the clock did not prove itself" in text and "mcguire_dda" in text and "mse" in text,
+        f"the part for readers without scripts: {text!r}",
+    )
 
 
 def main():
     program = sys.argv[1]
-    with tempfile.TemporaryDirectory(prefix="ssrlab_report_") as folder, tempfile.TemporaryDirectory(prefix="ssrlab_chromium_") as profile:
+    with tempfile.TemporaryDirectory(prefix="ssrlab_report_") as folder, tempfile.TemporaryDirectory(
+        prefix="ssrlab_chromium_"
+    ) as profile:
         subprocess.run([program, folder], check=True)
 
         def pixel_of(file, x, y):
-            out = subprocess.run([program, "--halves", os.path.join(folder, "images", file), str(x), str(y)], check=True, capture_output=True, text=True).stdout
+            out = subprocess.run(
+                [program, "--halves", os.path.join(folder, "images", file), str(x), str(y)],
+                check=True,
+                capture_output=True,
+                text=True,
+            ).stdout
             return [float(v) for v in out.split()]
 
         page = open_browser(profile)
         try:
             url = "file://" + os.path.join(folder, "report.html")
             page.get(url)
-            WebDriverWait(page, 20).until(lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')"))
+            WebDriverWait(page, 20).until(
+                lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
+            )
             equal(len(page.find_elements(By.CSS_SELECTOR, "#warnings .warning")), 4, "warnings")
             test_table(page, folder)
             test_sorting(page)

@@ -3,9 +3,9 @@
 #include "experiments/report.h"
 #include "tests/experiments/report_fixture.h"
 
+#include <half.h>
 #include <cstdio>
 #include <cstdlib>
-#include <half.h>
 #include <string>
 
 /// For the tests that look at a report from outside:

@@ -1,0 +1,83 @@
+"""What the tests of the report in a browser share: the browser, checks, canvas pixels."""
+
+import os
+import sys
+
+try:
+    from selenium import webdriver
+    from selenium.common.exceptions import WebDriverException
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.support.ui import Select
+except ImportError:
+    sys.exit(
+        "the report is tested in a browser: install python3-selenium, chromium and chromium-driver (tests/run.sh does)"
+    )
+
+CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
+FLAGS = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--window-size=1400,1000",
+    "--force-device-scale-factor=1",
+]
+
+
+def open_browser(profile):
+    for program in (CHROMIUM, DRIVER):
+        if not os.path.exists(program):
+            sys.exit(f"{program} is missing: install chromium and chromium-driver (tests/run.sh does)")
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    for flag in FLAGS + [f"--user-data-dir={profile}"]:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    try:
+        return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
+    except WebDriverException as e:
+        sys.exit(f"chromium does not start: {e.msg}")
+
+
+def check(is_true, what):
+    if not is_true:
+        sys.exit(f"report_in_browser: {what}")
+
+
+def equal(found, expected, what):
+    check(found == expected, f"{what}: found {found!r}, expected {expected!r}")
+
+
+def choose(page, label, text):
+    element = page.find_element(
+        By.XPATH, f"//label[normalize-space(text())='{label}']/select[ancestor::section[@id='results' or @id='viewer']]"
+    )
+    Select(element).select_by_visible_text(text)
+
+
+def pixels(page, pane, x=None, y=None):
+    """RGBA of one canvas pixel, or a number that tells pictures apart."""
+    where = f"{x}, {y}, 1, 1" if x is not None else "0, 0, c.width, c.height"
+    script = f"const c = document.querySelectorAll('#panes canvas')[{pane}]; const d = c.getContext('2d').getImageData({where}).data;"
+    if x is not None:
+        return page.execute_script(script + "return [...d]")
+    return page.execute_script(
+        script + "let s = 0; for (let i = 0; i < d.length; ++i) s = (s * 31 + d[i]) % 1e9; return s"
+    )
+
+
+def pane_count(page):
+    return len(page.find_elements(By.CSS_SELECTOR, "#panes canvas"))
+
+
+def canvas(page, pane):
+    return page.find_elements(By.CSS_SELECTOR, "#panes canvas")[pane]
+
+
+def srgb_code(v):
+    v = min(max(v, 0), 1)
+    return round(255 * (12.92 * v if v <= 0.0031308 else 1.055 * v ** (1 / 2.4) - 0.055))
