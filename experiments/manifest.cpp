@@ -133,7 +133,7 @@ nlohmann::json shot_entry(const Shot& shot, unsigned frame, const Reference& ref
               {"seconds", reference.seconds},
               {"rays", reference.rays},
               {"max_depth", config.reference.max_depth},
-              {"target_relative_error", config.reference.target_relative_error},
+              {"target_relative_error", json_number(config.reference.target_relative_error)},
               {"relative_error", {{"median", error.median}, {"p95", error.p95}, {"mean", error.mean}}},
               {"reached_share", reference.reached_share},
               {"non_finite_samples", reference.non_finite_samples},

@@ -52,15 +52,12 @@ void apply_override(JsonObject& entry, Scene& scene) {
     for (size_t i = 0; i < matches.size(); ++i) {
         if (!matches[i]) continue;
         Material& m = scene.materials[i];
-        if (has_roughness) {
-            m.roughness = roughness;
-            neutralise_channel(scene, m.metalness_roughness_texture, 1);
-        }
-        if (has_metalness) {
-            m.metalness = metalness;
-            neutralise_channel(scene, m.metalness_roughness_texture, 2);
-        }
-        if (has_roughness && has_metalness) m.metalness_roughness_texture = {};
+        if (has_roughness) m.roughness = roughness;
+        if (has_metalness) m.metalness = metalness;
+        if (has_roughness && has_metalness)
+            m.metalness_roughness_texture = {};
+        else if (has_roughness || has_metalness)
+            neutralise_channel(scene, m.metalness_roughness_texture, has_roughness ? 1 : 2);
         if (has_color) m.base_color = color, m.base_color_texture = m.alpha_mode == AlphaMode::mask ? m.base_color_texture : TextureSlot{};
         if (has_color && m.base_color_texture.texture >= 0)
             for (size_t c = 0; c < 3; ++c) neutralise_channel(scene, m.base_color_texture, c);

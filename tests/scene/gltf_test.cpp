@@ -1,0 +1,188 @@
+#include "core/error.h"
+#include "core/files.h"
+#include "core/png.h"
+#include "core/scene/load_scene.h"
+#include "tests/scene/gltf_writer.h"
+
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Gltf : testing::Test {
+    fs::path folder = fs::temp_directory_path() / ("ssrlab_gltf_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    GltfWriter writer;
+
+    void SetUp() override {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    Scene load() { return load_gltf(writer.write_glb(folder / "a.glb")); }
+};
+
+std::string message(const auto& action) {
+    try {
+        action();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+bool mentions(const std::vector<std::string>& warnings, const std::string& text) {
+    return std::ranges::any_of(warnings, [&](const std::string& w) { return w.find(text) != std::string::npos; });
+}
+
+void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance);
+}
+
+}  // namespace
+
+TEST_F(Gltf, ReadsBothContainersAlike) {
+    writer.add_mesh_node(writer.quad());
+    const Scene binary = load(), text = load_gltf(writer.write_gltf(folder / "b.gltf"));
+    EXPECT_EQ(binary.triangle_count(), 2u);
+    EXPECT_EQ(binary.content_hash, text.content_hash);
+    EXPECT_TRUE(binary.warnings.empty());
+}
+
+TEST_F(Gltf, MaterialsFollowTheExtensions) {
+    writer.json["materials"] = {{{"name", "m"},
+                                 {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1.0, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.75}}},
+                                 {"emissiveFactor", {1, 0.5, 0}},
+                                 {"alphaMode", "MASK"},
+                                 {"alphaCutoff", 0.3},
+                                 {"doubleSided", true},
+                                 {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}, {"KHR_materials_specular", {{"specularFactor", 0.5}}}, {"KHR_materials_sheen", nlohmann::json::object()}}}},
+                                {{"name", "flat"}, {"extensions", {{"KHR_materials_unlit", nlohmann::json::object()}}}}};
+    writer.json["extensionsUsed"] = {"KHR_materials_emissive_strength", "KHR_materials_specular", "KHR_materials_unlit", "KHR_materials_sheen"};
+    writer.add_mesh_node(writer.quad());
+    const Scene scene = load();
+    const Material& m = scene.materials.at(0);
+    expect_near(m.base_color, {0.5f, 0.25f, 1.0f}, 0);
+    expect_near(m.emission, {8, 4, 0}, 0);
+    EXPECT_EQ(m.metalness, 0.25f);
+    EXPECT_EQ(m.roughness, 0.75f);
+    EXPECT_EQ(m.specular, 0.5f);
+    EXPECT_EQ(m.alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(m.alpha_cutoff, 0.3f);
+    EXPECT_TRUE(m.is_double_sided);
+    EXPECT_TRUE(scene.materials.at(1).is_unlit);
+    EXPECT_TRUE(mentions(scene.warnings, "KHR_materials_sheen"));
+}
+
+TEST_F(Gltf, UnknownRequiredExtensionsAreRefused) {
+    writer.add_mesh_node(writer.quad());
+    writer.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+    EXPECT_NE(message([&] { load(); }).find("EXT_meshopt_compression"), std::string::npos);
+}
+
+TEST_F(Gltf, HierarchyAndAnimationPoseInstances) {
+    writer.add_mesh_node(writer.quad());
+    writer.json["nodes"] = {{{"children", {1}}, {"translation", {1, 0, 0}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}}, {{"mesh", 0}, {"translation", {0, 2, 0}}, {"scale", {2, 2, -2}}}};
+    const int times = writer.floats({0, 1}, "SCALAR"), values = writer.floats({1, 0, 0, 1, 0, 10}, "VEC3");
+    writer.json["animations"] = {{{"samplers", {{{"input", times}, {"output", values}}}}, {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    Scene scene = load();
+    scene.frame_rate = 10;
+    const auto origin = [&](float frame) { return glm::vec3(pose_scene(scene, frame).world_from_instance.at(0)[3]); };
+    // A quarter turn about z takes (0, 2, 0) to (-2, 0, 0).
+    expect_near(origin(0), {-1, 0, 0}, 1e-6f);
+    expect_near(origin(5), {-1, 0, 5}, 1e-6f);
+    expect_near(origin(100), {-1, 0, 10}, 1e-6f);  // the last key holds
+    EXPECT_LT(glm::determinant(pose_scene(scene, 0).world_from_instance.at(0)), 0.0f);
+}
+
+TEST_F(Gltf, DerivesTheTangentsOfAQuad) {
+    writer.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+    writer.json["textures"] = {{{"source", 0}}};
+    writer.json["images"] = {{{"uri", "n.png"}}};
+    write_png(folder / "n.png", HostImage({1, 1}, 3, 0.5f));
+    nlohmann::json primitive = writer.quad();
+    primitive["material"] = 0;
+    writer.add_mesh_node(primitive);
+    const Scene scene = load();
+    // +u runs along +x; glTF's v runs down while +Y of a normal map points up, so the bitangent is +y = cross(z, x): w = 1.
+    for (const Vertex& v : scene.meshes.at(0).vertices) {
+        expect_near(v.tangent, {1, 0, 0}, 1e-6f);
+        EXPECT_EQ(v.tangent.w, 1.0f);
+    }
+}
+
+TEST_F(Gltf, TexturesKnowTheirColourSpace) {
+    writer.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"scale", {2, 3}}}}}}}}}}}};
+    writer.json["textures"] = {{{"source", 0}}};
+    writer.json["images"] = {{{"uri", "t.png"}}};
+    write_png(folder / "t.png", HostImage({2, 1}, 3, 0.25f));
+    nlohmann::json primitive = writer.quad();
+    primitive["material"] = 0;
+    writer.add_mesh_node(primitive);
+    const Scene scene = load();
+    const Material& m = scene.materials.at(0);
+    EXPECT_TRUE(scene.textures.at(size_t(m.base_color_texture.texture)).is_srgb);
+    EXPECT_FALSE(scene.textures.at(size_t(m.metalness_roughness_texture.texture)).is_srgb);
+    expect_near(m.metalness_roughness_texture.uv_transform * glm::vec3(1, 1, 1), {2.5f, 3, 1}, 1e-6f);
+    EXPECT_NEAR(linear_from_srgb(float(scene.textures.at(size_t(m.base_color_texture.texture)).rgba[0]) / 255.0f), 0.25f, 0.005f);  // one code near 137 is 0.004
+}
+
+TEST_F(Gltf, MissingNormalsAreFlat) {
+    nlohmann::json primitive = {{"attributes", {{"POSITION", writer.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3")}}}, {"indices", writer.indices({0, 1, 2, 0, 3, 1})}};
+    writer.add_mesh_node(primitive);
+    const Scene scene = load();
+    ASSERT_EQ(scene.meshes.at(0).vertices.size(), 6u);
+    expect_near(scene.meshes[0].vertices[0].normal, {0, 0, 1}, 1e-6f);
+    expect_near(scene.meshes[0].vertices[3].normal, {0, 1, 0}, 1e-6f);
+}
+
+TEST_F(Gltf, BrokenFilesAreErrors) {
+    writer.add_mesh_node(writer.quad());
+    writer.write_gltf(folder / "b.gltf");
+    fs::remove(folder / "b.bin");
+    EXPECT_NE(message([&] { load_gltf(folder / "b.gltf"); }).find("b.gltf"), std::string::npos);
+    EXPECT_NE(message([&] { load_gltf(folder / "none.glb"); }).find("none.glb"), std::string::npos);
+    writer.json["accessors"][3]["count"] = 7;  // indices beyond the buffer
+    EXPECT_NE(message([&] { load(); }), "no error");
+    writer.json["accessors"][3]["count"] = 6;
+    writer.json["nodes"][0]["children"] = {0};
+    EXPECT_NE(message([&] { load(); }), "no error");
+    writer.json["nodes"][0] = {{"mesh", 5}};
+    EXPECT_NE(message([&] { load(); }), "no error");
+}
+
+TEST_F(Gltf, DamagedFilesNeverCrash) {
+    writer.add_mesh_node(writer.quad());
+    writer.write_glb(folder / "a.glb");
+    const std::string whole = read_text(folder / "a.glb");
+    std::mt19937 random(5);
+    size_t refused = 0;
+    for (int i = 0; i < 400; ++i) {
+        std::string damaged = whole;
+        if (i % 2) damaged.resize(random() % damaged.size());
+        else for (int flips = 0; flips < 3; ++flips) damaged[random() % damaged.size()] ^= char(1u << random() % 8);
+        write_text(folder / "d.glb", damaged);
+        try {
+            load_gltf(folder / "d.glb");
+        } catch (const Error&) {
+            ++refused;
+        }
+    }
+    EXPECT_GE(refused, 200u);  // every truncated one, at least
+}
+
+TEST(ThirdPartyScenes, LoadWithWarningsThatAreUnderstood) {
+    // Runs where SSRLAB_SCENE_PATH names the folder of the files that scenes/README.md lists.
+    if (!std::getenv("SSRLAB_SCENE_PATH")) GTEST_SKIP() << "SSRLAB_SCENE_PATH is not set";
+    const auto path = scene_search_path();
+    for (const std::string& name : list_scenes(path)) try {
+            const Scene scene = load_scene(name, path);
+            std::printf("%s: %zu triangles, %zu materials, %zu textures\n", name.c_str(), scene.triangle_count(), scene.materials.size(), scene.textures.size());
+            for (const std::string& warning : scene.warnings) std::printf("  %s\n", warning.c_str());
+        } catch (const Error& e) {
+            EXPECT_NE(std::string(e.what()).find("search path"), std::string::npos) << name << ": " << e.what();
+        }
+}

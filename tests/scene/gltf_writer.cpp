@@ -1,0 +1,29 @@
+#include "tests/scene/gltf_writer.h"
+
+#include <fstream>
+
+std::filesystem::path GltfWriter::write_glb(const std::filesystem::path& file) {
+    json["buffers"] = {{{"byteLength", bytes.size()}}};
+    std::string text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    std::ofstream out(file, std::ios::binary);
+    const auto word = [&](size_t value) {
+        const auto number = uint32_t(value);
+        out.write(reinterpret_cast<const char*>(&number), 4);
+    };
+    word(0x46546c67), word(2), word(12 + 8 + text.size() + 8 + bytes.size());
+    word(text.size()), word(0x4e4f534a);
+    out << text;
+    word(bytes.size()), word(0x004e4942);
+    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    return file;
+}
+
+std::filesystem::path GltfWriter::write_gltf(const std::filesystem::path& file) {
+    const auto buffer = std::filesystem::path(file).replace_extension(".bin");
+    json["buffers"] = {{{"byteLength", bytes.size()}, {"uri", buffer.filename().string()}}};
+    std::ofstream(buffer, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    std::ofstream(file) << json.dump(1);
+    return file;
+}

@@ -1,0 +1,107 @@
+#include "core/error.h"
+#include "core/exr.h"
+#include "core/files.h"
+#include "core/scene/camera.h"
+#include "core/scene/load_scene.h"
+#include "tests/scene/gltf_writer.h"
+
+#include <gtest/gtest.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct SceneFile : testing::Test {
+    fs::path root = fs::temp_directory_path() / ("ssrlab_scene_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+
+    void SetUp() override {
+        fs::remove_all(root);
+        fs::create_directories(root / "room");
+        GltfWriter writer;
+        writer.json["materials"] = {{{"name", "floor"}, {"pbrMetallicRoughness", {{"roughnessFactor", 0.9}}}}, {{"name", "glass"}}};
+        nlohmann::json quad = writer.quad(), pane = writer.quad();
+        quad["material"] = 0, pane["material"] = 1;
+        writer.add_mesh_node(quad);
+        writer.add_mesh_node(pane);
+        writer.json["scenes"][0]["nodes"] = {0, 1};
+        writer.write_glb(root / "room/room.glb");
+    }
+    void TearDown() override { fs::remove_all(root); }
+
+    Scene load(const std::string& json) {
+        write_text(root / "room/scene.json", json);
+        return load_scene("room", {root});
+    }
+    std::string mistake(const std::string& json) {
+        try {
+            load(json);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "no error";
+    }
+};
+
+const std::string camera = R"("cameras": [{"name": "main", "position": [0, 0, 3], "target": [0, 0, 0], "vfov_deg": 60}])";
+
+}  // namespace
+
+TEST_F(SceneFile, NamesEnvironmentLightsAndOverrides) {
+    const Scene scene = load(R"({"gltf": "room.glb", "environment": {"gradient": {"color": [1, 1, 1], "slope": [0.5, 0.5, 0.5], "axis": [0, 2, 0]}},
+        "lights": [{"type": "point", "position": [0, 1, 0], "color": [1, 0.5, 0.25], "intensity": 4}],
+        "overrides": [{"material": "flo.*", "roughness": 0.1, "metalness": 1}, {"material": "glass", "hidden": true}], )" + camera + "}");
+    EXPECT_EQ(scene.name, "room");
+    EXPECT_EQ(scene.triangle_count(), 2u);  // the pane is hidden
+    EXPECT_EQ(scene.materials[0].roughness, 0.1f);
+    EXPECT_EQ(scene.materials[0].metalness, 1.0f);
+    EXPECT_NEAR(scene.environment.radiance({0, 1, 0}).x, 1.5f, 1e-6f);
+    EXPECT_EQ(scene.lights.at(0).intensity, glm::vec3(4, 2, 1));
+    // By default near and far enclose the scene: its farthest corner from (0, 0, 3) is (1, 1, 0).
+    EXPECT_NEAR(scene.cameras[0].far, 1.01f * std::sqrt(11.0f), 1e-5f);
+}
+
+TEST_F(SceneFile, PathsAreLinearBetweenKeys) {
+    const Scene scene = load(R"({"gltf": "room.glb", "cameras": [{"name": "dolly", "vfov_deg": 50, "path": [{"frame": 0, "position": [0, 0, 4], "target": [0, 0, 0]}, {"frame": 10, "position": [0, 2, 4], "target": [0, 2, 0]}]}]})");
+    EXPECT_EQ(scene.camera("dolly").frame_count, 11u);
+    const CameraPose pose = pose_camera(scene.camera("dolly"), pose_scene(scene, 0), 5);
+    EXPECT_NEAR(pose.world_from_view[3].y, 1.0f, 1e-6f);
+    EXPECT_EQ(&scene.camera(""), &scene.cameras[0]);
+    EXPECT_THROW(scene.camera("doly"), Error);
+}
+
+TEST_F(SceneFile, EnvironmentImagesAreFoundByTheSearchPath) {
+    HostImage sky({8, 4}, 3, 2.0f);
+    write_exr(root / "skies/sky.exr", sky);
+    EXPECT_NEAR(load(R"({"gltf": "room.glb", "environment": {"image": "skies/sky.exr", "scale": 3}, )" + camera + "}").environment.radiance({1, 0, 0}).x, 6.0f, 1e-5f);
+    sky.values[7] = -1.0f;
+    write_exr(root / "skies/sky.exr", sky);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "environment": {"image": "skies/sky.exr"}, )" + camera + "}").find("must be finite and not negative"), std::string::npos);
+}
+
+TEST_F(SceneFile, MistakesNameFileAndKey) {
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "enviroment": {}, )" + camera + "}").find("did you mean 'environment'?"), std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "rom.glb", )" + camera + "}").find("'rom.glb' is neither beside that file"), std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb"})").find("no camera"), std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "overrides": [{"material": "roof"}], )" + camera + "}").find("no material's whole name matches \"roof\""), std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "overrides": [{"material": "floor", "roughness": 2}], )" + camera + "}").find("outside [0, 1]"), std::string::npos);
+    EXPECT_NE(mistake("{\"gltf\": \"room.glb\",,}").find("scene.json:1:"), std::string::npos);
+}
+
+TEST_F(SceneFile, HashesWhatLightDependsOn) {
+    const std::string plain = load(R"({"gltf": "room.glb", )" + camera + "}").content_hash;
+    EXPECT_EQ(load(R"({"gltf": "room.glb", "cameras": [{"name": "other", "position": [0, 1, 3], "target": [0, 0, 0], "vfov_deg": 30}]})").content_hash, plain);
+    EXPECT_NE(load(R"({"gltf": "room.glb", "overrides": [{"material": "floor", "roughness": 0.2}], )" + camera + "}").content_hash, plain);
+    EXPECT_NE(load(R"({"gltf": "room.glb", "environment": {"constant": [1, 1, 1]}, )" + camera + "}").content_hash, plain);
+}
+
+TEST(Scenes, AllOfOursLoadWithoutWarning) {
+    const fs::path ours = fs::path(SSRLAB_SOURCE_DIR) / "scenes";
+    size_t loaded = 0;
+    for (const std::string& name : list_scenes({ours})) {
+        if (!fs::exists(ours / name / "scene.glb") && name != "sky_only") continue;  // third-party files, not here
+        const Scene scene = load_scene(name, {ours});
+        EXPECT_TRUE(scene.warnings.empty()) << name << ": " << scene.warnings.front();
+        ++loaded;
+    }
+    EXPECT_GE(loaded, 10u);
+}
