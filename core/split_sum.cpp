@@ -31,9 +31,9 @@ std::array<glm::dvec2, n> gauss_legendre() {
     return rule;
 }
 
-const auto along_azimuth = gauss_legendre<64>();
-const auto along_cap = gauss_legendre<32>();
-constexpr int scan_steps = 96;
+const auto along_azimuth = gauss_legendre<48>();
+const auto along_cap = gauss_legendre<24>();
+constexpr int scan_steps = 64;
 
 }  // namespace
 

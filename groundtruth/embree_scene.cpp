@@ -9,9 +9,6 @@
 
 namespace {
 
-/// Bound of the relative error of n float operations in a row (Higham 2002, section 3.1).
-constexpr float rounding_bound(int n) { return float(n) * 0x1p-24f / (1.0f - float(n) * 0x1p-24f); }
-
 glm::mat3 absolute(const glm::mat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
 
 /// Triangles of a mesh, moved by `world_from_object`; mirrored ones swap two corners to keep their front.
@@ -24,14 +21,11 @@ std::vector<TriangleRecord> make_records(const Mesh& mesh, const InstanceRecord&
             const uint32_t index = mesh.indices[3 * t + corner];
             const Vertex& vertex = mesh.vertices[index];
             record.corner[k] = index;
-            record.position[k] = glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0f));
-            const glm::vec3 normal = instance.normal_matrix * vertex.normal;
-            const float length = glm::length(normal);
-            record.normal[k] = length > 0 ? normal / length : normal;
-            record.uv[k] = vertex.uv[0];
+            record.position[k] = glm::vec4(glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0f)), 0.0f);
+            record.normal[k] = glm::vec4(instance.normal_matrix * vertex.normal, 0.0f);
         }
-        const glm::dvec3 p0(record.position[0]);
-        const glm::dvec3 normal = glm::cross(glm::dvec3(record.position[1]) - p0, glm::dvec3(record.position[2]) - p0);
+        const glm::dvec3 p0(record.position[0]), p1(record.position[1]), p2(record.position[2]);
+        const glm::dvec3 normal = glm::cross(p1 - p0, p2 - p0);
         const double length = glm::length(normal);
         record.front_normal = length > 0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
     });
@@ -58,8 +52,9 @@ void EmbreeScene::test_alpha(const RTCFilterFunctionNArguments* arguments) {
                  &c = test.mesh->vertices[record.corner[2]];
     float alpha = test.material->alpha * (w * a.color.a + u * b.color.a + v * c.color.a);
     if (test.texture) {
-        const glm::vec2 uv[2] = {w * a.uv[0] + u * b.uv[0] + v * c.uv[0], w * a.uv[1] + u * b.uv[1] + v * c.uv[1]};
-        alpha *= sample_texture(*test.texture, slot_uv(test.material->base_color_texture, uv)).a;
+        const TextureSlot& slot = test.material->base_color_texture;
+        const glm::vec2 uv = w * a.uv[slot.texcoord] + u * b.uv[slot.texcoord] + v * c.uv[slot.texcoord];
+        alpha *= sample_texture(*test.texture, glm::vec2(slot.uv_transform * glm::vec3(uv, 1.0f))).a;
     }
     if (test.material->alpha_mode == AlphaMode::mask && alpha < test.material->alpha_cutoff) arguments->valid[0] = 0;
 }
@@ -158,40 +153,14 @@ EmbreeScene::~EmbreeScene() {
     if (device_) rtcReleaseDevice(device_);
 }
 
-SurfacePoint EmbreeScene::point(uint32_t instance_index, uint32_t triangle, float u, float v) const {
-    const InstanceRecord& instance = instances_[instance_index];
-    const TriangleRecord& record = instance.triangles[triangle];
-    const float w = 1.0f - u - v;
-    const glm::vec3 p0 = w * record.position[0], p1 = u * record.position[1], p2 = v * record.position[2];
-    SurfacePoint point;
-    point.position = p0 + p1 + p2;
-    point.error = rounding_bound(7) * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2));
-    point.normal = w * record.normal[0] + u * record.normal[1] + v * record.normal[2];
-    point.front_normal = record.front_normal;
-    point.uv = w * record.uv[0] + u * record.uv[1] + v * record.uv[2];
-    if (!instance.is_baked) {
-        const glm::mat3 linear(instance.world_from_object);
-        const glm::vec3 translation(instance.world_from_object[3]), local = point.position;
-        point.position = linear * local + translation;
-        // Embree meets the instance in its own space, to which it moves each ray with rounding errors of the same size.
-        point.error = absolute(linear) * point.error +
-                      2.0f * rounding_bound(4) * (absolute(linear) * glm::abs(local) + glm::abs(translation) + glm::abs(point.position));
-        point.normal = instance.normal_matrix * point.normal;
-        point.front_normal = glm::normalize(instance.normal_matrix * point.front_normal);
-    }
-    const float length = glm::length(point.normal);
-    point.normal = length > 0 ? point.normal / length : point.front_normal;
-    return point;
-}
-
-glm::vec3 offset_origin(glm::vec3 position, glm::vec3 error, glm::vec3 normal, glm::vec3 direction) {
-    float distance = glm::dot(glm::abs(normal), error);
-    if (glm::dot(normal, direction) < 0) distance = -distance;
-    glm::vec3 origin = position + distance * normal;
-    // Rounding must not undo the offset: one more step of the float grid, away from the surface.
-    for (int axis = 0; axis < 3; ++axis) {
-        const float offset = distance * normal[axis];
-        if (offset != 0) origin[axis] += std::copysign(std::abs(origin[axis]) * 0x1p-23f, offset);
-    }
-    return origin;
+/// Moves a point of an instanced mesh from the space of the mesh to the world.
+void EmbreeScene::place(const InstanceRecord& instance, SurfacePoint& point) const {
+    const glm::mat3 linear(instance.world_from_object);
+    const glm::vec3 translation(instance.world_from_object[3]), local = point.position;
+    point.position = linear * local + translation;
+    // Embree meets the instance in its own space, to which it moves each ray with rounding errors of the same size.
+    point.error = absolute(linear) * point.error +
+                  2.0f * rounding_bound(4) * (absolute(linear) * glm::abs(local) + glm::abs(translation) + glm::abs(point.position));
+    point.normal = instance.normal_matrix * point.normal;
+    point.front_normal = glm::normalize(instance.normal_matrix * point.front_normal);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/scene/scene.h"
 
+#include <cmath>
 #include <embree3/rtcore.h>
 #include <memory>
 #include <vector>
@@ -8,11 +9,10 @@
 /// What shading reads of a triangle, side by side so that a hit costs two cache lines. The order of the corners makes
 /// cross(p1 - p0, p2 - p0) point to the front, also under transforms of negative determinant.
 struct alignas(64) TriangleRecord {
-    glm::vec3 position[3];
-    glm::vec3 normal[3];     ///< unit
+    glm::vec4 position[3];   ///< w: 0
+    glm::vec4 normal[3];     ///< as the normal matrix leaves it: it is normalised after interpolation, as by the rasteriser; w: 0
     glm::vec3 front_normal;  ///< unit geometric normal
-    glm::vec2 uv[3];      ///< texcoord 0
-    uint32_t corner[3];   ///< vertices of the mesh, for its rarer attributes
+    uint32_t corner[3];      ///< vertices of the mesh, for its other attributes
 };
 
 /// How the records of an instance are placed. Baked geometry is in world space already.
@@ -31,7 +31,6 @@ struct SurfacePoint {
     glm::vec3 position, error;   ///< m; `error` is the half extent of a box that holds the exact point
     glm::vec3 front_normal;      ///< unit geometric normal of the front side
     glm::vec3 normal;            ///< unit interpolated vertex normal
-    glm::vec2 uv;                ///< texcoord 0
 };
 
 /// Embree's view of one frame: a mesh drawn once is baked into the top level, one drawn more often becomes a BVH of its own.
@@ -48,6 +47,11 @@ public:
     bool has_alpha_tests() const { return !alpha_tests_.empty(); }
 
     SurfacePoint point(uint32_t instance, uint32_t triangle, float u, float v) const;
+    void prefetch(uint32_t instance, uint32_t triangle) const {
+        const char* record = reinterpret_cast<const char*>(&instances_[instance].triangles[triangle]);
+        __builtin_prefetch(record);
+        __builtin_prefetch(record + 64);
+    }
 
 private:
     struct AlphaTest;
@@ -58,10 +62,37 @@ private:
     std::vector<std::unique_ptr<AlphaTest>> alpha_tests_;
     std::vector<RTCScene> mesh_scenes_;
 
+    void place(const InstanceRecord& instance, SurfacePoint& point) const;
     RTCGeometry make_triangles(const std::vector<TriangleRecord>& records, const Scene& scene, const Mesh& mesh, bool test_every_alpha);
     static void test_alpha(const RTCFilterFunctionNArguments* arguments);
 };
 
+/// Bound of the relative error of n float operations in a row (Higham 2002, section 3.1).
+constexpr float rounding_bound(int n) { return float(n) * 0x1p-24f / (1.0f - float(n) * 0x1p-24f); }
+
+inline SurfacePoint EmbreeScene::point(uint32_t instance_index, uint32_t triangle, float u, float v) const {
+    const InstanceRecord& instance = instances_[instance_index];
+    const TriangleRecord& record = instance.triangles[triangle];
+    const float w = 1.0f - u - v;
+    const glm::vec4 p0 = w * record.position[0], p1 = u * record.position[1], p2 = v * record.position[2];
+    const glm::vec4 normal = w * record.normal[0] + u * record.normal[1] + v * record.normal[2];
+    SurfacePoint point{glm::vec3(p0 + p1 + p2), glm::vec3(rounding_bound(7) * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2))),
+                       record.front_normal, glm::vec3(normal)};
+    if (!instance.is_baked) place(instance, point);
+    const float square = glm::dot(point.normal, point.normal);
+    point.normal = square > 0 ? point.normal * (1.0f / std::sqrt(square)) : point.front_normal;
+    return point;
+}
+
 /// `position` moved out of its error box along the normal, to the side of `direction` (Pharr, Jakob and Humphreys 2016,
-/// "Physically Based Rendering", section 3.9.5).
-glm::vec3 offset_origin(glm::vec3 position, glm::vec3 error, glm::vec3 normal, glm::vec3 direction);
+/// "Physically Based Rendering", section 3.9.5). Rounding must not undo the offset: one more step of the float grid away from
+/// the surface sees to that.
+inline glm::vec3 offset_origin(glm::vec3 position, glm::vec3 error, glm::vec3 normal, glm::vec3 direction) {
+    const glm::vec3 size = glm::abs(normal) * error;
+    const float side = glm::dot(normal, direction) < 0 ? -1.0f : 1.0f;
+    const glm::vec3 offset = side * (size.x + size.y + size.z) * normal;
+    const glm::vec3 origin = position + offset, step = glm::abs(origin) * 0x1p-23f;
+    return {origin.x + (offset.x > 0 ? step.x : offset.x < 0 ? -step.x : 0.0f),
+            origin.y + (offset.y > 0 ? step.y : offset.y < 0 ? -step.y : 0.0f),
+            origin.z + (offset.z > 0 ? step.z : offset.z < 0 ? -step.z : 0.0f)};
+}

@@ -2,6 +2,7 @@
 
 #include "core/shared/punctual_light.h"
 #include "groundtruth/lobes.h"
+#include "groundtruth/sobol.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,8 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
         }
     }
     table_ = AliasTable(powers);
+    needs_more_ = powers.size() > triangles_.size();
+    for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
     for (size_t i = 0; i < triangles_.size() && !table_.empty(); ++i) triangles_[i].area_pdf *= float(table_.probability(i));
     if (environment_index_ != none) environment_probability_ = float(table_.probability(environment_index_));
 }
@@ -73,7 +76,7 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, st
     for (uint32_t t = 0; t < instance.mesh->indices.size() / 3; ++t) {
         Triangle& light = triangles_.emplace_back();
         for (int k = 0; k < 3; ++k) {
-            const glm::vec3 position = instance.triangles[t].position[k];
+            const glm::vec3 position(instance.triangles[t].position[k]);
             light.position[k] = instance.is_baked ? position : glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f));
         }
         const glm::dvec3 p0(light.position[0]), p1(light.position[1]), p2(light.position[2]);
@@ -93,60 +96,85 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, st
     }
 }
 
-LightSample LightSampler::sample(glm::vec3 point, glm::uvec2 bits) const {
-    const auto [index, rest] = table_.sample(bits.x);
-    if (index < triangles_.size()) return sample_triangle(triangles_[index], point, glm::vec2(rest, bits.y) * 0x1p-32f);
-    if (index != environment_index_) {
-        const size_t light = index - triangles_.size();
-        return sample_punctual(lights_[light], point, float(table_.probability(index)));
+void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& x, const Lanes<uint32_t>& y,
+                          LightLanes& lights) const {
+    Lanes<uint32_t> choice, rest, emits_behind;
+    LanesVec3 p0, p1, p2;
+    Lanes<float> u, v;
+    for (int lane = 0; lane < lane_count; ++lane) {
+        if (!is_wanted[lane]) continue;
+        const AliasTable::Choice chosen = table_.sample(x[lane]);
+        choice[lane] = chosen.index;
+        rest[lane] = chosen.rest;
+        if (chosen.index >= triangles_.size()) continue;
+        const Triangle& light = triangles_[chosen.index];
+        p0.set(lane, light.position[0]);
+        p1.set(lane, light.position[1]);
+        p2.set(lane, light.position[2]);
+        lights.normal.set(lane, light.front_normal);
+        lights.radiance.set(lane, light.radiance);
+        lights.pdf[lane] = light.area_pdf;
+        emits_behind[lane] = light.emits_behind;
     }
-    LightSample sample;
-    sample.direction = environment_.sample({rest, bits.y}, sample.pdf);
-    sample.pdf *= environment_probability_;
-    sample.radiance = environment_source_->radiance(sample.direction);
-    sample.is_infinite = true;
-    return sample;
+    FOR_EACH_LANE {
+        const glm::vec2 at = triangle_barycentrics({unit_float(rest[lane]), unit_float(y[lane])});
+        u[lane] = at.x;
+        v[lane] = at.y;
+        const glm::vec3 a = (1.0f - at.x - at.y) * p0.get(lane), b = at.x * p1.get(lane), c = at.y * p2.get(lane);
+        const glm::vec3 position = a + b + c, to_light = position - point.get(lane);
+        const float square = glm::dot(to_light, to_light);
+        const glm::vec3 direction = to_light * (1.0f / std::sqrt(square));
+        const float cosine = -glm::dot(direction, lights.normal.get(lane));
+        const bool is_lit = (cosine > 0.0f) | ((cosine < 0.0f) & (emits_behind[lane] != 0));
+        lights.position.set(lane, position);
+        lights.error.set(lane, 0x1p-21f * (glm::abs(a) + glm::abs(b) + glm::abs(c)));  // 8 roundings
+        lights.direction.set(lane, direction);
+        lights.pdf[lane] = is_lit ? lights.pdf[lane] * square / glm::abs(cosine) : 0.0f;
+        lights.is_delta[lane] = 0;
+        lights.is_infinite[lane] = 0;
+    }
+    for (int lane = 0; lane < lane_count && needs_more_; ++lane) {
+        if (!is_wanted[lane]) continue;
+        const uint32_t index = choice[lane];
+        if (index < triangles_.size()) {
+            if (triangles_[index].emission_varies)
+                lights.radiance.set(lane, materials_.emission(triangles_[index].instance, triangles_[index].triangle, u[lane], v[lane]));
+        } else if (index == environment_index_) {
+            sample_environment(rest[lane], y[lane], lane, lights);
+        } else {
+            sample_punctual(lights_[index - triangles_.size()], point.get(lane), float(table_.probability(index)), lane, lights);
+        }
+    }
 }
 
-LightSample LightSampler::sample_triangle(const Triangle& light, glm::vec3 point, glm::vec2 u) const {
-    const glm::vec2 at = triangle_barycentrics(u);
-    const glm::vec3 p0 = (1.0f - at.x - at.y) * light.position[0], p1 = at.x * light.position[1], p2 = at.y * light.position[2];
-    LightSample sample;
-    sample.position = p0 + p1 + p2;
-    const glm::vec3 to_light = sample.position - point;
-    const float square = glm::dot(to_light, to_light);
-    if (!(square > 0)) return sample;
-    const float distance = std::sqrt(square);
-    sample.direction = to_light / distance;
-    const float cosine = -glm::dot(sample.direction, light.front_normal);
-    if (cosine == 0 || (cosine < 0 && !light.emits_behind)) return sample;
-    sample.normal = light.front_normal;
-    sample.error = 0x1p-21f * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2));  // 8 roundings, see rounding_bound()
-    sample.radiance = light.emission_varies ? materials_.emission(light.instance, light.triangle, at.x, at.y) : light.radiance;
-    sample.pdf = light.area_pdf * square / std::abs(cosine);
-    return sample;
+void LightSampler::sample_environment(uint32_t x, uint32_t y, int lane, LightLanes& lights) const {
+    float pdf;
+    const glm::vec3 direction = environment_.sample({x, y}, pdf);
+    lights.pdf[lane] = pdf * environment_probability_;
+    lights.direction.set(lane, direction);
+    lights.radiance.set(lane, environment_source_->radiance(direction));
+    lights.is_infinite[lane] = 1;
 }
 
-LightSample LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, float probability) const {
-    LightSample sample;
-    sample.is_delta = true;
-    sample.pdf = probability;
-    sample.radiance = light.intensity;
-    sample.error = sample.normal = glm::vec3(0.0f);
-    if (light.type == LightType::directional) {
-        sample.direction = -light.direction;
-        sample.is_infinite = true;
-        return sample;
+void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane, LightLanes& lights) const {
+    glm::vec3 direction = -light.direction, irradiance = light.intensity;
+    lights.is_delta[lane] = 1;
+    lights.is_infinite[lane] = light.type == LightType::directional;
+    if (light.type != LightType::directional) {
+        const glm::vec3 to_light = light.position - point;
+        const float distance = glm::length(to_light);
+        direction = to_light / distance;
+        if (distance > 0) irradiance *= punctual_falloff(distance, light.range);
+        else probability = 0.0f;
+        if (light.type == LightType::spot)
+            irradiance *= spot_attenuation(-glm::dot(direction, light.direction), light.inner_cone_cos, light.outer_cone_cos);
     }
-    const glm::vec3 to_light = light.position - point;
-    const float distance = glm::length(to_light);
-    if (!(distance > 0)) return LightSample{};
-    sample.position = light.position;
-    sample.direction = to_light / distance;
-    sample.radiance *= punctual_falloff(distance, light.range);
-    if (light.type == LightType::spot)
-        sample.radiance *= spot_attenuation(-glm::dot(sample.direction, light.direction), light.inner_cone_cos, light.outer_cone_cos);
-    return sample;
+    lights.pdf[lane] = probability;
+    lights.direction.set(lane, direction);
+    lights.radiance.set(lane, irradiance);
+    lights.position.set(lane, light.position);
+    lights.error.set(lane, glm::vec3(0.0f));
+    lights.normal.set(lane, glm::vec3(0.0f));
 }
 
 float LightSampler::triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction, float distance) const {

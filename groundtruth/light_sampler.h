@@ -1,16 +1,19 @@
 #pragma once
 #include "groundtruth/alias_table.h"
 #include "groundtruth/environment_table.h"
+#include "groundtruth/lanes.h"
 #include "groundtruth/material_table.h"
 
-/// A direction in which light may arrive at a point, before visibility is known.
-struct LightSample {
-    glm::vec3 direction;     ///< unit, towards the light
-    glm::vec3 radiance;      ///< of a delta light: irradiance at normal incidence; W sr^-1 m^-2 else
-    float pdf = 0.0f;        ///< sr^-1, times the probability of the choice; of a delta light: that probability; 0: no sample
-    bool is_delta = false;
-    bool is_infinite = false;
-    glm::vec3 position, error, normal;  ///< of the point on the light, if not infinite; a punctual light has no error and no normal
+/// Directions in which light may arrive at a point per lane, before visibility is known.
+struct LightLanes {
+    LanesVec3 direction;                ///< unit, towards the light
+    LanesVec3 radiance;                 ///< of a delta light: irradiance at normal incidence; W sr^-1 m^-2 else
+    Lanes<float> pdf;                   ///< sr^-1, times the probability of the choice; of a delta light: that probability; 0: no sample
+    LanesVec3 position, error, normal;  ///< of the point on the light, if not infinite; a punctual light has no error and no normal
+    Lanes<uint32_t> is_delta, is_infinite;
+    // Of the rays that test visibility, filled in by aim_shadow_rays():
+    LanesVec3 shadow_origin, shadow_direction;
+    Lanes<float> shadow_far;  ///< in units of shadow_direction
 };
 
 /// Chooses among emissive triangles, punctual lights and the environment with probability proportional to their power.
@@ -26,8 +29,10 @@ public:
     bool has_emitters() const { return !triangles_.empty(); }
     bool has_environment_table() const { return environment_index_ != none; }
 
-    /// `bits`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives.
-    LightSample sample(glm::vec3 point, glm::uvec2 bits) const;
+    /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives. The sampler must not be empty().
+    /// Lanes that are not wanted get anything.
+    void sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& x, const Lanes<uint32_t>& y,
+                LightLanes& lights) const;
 
     /// Density (sr^-1) with which sample() finds a point of an emissive triangle along `direction` at `distance` (m).
     float triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction, float distance) const;
@@ -46,8 +51,8 @@ private:
     static constexpr uint32_t no_light = ~0u;
 
     void add_triangles(const Scene& scene, uint32_t instance, std::vector<double>& powers);
-    LightSample sample_triangle(const Triangle& light, glm::vec3 point, glm::vec2 u) const;
-    LightSample sample_punctual(const PunctualLight& light, glm::vec3 point, float probability) const;
+    void sample_environment(uint32_t x, uint32_t y, int lane, LightLanes& lights) const;
+    void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane, LightLanes& lights) const;
 
     const EmbreeScene& geometry_;
     const MaterialTable& materials_;
@@ -57,6 +62,7 @@ private:
     EnvironmentTable environment_;
     const Environment* environment_source_ = nullptr;
     float environment_probability_ = 0;
+    bool needs_more_ = false;  ///< there is more to sample than triangles of constant emission
     size_t environment_index_ = none;
     AliasTable table_;  ///< over triangles_, lights_, and the environment
 };

@@ -22,7 +22,7 @@ MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bo
         Constants& constants = constants_.emplace_back();
         ShadedPoint& surface = constants.surface;
         surface.is_unlit = material.is_unlit;
-        surface.base_color = material.base_color;
+        surface.base_color = material.is_unlit ? glm::vec3(0.0f) : material.base_color;
         surface.metalness = material.metalness;
         surface.roughness = material.roughness;
         surface.specular = material.is_unlit ? 0.0f : material.specular;
@@ -32,7 +32,6 @@ MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bo
         constants.emission_varies = evaluate_everything || (material.is_unlit ? has_color : material.emission_texture.texture >= 0);
         constants.emits = surface.emitted != glm::vec3(0.0f);
         constants.emits_behind = material.is_double_sided;
-        constants.can_reflect_specularly = !material.is_unlit && (material.specular > 0 || material.metalness > 0);
     }
 }
 
@@ -50,12 +49,13 @@ glm::vec2 MaterialTable::Corners::uv(const TextureSlot& slot) const {
 }
 
 glm::vec4 MaterialTable::Corners::color() const {
-    return weight[0] * vertex[0]->color + weight[1] * vertex[1]->color + weight[2] * vertex[2]->color;
+    // Differences, so that three equal colours give that colour to the bit.
+    const glm::vec4 color = vertex[0]->color;
+    return color + weight[1] * (vertex[1]->color - color) + weight[2] * (vertex[2]->color - color);
 }
 
 glm::vec4 MaterialTable::sample(const TextureSlot& slot, const Corners& corners) const {
-    const Texture* image = texture(slot);
-    return image ? sample_texture(*image, corners.uv(slot)) : glm::vec4(1.0f);
+    return slot.texture < 0 ? glm::vec4(1.0f) : sample_texture(scene_.textures[size_t(slot.texture)], corners.uv(slot));
 }
 
 glm::vec3 MaterialTable::mapped_normal(const Material& material, const Corners& corners, const InstanceRecord& instance,
@@ -77,31 +77,13 @@ glm::vec3 MaterialTable::mapped_normal(const Material& material, const Corners& 
 }
 
 void MaterialTable::vary(const Material& material, const Corners& corners, const InstanceRecord& instance, ShadedPoint& point) const {
-    point.base_color = material.base_color * glm::vec3(corners.color()) * glm::vec3(sample(material.base_color_texture, corners));
+    const glm::vec3 color = material.base_color * glm::vec3(corners.color()) * glm::vec3(sample(material.base_color_texture, corners));
+    point.base_color = material.is_unlit ? glm::vec3(0.0f) : color;
     const glm::vec4 metalness_roughness = sample(material.metalness_roughness_texture, corners);
     point.metalness = material.metalness * metalness_roughness.b;
     point.roughness = material.roughness * metalness_roughness.g;
-    point.emitted = material.is_unlit ? point.base_color : material.emission * glm::vec3(sample(material.emission_texture, corners));
+    point.emitted = material.is_unlit ? color : material.emission * glm::vec3(sample(material.emission_texture, corners));
     if (material.normal_texture.texture >= 0) point.normal = mapped_normal(material, corners, instance, point.normal);
-}
-
-ShadedPoint MaterialTable::shade(uint32_t instance_index, uint32_t triangle, float u, float v, glm::vec3 view) const {
-    const InstanceRecord& instance = geometry_.instance(instance_index);
-    const SurfacePoint surface = geometry_.point(instance_index, triangle, u, v);
-    const Constants& constants = constants_[instance.material];
-    ShadedPoint point = constants.surface;
-    point.position = surface.position;
-    point.error = surface.error;
-    point.geometric_normal = surface.front_normal;
-    point.normal = surface.normal;
-    if (constants.varies) vary(scene_.materials[instance.material], corners(instance_index, triangle, u, v), instance, point);
-
-    if (glm::dot(surface.front_normal, view) < 0) {
-        point.geometric_normal = -point.geometric_normal;
-        point.normal = -point.normal;
-        if (!constants.emits_behind) point.emitted = glm::vec3(0.0f);
-    }
-    return point;
 }
 
 glm::vec3 MaterialTable::emission(uint32_t instance_index, uint32_t triangle, float u, float v) const {

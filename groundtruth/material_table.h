@@ -2,6 +2,7 @@
 #include "core/scene/scene.h"
 #include "groundtruth/embree_scene.h"
 
+#include <algorithm>
 #include <vector>
 
 /// What the path tracer knows of a point once its material is evaluated: the same quantities as a pixel of the G-buffer.
@@ -32,14 +33,16 @@ public:
 
     bool emits(uint32_t material) const { return constants_[material].emits; }
     bool emission_varies(uint32_t material) const { return constants_[material].emission_varies; }
-    bool can_reflect_specularly(uint32_t material) const { return constants_[material].can_reflect_specularly; }
 
-    const Texture* texture(const TextureSlot& slot) const { return slot.texture < 0 ? nullptr : &scene_.textures[size_t(slot.texture)]; }
+    /// Whether any material has textures or vertex colours.
+    bool any_varies() const {
+        return std::ranges::any_of(constants_, [](const Constants& each) { return each.varies; });
+    }
 
 private:
     struct Constants {
         ShadedPoint surface;  ///< base colour, metalness, roughness, specular and emission, if no texture varies them
-        bool varies, emission_varies, emits, emits_behind, can_reflect_specularly;
+        bool varies, emission_varies, emits, emits_behind;
     };
     struct Corners {
         const Vertex* vertex[3];
@@ -56,3 +59,22 @@ private:
     const EmbreeScene& geometry_;
     std::vector<Constants> constants_;
 };
+
+inline ShadedPoint MaterialTable::shade(uint32_t instance_index, uint32_t triangle, float u, float v, glm::vec3 view) const {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    const SurfacePoint surface = geometry_.point(instance_index, triangle, u, v);
+    const Constants& constants = constants_[instance.material];
+    ShadedPoint point = constants.surface;
+    point.position = surface.position;
+    point.error = surface.error;
+    point.geometric_normal = surface.front_normal;
+    point.normal = surface.normal;
+    if (constants.varies) vary(scene_.materials[instance.material], corners(instance_index, triangle, u, v), instance, point);
+
+    if (glm::dot(surface.front_normal, view) < 0) {
+        point.geometric_normal = -point.geometric_normal;
+        point.normal = -point.normal;
+        if (!constants.emits_behind) point.emitted = glm::vec3(0.0f);
+    }
+    return point;
+}

@@ -68,6 +68,11 @@ struct PixelEstimate {
 ///
 /// `incident` leaves out punctual lights: they are deltas, which a mean over directions cannot hold; `diffuse` and
 /// `specular` include them.
+///
+/// Surfaces are seen from both sides, normals turned to the side of the viewer; the geometric normal says which side that
+/// is. Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below the
+/// horizon of the shading normal reflect nothing and are no part of the lobe; directions above it but below the geometric
+/// one meet the surface itself and carry no light. Unlit surfaces radiate their base colour and reflect nothing.
 class PathTracer {
 public:
     /// `scene` must outlive the tracer. Fails with MachineError if Embree runs out of memory.

@@ -1,14 +1,14 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
 /// Owen-scrambled Sobol' points, padded: every pair of dimensions is its own randomisation of the first two Sobol' dimensions,
 /// which form a (0, 2)-sequence. Counter-based: a pair is a function of (seed, pair index, sample index) and nothing else.
-/// Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4).
+/// Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4). All functions are branchless, for vector loops.
 
 inline uint32_t reverse_bits(uint32_t x) {
-    x = __builtin_bswap32(x);
+    x = x << 16 | x >> 16;
+    x = (x & 0x00ff00ffu) << 8 | (x & 0xff00ff00u) >> 8;
     x = (x & 0x0f0f0f0fu) << 4 | (x & 0xf0f0f0f0u) >> 4;
     x = (x & 0x33333333u) << 2 | (x & 0xccccccccu) >> 2;
     return (x & 0x55555555u) << 1 | (x & 0xaaaaaaaau) >> 1;
@@ -25,55 +25,52 @@ inline uint32_t laine_karras(uint32_t x, uint32_t seed) {
     return x;
 }
 
-/// Finaliser of MurmurHash3 (Appleby), variant 13 of Stafford: a bijection whose output bits look independent.
-inline uint64_t mix_bits(uint64_t x) {
+/// The second Sobol' dimension, bit-reversed. Its generator matrix is Pascal's triangle modulo 2: digit j is the sum of all
+/// index bits i whose binary digits include those of j (Lucas' theorem), which five folds add up.
+inline uint32_t reversed_sobol_y(uint32_t index) {
+    index ^= index >> 16 & 0x0000ffffu;
+    index ^= index >> 8 & 0x00ff00ffu;
+    index ^= index >> 4 & 0x0f0f0f0fu;
+    index ^= index >> 2 & 0x33333333u;
+    return index ^ (index >> 1 & 0x55555555u);
+}
+
+/// A bijection of 32 bits whose output looks random (Wellons 2018, "Prospecting for Hash Functions", lowbias32).
+inline uint32_t hash_bits(uint32_t x) {
+    x = (x ^ x >> 16) * 0x7feb352du;
+    x = (x ^ x >> 15) * 0x846ca68bu;
+    return x ^ x >> 16;
+}
+
+/// The same for 64 bits (finaliser of MurmurHash3, variant 13 of Stafford).
+inline uint64_t hash_bits_64(uint64_t x) {
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9ull;
     x = (x ^ x >> 27) * 0x94d049bb133111ebull;
     return x ^ x >> 31;
 }
 
-/// Second Sobol' dimension, bit-reversed, for each byte of the sample index: the point is the XOR of four entries.
-constexpr std::array<std::array<uint32_t, 256>, 4> make_sobol_bytes() {
-    std::array<uint32_t, 32> reversed_direction{};
-    uint32_t direction = 0x80000000u;
-    for (unsigned bit = 0; bit < 32; ++bit, direction ^= direction >> 1)
-        for (unsigned i = 0; i < 32; ++i) reversed_direction[bit] |= (direction >> i & 1u) << (31 - i);
-    std::array<std::array<uint32_t, 256>, 4> bytes{};
-    for (unsigned byte = 0; byte < 4; ++byte)
-        for (unsigned value = 0; value < 256; ++value)
-            for (unsigned bit = 0; bit < 8; ++bit)
-                if (value >> bit & 1u) bytes[byte][value] ^= reversed_direction[8 * byte + bit];
-    return bytes;
-}
-inline constexpr auto sobol_bytes = make_sobol_bytes();
-
 /// [0, 1) from the upper 24 bits.
-inline float unit_float(uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
+inline float unit_float(uint32_t bits) { return float(int32_t(bits >> 8)) * 0x1p-24f; }
 
-/// One point of the sequence: all pairs of one sample.
-class SobolPoint {
-public:
-    SobolPoint(uint64_t seed, uint32_t sample) : seed_(seed), reversed_sample_(reverse_bits(sample)) {}
+/// All points of one seed.
+struct SobolSequence {
+    uint32_t seed_a, seed_b;
 
-    /// 32-bit fixed-point coordinates of pair `pair`.
-    glm::uvec2 bits(uint32_t pair) const {
-        const uint64_t key = mix_bits(seed_ + 0x9e3779b97f4a7c15ull * (pair + 1));
-        const uint32_t shuffle = uint32_t(key), scramble = uint32_t(key >> 32);
-        const uint32_t index = reverse_bits(laine_karras(reversed_sample_, shuffle));
-        const uint32_t reversed_y = sobol_bytes[0][index & 255] ^ sobol_bytes[1][index >> 8 & 255] ^
-                                    sobol_bytes[2][index >> 16 & 255] ^ sobol_bytes[3][index >> 24];
-        return {reverse_bits(laine_karras(index, scramble)), reverse_bits(laine_karras(reversed_y, scramble * 0x9e3779b1u + shuffle))};
+    explicit SobolSequence(uint64_t seed) : seed_a(uint32_t(hash_bits_64(seed))), seed_b(uint32_t(hash_bits_64(seed) >> 32)) {}
+
+    /// 32-bit fixed-point coordinates of pair `pair` of a sample whose index has its bits reversed.
+    glm::uvec2 bits(uint32_t reversed_sample, uint32_t pair) const {
+        const uint32_t shuffle = hash_bits(seed_a + 0x9e3779b9u * pair);
+        const uint32_t scramble_x = hash_bits(shuffle ^ seed_b), scramble_y = hash_bits(scramble_x + 0x85ebca6bu);
+        const uint32_t index = reverse_bits(laine_karras(reversed_sample, shuffle));
+        return {reverse_bits(laine_karras(index, scramble_x)), reverse_bits(laine_karras(reversed_sobol_y(index), scramble_y))};
     }
-    glm::vec2 pair(uint32_t index) const {
-        const glm::uvec2 b = bits(index);
+    glm::vec2 pair(uint32_t reversed_sample, uint32_t index) const {
+        const glm::uvec2 b = bits(reversed_sample, index);
         return {unit_float(b.x), unit_float(b.y)};
     }
     /// A number that is merely random, in a stream of its own.
-    float random(uint32_t index) const {
-        return unit_float(uint32_t(mix_bits((seed_ ^ 0xd1b54a32d192ed03ull) + 0x9e3779b97f4a7c15ull * (uint64_t(reversed_sample_) << 16 | index)) >> 32));
+    float random(uint32_t reversed_sample, uint32_t index) const {
+        return unit_float(hash_bits(hash_bits(reversed_sample + seed_b) ^ hash_bits(seed_a + 0xc2b2ae35u * index)));
     }
-
-private:
-    uint64_t seed_;
-    uint32_t reversed_sample_;
 };

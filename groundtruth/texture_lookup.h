@@ -4,8 +4,3 @@
 /// The texel-filtered value of a texture at uv (0, 0 is the corner of the first texel): bilinear on level 0, or nearest,
 /// with colours decoded from sRGB before filtering. RGBA in [0, 1], linear.
 glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
-
-/// Where a slot reads its texture for a vertex attribute pair of texture coordinates.
-inline glm::vec2 slot_uv(const TextureSlot& slot, const glm::vec2 (&uv)[2]) {
-    return glm::vec2(slot.uv_transform * glm::vec3(uv[slot.texcoord], 1.0f));
-}

@@ -81,6 +81,21 @@ SHARED float ggx_cap_bound(float mu_o, float alpha) {
     return (1.0f - a2) * s2 / (s2 + a2 * mu_o * mu_o);
 }
 
+/// (cos, sin) of 2 pi `turns`, for turns in [0, 1], to 1e-7: Taylor series within an eighth of a turn.
+SHARED vec2 unit_circle(float turns) {
+    int quarter = int(4.0f * turns + 0.5f);
+    float x = 2.0f * pi * (turns - 0.25f * float(quarter));
+    float x2 = x * x;
+    float s = x * (1.0f + x2 * (-1.0f / 6.0f + x2 * (1.0f / 120.0f + x2 * (-1.0f / 5040.0f + x2 / 362880.0f))));
+    float c = 1.0f + x2 * (-0.5f + x2 * (1.0f / 24.0f + x2 * (-1.0f / 720.0f + x2 / 40320.0f)));
+    bool is_odd = (quarter & 1) != 0;
+    float a = is_odd ? s : c;
+    float b = is_odd ? c : s;
+    bool flips_cosine = quarter == 1 || quarter == 2;
+    bool flips_sine = quarter == 2 || quarter == 3;
+    return vec2(flips_cosine ? -a : a, flips_sine ? -b : b);
+}
+
 /// A visible micro-normal (unit) for o.z > 0 and u in [0, 1)^2: Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
 /// Spherical Caps". `bound` is 1 for the whole lobe or ggx_cap_bound() for the part that can reflect above the horizon.
 SHARED vec3 sample_ggx_normal(vec3 o, float alpha, vec2 u, float bound) {
@@ -88,8 +103,8 @@ SHARED vec3 sample_ggx_normal(vec3 o, float alpha, vec2 u, float bound) {
     float b = bound * v.z;
     float z = (1.0f - u.y) * (1.0f + b) - b;
     float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
-    float phi = 2.0f * pi * u.x;
-    vec3 n = vec3(r * cos(phi), r * sin(phi), z) + v;
+    vec2 azimuth = unit_circle(u.x);
+    vec3 n = vec3(r * azimuth.x, r * azimuth.y, z) + v;
     return normalize(vec3(alpha * n.x, alpha * n.y, max(n.z, 0.0f)));
 }
 
@@ -113,8 +128,8 @@ SHARED float ggx_reflection_bounded_pdf(vec3 o, vec3 i, float alpha) {
 /// A unit vector over the hemisphere of +z with density mu / pi (Malley's method), for u in [0, 1)^2.
 SHARED vec3 sample_cosine(vec2 u) {
     float r = sqrt(u.x);
-    float phi = 2.0f * pi * u.y;
-    return vec3(r * cos(phi), r * sin(phi), sqrt(max(0.0f, 1.0f - u.x)));
+    vec2 azimuth = unit_circle(u.y);
+    return vec3(r * azimuth.x, r * azimuth.y, sqrt(max(0.0f, 1.0f - u.x)));
 }
 
 /// Columns tangent, bitangent, normal of a right-handed frame: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".

@@ -1,0 +1,55 @@
+#pragma once
+#include "groundtruth/lanes.h"
+#include "groundtruth/sobol.h"
+#include "groundtruth/traced_scene.h"
+
+/// Pairs of the Sobol' point that the first hit uses; each later vertex takes the next two of its path's stream.
+enum : uint32_t { pair_specular, pair_light, pair_diffuse, pair_first_free };
+inline constexpr uint32_t pairs_per_vertex = 2;
+inline constexpr uint32_t diffuse_stream = 1u << 16;  ///< pairs of the paths that leave along the diffuse lobe
+
+/// A path that leaves the first hit.
+struct PathStart {
+    glm::vec3 origin, direction;
+    glm::vec3 weight;           ///< f mu_i / pdf of its lobe
+    float pdf;                  ///< sr^-1, of its lobe
+    uint32_t reversed_sample;   ///< the index of the sample, bits reversed
+    bool is_specular;           ///< adds to `specular` and `incident`, else to `diffuse`
+};
+
+/// Paths in flight. A lane whose path has ended takes the next one, so that all lanes stay busy until finish().
+class PathLanes {
+public:
+    PathLanes(const TracedScene& scene, const SobolSequence& sequence, PixelEstimate& estimate)
+        : scene_(scene), sequence_(sequence), estimate_(estimate) {}
+
+    void start(const PathStart& path);
+    void finish();
+
+private:
+    void advance();
+    void trace_rays();
+    bool meet(int lane, const RTCRayHit& ray);
+    void sample_lights();
+    template <bool has_lights>
+    void scatter();
+    void trace_shadow_rays();
+    void end(int lane);
+
+    const TracedScene& scene_;
+    const SobolSequence& sequence_;
+    PixelEstimate& estimate_;
+    int busy_ = 0;  ///< lanes that hold a path
+
+    // Of each path:
+    Lanes<uint32_t> is_busy_;
+    LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
+    Lanes<float> pdf_;  ///< with which direction_ was drawn
+    Lanes<uint32_t> depth_, pair_, reversed_sample_, is_specular_;
+    // Of the vertex that it has reached:
+    Lanes<uint32_t> continues_;
+    LanesVec3 position_, error_, geometric_normal_, normal_, base_color_;
+    Lanes<float> metalness_, roughness_, specular_;
+    LightLanes lights_;
+    LanesVec3 direct_;  ///< what the light sample adds, if it is visible
+};

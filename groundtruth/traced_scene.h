@@ -1,0 +1,73 @@
+#pragma once
+#include "groundtruth/light_sampler.h"
+#include "groundtruth/lobes.h"
+#include "groundtruth/path_tracer.h"
+
+#include <limits>
+
+/// All that paths read of one frame: geometry, materials, lights, settings.
+struct TracedScene {
+    const Scene& scene;
+    PathTracerSettings settings;
+    MisHeuristic mis;
+    EmbreeScene geometry;
+    MaterialTable materials;
+    LightSampler lights;
+    bool has_environment;  ///< that is not black
+
+    TracedScene(const Scene& scene, const ScenePose& pose, const PathTracerSettings& settings);
+};
+
+/// What the scene does not need and is not traced or evaluated for it; nothing with PathTracerSettings::keep_all.
+std::vector<LeftOut> left_out_features(const TracedScene& traced);
+
+/// Where a surface lies in a coordinate plane through the origin, points on it are exact and nothing offsets them: only hits
+/// at a distance of zero must be left out.
+inline constexpr float nearest_hit = std::numeric_limits<float>::min();
+inline constexpr float infinite_distance = std::numeric_limits<float>::infinity();
+/// Shadow rays end this much before the light, relative to its distance, so that they do not meet the light itself.
+inline constexpr float shadow_end = 0.9999f;
+
+/// On a hit, instID[0] is the index of the instance, whether it was baked or not.
+inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTCRayHit& ray) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    ray.ray = {origin.x, origin.y, origin.z, nearest_hit, direction.x, direction.y, direction.z, 0.0f, infinite_distance, ~0u, 0, 0};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    if (ray.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) ray.hit.instID[0] = ray.hit.geomID;
+    return true;
+}
+
+inline bool is_occluded(RTCScene scene, glm::vec3 origin, glm::vec3 direction, float far) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray{origin.x, origin.y, origin.z, nearest_hit, direction.x, direction.y, direction.z, 0.0f, far, ~0u, 0, 0};
+    rtcOccluded1(scene, &context, &ray);
+    return ray.tfar < 0;
+}
+
+inline void count_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow) {
+    ++estimate.rays;
+    if (estimate.record) estimate.record->push_back({origin, direction, far, is_shadow});
+}
+
+/// Aims a shadow ray from a point to the light of a lane, offset at both ends. Branchless, for vector loops.
+inline void aim_shadow_ray(glm::vec3 position, glm::vec3 error, glm::vec3 normal, int lane, LightLanes& lights) {
+    const glm::vec3 direction = lights.direction.get(lane);
+    const glm::vec3 origin = offset_origin(position, error, normal, direction);
+    const glm::vec3 target = offset_origin(lights.position.get(lane), lights.error.get(lane), lights.normal.get(lane), -direction);
+    const bool is_infinite = lights.is_infinite[lane] != 0;
+    lights.shadow_origin.set(lane, origin);
+    lights.shadow_direction.set(lane, choose(is_infinite, direction, target - origin));
+    lights.shadow_far[lane] = is_infinite ? infinite_distance : shadow_end;
+}
+
+/// Whether the light of a lane reaches the point that aim_shadow_ray() was given.
+inline bool is_visible(const TracedScene& scene, const LightLanes& lights, int lane, PixelEstimate& estimate) {
+    const glm::vec3 origin = lights.shadow_origin.get(lane), direction = lights.shadow_direction.get(lane);
+    count_ray(estimate, origin, direction, lights.shadow_far[lane], true);
+    return !is_occluded(scene.geometry.handle(), origin, direction, lights.shadow_far[lane]);
+}
