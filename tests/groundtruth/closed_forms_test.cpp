@@ -21,6 +21,13 @@ void expect_mean(const Moments& found, double exact, double deviation) {
     }
 }
 
+/// A lobe may lose its energy in rare samples below the horizon, which even 16 batches together may miss, so that their
+/// spread does not tell: as many losses as a Poisson distribution allows at 6 standard deviations, each at most 1.
+double rare_losses(double albedo, unsigned samples_per_batch) {
+    const double samples = double(batch_count) * samples_per_batch, expected = (1 - albedo) * samples;
+    return expected < 100 ? 6 * std::sqrt(expected) / samples : 0.0;
+}
+
 void add_floor(TestScene& scene, unsigned material, float half = 1.0f) {
     scene.quad({-half, 0, half}, {half, 0, half}, {half, 0, -half}, {-half, 0, -half}, material);
 }
@@ -55,7 +62,8 @@ TEST(golden_closed_forms, ggx_white_furnace) {  // 2, 14
             SCOPED_TRACE(testing::Message() << "alpha " << alpha << ", cosine " << cosine);
             const PixelMoments pixel = render(scene, looking_at_origin(up, {1, 0, 0}, cosine), 2048);
             // The viewer's cosine is a float: 1e-7 of it is 2e-6 of itself at 0.05, and E rises at most so steeply.
-            expect_mean(pixel.specular, table["E"][row][column], 4e-6);
+            const double albedo = table["E"][row][column];
+            expect_mean(pixel.specular, albedo, 4e-6 + rare_losses(albedo, 2048));
             EXPECT_EQ(pixel.incident.mean, glm::dvec3(1.0));
             EXPECT_EQ(pixel.diffuse.mean, glm::dvec3(0.0));
         }
@@ -245,7 +253,8 @@ TEST(golden_closed_forms, ggx_under_gradient) {  // 13
             // The viewer is at +x, so the mirror tangent is -x.
             const double exact = double(table["E"][row][column]) + 0.8 * (-axis.x * double(moments["Mt"][row][column]) +
                                                                           axis.y * double(moments["Mz"][row][column]));
-            expect_mean(render(scene, looking_at_origin(up, {1, 0, 0}, cosine), 2048).specular, exact, 5e-6);
+            expect_mean(render(scene, looking_at_origin(up, {1, 0, 0}, cosine), 2048).specular, exact,
+                        5e-6 + rare_losses(table["E"][row][column], 2048));
         }
 }
 

@@ -1,0 +1,216 @@
+#include "tests/groundtruth/test_scene.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+// Properties that hold for any scene: the mean does not depend on how it is estimated. z-tests allow 6 joint standard errors
+// of 16 batches each (Student's t, about 30 degrees of freedom: p = 1.4e-6 a comparison, 500 comparisons: 0.07 % of all
+// choices of seeds would fail a correct tracer; the seeds are fixed).
+
+namespace {
+
+/// An open room with a lamp, a spot, an image environment, metals and dielectrics, and a mask between lamp and floor.
+TestScene make_room(float scale = 1.0f) {
+    TestScene room;
+    Material plastic = metal_material(0.6f, 0.6f), wall = lambert_material(0.5f), fence = lambert_material(0.4f);
+    plastic.base_color = {0.2f, 0.5f, 0.7f};
+    plastic.metalness = 0.0f;
+    Texture stripes{.name = "stripes", .extent = {4, 1}, .rgba = {}, .is_nearest = true};
+    for (int i = 0; i < 4; ++i) stripes.rgba.insert(stripes.rgba.end(), {255, 255, 255, uint8_t(i % 2 ? 0 : 255)});
+    room.scene.textures.push_back(stripes);
+    fence.alpha_mode = AlphaMode::mask;
+    fence.base_color_texture.texture = 0;
+    const unsigned floor = room.add(metal_material(0.8f, 0.7f)), painted = room.add(plastic), grey = room.add(wall), mask = room.add(fence);
+    const unsigned lamp = room.add(lambert_material(0.0f, 5.0f * scale));
+    room.quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, floor);
+    room.quad({-2, 0, -2}, {2, 0, -2}, {2, 3, -2}, {-2, 3, -2}, grey);
+    room.quad({-2, 0, 2}, {-2, 0, -2}, {-2, 3, -2}, {-2, 3, 2}, painted);
+    room.quad({0.5f, 2.5f, -0.5f}, {1.5f, 2.5f, -0.5f}, {1.5f, 2.5f, 0.5f}, {0.5f, 2.5f, 0.5f}, lamp);
+    room.quad({0, 1.5f, -1}, {2, 1.5f, -1}, {2, 1.5f, 1}, {0, 1.5f, 1}, mask);
+    room.sphere({-0.7f, 0.6f, -0.5f}, 0.6f, 24, painted);
+    room.scene.lights.push_back({.type = LightType::spot, .intensity = glm::vec3(2.0f * scale), .range = 20, .position = {-1, 2.5f, 1}, .direction = {0, -1, 0}});
+    Environment& sky = room.scene.environment;
+    sky.type = Environment::Type::image;
+    sky.latlong = HostImage({32, 16}, 3, 0.2f * scale);
+    for (int channel = 0; channel < 3; ++channel) sky.latlong.pixel(20, 4)[channel] = 20.0f * scale;
+    return room;
+}
+
+CameraPose room_camera() {
+    CameraPose pose = looking_along({0.3f, 1.7f, 4.5f}, {-0.05f, -0.25f, -1});
+    pose.is_orthographic = false;
+    pose.vertical_fov = 0.8f;
+    return pose;
+}
+
+constexpr glm::uvec2 extent(8, 8);
+const glm::uvec2 pixels[] = {{1, 3}, {2, 6}, {3, 4}, {4, 2}, {5, 6}, {7, 7}};
+
+struct Render {
+    std::vector<PixelMoments> pixels;
+};
+
+Render render_room(const TestScene& room, const PathTracerSettings& settings, unsigned samples, uint64_t seed) {
+    const PathTracer tracer(room.scene, room.pose(), room_camera(), extent, settings);
+    Render result{std::vector<PixelMoments>(std::size(pixels))};
+    tbb::parallel_for(size_t(0), std::size(pixels), [&](size_t i) { result.pixels[i] = render_pixel(tracer, pixels[i].x, pixels[i].y, samples, seed); });
+    return result;
+}
+
+void expect_same_mean(const Moments& a, const Moments& b) {
+    for (int channel = 0; channel < 3; ++channel) {
+        const double error = std::hypot(a.standard_error[channel], b.standard_error[channel]);
+        EXPECT_NEAR(a.mean[channel], b.mean[channel], 6 * error + 1e-9);
+        EXPECT_LT(error, 0.1 * std::abs(b.mean[channel]) + 1e-3);  // else the comparison proves little
+    }
+}
+
+void expect_same_means(const Render& a, const Render& b) {
+    for (size_t i = 0; i < a.pixels.size(); ++i) {
+        SCOPED_TRACE(i);
+        EXPECT_EQ(a.pixels[i].non_finite + b.pixels[i].non_finite, 0u);
+        expect_same_mean(a.pixels[i].diffuse, b.pixels[i].diffuse);
+        expect_same_mean(a.pixels[i].specular, b.pixels[i].specular);
+        expect_same_mean(a.pixels[i].incident, b.pixels[i].incident);
+    }
+}
+
+PixelEstimate sums(const PathTracer& tracer, glm::uvec2 pixel, unsigned samples) {
+    PixelEstimate estimate;
+    tracer.trace(pixel.x, pixel.y, tracer.first_hit(pixel.x, pixel.y), 9, 0, samples, estimate);
+    return estimate;
+}
+
+}  // namespace
+
+TEST(estimator, mean_does_not_depend_on_the_light_strategy) {
+    const TestScene room = make_room();
+    const Render power = render_room(room, {}, 4096, 1);
+    for (const LightStrategy strategy : {LightStrategy::balance, LightStrategy::light_only, LightStrategy::bsdf_only}) {
+        SCOPED_TRACE(int(strategy));
+        expect_same_means(render_room(room, {.strategy = strategy}, 8192, 2), power);
+    }
+}
+
+TEST(estimator, mean_does_not_depend_on_roulette_or_seed) {
+    const TestScene room = make_room();
+    const Render usual = render_room(room, {}, 4096, 3);
+    expect_same_means(render_room(room, {.russian_roulette = false}, 2048, 4), usual);
+    expect_same_means(render_room(room, {}, 4096, 5), usual);
+}
+
+TEST(estimator, translation_changes_nothing) {
+    const TestScene room = make_room();
+    TestScene moved = room;
+    const glm::vec3 offset(1000, -1000, 1000);
+    for (Mesh& mesh : moved.scene.meshes)
+        for (Vertex& vertex : mesh.vertices) vertex.position += offset;
+    for (PunctualLight& light : moved.scene.lights) light.position += offset;
+    CameraPose camera = room_camera();
+    camera.world_from_view[3] += glm::vec4(offset, 0);
+    const Render here = render_room(room, {}, 4096, 6);
+    const PathTracer tracer(moved.scene, moved.pose(), camera, extent, {});
+    Render there{std::vector<PixelMoments>(std::size(pixels))};
+    for (size_t i = 0; i < std::size(pixels); ++i) there.pixels[i] = render_pixel(tracer, pixels[i].x, pixels[i].y, 4096, 7);
+    expect_same_means(there, here);
+}
+
+TEST(estimator, scaling_all_light_by_1024_scales_every_bit) {
+    const TestScene dim = make_room(), bright = make_room(1024);
+    const PathTracer a(dim.scene, dim.pose(), room_camera(), extent, {}), b(bright.scene, bright.pose(), room_camera(), extent, {});
+    for (const glm::uvec2 pixel : pixels) {
+        const PixelEstimate x = sums(a, pixel, 256), y = sums(b, pixel, 256);
+        EXPECT_EQ(x.diffuse * 1024.0, y.diffuse);
+        EXPECT_EQ(x.specular * 1024.0, y.specular);
+        EXPECT_EQ(x.incident * 1024.0, y.incident);
+        EXPECT_GT(x.specular.x + x.diffuse.x, 0);
+    }
+}
+
+TEST(estimator, leaving_out_changes_no_bit) {
+    TestScene plain;  // needs nothing: no mask, texture, lamp, environment image, specular lobe
+    plain.room({-1, -1, -1}, {1, 1, 5}, plain.add(lambert_material(0.5f, 0.1f)));
+    plain.scene.materials[0].emission = glm::vec3(0.0f);
+    plain.scene.environment.color = glm::vec3(1.0f);
+    plain.scene.meshes.erase(plain.scene.meshes.begin());
+    plain.scene.instances.erase(plain.scene.instances.begin());
+    for (unsigned i = 0; i < plain.scene.instances.size(); ++i) plain.scene.instances[i].mesh = i;
+    ScenePose pose = plain.pose();
+    pose.world_from_instance.pop_back();
+    const CameraPose camera = looking_along({0.1f, 0.2f, 3}, {0.1f, 0.2f, -1});
+    const PathTracer lean(plain.scene, pose, camera, {1, 1}, {}), full(plain.scene, pose, camera, {1, 1}, {.keep_all = true});
+    EXPECT_EQ(lean.left_out().size(), 5u);
+    EXPECT_TRUE(full.left_out().empty());
+    const PixelEstimate a = sums(lean, {0, 0}, 512), b = sums(full, {0, 0}, 512);
+    EXPECT_GT(a.diffuse.x, 0);
+    EXPECT_EQ(a.diffuse, b.diffuse);
+    EXPECT_EQ(a.specular, b.specular);
+    EXPECT_EQ(a.incident, b.incident);
+
+    const TestScene room = make_room();
+    const PathTracer lean_room(room.scene, room.pose(), room_camera(), extent, {}), full_room(room.scene, room.pose(), room_camera(), extent, {.keep_all = true});
+    EXPECT_TRUE(lean_room.left_out().empty());
+    for (const glm::uvec2 pixel : pixels) EXPECT_EQ(sums(lean_room, pixel, 64).diffuse, sums(full_room, pixel, 64).diffuse);
+}
+
+TEST(estimator, splitting_samples_changes_only_rounding) {
+    const TestScene room = make_room();
+    const PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {});
+    for (const glm::uvec2 pixel : pixels) {
+        const PixelEstimate whole = sums(tracer, pixel, 192);
+        PixelEstimate parts;
+        const FirstHit hit = tracer.first_hit(pixel.x, pixel.y);
+        for (const auto& [first, count] : {std::pair(0u, 5u), {5u, 59u}, {64u, 128u}}) tracer.trace(pixel.x, pixel.y, hit, 9, first, count, parts);
+        EXPECT_EQ(whole.samples, parts.samples);
+        EXPECT_EQ(whole.lobe_samples, parts.lobe_samples);
+        EXPECT_EQ(whole.rays, parts.rays);
+        // Each path is the same to the bit; the order in which their sums are added is not.
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_NEAR(whole.diffuse[channel], parts.diffuse[channel], 1e-12 * whole.diffuse[channel]);
+            EXPECT_NEAR(whole.specular[channel], parts.specular[channel], 1e-12 * whole.specular[channel]);
+            EXPECT_NEAR(whole.incident[channel], parts.incident[channel], 1e-12 * whole.incident[channel]);
+        }
+    }
+}
+
+TEST(estimator, number_of_threads_changes_no_bit) {
+    const TestScene room = make_room();
+    const PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {});
+    std::vector<PixelEstimate> images[2];
+    for (const int threads : {1, 4}) {
+        std::vector<PixelEstimate>& image = images[threads > 1];
+        image.resize(extent.x * extent.y);
+        tbb::task_arena(threads).execute([&] {
+            tbb::parallel_for(0u, extent.x * extent.y, [&](unsigned i) { image[i] = sums(tracer, {i % extent.x, i / extent.x}, 32); });
+        });
+    }
+    for (size_t i = 0; i < images[0].size(); ++i) {
+        EXPECT_EQ(images[0][i].diffuse, images[1][i].diffuse);
+        EXPECT_EQ(images[0][i].specular, images[1][i].specular);
+        EXPECT_EQ(images[0][i].rays, images[1][i].rays);
+    }
+}
+
+TEST(estimator, independent_seeds_differ_as_their_errors_say) {
+    const TestScene room = make_room();
+    const PathTracer tracer(room.scene, room.pose(), room_camera(), {16, 16}, {});
+    std::vector<double> z(256, 0.0);
+    tbb::parallel_for(0u, 256u, [&](unsigned i) {
+        const PixelMoments a = render_pixel(tracer, i % 16, i / 16, 128, 20), b = render_pixel(tracer, i % 16, i / 16, 128, 21);
+        const double error = std::hypot(a.diffuse.standard_error.y, b.diffuse.standard_error.y);
+        if (error > 0) z[i] = (a.diffuse.mean.y - b.diffuse.mean.y) / error;
+    });
+    double squares = 0, products = 0, count = 0;
+    for (unsigned i = 0; i < 256; ++i) {
+        squares += z[i] * z[i];
+        if (i % 16) products += z[i] * z[i - 1];
+        count += z[i] != 0;
+    }
+    ASSERT_GT(count, 100);
+    // z^2 has mean 30/28 and standard deviation 1.6 if batch means are normal: 5 deviations of the mean (p = 6e-7).
+    EXPECT_NEAR(squares / count, 30.0 / 28, 5 * 1.6 / std::sqrt(count));
+    EXPECT_NEAR(products / squares, 0, 5 / std::sqrt(count));  // neighbours share no random numbers
+}
