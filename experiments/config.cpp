@@ -65,15 +65,24 @@ glm::uvec2 read_extent(JsonObject& shot) {
     return {width, height};
 }
 
+/// A G-buffer from files; its paths are relative to the config's folder.
+ShotConfig read_gbuffer_shot(JsonObject& shot, const std::filesystem::path& folder) {
+    ShotConfig config{.gbuffer = folder / shot.text("gbuffer")};
+    if (shot.has("reference")) config.reference = folder / shot.text("reference");
+    shot.finish();
+    return config;
+}
+
 /// scene x camera; frames stay together, since a history runs through them.
-void read_shot(JsonObject shot, std::vector<ShotConfig>& shots) {
+void read_shot(JsonObject shot, const std::filesystem::path& folder, std::vector<ShotConfig>& shots) {
+    if (shot.has("gbuffer")) return shots.push_back(read_gbuffer_shot(shot, folder));
     const std::vector<std::string> scenes = one_or_more(shot, "scene", ""), cameras = one_or_more(shot, "camera", "");
     if (!shot.has("scene")) shot.text("scene");  // says that it is missing
     const glm::uvec2 extent = shot.has("resolution") ? read_extent(shot) : glm::uvec2(480, 270);
     const std::vector<unsigned> frames = numbers(shot, "frames", 100000, {0});
     shot.finish();
     for (const std::string& scene : scenes)
-        for (const std::string& camera : cameras) shots.push_back({scene, camera, extent, frames});
+        for (const std::string& camera : cameras) shots.push_back({.scene = scene, .camera = camera, .extent = extent, .frames = frames, .gbuffer = {}, .reference = {}});
 }
 
 /// A value as it stands in a point's label: texts without their quotes.
@@ -147,7 +156,7 @@ Config read_config(const std::filesystem::path& file) {
     config.title = object.text("title", file.stem().string());
     if (object.has("$schema")) object.text("$schema");
 
-    for (JsonObject& shot : object.objects("shots")) read_shot(shot, config.shots);
+    for (JsonObject& shot : object.objects("shots")) read_shot(shot, file.parent_path(), config.shots);
     for (JsonObject& variant : object.objects("variants")) read_variant(variant, config.variants);
     config.seeds = numbers(object, "seeds", 100000, {0});
     if (object.has("reference")) config.reference = read_reference(object.object("reference"));

@@ -8,12 +8,15 @@
 #include <string>
 #include <vector>
 
-/// One camera of one scene at one resolution, over some frames.
+/// One camera of one scene at one resolution, over some frames; or one G-buffer from files.
 struct ShotConfig {
-    std::string scene;   ///< a scene's name, a path to a .json/.gltf/.glb, or a folder with a saved gbuffer.exr
+    std::string scene;   ///< a scene's name, or a path to a .json/.gltf/.glb
     std::string camera;  ///< "": the scene's first
     glm::uvec2 extent{480, 270};
     std::vector<unsigned> frames{0};  ///< ascending; variants see them in this order, so histories work
+
+    std::filesystem::path gbuffer;    ///< in place of a scene: a folder with gbuffer.exr and camera.json
+    std::filesystem::path reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
 };
 
 /// A variant and one point of its parameter grid.

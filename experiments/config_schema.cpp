@@ -41,10 +41,11 @@ nlohmann::json config_schema(const std::string& variant) {
     const json text = {{"type", "string"}};
     const json counts = {{"anyOf", {integer(1, 100000), {{"type", "array"}, {"items", integer(0, 100000)}}}}};
     const json shot = object({{"scene", one_or_more(text)}, {"camera", one_or_more(text)}, {"resolution", {{"type", "array"}, {"items", integer(1, 16384)}, {"minItems", 2}, {"maxItems", 2}}}, {"frames", counts}}, {"scene"});
+    const json capture = object({{"gbuffer", text}, {"reference", text}}, {"gbuffer"});
     const json reference = object({{"samples", integer(16, 1 << 24)}, {"seconds", number(0, 1e7)}, {"target_relative_error", number(0, 1)}, {"max_depth", integer(1, 1024)}, {"seed", integer(0, 1 << 30)}});
     json schema = object({{"$schema", text},
                           {"title", text},
-                          {"shots", {{"type", "array"}, {"items", shot}, {"minItems", 1}}},
+                          {"shots", {{"type", "array"}, {"items", {{"anyOf", {shot, capture}}}}, {"minItems", 1}}},
                           {"variants", {{"type", "array"}, {"items", {{"anyOf", variants}}}, {"minItems", 1}}},
                           {"seeds", counts},
                           {"reference", reference},

@@ -102,10 +102,12 @@ nlohmann::json left_out_entry(const LeftOut& part) { return {{"what", part.what}
 
 nlohmann::json shot_entry(const Shot& shot, unsigned frame, const Reference& reference, const FrameTruth& truth, const Config& config) {
     nlohmann::json needs = nlohmann::json::array(), left_out = nlohmann::json::array();
-    for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) needs.push_back({{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}});
-    const ShotFrame now = shot_frame(shot, frame);
-    const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
-    for (const LeftOut& part : tracer.left_out()) left_out.push_back(left_out_entry(part));
+    if (shot.config.gbuffer.empty()) {
+        for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) needs.push_back({{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}});
+        const ShotFrame now = shot_frame(shot, frame);
+        const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
+        for (const LeftOut& part : tracer.left_out()) left_out.push_back(left_out_entry(part));
+    }
     for (const VariantConfig& v : config.variants)
         for (const LeftOut& part : make_variant(v.variant, v.parameters, v.preset)->leave_out(shot.facts)) {
             nlohmann::json entry = left_out_entry(part);
@@ -138,6 +140,12 @@ nlohmann::json shot_entry(const Shot& shot, unsigned frame, const Reference& ref
               {"reached_share", reference.reached_share},
               {"non_finite_samples", reference.non_finite_samples},
               {"from_cache", reference.from_cache}}}};
+}
+
+nlohmann::json gbuffer_shot_entry(const Shot& shot) {
+    return {{"shot", shot.name(0)}, {"scene", shot.scene.name}, {"camera", shot.camera.name}, {"frame", 0}, {"width", shot.config.extent.x}, {"height", shot.config.extent.y},
+            {"exposure_ev", 0.0}, {"lit", "file"}, {"warnings", {"This G-buffer came without a reference: its results are rendered and timed, not measured."}},
+            {"needs", nlohmann::json::array()}, {"left_out", nlohmann::json::array()}};
 }
 
 CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite) {

@@ -50,9 +50,12 @@ FrameTruth frame_truth(const Reference& reference, HostImage roughness, HostImag
     return truth;
 }
 
+FrameTruth frame_without_truth(HostImage lit) { return {.diffuse = std::move(lit), .targets = {}, .view_depth = {}, .normal = {}, .material_id = {}, .roughness = {}, .reflectance = {}, .flip_exposures = {}}; }
+
 HostImage composited_image(const FrameTruth& truth, const CompositedImages& result) { return sum(truth.diffuse, result.specular); }
 
 std::vector<ResultRow> measure_result(const FrameTruth& truth, const CompositedImages& result, const Config& config, const ResultRow& row) {
+    if (truth.targets.empty()) return {};
     const MaskInputs inputs{.view_depth = truth.view_depth,
                             .normal = truth.normal,
                             .material_id = truth.material_id,

@@ -1,11 +1,10 @@
 #include "experiments/run.h"
 
-#include "core/exr.h"
+#include "core/error.h"
 #include "core/files.h"
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
-#include "core/png.h"
 #include "experiments/host_info.h"
 #include "experiments/manifest.h"
 #include "experiments/measure.h"
@@ -14,6 +13,7 @@
 #include "experiments/results.h"
 #include "experiments/timing.h"
 #include "groundtruth/reference_cache.h"
+#include "groundtruth/reference_file.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -59,10 +59,6 @@ HostImage one_channel(const HostImage& source, unsigned channel) {
     return result;
 }
 
-FrameView view_of(const Config& config, const Shot& shot, unsigned frame, unsigned seed) {
-    return {.extent = shot.config.extent, .depth_direction = config.depth_direction, .frame = frame, .seed = seed};
-}
-
 /// Renders the reference of one frame, or takes it from the cache.
 Reference obtain_reference(Study& study, const Shot& shot, unsigned frame) {
     const ShotFrame now = shot_frame(shot, frame);
@@ -81,16 +77,13 @@ Reference obtain_reference(Study& study, const Shot& shot, unsigned frame) {
 }
 
 /// The truth of one frame, and its entry in the manifest.
-PreparedFrame prepare_frame(Study& study, const Shot& shot, Rasterizer& rasterizer, unsigned frame) {
-    const Reference reference = obtain_reference(study, shot, frame);
-    const GBuffer gbuffer = rasterizer.render(shot.camera, view_of(study.config, shot, frame, study.config.seeds.front()));
-    rasterizer.upload_lit(gbuffer, reference.diffuse.mean);
-    const HostGBuffer host = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), study.config.depth_format);
-
+PreparedFrame prepare_frame(Study& study, const Shot& shot, FrameSource& source, unsigned frame, const Reference& reference) {
+    const GBuffer gbuffer = source.render(frame, study.config.seeds.front(), reference.diffuse.mean);
+    const HostGBuffer host = download_gbuffer(source.graph(), gbuffer, source.camera(), study.config.depth_format);
     PreparedFrame prepared{.frame = frame, .shot_name = shot.name(frame), .reference_hash = reference.hash,
                            .truth = frame_truth(reference, one_channel(host.normal, 3), specular_reflectance(host), study.config, shot.camera.exposure_ev)};
     study.manifest["shots"].push_back(shot_entry(shot, frame, reference, prepared.truth, study.config));
-    for (const LeftOut& part : rasterizer.left_out()) study.manifest["shots"].back()["left_out"].push_back(left_out_entry(part));
+    for (const LeftOut& part : source.left_out()) study.manifest["shots"].back()["left_out"].push_back(left_out_entry(part));
     for (nlohmann::json& image : save_reference_images(study.settings.out, prepared.shot_name, reference, shot.camera.exposure_ev))
         study.manifest["images"].push_back(std::move(image));
     return prepared;
@@ -110,20 +103,15 @@ std::string cell_hash(const Study& study, const Shot& shot, const std::vector<Pr
 }
 
 /// One variant at one point with one seed, over all frames of a shot: the heart of ssrlab.
-Cell run_cell(Study& study, const Shot& shot, Rasterizer& rasterizer, const std::vector<PreparedFrame>& frames, const VariantConfig& config, unsigned seed) {
+Cell run_cell(Study& study, const Shot& shot, FrameSource& source, const std::vector<PreparedFrame>& frames, const VariantConfig& config, unsigned seed) {
     const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
     if (!study.settings.keep_all) variant->leave_out(shot.facts);
     PassGraph graph(study.device, shot.config.extent);
     Compositor compositor(graph);
     Cell cell;
     for (const PreparedFrame& frame : frames) {
-        const GBuffer gbuffer = rasterizer.render(shot.camera, view_of(study.config, shot, frame.frame, seed));
-        if (study.config.direct_lit)
-            rasterizer.light_directly(gbuffer);
-        else
-            rasterizer.upload_lit(gbuffer, frame.truth.diffuse);
-
-        graph.begin_frame(rasterizer.camera(), variant->params, gbuffer.images());
+        const GBuffer gbuffer = source.render(frame.frame, seed, frame.truth.diffuse);
+        graph.begin_frame(source.camera(), variant->params, gbuffer.images());
         const Reflections reflections = variant->render(graph, gbuffer);
         const Composite composite = compositor.render(gbuffer, reflections);
 
@@ -164,27 +152,55 @@ void do_cell(Study& study, const std::string& hash, double work, const std::stri
     study.finished.push_back(std::move(*cell));
 }
 
-void run_shot(Study& study, const ShotConfig& shot_config) {
+/// All variants, points and seeds of a shot, then their times.
+void run_variants(Study& study, const Shot& shot, FrameSource& source, const std::vector<PreparedFrame>& frames) {
     const Config& config = study.config;
-    const Shot shot = load_shot(shot_config, study.settings.search_path);
-    study.progress.say(shot.scene.name + ", camera " + shot.camera.name);
-    Rasterizer rasterizer(study.device, shot.scene, {.extent = shot.config.extent, .depth_format = config.depth_format, .keep_all = study.settings.keep_all});
-
-    std::vector<PreparedFrame> frames;
-    for (const unsigned frame : shot.config.frames) frames.push_back(prepare_frame(study, shot, rasterizer, frame));
-
     for (const VariantConfig& variant : config.variants) {
         const nlohmann::json parameters = make_variant(variant.variant, variant.parameters, variant.preset)->params.values();
         for (const unsigned seed : config.seeds)
             do_cell(study, cell_hash(study, shot, frames, variant.variant + "\n" + variant.point, parameters, seed), cell_work * double(frames.size()),
-                    frames.front().shot_name + ": " + variant.variant + " " + variant.point, [&] { return run_cell(study, shot, rasterizer, frames, variant, seed); });
+                    frames.front().shot_name + ": " + variant.variant + " " + variant.point, [&] { return run_cell(study, shot, source, frames, variant, seed); });
     }
     const nlohmann::json timed = {{"variants", study.manifest["variants"]}, {"frames", config.timing.frames}, {"warm_up", config.timing.warm_up}};
     do_cell(study, cell_hash(study, shot, frames, "times", timed, 0), timing_work, frames.front().shot_name + ": timing", [&] {
-        const ShotTimes times = time_variants(rasterizer, shot, config, frames.front().truth.diffuse, study.settings.keep_all,
+        const ShotTimes times = time_variants(source, shot, config, frames.front().truth.diffuse, study.settings.keep_all,
                                               [&](double share) { study.report(timing_work, share, frames.front().shot_name + ": timing"); });
         return Cell{.rows = {}, .times = times.rows, .images = {{{"aa_floor", times.aa_floor}}}};
     });
+}
+
+void run_scene_shot(Study& study, const ShotConfig& shot_config) {
+    const Shot shot = load_shot(shot_config, study.settings.search_path);
+    study.progress.say(shot.scene.name + ", camera " + shot.camera.name);
+    const std::unique_ptr<FrameSource> source = scene_source(study.device, shot, study.config, study.settings.keep_all);
+    std::vector<PreparedFrame> frames;
+    for (const unsigned frame : shot.config.frames) frames.push_back(prepare_frame(study, shot, *source, frame, obtain_reference(study, shot, frame)));
+    run_variants(study, shot, *source, frames);
+}
+
+/// A capture: measured if it comes with a reference, else only rendered and timed.
+void run_gbuffer_shot(Study& study, const ShotConfig& shot_config) {
+    LoadedGBuffer loaded = load_gbuffer(shot_config.gbuffer);
+    const Shot shot = gbuffer_shot(shot_config, loaded.gbuffer);
+    study.progress.say(shot.scene.name + ", from files");
+    for (const std::string& note : loaded.notes) study.progress.say("note: " + note);
+    study.work_done += reference_work;
+    const HostImage file_lit = loaded.gbuffer.lit;
+    const std::unique_ptr<FrameSource> source = file_source(study.device, std::move(loaded.gbuffer));
+    std::vector<PreparedFrame> frames;
+    if (!shot_config.reference.empty()) {
+        const Reference reference = read_reference(shot_config.reference);
+        if (reference.extent != shot.config.extent)
+            fail(shot_config.reference.string(), " is ", reference.extent.x, "x", reference.extent.y, ", but the G-buffer is ", shot.config.extent.x, "x", shot.config.extent.y);
+        frames.push_back(prepare_frame(study, shot, *source, 0, reference));
+    } else {
+        HostImage lit(shot.config.extent, 3);
+        for (size_t i = 0; i < file_lit.pixel_count(); ++i) lit.set_rgb(i, file_lit.rgb(i));
+        frames.push_back({.frame = 0, .shot_name = shot.name(0), .reference_hash = "none", .truth = frame_without_truth(file_lit.values.empty() ? HostImage{} : std::move(lit))});
+        study.manifest["shots"].push_back(gbuffer_shot_entry(shot));
+    }
+    for (const std::string& note : loaded.notes) study.manifest["shots"].back()["warnings"].push_back(note);
+    run_variants(study, shot, *source, frames);
 }
 
 /// Writes what is finished so far, so that a long study can be read while it runs.
@@ -211,7 +227,10 @@ void run_study(const Config& config, const RunSettings& settings) {
                 .code = code_hash(), .manifest = study_entry(config, device), .finished = {}};
     for (const std::string& warning : study.manifest["warnings"]) study.progress.say("warning: " + warning);
     for (const ShotConfig& shot : config.shots) {
-        run_shot(study, shot);
+        if (shot.gbuffer.empty())
+            run_scene_shot(study, shot);
+        else
+            run_gbuffer_shot(study, shot);
         write_results(study);
     }
     study.progress.say("\nReport: " + std::filesystem::absolute(settings.out / "report.html").lexically_normal().string());

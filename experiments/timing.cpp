@@ -37,41 +37,37 @@ double total_of(const std::vector<PassTime>& times) {
 
 }  // namespace
 
-ShotTimes time_variants(Rasterizer& rasterizer, const Shot& shot, const Config& config, const HostImage& lit, bool keep_all,
+ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& config, const HostImage& lit, bool keep_all,
                         const std::function<void(double)>& report) {
     ShotTimes result;
     if (config.timing.frames == 0) return result;
     const unsigned frame = shot.config.frames.front();
-    const FrameView view{.extent = shot.config.extent, .depth_direction = config.depth_direction, .frame = frame, .seed = config.seeds.front()};
+    const unsigned seed = config.seeds.front();
 
     std::vector<TimedVariant> variants;
-    for (const VariantConfig& v : config.variants) variants.emplace_back(v, rasterizer.graph().device(), shot, keep_all);
+    for (const VariantConfig& v : config.variants) variants.emplace_back(v, source.graph().device(), shot, keep_all);
     // The second measurement is of the last variant: studies list the baseline, which does little, first.
-    TimedVariant again(config.variants.back(), rasterizer.graph().device(), shot, keep_all);
+    TimedVariant again(config.variants.back(), source.graph().device(), shot, keep_all);
 
-    const std::string clock = rasterizer.graph().clock() == Clock::host_fence ? "host_fence" : "gpu_timestamp";
+    const std::string clock = source.graph().clock() == Clock::host_fence ? "host_fence" : "gpu_timestamp";
     const unsigned rounds = config.timing.warm_up + config.timing.frames;
     for (unsigned round = 0; round < rounds; ++round) {
         const bool is_measured = round >= config.timing.warm_up;
         const unsigned number = round - config.timing.warm_up;
         const auto add = [&](const std::string& variant, const std::string& point, const std::string& stage, double ms) {
-            result.rows.push_back({.shot = shot.name(frame), .variant = variant, .point = point, .seed = view.seed, .stage = stage, .frame = number, .milliseconds = ms, .clock = clock});
+            result.rows.push_back({.shot = shot.name(frame), .variant = variant, .point = point, .seed = seed, .stage = stage, .frame = number, .milliseconds = ms, .clock = clock});
         };
-        const GBuffer gbuffer = rasterizer.render(shot.camera, view);
-        if (config.direct_lit)
-            rasterizer.light_directly(gbuffer);
-        else
-            rasterizer.upload_lit(gbuffer, lit);
+        const GBuffer gbuffer = source.render(frame, seed, lit);
         if (is_measured)
-            for (const PassTime& t : rasterizer.graph().times()) add("", "", t.stage, t.milliseconds);
+            for (const PassTime& t : source.graph().times()) add("", "", t.stage, t.milliseconds);
         for (TimedVariant& v : variants) {
-            const std::vector<PassTime> times = v.render(rasterizer.camera(), gbuffer);
+            const std::vector<PassTime> times = v.render(source.camera(), gbuffer);
             if (!is_measured) continue;
             for (const PassTime& t : times) add(v.config->variant, v.config->point, t.stage, t.milliseconds);
             v.totals.push_back(total_of(times));
             add(v.config->variant, v.config->point, "total", v.totals.back());
         }
-        const std::vector<PassTime> times = again.render(rasterizer.camera(), gbuffer);
+        const std::vector<PassTime> times = again.render(source.camera(), gbuffer);
         if (is_measured) again.totals.push_back(total_of(times));
         report(double(round + 1) / rounds);
     }

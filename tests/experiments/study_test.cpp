@@ -102,3 +102,15 @@ TEST_F(Study, TimesEveryStageByTheProvenClock) {
     EXPECT_EQ(clock["proof"].size(), 3u);
     EXPECT_GT(clock["empty_submit_ms"].get<double>(), 0.0);
 }
+
+TEST_F(Study, ACaptureIsMeasuredAsItsScene) {
+    // The G-buffer and the reference of a scene, saved and loaded back in its place, must give the same numbers.
+    const std::string common = "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() + "' '" SSRLAB_PROGRAM "' ";
+    ASSERT_EQ(std::system((common + "gbuffer mirror_pillars --size 96 54 --out capture > log 2>&1").c_str()), 0) << read_text(folder / "log");
+    ASSERT_EQ(std::system((common + "reference mirror_pillars --size 96 54 --samples 64 --out truth.exr > log 2>&1").c_str()), 0) << read_text(folder / "log");
+    write_text(folder / "capture.json", R"({"shots": [{"gbuffer": "capture", "reference": "truth.exr"}, {"gbuffer": "capture"}], "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
+    write_text(folder / "scene.json", R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54]}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
+    const auto capture = read_result_rows(run(read_config(folder / "capture.json"), "a") / "results.csv"), scene = read_result_rows(run(read_config(folder / "scene.json"), "b") / "results.csv");
+    ASSERT_EQ(capture.size(), scene.size());
+    for (size_t i = 0; i < scene.size(); ++i) EXPECT_EQ(capture[i].value, scene[i].value) << scene[i].target << " " << scene[i].metric << " " << scene[i].mask;
+}
