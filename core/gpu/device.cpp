@@ -52,6 +52,20 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate
     }
 }
 
+/// Instances that are never destroyed: with the last one the loader unloads drivers and layers, and loading lavapipe
+/// and its LLVM again takes time and leaks what they allocate once.
+void keep_drivers_loaded(bool validate) {
+    struct Kept {
+        vk::raii::Context context;
+        vk::raii::Instance instance;
+        std::vector<vk::raii::PhysicalDevice> devices;
+        explicit Kept(bool validate)
+            : instance(make_instance(context, validate)), devices(instance.enumeratePhysicalDevices()) {}
+    };
+    static const Kept* volatile kept[2] = {nullptr, nullptr};  // volatile: else the pointers are optimised away
+    if (!kept[validate]) kept[validate] = new Kept(validate);
+}
+
 std::string version_text(uint32_t version) {
     return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
            std::to_string(VK_API_VERSION_PATCH(version));
@@ -142,6 +156,7 @@ bool validation_requested() {
 
 std::vector<DeviceInfo> list_devices() {
     return translated([] {
+        keep_drivers_loaded(false);
         const vk::raii::Context context;
         const vk::raii::Instance instance = make_instance(context, false);
         std::vector<DeviceInfo> devices;
@@ -154,6 +169,7 @@ std::vector<DeviceInfo> list_devices() {
 Device::Device(const std::string& choice, bool validate) : impl_(translated([] { return std::make_unique<Impl>(); })) {
     translated([&] {
         Impl& d = *impl_;
+        keep_drivers_loaded(validate);
         d.instance = make_instance(d.context, validate);
         if (validate) {
             using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;

@@ -47,7 +47,8 @@ TEST(Registry, DescribesEveryVariantInFull) {
             EXPECT_NE(std::ranges::find(facts, need), facts.end()) << entry.name << " needs " << need;
         for (const Preset& preset : entry.presets)
             EXPECT_NO_THROW(make_variant(entry.name, {}, preset.name)) << preset.name;
-        for (const Parameter& p : entry.create()->params)
+        const std::unique_ptr<Variant> variant = entry.create();
+        for (const Parameter& p : variant->params)
             EXPECT_FALSE(p.doc.empty() || p.source.empty()) << entry.name << ": " << p.name;
     }
 }
