@@ -34,7 +34,7 @@ HostImage without_noise(const HostImage& half_a, const HostImage& half_b) {
                     }
                 const double own = (double(half_a.pixel(x, y)[c]) + half_b.pixel(x, y)[c]) / 2;
                 const double distance = (own - neighbours) * (own - neighbours);
-                const double kept = distance > variance ? 1 - variance / distance : 0.0;
+                const double kept = distance > 4 * variance ? 1 - 4 * variance / distance : 0.0;
                 out.pixel(x, y)[c] = float(variance == 0 ? own : neighbours + kept * (own - neighbours));
             }
     });

@@ -11,10 +11,11 @@
 Plane cross_error(const HostImage& test, const HostImage& half_a, const HostImage& half_b, const HostImage& weighing,
                   double (*weight)(double));
 
-/// R with its noise removed where its halves show that it is noise: Lee 1980 ("Digital Image Enhancement and Noise Filtering
-/// by Use of Local Statistics"). A pixel is drawn to the mean of its 8 neighbours as far as its distance from it is explained
-/// by the noise variance, (A - B)^2 / 4 averaged over 3x3 pixels; where A = B it is R itself. Relative errors are weighted
-/// by it, as a weight made of the pixel's own noise would be correlated with the error that it weighs.
+/// R with its noise removed where its halves show that it is noise. Of a pixel's distance d from the mean of its 8
+/// neighbours, d max(0, 1 - 4 v / d^2) is kept, where v is the noise variance, (A - B)^2 / 4 averaged over 3x3 pixels: less
+/// than two standard deviations pass for noise (the non-negative garrote of Breiman 1995, "Better Subset Regression Using the
+/// Nonnegative Garrote"). Where A = B it is R itself. Relative errors are weighted by it, since a weight made of the pixel's
+/// own noise would be correlated with the error that it weighs, and 1 / r^2 of a noisy r is too large on average.
 HostImage without_noise(const HostImage& half_a, const HostImage& half_b);
 
 /// Half the width of the 95 % interval that the reference's noise leaves to the masked mean of a per-pixel quantity. `swapped`

@@ -1,0 +1,144 @@
+#include "core/error.h"
+#include "core/exr.h"
+#include "core/png.h"
+#include "metrics/compare.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <random>
+#include <sstream>
+#include <unistd.h>
+
+namespace {
+
+/// A folder of its own for each test, removed afterwards.
+class Compare : public testing::Test {
+protected:
+    void SetUp() override {
+        folder = std::filesystem::temp_directory_path() /
+                 ("ssrlab_compare_" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::create_directories(folder);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    std::filesystem::path exr(const std::string& name, const HostImage& image) const {
+        write_exr(folder / name, image);
+        return folder / name;
+    }
+    std::filesystem::path folder;
+};
+
+HostImage noise(glm::uvec2 extent, unsigned seed) {
+    std::minstd_rand random(seed);
+    HostImage image(extent, 3);
+    for (float& v : image.values) v = std::generate_canonical<float, 24>(random);
+    return image;
+}
+
+std::string message(const CompareOptions& options) {
+    try {
+        compare(options);
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+double value(const Comparison& comparison, const std::string& name) {
+    for (const CompareResult& r : comparison.results)
+        if (r.metric->name == name) return r.value;
+    return NAN;
+}
+
+}  // namespace
+
+TEST_F(Compare, PrintsOneNumberPerLineThatReadsBack) {
+    const auto a = exr("a.exr", noise({20, 20}, 1)), b = exr("b.exr", noise({20, 20}, 2));
+    const Comparison c = compare({.reference = a, .test = b, .metrics = {"mse", "flip"}});
+    std::ostringstream out, warnings;
+    print(c, out, warnings);
+    std::istringstream in(out.str());
+    std::string first, second;
+    double mse, flip;
+    in >> first >> mse >> second >> flip;
+    EXPECT_EQ(first + second, "mseflip");
+    EXPECT_EQ(mse, value(c, "mse"));
+    EXPECT_EQ(flip, value(c, "flip"));
+    EXPECT_EQ(warnings.str(), "");
+    EXPECT_NEAR(mse, measure(metric_named("mse"), image_pair(noise({20, 20}, 1), noise({20, 20}, 2), {})), 0);
+}
+
+TEST_F(Compare, DefaultsFitTheImages) {
+    const auto small = exr("small.exr", noise({9, 9}, 1)), large = exr("large.exr", noise({180, 180}, 1));
+    const Comparison of_small = compare({.reference = small, .test = small}), of_large = compare({.reference = large, .test = large});
+    EXPECT_TRUE(std::isnan(value(of_small, "ssim")));
+    EXPECT_EQ(value(of_small, "hdr_flip"), 0);
+    EXPECT_NEAR(value(of_large, "ms_ssim"), 1, 1e-12);
+    EXPECT_TRUE(to_json(of_large)["metrics"].size() > 10);
+    EXPECT_EQ(to_json(of_large)["metrics"][8]["value"], "inf");  // PSNR
+}
+
+TEST_F(Compare, PngCodesAreDecodedForLinearMetricsOnly) {
+    write_png(folder / "a.png", HostImage({16, 16}, 3, 0.2f));
+    write_png(folder / "b.png", HostImage({16, 16}, 3, 0.6f));
+    const double a = std::lround(255 * srgb_from_linear(0.2f)) / 255.0, b = std::lround(255 * srgb_from_linear(0.6f)) / 255.0;
+    const Comparison c = compare({.reference = folder / "a.png", .test = folder / "b.png", .metrics = {"bias", "psnr"}});
+    EXPECT_NEAR(value(c, "bias"), linear_from_srgb(float(b)) - linear_from_srgb(float(a)), 1e-6);  // float32 codes
+    EXPECT_NEAR(value(c, "psnr"), -20 * std::log10(b - a), 1e-5);
+}
+
+TEST_F(Compare, NonFinitePixelsAreReportedFirst) {
+    HostImage broken = noise({16, 16}, 2);
+    broken.set_rgb(3, {NAN, 0, 0});
+    broken.set_rgb(4, {-1, 0, 0});
+    CompareOptions options{.reference = exr("a.exr", noise({16, 16}, 1)), .test = exr("b.exr", broken), .metrics = {"mse"}};
+    const Comparison c = compare(options);
+    EXPECT_EQ(c.pixels, 255u);
+    ASSERT_EQ(c.warnings.size(), 1u);
+    EXPECT_NE(c.warnings[0].find("b.exr: 1 pixels with NaN, 0 with Inf, 1 negative"), std::string::npos) << c.warnings[0];
+    EXPECT_TRUE(std::isfinite(value(c, "mse")));
+    options.fail_on_non_finite = true;
+    EXPECT_NE(message(options).find("b.exr: 1 pixels with NaN"), std::string::npos);
+    options.fail_on_non_finite = false;
+    options.test = exr("c.exr", HostImage({16, 16}, 3, NAN));
+    EXPECT_NE(message(options).find("no pixel that is finite in both"), std::string::npos);
+}
+
+TEST_F(Compare, WritesMapsAsLayersOrFalseColour) {
+    CompareOptions options{.reference = exr("a.exr", noise({20, 16}, 1)), .test = exr("b.exr", noise({20, 16}, 2)),
+                           .metrics = {"mse", "flip"}, .map = folder / "map.exr"};
+    const Comparison c = compare(options);
+    const LayeredImage maps = read_exr(folder / "map.exr");
+    ASSERT_NE(maps.find("flip"), nullptr);
+    EXPECT_EQ(maps.find("flip")->image.values[7], float(c.results[1].map.values[7]));
+    EXPECT_EQ(maps.attributes.at("ssrlab.mse"), "mse");
+    options.map = folder / "map.png";
+    EXPECT_NE(message(options).find("name one with --metric"), std::string::npos);
+    options.metrics = {"flip"};
+    compare(options);
+    EXPECT_EQ(read_png_codes(folder / "map.png").extent, glm::uvec2(20, 16));
+}
+
+TEST_F(Compare, AMostlyBlackReferenceLeavesHdrFlipOut) {
+    HostImage dark({16, 16}, 3);
+    dark.set_rgb(0, glm::vec3(1));
+    CompareOptions options{.reference = exr("a.exr", dark), .test = exr("b.exr", noise({16, 16}, 2))};
+    const Comparison c = compare(options);
+    EXPECT_TRUE(std::isnan(value(c, "hdr_flip")));
+    ASSERT_EQ(c.warnings.size(), 1u);
+    EXPECT_NE(c.warnings[0].find("hdr_flip is left out"), std::string::npos);
+    options.metrics = {"hdr_flip"};
+    EXPECT_NE(message(options).find("median luminance"), std::string::npos);
+    options.settings.flip_exposures = FlipExposures{-2, 2, 3};
+    EXPECT_GT(value(compare(options), "hdr_flip"), 0);
+}
+
+TEST_F(Compare, MistakesAreNamed) {
+    const auto a = exr("a.exr", noise({20, 16}, 1)), b = exr("b.exr", noise({20, 15}, 2));
+    EXPECT_NE(message({.reference = a, .test = b}).find("has 20x16 pixels, but"), std::string::npos);
+    EXPECT_NE(message({.reference = a, .test = folder / "none.exr"}).find("no such file"), std::string::npos);
+    EXPECT_NE(message({.reference = a, .test = folder / "a.jpg"}).find("are read from .exr and .png"), std::string::npos);
+    EXPECT_NE(message({.reference = a, .test = a, .metrics = {"ssmi"}}).find("did you mean 'ssim'?"), std::string::npos);
+    EXPECT_NE(message({.reference = a, .test = a, .map = "map.txt"}).find("must end in .exr or .png"), std::string::npos);
+}
