@@ -10,8 +10,10 @@ namespace {
 struct Demo {
     ParameterSet params;
     // clang-format off
-    Param<float> thickness{params, "thickness", 0.05f, {0.0f, 1.0f}, {"m", "depth assumed behind each sample", "a paper"}};
-    Param<unsigned> max_steps{params, "max_steps", 64, {1, 512}, {"", "steps before a ray is given up", "a paper"}, Use::constant};
+    Param<float> thickness{params, "thickness", 0.05f, {0.0f, 1.0f},
+        {"m", "depth assumed behind each sample", "a paper"}};
+    Param<unsigned> max_steps{params, "max_steps", 64, {1, 512},
+        {"", "steps before a ray is given up", "a paper"}, Use::constant};
     Param<int> offset{params, "offset", -1, {-4, 4}, {"pixels", "where to begin", "ssrlab"}};
     Switch refine{params, "refine", false, {"", "bisects", "ssrlab"}};
     Choice filter{params, "filter", "bilinear", {"nearest", "bilinear"}, {"", "how colours are read", "ssrlab"}};

@@ -1,4 +1,4 @@
-// Marches the test's own rays through the depth image; found: position on the screen (pixels), distance (m), 1 if it hit.
+// Marches the test's own rays through the depth image; found: place on the screen (pixels), distance (m), 1 if it hit.
 #include "mcguire_dda/dda.glsl"
 
 layout(local_size_x = 64) in;

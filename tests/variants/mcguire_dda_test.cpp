@@ -119,6 +119,33 @@ TEST_F(MirrorFloor, RefinesLongStrides) {
     EXPECT_LT(mean_error(), 0.5 * coarse);
 }
 
+TEST_F(MirrorFloor, FiltersTheColorAtTheHitIfAsked) {
+    // The lit colour is its own place on the screen, so that filtering returns the hit's place and the tested pixel its
+    // centre.
+    scene = [this](const CameraRay& ray) {
+        SyntheticHit first = mirror_floor(ray);
+        const glm::vec4 clip = camera_data(pose, nullptr, view).clip_from_world * glm::vec4(ray.direction, 1.0f);
+        first.lit = glm::vec3((glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(extent), 0.0f);
+        return first;
+    };
+    const auto worst_error = [&](bool is_bilinear) {
+        variant = make_variant("mcguire_dda", {{"bilinear_color", is_bilinear}});
+        render();
+        float worst = 0;
+        for (unsigned y = 0; y < extent.y; ++y)
+            for (unsigned x = 0; x < extent.x; ++x) {
+                const glm::vec2 place = glm::vec2(hit.pixel(x, y)[0], hit.pixel(x, y)[1]) * glm::vec2(extent);
+                const glm::vec2 centre = floor(place) + 0.5f;
+                const glm::vec2 inside = clamp(place, glm::vec2(0.5f), glm::vec2(extent) - 0.5f);
+                const glm::vec2 seen(radiance.pixel(x, y)[0], radiance.pixel(x, y)[1]);
+                if (hit.pixel(x, y)[3] > 0) worst = std::max(worst, distance(seen, is_bilinear ? inside : centre));
+            }
+        return worst;
+    };
+    EXPECT_LT(worst_error(true), 0.01f);  // filters have 8 fractional bits: 1 / 256 of a pixel to each side
+    EXPECT_LT(worst_error(false), 0.001f);
+}
+
 TEST_F(MirrorFloor, NeverMeetsItself) {
     // A mirror that faces the camera, tilted: nothing else is in view, so no ray may hit.
     scene = [](const CameraRay& ray) {

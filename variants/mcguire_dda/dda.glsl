@@ -1,6 +1,6 @@
-// McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), section 3: a ray is walked along its line on
-// the screen, one pixel (or `stride` pixels) of the line's major axis at a time. View-space position times 1/w, and 1/w,
-// are affine along that line, so the ray's depth at a pixel costs one division.
+// McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), section 3: a ray is walked along its line
+// on the screen, one pixel (or `stride` pixels) of the line's major axis at a time. View-space position times 1/w, and
+// 1/w, are affine along that line, so the ray's depth at a pixel costs one division.
 #ifndef MCGUIRE_DDA_GLSL
 #define MCGUIRE_DDA_GLSL
 #include "common/mirror_ray.glsl"
@@ -73,8 +73,8 @@ struct Line {
 Line make_line(Ray ray) {
     LinePoint a = project_to_line(ray.origin), b = project_to_line(clip_to_near_plane(ray));
     if (clip_to_viewport) b = mix_points(b, a, outside_share(a.p, b.p));
-    // A ray along the view is a point on the screen. Its line is given some direction; with the first step a stride away
-    // it then meets nothing, which is right: all that its pixel shows is its origin.
+    // A ray along the view is a point on the screen. Its line is given some direction; with the first step a stride
+    // away it then meets nothing, which is right: all that its pixel shows is its origin.
     if (dot(b.p - a.p, b.p - a.p) < 1e-4) b.p = a.p + 0.01;
     vec2 extent = abs(b.p - a.p);
     float pixels = max(extent.x, extent.y);

@@ -1,6 +1,6 @@
 #include "variants/mcguire_dda/mcguire_dda.h"
 
-Reflections McGuireDda::render(PassGraph& graph, const GBuffer&) {
+Reflections McGuireDda::render(PassGraph& graph, const GBuffer& gbuffer) {
     const Image hit = graph.image("hit", Format::rgba32f);
     const Image radiance = graph.image("radiance", Format::rgba32f);
     const Image confidence = graph.image("confidence", Format::r8);
@@ -9,7 +9,12 @@ Reflections McGuireDda::render(PassGraph& graph, const GBuffer&) {
         return {radiance, confidence};
     }
     graph.compute("mcguire_dda/trace.comp").write(hit).run();
-    graph.compute("mcguire_dda/shade.comp").read_linear(hit).write(radiance).write(confidence).run();
+    graph.compute("mcguire_dda/shade.comp")
+        .read(hit)
+        .read(gbuffer.lit, {.is_linear = bilinear_color})
+        .write(radiance)
+        .write(confidence)
+        .run();
     return {radiance, confidence};
 }
 

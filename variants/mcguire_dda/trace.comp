@@ -1,4 +1,4 @@
-// hit: uv (un-jittered screen) of the point that the mirror ray of each pixel meets, its distance (m), 1 if it meets any.
+// hit: uv (un-jittered screen) of the point that each pixel's mirror ray meets, its distance (m), 1 if it meets any.
 #include "mcguire_dda/dda.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
