@@ -10,22 +10,25 @@ struct ClockCheck {
     std::vector<double> expected{1, 10, 100};
     std::vector<double> measured_ms;  ///< shortest of several, less that of the same pass without work
     std::vector<double> ratio;        ///< measured_ms over that of the largest work, times 100
+    unsigned attempts = 0;            ///< up to clock_attempts
     bool passed = false;
 };
 
 /// Says whether the clock can be trusted: work of 1 : 10 : 100 must take time in that ratio, within `clock_tolerance`.
 struct ClockProof {
     std::string method;  ///< "host_fence" or "gpu_timestamp"
-    double empty_submit_ms =
-        0;  ///< what submitting nothing and waiting for it takes: the floor of every stage on a CPU
+    double empty_submit_ms = 0;  ///< what submitting no work and waiting takes: the floor of every stage on a CPU
     std::vector<ClockCheck> checks;
     bool passed() const;
 };
 
 /// A ratio may be off by this factor either way. A stamp that misses the work, or encloses the neighbour's, is off by
-/// 10 or more; a machine that is busy with other things, or clocks up during the measurement, by less than 2.
-inline constexpr double clock_tolerance = 2.0;
+/// 10 or more; on a machine three times oversubscribed 2.5 was seen.
+inline constexpr double clock_tolerance = 3.0;
 
-/// Takes about two seconds.
+/// On a busy machine any measurement may be disturbed: a check that fails is repeated. A broken clock fails each time.
+inline constexpr unsigned clock_attempts = 3;
+
+/// Takes about two seconds, on a busy machine several times that.
 ClockProof prove_clock(Device& device);
 ClockProof prove_clock(Device& device, Clock clock);

@@ -5,9 +5,7 @@
 
 TEST(Clock, SeesWorkInItsTrueRatio) {
     Device device;
-    // A machine under load may stall any single measurement; a broken clock fails all three attempts.
-    ClockProof proof;
-    for (int attempt = 0; attempt < 3 && !(attempt && proof.passed()); ++attempt) proof = prove_clock(device);
+    const ClockProof proof = prove_clock(device);
     EXPECT_TRUE(proof.passed());
     EXPECT_GT(proof.empty_submit_ms, 0.0);
     for (const ClockCheck& check : proof.checks)

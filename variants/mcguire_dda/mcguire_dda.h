@@ -26,10 +26,10 @@ private:
         {"", "as published, the first tested pixel counts the ray's depths from its origin on, so that mirrors which "
          "face the camera meet themselves", "McGuire & Mara 2014, listing in section 3"}};
     Param<float> thickness{params, "thickness", 0.1f, {0.0f, 1e6f},
-        {"m", "depth behind the visible surface that counts as solid; fit for rooms; small scenes need less, large ones more",
+        {"m", "depth behind the visible surface that counts as solid; fits rooms, not small or large scenes",
          "McGuire & Mara 2014, section 3, leaves it to the scene; the default is that of Google's Filament"}};
     Param<float> relative_thickness{params, "relative_thickness", 0.0f, {0.0f, 1.0f},
-        {"of the depth", "added to thickness; grows with the distance from the camera, so that it fits scenes of any size",
+        {"of the depth", "added to thickness; grows with the distance from the camera and so fits scenes of any size",
          "ssrlab"}};
     Param<unsigned> max_steps{params, "max_steps", 4096, {1, 16384},
         {"", "tested pixels before a ray is given up: it reaches max_steps * stride pixels",
