@@ -16,7 +16,7 @@ struct ClockCheck {
 
 /// Says whether the clock can be trusted: work of 1 : 10 : 100 must take time in that ratio, within `clock_tolerance`.
 struct ClockProof {
-    std::string method;  ///< "host_fence" or "gpu_timestamp"
+    std::string method;          ///< "host_fence" or "gpu_timestamp"
     double empty_submit_ms = 0;  ///< what submitting no work and waiting takes: the floor of every stage on a CPU
     std::vector<ClockCheck> checks;
     bool passed() const;
