@@ -2,8 +2,8 @@
 #include "core/host_image.h"
 #include "metrics/plane.h"
 
-/// The magma colour map by Stefan van der Walt and Nathaniel Smith (matplotlib, CC0) as linear colour: 0 is black, 1 is pale
-/// yellow, values outside are clamped. FLIP maps are shown by it.
+/// The magma colour map by Stefan van der Walt and Nathaniel Smith (matplotlib, CC0) as linear colour: 0 is black, 1 is
+/// pale yellow, values outside are clamped. FLIP maps are shown by it.
 glm::vec3 magma(double value);
 
 /// `map` / `max_value` through magma, for write_png(); NaN stays NaN, which it writes as a signal colour.

@@ -37,7 +37,8 @@ Source read_source(const std::filesystem::path& file, const MetricSettings& sett
 
 /// What each comparison should show; MS-SSIM and HDR-FLIP only where the image allows them.
 std::vector<std::string> default_metrics(glm::uvec2 extent, bool has_flip_exposures) {
-    std::vector<std::string> names = {"mse", "relmse", "relmse_trimmed", "outliers", "mae", "smape", "bias", "energy_ratio", "psnr"};
+    std::vector<std::string> names = {"mse",   "relmse", "relmse_trimmed", "outliers", "mae",
+                                      "smape", "bias",   "energy_ratio",   "psnr"};
     if (std::min(extent.x, extent.y) >= 11) names.push_back("ssim");
     if (std::min(extent.x, extent.y) >= 176) names.push_back("ms_ssim");
     names.push_back("flip");
@@ -62,10 +63,12 @@ void choose_flip_exposures(Comparison& comparison, const HostImage& reference) {
 void report_bad_pixels(Comparison& comparison) {
     const auto report = [&](const PixelCounts& counts, const std::filesystem::path& file) {
         if (counts.non_finite() + counts.negative == 0) return;
-        std::string text = file.string() + ": " + std::to_string(counts.nan) + " pixels with NaN, " + std::to_string(counts.infinite) +
-                           " with Inf, " + std::to_string(counts.negative) + " negative";
+        std::string text = file.string() + ": " + std::to_string(counts.nan) + " pixels with NaN, " +
+                           std::to_string(counts.infinite) + " with Inf, " + std::to_string(counts.negative) +
+                           " negative";
         if (counts.non_finite() > 0) text += "; NaN and Inf are left out of every metric";
-        if (counts.non_finite() > 0 && comparison.options.fail_on_non_finite) fail(text.substr(0, text.find(';')), ", but none may be");
+        if (counts.non_finite() > 0 && comparison.options.fail_on_non_finite)
+            fail(text.substr(0, text.find(';')), ", but none may be");
         comparison.warnings.push_back(text);
     };
     report(comparison.reference_counts, comparison.options.reference);
@@ -75,16 +78,19 @@ void report_bad_pixels(Comparison& comparison) {
 void write_map(const CompareOptions& options, const std::vector<CompareResult>& results) {
     if (extension(options.map) == ".png") {
         if (results.size() != 1)
-            fail("cannot draw the maps of ", results.size(), " metrics into ", options.map.string(), ": name one with --metric, or write .exr");
+            fail("cannot draw the maps of ", results.size(), " metrics into ", options.map.string(),
+                 ": name one with --metric, or write .exr");
         const bool is_signed = results[0].metric->better == Better::near_zero;
-        write_png(options.map, is_signed ? false_color_signed(results[0].map, options.map_max) : false_color(results[0].map, options.map_max));
+        write_png(options.map, is_signed ? false_color_signed(results[0].map, options.map_max)
+                                         : false_color(results[0].map, options.map_max));
         return;
     }
     LayeredImage image;
     for (const CompareResult& result : results) {
         HostImage map(result.map.extent, 1);
         std::ranges::transform(result.map.values, map.values.begin(), [](double v) { return float(v); });
-        image.layers.push_back({.name = results.size() == 1 ? "" : result.metric->name, .channel_names = "Y", .image = map});
+        image.layers.push_back(
+            {.name = results.size() == 1 ? "" : result.metric->name, .channel_names = "Y", .image = map});
         image.attributes["ssrlab." + result.metric->name] = result.metric->formula;
     }
     write_exr(options.map, image);
@@ -115,10 +121,12 @@ void check(const CompareOptions& options) {
 Comparison compare(const CompareOptions& options) {
     check(options);
     Comparison comparison{.options = options};
-    const Source reference = read_source(options.reference, options.settings), test = read_source(options.test, options.settings);
+    const Source reference = read_source(options.reference, options.settings),
+                 test = read_source(options.test, options.settings);
     if (reference.linear.extent != test.linear.extent)
-        fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y, " pixels, but ",
-             options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y, ": both must be of one size");
+        fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y,
+             " pixels, but ", options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y,
+             ": both must be of one size");
     comparison.extent = reference.linear.extent;
     comparison.reference_counts = count_bad_pixels(reference.linear);
     comparison.test_counts = count_bad_pixels(test.linear);
@@ -126,10 +134,12 @@ Comparison compare(const CompareOptions& options) {
 
     choose_flip_exposures(comparison, reference.linear);
     CompareOptions& used = comparison.options;
-    if (used.metrics.empty()) used.metrics = default_metrics(comparison.extent, used.settings.flip_exposures.has_value());
+    if (used.metrics.empty())
+        used.metrics = default_metrics(comparison.extent, used.settings.flip_exposures.has_value());
     const ImagePair pair = image_pair(reference.linear, test.linear, reference.codes, test.codes, used.settings);
     comparison.pixels = pair.finite.count();
-    if (comparison.pixels == 0) fail(options.reference.string(), " and ", options.test.string(), " have no pixel that is finite in both");
+    if (comparison.pixels == 0)
+        fail(options.reference.string(), " and ", options.test.string(), " have no pixel that is finite in both");
 
     for (const std::string& name : used.metrics) {
         const Metric& metric = metric_named(name);
@@ -143,7 +153,8 @@ Comparison compare(const CompareOptions& options) {
 
 void print(const Comparison& comparison, std::ostream& out, std::ostream& warnings) {
     for (const std::string& warning : comparison.warnings) warnings << "warning: " << warning << '\n';
-    for (const CompareResult& result : comparison.results) out << result.metric->name << ' ' << shortest(result.value) << '\n';
+    for (const CompareResult& result : comparison.results)
+        out << result.metric->name << ' ' << shortest(result.value) << '\n';
 }
 
 nlohmann::json to_json(const Comparison& comparison) {
@@ -157,9 +168,18 @@ nlohmann::json to_json(const Comparison& comparison) {
     }
     nlohmann::json results = nlohmann::json::array();
     for (const CompareResult& r : comparison.results)
-        results.push_back({{"metric", r.metric->name}, {"formula", r.metric->formula}, {"unit", r.metric->unit}, {"value", number(r.value)}});
-    return {{"reference", options.reference.string()}, {"test", options.test.string()},
-            {"width", comparison.extent.x}, {"height", comparison.extent.y}, {"pixels", comparison.pixels},
-            {"reference_bad_pixels", to_json(comparison.reference_counts)}, {"test_bad_pixels", to_json(comparison.test_counts)},
-            {"settings", settings}, {"warnings", comparison.warnings}, {"metrics", results}};
+        results.push_back({{"metric", r.metric->name},
+                           {"formula", r.metric->formula},
+                           {"unit", r.metric->unit},
+                           {"value", number(r.value)}});
+    return {{"reference", options.reference.string()},
+            {"test", options.test.string()},
+            {"width", comparison.extent.x},
+            {"height", comparison.extent.y},
+            {"pixels", comparison.pixels},
+            {"reference_bad_pixels", to_json(comparison.reference_counts)},
+            {"test_bad_pixels", to_json(comparison.test_counts)},
+            {"settings", settings},
+            {"warnings", comparison.warnings},
+            {"metrics", results}};
 }

@@ -4,9 +4,9 @@
 #include "metrics/flip_color.h"
 #include "metrics/flip_filters.h"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace {
 
@@ -89,17 +89,19 @@ void take_length(FloatPlane& x, const FloatPlane& y) {
 Features features(const Opponent& image, const FlipKernels& k) {
     const FloatPlane luminance = cropped(image.y, k.color_radius - k.feature_radius);
     const FloatPlane blurred_rows = filter_rows(luminance, k.feature_blur);
-    Features out{filtered(luminance, k.feature_edge, k.feature_blur), filtered(luminance, k.feature_point, k.feature_blur)};
+    Features out{filtered(luminance, k.feature_edge, k.feature_blur),
+                 filtered(luminance, k.feature_point, k.feature_blur)};
     take_length(out.edge, filter_columns(blurred_rows, k.feature_edge));
     take_length(out.point, filter_columns(blurred_rows, k.feature_point));
     return out;
 }
 
-/// Maps a colour difference, raised to 0.7, to [0, 1]: nearly all of the range to those below 0.4 of the greatest one, which is
-/// that of green and blue (section 4.1.4).
+/// Maps a colour difference, raised to 0.7, to [0, 1]: nearly all of the range to those below 0.4 of the greatest one,
+/// which is that of green and blue (section 4.1.4).
 float redistributed(float difference) {
     constexpr float exponent = 0.7f, knee = 0.4f, value_at_knee = 0.95f;
-    static const float greatest = std::pow(hyab(hunt_lab_from_linear({0, 1, 0}), hunt_lab_from_linear({0, 0, 1})), exponent);
+    static const float greatest =
+        std::pow(hyab(hunt_lab_from_linear({0, 1, 0}), hunt_lab_from_linear({0, 0, 1})), exponent);
     const float limit = knee * greatest;
     const float power = std::pow(difference, exponent);
     if (power < limit) return power * value_at_knee / limit;
@@ -107,8 +109,8 @@ float redistributed(float difference) {
 }
 
 /// Raises `out` to LDR-FLIP of the tile where that is greater.
-void raise_to_flip(const HostImage& reference, const HostImage& test, const View& view, const Tile& tile, const FlipKernels& kernels,
-                   Plane& out) {
+void raise_to_flip(const HostImage& reference, const HostImage& test, const View& view, const Tile& tile,
+                   const FlipKernels& kernels, Plane& out) {
     const Opponent r = load_opponent(reference, view, tile, kernels.color_radius);
     const Opponent x = load_opponent(test, view, tile, kernels.color_radius);
     const PerceivedColor color_r = perceived(r, kernels), color_x = perceived(x, kernels);
@@ -116,8 +118,9 @@ void raise_to_flip(const HostImage& reference, const HostImage& test, const View
     for (unsigned j = 0; j < tile.height; ++j)
         for (unsigned i = 0; i < tile.width; ++i) {
             const size_t at = size_t(j) * tile.width + i;
-            const float color = redistributed(hyab({color_r.lightness.values[at], color_r.a.values[at], color_r.b.values[at]},
-                                                   {color_x.lightness.values[at], color_x.a.values[at], color_x.b.values[at]}));
+            const float color =
+                redistributed(hyab({color_r.lightness.values[at], color_r.a.values[at], color_r.b.values[at]},
+                                   {color_x.lightness.values[at], color_x.a.values[at], color_x.b.values[at]}));
             const float edge = std::abs(feature_r.edge.values[at] - feature_x.edge.values[at]);
             const float point = std::abs(feature_r.point.values[at] - feature_x.point.values[at]);
             // Section 4.2: the exponent 0.5 lifts small differences; 1 / sqrt(2) brings the longest gradient to 1.
@@ -127,7 +130,8 @@ void raise_to_flip(const HostImage& reference, const HostImage& test, const View
         }
 }
 
-Plane greatest_flip(const HostImage& reference, const HostImage& test, const std::vector<View>& views, float pixels_per_degree) {
+Plane greatest_flip(const HostImage& reference, const HostImage& test, const std::vector<View>& views,
+                    float pixels_per_degree) {
     if (reference.extent != test.extent || reference.channels != 3 || test.channels != 3)
         fail("FLIP needs two images of one size and of three channels");
     if (!(pixels_per_degree >= 1 && pixels_per_degree <= 1000))

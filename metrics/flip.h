@@ -15,10 +15,11 @@ struct FlipExposures {
     unsigned count = 1;  ///< at least 1
 };
 
-/// The range that HDR-FLIP prescribes: from the exposure at which the tone map brings the brightest pixel to 85 %, to the one
-/// at which it does so with the median pixel; about one exposure per stop, at least two. Take it once per scene, from the full
-/// reference image. Fails where the median luminance is not positive, as in a buffer of reflections only: the formula would
-/// ask for infinite exposures there, and comparing at those means to compare black noise. It ignores non-finite pixels.
+/// The range that HDR-FLIP prescribes: from the exposure at which the tone map brings the brightest pixel to 85 %, to
+/// the one at which it does so with the median pixel; about one exposure per stop, at least two. Take it once per
+/// scene, from the full reference image. Fails where the median luminance is not positive, as in a buffer of
+/// reflections only: the formula would ask for infinite exposures there, and comparing at those means to compare black
+/// noise. It ignores non-finite pixels.
 FlipExposures flip_exposure_range(const HostImage& full_reference, ToneMap map);
 
 /// LDR-FLIP per pixel, in [0, 1], of linear colours which are clamped to [0, 1]. `pixels_per_degree` in [1, 1000].

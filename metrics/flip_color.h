@@ -20,8 +20,8 @@ inline glm::vec3 linear_from_relative_xyz(glm::vec3 t) {
             0.055639423f * c.x - 0.204011202f * c.y + 1.057148933f * c.z};
 }
 
-/// YCxCz, the space that the eye's contrast sensitivity is known in, without its factors and offset: (Y + 16) / 116, Cx / 500,
-/// Cz / 200. Filters are linear, so they do not mind, and small differences survive float32.
+/// YCxCz, the space that the eye's contrast sensitivity is known in, without its factors and offset: (Y + 16) / 116, Cx
+/// / 500, Cz / 200. Filters are linear, so they do not mind, and small differences survive float32.
 inline glm::vec3 opponent_from_linear(glm::vec3 c) {
     const glm::vec3 t = relative_xyz_from_linear(c);
     return {t.y, t.x - t.y, t.y - t.z};
@@ -29,8 +29,8 @@ inline glm::vec3 opponent_from_linear(glm::vec3 c) {
 
 inline glm::vec3 linear_from_opponent(glm::vec3 o) { return linear_from_relative_xyz({o.x + o.y, o.x, o.x - o.z}); }
 
-/// Cube root for t in [1e-3, 2], to 1e-7: Halley's iteration after a guess from the exponent. Unlike the library's, it can be
-/// vectorised.
+/// Cube root for t in [1e-3, 2], to 1e-7: Halley's iteration after a guess from the exponent. Unlike the library's, it
+/// can be vectorised.
 inline float cube_root(float t) {
     const float guess = float(std::bit_cast<int32_t>(t)) * (1.0f / 3) + 709921077.0f;
     float r = std::bit_cast<float>(int32_t(guess));

@@ -12,7 +12,8 @@ void accumulate(float* __restrict out, const float* left, const float* right, fl
     for (unsigned x = 0; x < count; ++x) out[x] += weight * (is_odd ? right[x] - left[x] : right[x] + left[x]);
 }
 
-void accumulate_pair(const Kernel& kernel, unsigned k, float* out, const float* left, const float* right, unsigned count) {
+void accumulate_pair(const Kernel& kernel, unsigned k, float* out, const float* left, const float* right,
+                     unsigned count) {
     if (kernel.is_odd)
         accumulate<true>(out, left, right, kernel.right[k], count);
     else
@@ -97,12 +98,13 @@ FloatPlane filter_columns(const FloatPlane& in, const Kernel& kernel) {
 
 FlipKernels flip_kernels(float pixels_per_degree) {
     constexpr double achromatic_b = 0.0047, red_green_b = 0.0053, widest_b = 0.04;  // table 1 of the paper
-    constexpr double feature_width = 0.082;                                        // degrees; section 4.2
+    constexpr double feature_width = 0.082;                                         // degrees; section 4.2
     const double ppd = pixels_per_degree;
     const double sigma = 0.5 * feature_width * ppd;
 
     FlipKernels kernels;
-    kernels.color_radius = unsigned(std::ceil(3 * std::sqrt(widest_b / (2 * std::numbers::pi * std::numbers::pi)) * ppd));
+    kernels.color_radius =
+        unsigned(std::ceil(3 * std::sqrt(widest_b / (2 * std::numbers::pi * std::numbers::pi)) * ppd));
     kernels.feature_radius = unsigned(std::ceil(3 * sigma));
     kernels.achromatic = normalised(kernels.color_radius, sensitivity(achromatic_b, ppd));
     kernels.red_green = normalised(kernels.color_radius, sensitivity(red_green_b, ppd));
@@ -111,6 +113,7 @@ FlipKernels flip_kernels(float pixels_per_degree) {
     const auto gauss = [=](double u) { return std::exp(-u * u / (2 * sigma * sigma)); };
     kernels.feature_blur = normalised(kernels.feature_radius, gauss);
     kernels.feature_edge = balanced(kernels.feature_radius, true, [=](double u) { return -u * gauss(u); });
-    kernels.feature_point = balanced(kernels.feature_radius, false, [=](double u) { return (u * u / (sigma * sigma) - 1) * gauss(u); });
+    kernels.feature_point =
+        balanced(kernels.feature_radius, false, [=](double u) { return (u * u / (sigma * sigma) - 1) * gauss(u); });
     return kernels;
 }

@@ -11,11 +11,12 @@ bool is_finite(glm::vec3 c) { return std::isfinite(c.x) && std::isfinite(c.y) &&
 
 void check(const HostImage& reference, const HostImage& test) {
     if (reference.extent != test.extent)
-        fail("the reference has ", reference.extent.x, "x", reference.extent.y, " pixels, but the test image has ", test.extent.x, "x",
-             test.extent.y, ": both must be of one size");
+        fail("the reference has ", reference.extent.x, "x", reference.extent.y, " pixels, but the test image has ",
+             test.extent.x, "x", test.extent.y, ": both must be of one size");
     if (reference.pixel_count() == 0) fail("cannot measure images of zero size");
     for (const HostImage* image : {&reference, &test})
-        if (image->channels != 3) fail("cannot measure an image of ", image->channels, " channels: metrics need the three of a colour");
+        if (image->channels != 3)
+            fail("cannot measure an image of ", image->channels, " channels: metrics need the three of a colour");
 }
 
 /// Without codes: all but reference_codes and test_codes.
@@ -57,8 +58,8 @@ ImagePair image_pair(const HostImage& reference, const HostImage& test, const Me
     return pair;
 }
 
-ImagePair image_pair(const HostImage& reference, const HostImage& test, const HostImage& reference_codes, const HostImage& test_codes,
-                     const MetricSettings& settings) {
+ImagePair image_pair(const HostImage& reference, const HostImage& test, const HostImage& reference_codes,
+                     const HostImage& test_codes, const MetricSettings& settings) {
     ImagePair pair = linear_pair(reference, test, settings);
     check(reference, reference_codes);
     check(test, test_codes);
@@ -78,7 +79,8 @@ Mask full_mask(glm::uvec2 extent) {
 
 Mask intersection(const Mask& a, const Mask& b) {
     if (a.extent != b.extent)
-        fail("the mask '", a.name, "' has ", a.extent.x, "x", a.extent.y, " pixels, but '", b.name, "' has ", b.extent.x, "x", b.extent.y);
+        fail("the mask '", a.name, "' has ", a.extent.x, "x", a.extent.y, " pixels, but '", b.name, "' has ",
+             b.extent.x, "x", b.extent.y);
     Mask both = a;
     for (size_t i = 0; i < both.inside.size(); ++i) both.inside[i] = a.inside[i] && b.inside[i];
     return both;

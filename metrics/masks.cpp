@@ -60,8 +60,8 @@ bool is_inside(const std::string& name, const MaskInputs& in, glm::uvec2 p) {
 void check(const MaskInputs& in) {
     const auto require = [&](const HostImage& image, unsigned channels, const char* what) {
         if (image.extent != in.view_depth.extent)
-            fail("masks need images of one size, but ", what, " has ", image.extent.x, "x", image.extent.y, " pixels and the depth ",
-                 in.view_depth.extent.x, "x", in.view_depth.extent.y);
+            fail("masks need images of one size, but ", what, " has ", image.extent.x, "x", image.extent.y,
+                 " pixels and the depth ", in.view_depth.extent.x, "x", in.view_depth.extent.y);
         if (image.channels < channels) fail("masks need ", channels, " channels of ", what, ", found ", image.channels);
     };
     require(in.view_depth, 1, "the depth");
@@ -80,7 +80,8 @@ const std::vector<std::string>& mask_names() {
 }
 
 Mask make_mask(const std::string& name, const MaskInputs& inputs) {
-    if (std::ranges::find(mask_names(), name) == mask_names().end()) fail("no mask named '", name, "'", suggestion(name, mask_names()));
+    if (std::ranges::find(mask_names(), name) == mask_names().end())
+        fail("no mask named '", name, "'", suggestion(name, mask_names()));
     check(inputs);
     const glm::uvec2 extent = inputs.view_depth.extent;
     Mask mask{.name = name, .extent = extent, .inside = {}};

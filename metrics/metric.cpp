@@ -25,7 +25,8 @@ std::vector<Plane> flip_layers(const ImagePair& pair) {
 }
 
 std::vector<Plane> hdr_flip_layers(const ImagePair& pair) {
-    if (!pair.settings.flip_exposures) fail("hdr_flip needs a range of exposures, taken once from the scene's full reference image");
+    if (!pair.settings.flip_exposures)
+        fail("hdr_flip needs a range of exposures, taken once from the scene's full reference image");
     return {hdr_flip_map(pair.reference, pair.test, *pair.settings.flip_exposures, pair.settings.hdr_flip_tone_map,
                          pair.settings.pixels_per_degree)};
 }
@@ -35,8 +36,12 @@ double mean(std::span<const Plane> layers, const Mask& mask) { return masked_mea
 std::vector<Metric> make_table() {
     std::vector<Metric> table = pixel_metrics();
     for (Metric& metric : ssim_metrics()) table.push_back(std::move(metric));
-    table.push_back({"flip", "flip_ldr", "1", Better::lower, Domain::display, "mean LDR-FLIP of the codes (Andersson et al. 2020)", flip_layers, mean});
-    table.push_back({"hdr_flip", "flip_hdr", "1", Better::lower, Domain::linear, "mean of the greatest LDR-FLIP over a range of exposures that is fixed per scene (Andersson et al. 2021)", hdr_flip_layers, mean});
+    table.push_back({"flip", "flip_ldr", "1", Better::lower, Domain::display,
+                     "mean LDR-FLIP of the codes (Andersson et al. 2020)", flip_layers, mean});
+    table.push_back(
+        {"hdr_flip", "flip_hdr", "1", Better::lower, Domain::linear,
+         "mean of the greatest LDR-FLIP over a range of exposures that is fixed per scene (Andersson et al. 2021)",
+         hdr_flip_layers, mean});
     return table;
 }
 

@@ -10,21 +10,24 @@
 
 /// What `metric` values depend on besides the two images. Keep it with the numbers.
 struct MetricSettings {
-    float exposure_ev = 0.0f;            ///< display metrics look at radiance x 2^exposure_ev, ...
-    ToneMap tone_map = ToneMap::none;    ///< ... tone-mapped, clamped to [0, 1] and sRGB-coded
+    float exposure_ev = 0.0f;                             ///< display metrics look at radiance x 2^exposure_ev, ...
+    ToneMap tone_map = ToneMap::none;                     ///< ... tone-mapped, clamped to [0, 1] and sRGB-coded
     float pixels_per_degree = default_pixels_per_degree;  ///< of FLIP's observer
     ToneMap hdr_flip_tone_map = ToneMap::aces;
-    std::optional<FlipExposures> flip_exposures;  ///< hdr_flip only: flip_exposure_range() of the scene's full reference image
+    std::optional<FlipExposures>
+        flip_exposures;  ///< hdr_flip only: flip_exposure_range() of the scene's full reference image
 };
 
 struct PixelCounts {
-    size_t nan = 0, infinite = 0, negative = 0;  ///< pixels with at least one such channel, each pixel counted once in this order
+    size_t nan = 0, infinite = 0,
+           negative = 0;  ///< pixels with at least one such channel, each pixel counted once in this order
     size_t non_finite() const { return nan + infinite; }
 };
 PixelCounts count_bad_pixels(const HostImage& rgb);
 
 /// Two images made ready for measuring. A pixel with NaN or Inf in either image is black in both here and outside of
-/// `finite`, so that it enters no mean and no window of its neighbours sees it; `reference_counts` and `test_counts` tell.
+/// `finite`, so that it enters no mean and no window of its neighbours sees it; `reference_counts` and `test_counts`
+/// tell.
 struct ImagePair {
     HostImage reference, test;              ///< linear
     HostImage reference_codes, test_codes;  ///< sRGB codes in [0, 1]
@@ -37,22 +40,22 @@ struct ImagePair {
 ImagePair image_pair(const HostImage& reference, const HostImage& test, const MetricSettings& settings);
 
 /// As above, where the codes are at hand already (PNG), used as they are.
-ImagePair image_pair(const HostImage& reference, const HostImage& test, const HostImage& reference_codes, const HostImage& test_codes,
-                     const MetricSettings& settings);
+ImagePair image_pair(const HostImage& reference, const HostImage& test, const HostImage& reference_codes,
+                     const HostImage& test_codes, const MetricSettings& settings);
 
 enum class Better { lower, higher, near_zero, near_one };
 enum class Domain { linear, display };  ///< linear HDR radiance, or sRGB codes
 
-/// One way to tell how far a test image is from its reference. `layers` computes all that is per pixel, once; `pool` makes
-/// one number of it for each mask: NaN if no pixel is inside. Windowed metrics (ssim, flip) are pooled by averaging their
-/// map inside the mask: windows reach beyond the mask's border.
+/// One way to tell how far a test image is from its reference. `layers` computes all that is per pixel, once; `pool`
+/// makes one number of it for each mask: NaN if no pixel is inside. Windowed metrics (ssim, flip) are pooled by
+/// averaging their map inside the mask: windows reach beyond the mask's border.
 struct Metric {
     std::string name;
     std::string formula;  ///< id of the exact formula: tools disagree on what a name means
     std::string unit;     ///< "1" if none
     Better better;
     Domain domain;
-    std::string doc;      ///< formula and source
+    std::string doc;                                 ///< formula and source
     std::vector<Plane> (*layers)(const ImagePair&);  ///< the first one is the error map
     double (*pool)(std::span<const Plane> layers, const Mask& mask);
 

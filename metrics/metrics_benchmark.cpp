@@ -34,6 +34,8 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     for (const std::string& name : metric_names())
-        benchmark::RegisterBenchmark((name + "/1920x1080").c_str(), measure_metric, name)->Unit(benchmark::kMillisecond)->UseRealTime();
+        benchmark::RegisterBenchmark((name + "/1920x1080").c_str(), measure_metric, name)
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
     benchmark::RunSpecifiedBenchmarks();
 }

@@ -20,7 +20,9 @@ Plane cross_error(const HostImage& test, const HostImage& half_a, const HostImag
 
 HostImage without_noise(const HostImage& half_a, const HostImage& half_b) {
     HostImage out(half_a.extent, 3);
-    const auto clamped = [](unsigned i, int step, unsigned size) { return unsigned(std::clamp(int(i) + step, 0, int(size) - 1)); };
+    const auto clamped = [](unsigned i, int step, unsigned size) {
+        return unsigned(std::clamp(int(i) + step, 0, int(size) - 1));
+    };
     tbb::parallel_for(0u, out.extent.y, [&](unsigned y) {
         for (unsigned x = 0; x < out.extent.x; ++x)
             for (int c = 0; c < 3; ++c) {
@@ -47,7 +49,8 @@ double noise_half_width(const Plane& swapped, const Mask& mask) {
     std::vector<double> tile_sums(size_t(columns) * rows);
     for (unsigned y = 0; y < swapped.extent.y; ++y)
         for (unsigned x = 0; x < swapped.extent.x; ++x)
-            if (mask.inside[size_t(y) * swapped.extent.x + x]) tile_sums[size_t(y / tile) * columns + x / tile] += swapped.row(y)[x];
+            if (mask.inside[size_t(y) * swapped.extent.x + x])
+                tile_sums[size_t(y / tile) * columns + x / tile] += swapped.row(y)[x];
     std::erase(tile_sums, 0.0);
 
     std::mt19937_64 random(seed);

@@ -55,7 +55,8 @@ std::vector<Plane> absolutes(const ImagePair& pair) {
 }
 
 std::vector<Plane> relative_absolutes(const ImagePair& pair) {
-    return mean_of_channels(pair.reference, pair.test, [](double r, double x) { return std::abs(x - r) / (std::abs(r) + 0.01); });
+    return mean_of_channels(pair.reference, pair.test,
+                            [](double r, double x) { return std::abs(x - r) / (std::abs(r) + 0.01); });
 }
 
 std::vector<Plane> symmetric_ratios(const ImagePair& pair) {
@@ -91,7 +92,9 @@ std::vector<Plane> outlier_flags(const ImagePair& pair) {
 
 double mean(std::span<const Plane> layers, const Mask& mask) { return masked_mean(layers[0], mask); }
 double root_of_mean(std::span<const Plane> layers, const Mask& mask) { return std::sqrt(masked_mean(layers[0], mask)); }
-double decibels(std::span<const Plane> layers, const Mask& mask) { return -10 * std::log10(masked_mean(layers[0], mask)); }
+double decibels(std::span<const Plane> layers, const Mask& mask) {
+    return -10 * std::log10(masked_mean(layers[0], mask));
+}
 
 double sum(std::span<const Plane> layers, const Mask& mask) {
     const double count = double(pooled_count(layers[0], mask));
@@ -117,24 +120,38 @@ double trimmed_mean(std::span<const Plane> layers, const Mask& mask) {
 std::vector<Metric> pixel_metrics() {
     using enum Better;
     using enum Domain;
-    // d = x - r: test minus reference, each channel by itself. Why so many relative errors: tools that print the same name
-    // differ in the denominator, and the values by factors.
+    // d = x - r: test minus reference, each channel by itself. Why so many relative errors: tools that print the same
+    // name differ in the denominator, and the values by factors.
     return {
         {"mse", "mse", "radiance^2", lower, linear, "mean d^2", weighted_squares<one>, mean, one},
-        {"rmse", "rmse", "radiance", lower, linear, "sqrt(mean d^2), the root taken once, at the end", weighted_squares<one>, root_of_mean, one},
+        {"rmse", "rmse", "radiance", lower, linear, "sqrt(mean d^2), the root taken once, at the end",
+         weighted_squares<one>, root_of_mean, one},
         {"mae", "mae", "radiance", lower, linear, "mean |d|", absolutes, mean},
-        {"mape", "mape_0.01", "1", lower, linear, "mean |d| / (|r| + 0.01), as OIDN's training", relative_absolutes, mean},
-        {"relmse", "relmse_a", "1", lower, linear, "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO)", weighted_squares<weight_a>, mean, weight_a},
-        {"relmse_b", "relmse_b", "1", lower, linear, "mean d^2 / (r + 0.01)^2 (pbrt-v4 imgtool MRSE)", weighted_squares<weight_b>, mean, weight_b},
-        {"relmse_c", "relmse_c", "1", lower, linear, "mean d^2 / (r^2 + 0.001) (Tungsten and Falcor, who call it rmse)", weighted_squares<weight_c>, mean, weight_c},
-        {"relmse_d", "relmse_d", "1", lower, linear, "mean d^2 / (r^2 + 0.0001) (figure-gen)", weighted_squares<weight_d>, mean, weight_d},
-        {"relmse_luminance", "relmse_a_luminance", "1", lower, linear, "mean d^2 / (L(r)^2 + 0.01), L the Rec. 709 luminance of the pixel", squares_over_luminance, mean},
-        {"relmse_trimmed", "relmse_a_trimmed_0.1%", "1", lower, linear, "relmse of each pixel, without the 0.1 % largest: hides fireflies, so read it beside relmse and outliers", weighted_squares<weight_a>, trimmed_mean},
-        {"outliers", "relative_error_above_10", "pixels", lower, linear, "pixels with |d| / (|r| + 0.01) > 10 in any channel", outlier_flags, sum},
-        {"smape", "smape_0_1", "1", lower, linear, "mean |d| / (|x| + |r|), 0 where both are 0 (figure-gen)", symmetric_ratios, mean},
-        {"smape_damped", "smape_0.01", "1", lower, linear, "mean |d| / (|x| + |r| + 0.01) (OIDN's training)", damped_symmetric_ratios, mean},
+        {"mape", "mape_0.01", "1", lower, linear, "mean |d| / (|r| + 0.01), as OIDN's training", relative_absolutes,
+         mean},
+        {"relmse", "relmse_a", "1", lower, linear,
+         "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO)", weighted_squares<weight_a>, mean,
+         weight_a},
+        {"relmse_b", "relmse_b", "1", lower, linear, "mean d^2 / (r + 0.01)^2 (pbrt-v4 imgtool MRSE)",
+         weighted_squares<weight_b>, mean, weight_b},
+        {"relmse_c", "relmse_c", "1", lower, linear, "mean d^2 / (r^2 + 0.001) (Tungsten and Falcor, who call it rmse)",
+         weighted_squares<weight_c>, mean, weight_c},
+        {"relmse_d", "relmse_d", "1", lower, linear, "mean d^2 / (r^2 + 0.0001) (figure-gen)",
+         weighted_squares<weight_d>, mean, weight_d},
+        {"relmse_luminance", "relmse_a_luminance", "1", lower, linear,
+         "mean d^2 / (L(r)^2 + 0.01), L the Rec. 709 luminance of the pixel", squares_over_luminance, mean},
+        {"relmse_trimmed", "relmse_a_trimmed_0.1%", "1", lower, linear,
+         "relmse of each pixel, without the 0.1 % largest: hides fireflies, so read it beside relmse and outliers",
+         weighted_squares<weight_a>, trimmed_mean},
+        {"outliers", "relative_error_above_10", "pixels", lower, linear,
+         "pixels with |d| / (|r| + 0.01) > 10 in any channel", outlier_flags, sum},
+        {"smape", "smape_0_1", "1", lower, linear, "mean |d| / (|x| + |r|), 0 where both are 0 (figure-gen)",
+         symmetric_ratios, mean},
+        {"smape_damped", "smape_0.01", "1", lower, linear, "mean |d| / (|x| + |r| + 0.01) (OIDN's training)",
+         damped_symmetric_ratios, mean},
         {"bias", "bias", "radiance", near_zero, linear, "mean d", differences, mean},
         {"energy_ratio", "energy_ratio", "1", near_one, linear, "mean x / mean r", both_means, ratio_of_means},
-        {"psnr", "psnr_code", "dB", higher, display, "-10 log10(mean d^2) of sRGB codes in [0, 1]; inf for equal images", code_squares, decibels},
+        {"psnr", "psnr_code", "dB", higher, display,
+         "-10 log10(mean d^2) of sRGB codes in [0, 1]; inf for equal images", code_squares, decibels},
     };
 }

@@ -9,7 +9,8 @@
 /// One number per pixel in double precision, rows from top to bottom: error maps, and what metrics are pooled from.
 struct Plane {
     glm::uvec2 extent{0, 0};
-    unsigned margin = 0;  ///< pixels nearer to the border than this carry no value (the window of SSIM would leave the image)
+    unsigned margin =
+        0;  ///< pixels nearer to the border than this carry no value (the window of SSIM would leave the image)
     std::vector<double> values;
 
     Plane() = default;

@@ -10,8 +10,8 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double tiny = 1e-300;  // keeps the denominators of Lentz's method away from 0
 
-/// b0 + a1 / (b1 + a2 / (b2 + ...)) by the modified Lentz method (Thompson, Barnett 1986, J. Comput. Phys. 64). `term(n)`
-/// gives a_n and b_n for n >= 1.
+/// b0 + a1 / (b1 + a2 / (b2 + ...)) by the modified Lentz method (Thompson, Barnett 1986, J. Comput. Phys. 64).
+/// `term(n)` gives a_n and b_n for n >= 1.
 struct Term {
     double a, b;
 };
@@ -33,18 +33,20 @@ double continued_fraction(double b0, const TermAt& term) {
 double incomplete_beta(double a, double b, double x) {
     if (x <= 0) return 0;
     if (x >= 1) return 1;
-    if (x > (a + 1) / (a + b + 2)) return 1 - incomplete_beta(b, a, 1 - x);  // DLMF 8.17.4, where the fraction converges fast
+    if (x > (a + 1) / (a + b + 2))
+        return 1 - incomplete_beta(b, a, 1 - x);  // DLMF 8.17.4, where the fraction converges fast
     const auto term = [=](int n) -> Term {
         const double m = n / 2;
         if (n % 2 == 0) return {m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)), 1};
         return {-(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1)), 1};
     };
-    const double front = std::exp(a * std::log(x) + b * std::log1p(-x) + std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b)) / a;
+    const double front =
+        std::exp(a * std::log(x) + b * std::log1p(-x) + std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b)) / a;
     return front / continued_fraction(1, term);
 }
 
-/// Regularised lower incomplete gamma function P(a, x): its series (DLMF 8.11.4) below a + 1, else one minus the continued
-/// fraction of Q (DLMF 8.9.2).
+/// Regularised lower incomplete gamma function P(a, x): its series (DLMF 8.11.4) below a + 1, else one minus the
+/// continued fraction of Q (DLMF 8.9.2).
 double incomplete_gamma(double a, double x) {
     if (x <= 0) return 0;
     const double front = std::exp(a * std::log(x) - x - std::lgamma(a));

@@ -14,18 +14,20 @@ HostImage blackened(HostImage image, const Mask& kept) {
     return image;
 }
 
-/// Per pixel, the two things that the halves tell of a metric: its value without the reference's noise, and half its change
-/// when the halves are swapped.
+/// Per pixel, the two things that the halves tell of a metric: its value without the reference's noise, and half its
+/// change when the halves are swapped.
 struct NoiseMaps {
     Plane corrected, swapped;
 };
 
-NoiseMaps squared_error_maps(const Metric& metric, const MetricReference& reference, const ReferenceHalves& halves, const HostImage& test) {
+NoiseMaps squared_error_maps(const Metric& metric, const MetricReference& reference, const ReferenceHalves& halves,
+                             const HostImage& test) {
     const auto weight = metric.squared_error_weight;
     NoiseMaps maps{cross_error(test, halves.a, halves.b, reference.smooth, weight), Plane(test.extent)};
     const Plane from_a = cross_error(test, halves.a, halves.a, reference.smooth, weight);
     const Plane from_b = cross_error(test, halves.b, halves.b, reference.smooth, weight);
-    for (size_t i = 0; i < from_a.values.size(); ++i) maps.swapped.values[i] = (from_a.values[i] - from_b.values[i]) / 2;
+    for (size_t i = 0; i < from_a.values.size(); ++i)
+        maps.swapped.values[i] = (from_a.values[i] - from_b.values[i]) / 2;
     return maps;
 }
 
@@ -54,8 +56,8 @@ void correct(Score& score, const NoiseMaps& maps, const Mask& mask) {
 
 }  // namespace
 
-MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves> halves, const std::vector<std::string>& metric_names,
-                                 const MetricSettings& settings) {
+MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves> halves,
+                                 const std::vector<std::string>& metric_names, const MetricSettings& settings) {
     MetricReference reference{.image = std::move(image), .halves = std::move(halves), .settings = settings};
     for (const std::string& name : metric_names) reference.metrics.push_back(&metric_named(name));
     if (!reference.halves) {
@@ -64,13 +66,15 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
     }
     const ImagePair pair = image_pair(reference.halves->a, reference.halves->b, settings);
     reference.finite = intersection(pair.finite, image_pair(reference.image, pair.reference, settings).finite);
-    *reference.halves = {blackened(reference.halves->a, reference.finite), blackened(reference.halves->b, reference.finite)};
+    *reference.halves = {blackened(reference.halves->a, reference.finite),
+                         blackened(reference.halves->b, reference.finite)};
     for (const Metric* metric : reference.metrics) reference.floor_layers.push_back(metric->layers(pair));
     reference.smooth = without_noise(reference.halves->a, reference.halves->b);
     return reference;
 }
 
-std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks, PixelCounts* counts) {
+std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
+                         PixelCounts* counts) {
     const ImagePair pair = image_pair(reference.image, test, reference.settings);
     if (counts) *counts = pair.test_counts;
     const Mask finite = intersection(pair.finite, reference.finite);
@@ -86,7 +90,8 @@ std::vector<Score> score(const MetricReference& reference, const HostImage& test
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, finite);
             const double value = metric.pool(layers, inside);
-            Score& row = scores.emplace_back(Score{.metric = &metric, .mask = mask.name, .value = value, .uncorrected = value, .corrected = false});
+            Score& row = scores.emplace_back(
+                Score{.metric = &metric, .mask = mask.name, .value = value, .uncorrected = value, .corrected = false});
             row.pixels = inside.count();
             if (!reference.halves || row.pixels == 0) continue;
             row.floor = metric.pool(reference.floor_layers[m], inside);

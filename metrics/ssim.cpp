@@ -7,16 +7,18 @@
 #include <array>
 #include <cmath>
 
-// SSIM: Wang, Bovik, Sheikh, Simoncelli 2004, "Image Quality Assessment: From Error Visibility to Structural Similarity", with
-// its Gaussian window, biased covariance, and only windows that lie within the image, as the authors' program has them.
-// MS-SSIM: Wang, Simoncelli, Bovik 2003, "Multiscale Structural Similarity for Image Quality Assessment".
+// SSIM: Wang, Bovik, Sheikh, Simoncelli 2004, "Image Quality Assessment: From Error Visibility to Structural
+// Similarity", with its Gaussian window, biased covariance, and only windows that lie within the image, as the authors'
+// program has them. MS-SSIM: Wang, Simoncelli, Bovik 2003, "Multiscale Structural Similarity for Image Quality
+// Assessment".
 
 namespace {
 
 constexpr int radius = 5;
 constexpr unsigned window = 2 * radius + 1;
 constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;  // (K L)^2 with L = 1, the range of codes
-constexpr std::array<double, 5> scale_weights = {0.0448, 0.2856, 0.3001, 0.2363, 0.1333};  // finest first; 2003, section 4
+constexpr std::array<double, 5> scale_weights = {0.0448, 0.2856, 0.3001, 0.2363,
+                                                 0.1333};  // finest first; 2003, section 4
 
 const std::array<double, window>& taps() {
     static const auto values = [] {
@@ -65,14 +67,16 @@ struct Similarity {
 /// `covariance_scale` is 1 but for sample covariances.
 Similarity similarity(const Plane& x, const Plane& y, double covariance_scale) {
     if (x.extent.x < window || x.extent.y < window)
-        fail("ssim needs images of at least ", window, "x", window, " pixels, but these have ", x.extent.x, "x", x.extent.y);
+        fail("ssim needs images of at least ", window, "x", window, " pixels, but these have ", x.extent.x, "x",
+             x.extent.y);
     const Plane mean_x = windowed(x), mean_y = windowed(y);
     const Plane xx = windowed(product(x, x)), yy = windowed(product(y, y)), xy = windowed(product(x, y));
     Similarity s{Plane(x.extent), Plane(x.extent)};
     s.structure.margin = s.full.margin = radius;
     for (size_t i = 0; i < x.values.size(); ++i) {
         const double mx = mean_x.values[i], my = mean_y.values[i];
-        const double s_xx = covariance_scale * (xx.values[i] - mx * mx), s_yy = covariance_scale * (yy.values[i] - my * my);
+        const double s_xx = covariance_scale * (xx.values[i] - mx * mx),
+                     s_yy = covariance_scale * (yy.values[i] - my * my);
         const double s_xy = covariance_scale * (xy.values[i] - mx * my);
         s.structure.values[i] = (2 * s_xy + c2) / (s_xx + s_yy + c2);
         s.full.values[i] = (2 * mx * my + c1) / (mx * mx + my * my + c1) * s.structure.values[i];
@@ -99,7 +103,8 @@ std::vector<Plane> channel_mean_map(const ImagePair& pair, double covariance_sca
     Plane map(pair.reference_codes.extent);
     map.margin = radius;
     for (int c = 0; c < 3; ++c) {
-        const Plane full = similarity(channel(pair.reference_codes, c), channel(pair.test_codes, c), covariance_scale).full;
+        const Plane full =
+            similarity(channel(pair.reference_codes, c), channel(pair.test_codes, c), covariance_scale).full;
         for (size_t i = 0; i < map.values.size(); ++i) map.values[i] += full.values[i] / 3;
     }
     return {std::move(map)};
@@ -124,7 +129,8 @@ Plane halved(const Plane& in) {
     for (unsigned y = 0; y < out.extent.y; ++y)
         for (unsigned x = 0; x < out.extent.x; ++x) {
             const unsigned right = std::min(2 * x + 1, in.extent.x - 1), below = std::min(2 * y + 1, in.extent.y - 1);
-            out.row(y)[x] = (in.row(2 * y)[2 * x] + in.row(2 * y)[right] + in.row(below)[2 * x] + in.row(below)[right]) / 4;
+            out.row(y)[x] =
+                (in.row(2 * y)[2 * x] + in.row(2 * y)[right] + in.row(below)[2 * x] + in.row(below)[right]) / 4;
         }
     return out;
 }
@@ -134,7 +140,8 @@ std::vector<Plane> multi_scale_maps(const ImagePair& pair) {
     constexpr unsigned smallest = window << (scale_weights.size() - 1);
     const glm::uvec2 extent = pair.reference_codes.extent;
     if (std::min(extent.x, extent.y) < smallest)
-        fail("ms_ssim needs images of at least ", smallest, "x", smallest, " pixels, but these have ", extent.x, "x", extent.y);
+        fail("ms_ssim needs images of at least ", smallest, "x", smallest, " pixels, but these have ", extent.x, "x",
+             extent.y);
     std::vector<Plane> layers;
     for (int c = 0; c < 3; ++c) {
         Plane x = channel(pair.reference_codes, c), y = channel(pair.test_codes, c);
@@ -175,9 +182,17 @@ std::vector<Metric> ssim_metrics() {
     using enum Better;
     using enum Domain;
     return {
-        {"ssim", "ssim_gauss1.5_channels", "1", higher, display, "mean SSIM of the three code channels, Gaussian window 11x11 of sigma 1.5, biased covariance, windows within the image (Wang et al. 2004)", channel_map, mean},
-        {"ssim_luma", "ssim_gauss1.5_luma709", "1", higher, display, "as ssim, of the Rec. 709 luma of the codes", luma_map, mean},
-        {"ssim_sample", "ssim_gauss1.5_sample", "1", higher, display, "as ssim, with covariances of samples: times 121/120 (scikit-image's default)", sample_map, mean},
-        {"ms_ssim", "ms_ssim_5", "1", higher, display, "five scales with the weights of Wang et al. 2003, mean of the three code channels; its map is that of the finest scale", multi_scale_maps, multi_scale},
+        {"ssim", "ssim_gauss1.5_channels", "1", higher, display,
+         "mean SSIM of the three code channels, Gaussian window 11x11 of sigma 1.5, biased covariance, windows within "
+         "the image (Wang et al. 2004)",
+         channel_map, mean},
+        {"ssim_luma", "ssim_gauss1.5_luma709", "1", higher, display, "as ssim, of the Rec. 709 luma of the codes",
+         luma_map, mean},
+        {"ssim_sample", "ssim_gauss1.5_sample", "1", higher, display,
+         "as ssim, with covariances of samples: times 121/120 (scikit-image's default)", sample_map, mean},
+        {"ms_ssim", "ms_ssim_5", "1", higher, display,
+         "five scales with the weights of Wang et al. 2003, mean of the three code channels; its map is that of the "
+         "finest scale",
+         multi_scale_maps, multi_scale},
     };
 }

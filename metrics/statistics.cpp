@@ -18,7 +18,8 @@ Moments moments(std::span<const double> values) {
     if (values.size() < 2) fail("a confidence interval needs at least two values, found ", values.size());
     const double n = double(values.size());
     const double mean = ordered_sum(values.size(), [&](size_t i) { return values[i]; }) / n;
-    const double squares = ordered_sum(values.size(), [&](size_t i) { return (values[i] - mean) * (values[i] - mean); });
+    const double squares =
+        ordered_sum(values.size(), [&](size_t i) { return (values[i] - mean) * (values[i] - mean); });
     return {mean, std::sqrt(squares / (n - 1) / n)};
 }
 
@@ -32,7 +33,8 @@ Estimate interval(const Moments& m, size_t count) {
 Estimate mean_estimate(std::span<const double> values) { return interval(moments(values), values.size()); }
 
 RatioEstimate paired_ratio(std::span<const double> a, std::span<const double> b) {
-    if (a.size() != b.size()) fail("a paired comparison needs as many values on each side, found ", a.size(), " and ", b.size());
+    if (a.size() != b.size())
+        fail("a paired comparison needs as many values on each side, found ", a.size(), " and ", b.size());
     std::vector<double> logarithms;
     for (size_t i = 0; i < a.size(); ++i) {
         if (!(a[i] > 0 && b[i] > 0)) fail("a ratio of errors needs values above 0, found ", a[i], " and ", b[i]);
@@ -74,12 +76,13 @@ void SeedMoments::add(const HostImage& rgb) {
     }
 }
 
-ErrorSplit split_error(const SeedMoments& seeds, const HostImage& reference, const std::optional<ReferenceHalves>& halves,
-                       const Mask& mask) {
+ErrorSplit split_error(const SeedMoments& seeds, const HostImage& reference,
+                       const std::optional<ReferenceHalves>& halves, const Mask& mask) {
     if (seeds.count < 2) fail("telling bias from variance needs at least two seeds, found ", seeds.count);
     const HostImage& a = halves ? halves->a : reference;
     const HostImage& b = halves ? halves->b : reference;
-    if (a.extent != seeds.extent || b.extent != seeds.extent) fail("the reference and the seeds need images of one size");
+    if (a.extent != seeds.extent || b.extent != seeds.extent)
+        fail("the reference and the seeds need images of one size");
     Mask inside = intersection(mask, seeds.finite);
     Plane bias_squared(seeds.extent), variance(seeds.extent);
     for (size_t i = 0; i < seeds.mean.size(); ++i) {
@@ -87,7 +90,8 @@ ErrorSplit split_error(const SeedMoments& seeds, const HostImage& reference, con
         if (!inside.inside[i / 3]) continue;
         const double v = seeds.variance(i);
         variance.values[i / 3] += v / 3;
-        bias_squared.values[i / 3] += ((seeds.mean[i] - a.values[i]) * (seeds.mean[i] - b.values[i]) - v / seeds.count) / 3;
+        bias_squared.values[i / 3] +=
+            ((seeds.mean[i] - a.values[i]) * (seeds.mean[i] - b.values[i]) - v / seeds.count) / 3;
     }
     const double bias = masked_mean(bias_squared, inside), spread = masked_mean(variance, inside);
     return {bias + spread, bias, spread};

@@ -1,8 +1,8 @@
 #pragma once
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tbb/parallel_for.h>
 #include <vector>
 
 /// sum of term(i) for i < count, in double. Blocks of fixed size are summed in order, then their sums by Neumaier's

@@ -4,9 +4,9 @@
 #include "core/near_miss.h"
 #include "core/png.h"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace {
 
@@ -14,7 +14,8 @@ namespace {
 struct RationalCurve {
     float a0, a1, b0, b1, b2;
 };
-/// Narkowicz 2016, "ACES filmic tone mapping curve", with its exposure of 0.6 multiplied in (0.36 x 2.51, 0.6 x 0.03, ...).
+/// Narkowicz 2016, "ACES filmic tone mapping curve", with its exposure of 0.6 multiplied in (0.36 x 2.51, 0.6 x 0.03,
+/// ...).
 constexpr RationalCurve aces_curve{0.9036f, 0.018f, 0.8748f, 0.354f, 0.14f};
 /// Hable 2010, "Uncharted 2: HDR Lighting", brought to one fraction and scaled to its white point.
 constexpr RationalCurve hable_curve{0.231683f, 0.013791f, 0.18f, 0.3f, 0.018f};
@@ -41,10 +42,14 @@ std::string name_of(ToneMap map) { return tone_map_names[size_t(map)]; }
 
 glm::vec3 tone_mapped(glm::vec3 radiance, ToneMap map) {
     switch (map) {
-        case ToneMap::aces: return apply(aces_curve, radiance);
-        case ToneMap::hable: return apply(hable_curve, radiance);
-        case ToneMap::reinhard: return radiance / (1.0f + float(luminance(radiance.r, radiance.g, radiance.b)));
-        case ToneMap::none: break;
+        case ToneMap::aces:
+            return apply(aces_curve, radiance);
+        case ToneMap::hable:
+            return apply(hable_curve, radiance);
+        case ToneMap::reinhard:
+            return radiance / (1.0f + float(luminance(radiance.r, radiance.g, radiance.b)));
+        case ToneMap::none:
+            break;
     }
     return radiance;
 }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-/// How radiance becomes display light in [0, 1] before it is clamped. The three curves are those of HDR-FLIP (Andersson et
-/// al. 2021, "Visualizing and Communicating Errors in Rendered Images", Ray Tracing Gems II, chapter 19).
+/// How radiance becomes display light in [0, 1] before it is clamped. The three curves are those of HDR-FLIP (Andersson
+/// et al. 2021, "Visualizing and Communicating Errors in Rendered Images", Ray Tracing Gems II, chapter 19).
 enum class ToneMap { none, aces, hable, reinhard };
 
 inline const std::vector<std::string> tone_map_names = {"none", "aces", "hable", "reinhard"};

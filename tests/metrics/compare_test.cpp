@@ -1,14 +1,14 @@
+#include "metrics/compare.h"
 #include "core/error.h"
 #include "core/exr.h"
 #include "core/png.h"
-#include "metrics/compare.h"
 
+#include <gtest/gtest.h>
+#include <unistd.h>
 #include <cmath>
 #include <filesystem>
-#include <gtest/gtest.h>
 #include <random>
 #include <sstream>
-#include <unistd.h>
 
 namespace {
 
@@ -16,8 +16,9 @@ namespace {
 class Compare : public testing::Test {
 protected:
     void SetUp() override {
-        folder = std::filesystem::temp_directory_path() /
-                 ("ssrlab_compare_" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+        folder =
+            std::filesystem::temp_directory_path() / ("ssrlab_compare_" + std::to_string(getpid()) +
+                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(folder);
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
@@ -71,7 +72,8 @@ TEST_F(Compare, PrintsOneNumberPerLineThatReadsBack) {
 
 TEST_F(Compare, DefaultsFitTheImages) {
     const auto small = exr("small.exr", noise({9, 9}, 1)), large = exr("large.exr", noise({180, 180}, 1));
-    const Comparison of_small = compare({.reference = small, .test = small}), of_large = compare({.reference = large, .test = large});
+    const Comparison of_small = compare({.reference = small, .test = small}),
+                     of_large = compare({.reference = large, .test = large});
     EXPECT_TRUE(std::isnan(value(of_small, "ssim")));
     EXPECT_EQ(value(of_small, "hdr_flip"), 0);
     EXPECT_NEAR(value(of_large, "ms_ssim"), 1, 1e-12);
@@ -82,8 +84,10 @@ TEST_F(Compare, DefaultsFitTheImages) {
 TEST_F(Compare, PngCodesAreDecodedForLinearMetricsOnly) {
     write_png(folder / "a.png", HostImage({16, 16}, 3, 0.2f));
     write_png(folder / "b.png", HostImage({16, 16}, 3, 0.6f));
-    const double a = std::lround(255 * srgb_from_linear(0.2f)) / 255.0, b = std::lround(255 * srgb_from_linear(0.6f)) / 255.0;
-    const Comparison c = compare({.reference = folder / "a.png", .test = folder / "b.png", .metrics = {"bias", "psnr"}});
+    const double a = std::lround(255 * srgb_from_linear(0.2f)) / 255.0,
+                 b = std::lround(255 * srgb_from_linear(0.6f)) / 255.0;
+    const Comparison c =
+        compare({.reference = folder / "a.png", .test = folder / "b.png", .metrics = {"bias", "psnr"}});
     EXPECT_NEAR(value(c, "bias"), linear_from_srgb(float(b)) - linear_from_srgb(float(a)), 1e-6);  // float32 codes
     EXPECT_NEAR(value(c, "psnr"), -20 * std::log10(b - a), 1e-5);
 }
@@ -92,11 +96,13 @@ TEST_F(Compare, NonFinitePixelsAreReportedFirst) {
     HostImage broken = noise({16, 16}, 2);
     broken.set_rgb(3, {NAN, 0, 0});
     broken.set_rgb(4, {-1, 0, 0});
-    CompareOptions options{.reference = exr("a.exr", noise({16, 16}, 1)), .test = exr("b.exr", broken), .metrics = {"mse"}};
+    CompareOptions options{
+        .reference = exr("a.exr", noise({16, 16}, 1)), .test = exr("b.exr", broken), .metrics = {"mse"}};
     const Comparison c = compare(options);
     EXPECT_EQ(c.pixels, 255u);
     ASSERT_EQ(c.warnings.size(), 1u);
-    EXPECT_NE(c.warnings[0].find("b.exr: 1 pixels with NaN, 0 with Inf, 1 negative"), std::string::npos) << c.warnings[0];
+    EXPECT_NE(c.warnings[0].find("b.exr: 1 pixels with NaN, 0 with Inf, 1 negative"), std::string::npos)
+        << c.warnings[0];
     EXPECT_TRUE(std::isfinite(value(c, "mse")));
     options.fail_on_non_finite = true;
     EXPECT_NE(message(options).find("b.exr: 1 pixels with NaN"), std::string::npos);
@@ -106,8 +112,10 @@ TEST_F(Compare, NonFinitePixelsAreReportedFirst) {
 }
 
 TEST_F(Compare, WritesMapsAsLayersOrFalseColour) {
-    CompareOptions options{.reference = exr("a.exr", noise({20, 16}, 1)), .test = exr("b.exr", noise({20, 16}, 2)),
-                           .metrics = {"mse", "flip"}, .map = folder / "map.exr"};
+    CompareOptions options{.reference = exr("a.exr", noise({20, 16}, 1)),
+                           .test = exr("b.exr", noise({20, 16}, 2)),
+                           .metrics = {"mse", "flip"},
+                           .map = folder / "map.exr"};
     const Comparison c = compare(options);
     const LayeredImage maps = read_exr(folder / "map.exr");
     ASSERT_NE(maps.find("flip"), nullptr);
@@ -138,7 +146,10 @@ TEST_F(Compare, MistakesAreNamed) {
     const auto a = exr("a.exr", noise({20, 16}, 1)), b = exr("b.exr", noise({20, 15}, 2));
     EXPECT_NE(message({.reference = a, .test = b}).find("has 20x16 pixels, but"), std::string::npos);
     EXPECT_NE(message({.reference = a, .test = folder / "none.exr"}).find("no such file"), std::string::npos);
-    EXPECT_NE(message({.reference = a, .test = folder / "a.jpg"}).find("are read from .exr and .png"), std::string::npos);
-    EXPECT_NE(message({.reference = a, .test = a, .metrics = {"ssmi"}}).find("did you mean 'ssim'?"), std::string::npos);
-    EXPECT_NE(message({.reference = a, .test = a, .map = "map.txt"}).find("must end in .exr or .png"), std::string::npos);
+    EXPECT_NE(message({.reference = a, .test = folder / "a.jpg"}).find("are read from .exr and .png"),
+              std::string::npos);
+    EXPECT_NE(message({.reference = a, .test = a, .metrics = {"ssmi"}}).find("did you mean 'ssim'?"),
+              std::string::npos);
+    EXPECT_NE(message({.reference = a, .test = a, .map = "map.txt"}).find("must end in .exr or .png"),
+              std::string::npos);
 }

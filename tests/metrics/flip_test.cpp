@@ -1,10 +1,10 @@
+#include "metrics/flip.h"
 #include "core/error.h"
 #include "metrics/color_map.h"
-#include "metrics/flip.h"
 #include "metrics/flip_color.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <random>
 
 namespace {
@@ -30,10 +30,12 @@ TEST(Flip, ConstantImages) {
 }
 
 TEST(Flip, ColorConstants) {
-    EXPECT_NEAR(hyab(hunt_lab_from_linear({0, 1, 0}), hunt_lab_from_linear({0, 0, 1})), 203.301656, 2e-4);  // 1e-6 of it: float32
+    EXPECT_NEAR(hyab(hunt_lab_from_linear({0, 1, 0}), hunt_lab_from_linear({0, 0, 1})), 203.301656,
+                2e-4);  // 1e-6 of it: float32
     const glm::vec3 white = relative_xyz_from_linear({1, 1, 1});
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 1, 1e-6);
-    for (float t = 0.0088f; t < 1.2f; t *= 1.01f) EXPECT_NEAR(cube_root(t) / std::cbrt(t), 1, 3e-7) << t;  // 5 roundings of 6e-8
+    for (float t = 0.0088f; t < 1.2f; t *= 1.01f)
+        EXPECT_NEAR(cube_root(t) / std::cbrt(t), 1, 3e-7) << t;  // 5 roundings of 6e-8
     for (const glm::vec3 c : {glm::vec3(0.2f, 0.5f, 0.9f), glm::vec3(1, 0, 0)}) {
         const glm::vec3 back = linear_from_opponent(opponent_from_linear(c));
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(back[k], c[k], 1e-5);  // the published inverse has 9 digits
@@ -59,7 +61,9 @@ TEST(Flip, HdrIsTheGreatestOverItsExposures) {
     HostImage a({40, 30}, 3), b = a;
     for (float& v : a.values) v = 3 * std::generate_canonical<float, 24>(random);
     for (float& v : b.values) v = 3 * std::generate_canonical<float, 24>(random);
-    const auto at = [&](float ev) { return hdr_flip_map(a, b, {ev, ev, 1}, ToneMap::hable, default_pixels_per_degree); };
+    const auto at = [&](float ev) {
+        return hdr_flip_map(a, b, {ev, ev, 1}, ToneMap::hable, default_pixels_per_degree);
+    };
     const Plane low = at(-2), middle = at(0), high = at(2);
     const Plane all = hdr_flip_map(a, b, {-2, 2, 3}, ToneMap::hable, default_pixels_per_degree);
     for (size_t i = 0; i < all.values.size(); ++i)
@@ -80,7 +84,7 @@ TEST(Flip, AReferenceThatIsMostlyBlackPrescribesNoExposures) {
     EXPECT_NEAR(range.start, std::log2(5.66666667 / 2), 1e-6);
     EXPECT_NEAR(range.stop, range.start, 1e-6);
     EXPECT_EQ(range.count, 2u);
-    EXPECT_NEAR(radiance_of_85_percent(ToneMap::aces), 2.11887232, 1e-6);   // the curve's constants are float32
+    EXPECT_NEAR(radiance_of_85_percent(ToneMap::aces), 2.11887232, 1e-6);  // the curve's constants are float32
     EXPECT_NEAR(radiance_of_85_percent(ToneMap::hable), 3.12774928, 1e-6);
     EXPECT_THROW(radiance_of_85_percent(ToneMap::none), Error);
 }

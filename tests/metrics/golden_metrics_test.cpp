@@ -3,13 +3,13 @@
 #include "core/png.h"
 #include "metrics/metric.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <cstdlib>
-#include <gtest/gtest.h>
 #include <map>
 
-// Every number that the manifest records for every pair: pixel metrics, SSIM and MS-SSIM by independent programs, FLIP by the
-// authors' own. FLIP entries carry the program's exposures, which are handed in.
+// Every number that the manifest records for every pair: pixel metrics, SSIM and MS-SSIM by independent programs, FLIP
+// by the authors' own. FLIP entries carry the program's exposures, which are handed in.
 
 namespace {
 
@@ -20,15 +20,17 @@ std::filesystem::path folder() {
 
 nlohmann::json manifest() { return read_json(folder() / "manifest.json"); }
 
-/// The name of our metric for each recorded number, and how near it must come: |ours - theirs| <= relative |theirs| + absolute.
+/// The name of our metric for each recorded number, and how near it must come: |ours - theirs| <= relative |theirs| +
+/// absolute.
 struct Recorded {
     const char* metric;
     double relative, absolute;
 };
 
-/// Pixel metrics of float32 radiance are exact but for the order of summation. Codes n / 255 are rounded to float32, by up to
-/// 3e-8 each, so a difference of two by 6e-8: 1.5e-5 of one code step and twice that of its square, and as much in dB as
-/// 10 log10(1 + 3e-5) = 1.3e-4. Numbers near 0 may be off by what relative errors make of 6e-8: at most (6e-8)^2 / 1e-4.
+/// Pixel metrics of float32 radiance are exact but for the order of summation. Codes n / 255 are rounded to float32, by
+/// up to 3e-8 each, so a difference of two by 6e-8: 1.5e-5 of one code step and twice that of its square, and as much
+/// in dB as 10 log10(1 + 3e-5) = 1.3e-4. Numbers near 0 may be off by what relative errors make of 6e-8: at most
+/// (6e-8)^2 / 1e-4.
 const std::map<std::string, Recorded> recorded_on_radiance = {
     {"mse", {"mse", 1e-9, 0}},
     {"rmse", {"rmse", 1e-9, 0}},
@@ -55,12 +57,16 @@ std::map<std::string, Recorded> recorded_on_codes() {
     return all;
 }
 
-double number(const nlohmann::json& value) { return value.is_string() && value == "inf" ? INFINITY : value.get<double>(); }
+double number(const nlohmann::json& value) {
+    return value.is_string() && value == "inf" ? INFINITY : value.get<double>();
+}
 
-void expect_recorded(const nlohmann::json& numbers, const std::map<std::string, Recorded>& known, const ImagePair& pair) {
+void expect_recorded(const nlohmann::json& numbers, const std::map<std::string, Recorded>& known,
+                     const ImagePair& pair) {
     for (const auto& [key, value] : numbers.items()) {
         if (key == "trim_k") {
-            EXPECT_EQ(value.get<size_t>(), pair.finite.count() / 1000) << "relmse_trimmed drops another number of pixels";
+            EXPECT_EQ(value.get<size_t>(), pair.finite.count() / 1000)
+                << "relmse_trimmed drops another number of pixels";
             continue;
         }
         ASSERT_TRUE(known.contains(key)) << "nothing here computes the recorded '" << key << "'";
@@ -73,8 +79,9 @@ void expect_recorded(const nlohmann::json& numbers, const std::map<std::string, 
     }
 }
 
-/// Both maps are float32 chains of some hundred operations. The tool and an independent float64 version differ by up to 1.1e-4
-/// per pixel and 9e-6 in the mean (4e-4 over more than 20 exposures, where features of nearly 0 pass through a square root).
+/// Both maps are float32 chains of some hundred operations. The tool and an independent float64 version differ by up
+/// to 1.1e-4 per pixel and 9e-6 in the mean (4e-4 over more than 20 exposures, where features of nearly 0 pass through
+/// a square root).
 void expect_flip(const Plane& map, const nlohmann::json& entry, const std::string& where) {
     double mean = 0, greatest = 0;
     for (const double v : map.values) mean += v / double(map.values.size()), greatest = std::max(greatest, v);
@@ -98,7 +105,8 @@ void expect_flip(const Plane& map, const nlohmann::json& entry, const std::strin
     const HostImage expected = read_exr_rgb(folder() / entry["flip_map"].get<std::string>());
     ASSERT_EQ(expected.extent, map.extent) << where;
     double worst = 0;
-    for (size_t i = 0; i < map.values.size(); ++i) worst = std::max(worst, std::abs(map.values[i] - double(expected.rgb(i).x)));
+    for (size_t i = 0; i < map.values.size(); ++i)
+        worst = std::max(worst, std::abs(map.values[i] - double(expected.rgb(i).x)));
     EXPECT_LE(worst, pixel_tolerance) << where << ": per pixel";
 }
 
@@ -111,8 +119,10 @@ void check_display_pair(const nlohmann::json& entry) {
     const HostImage reference = read_png_codes(folder() / entry["reference"].get<std::string>());
     const HostImage test = read_png_codes(folder() / entry["test"].get<std::string>());
     // Pixel metrics were recorded on the codes themselves, so those stand in for radiance.
-    expect_recorded(entry["metrics_on_srgb_codes_over_255"], recorded_on_codes(), image_pair(reference, test, reference, test, {}));
-    expect_flip(flip_map(linear_from_codes(reference), linear_from_codes(test), entry["flip_ppd"].get<float>()), entry, "LDR-FLIP");
+    expect_recorded(entry["metrics_on_srgb_codes_over_255"], recorded_on_codes(),
+                    image_pair(reference, test, reference, test, {}));
+    expect_flip(flip_map(linear_from_codes(reference), linear_from_codes(test), entry["flip_ppd"].get<float>()), entry,
+                "LDR-FLIP");
 }
 
 void check_radiance_pair(const nlohmann::json& entry) {
@@ -122,8 +132,10 @@ void check_radiance_pair(const nlohmann::json& entry) {
     ASSERT_FALSE(entry["flip"].empty());
     for (const nlohmann::json& flip : entry["flip"]) {
         const ToneMap map = tone_map_named(flip["tonemapper"]);
-        const FlipExposures exposures{flip["start"].get<float>(), flip["stop"].get<float>(), flip["num"].get<unsigned>()};
-        const std::string where = "HDR-FLIP " + name_of(map) + " from " + std::to_string(exposures.start) + " to " + std::to_string(exposures.stop);
+        const FlipExposures exposures{flip["start"].get<float>(), flip["stop"].get<float>(),
+                                      flip["num"].get<unsigned>()};
+        const std::string where = "HDR-FLIP " + name_of(map) + " from " + std::to_string(exposures.start) + " to " +
+                                  std::to_string(exposures.stop);
         expect_flip(hdr_flip_map(reference, test, exposures, map, default_pixels_per_degree), flip, where);
         // Version 1.7 replaces a median of 0 by 1e-7, which we refuse to; all ranges of 1.6 must come out.
         if (flip["exposures_given"] || flip.contains("flip_v1.7_cpp_mean")) continue;

@@ -1,5 +1,5 @@
-#include "core/error.h"
 #include "metrics/masks.h"
+#include "core/error.h"
 
 #include <gtest/gtest.h>
 #include <limits>
@@ -10,11 +10,21 @@ struct Images {
     HostImage depth, normal, id, roughness, reflectance, confidence;
 
     explicit Images(glm::uvec2 extent)
-        : depth(extent, 1, 2.0f), normal(extent, 3), id(extent, 1, 1.0f), roughness(extent, 1, 0.1f), reflectance(extent, 3, 0.04f), confidence(extent, 1) {
+        : depth(extent, 1, 2.0f),
+          normal(extent, 3),
+          id(extent, 1, 1.0f),
+          roughness(extent, 1, 0.1f),
+          reflectance(extent, 3, 0.04f),
+          confidence(extent, 1) {
         for (size_t i = 0; i < normal.pixel_count(); ++i) normal.set_rgb(i, {0, 0, 1});
     }
     Mask mask(const std::string& name) const {
-        return make_mask(name, {.view_depth = depth, .normal = normal, .material_id = id, .roughness = roughness, .reflectance = reflectance, .confidence = confidence});
+        return make_mask(name, {.view_depth = depth,
+                                .normal = normal,
+                                .material_id = id,
+                                .roughness = roughness,
+                                .reflectance = reflectance,
+                                .confidence = confidence});
     }
 };
 

@@ -1,11 +1,11 @@
-#include "core/error.h"
 #include "metrics/metric.h"
+#include "core/error.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <cmath>
 #include <random>
 #include <set>
-#include <tbb/global_control.h>
 
 namespace {
 
@@ -23,7 +23,9 @@ HostImage noise(glm::uvec2 extent, unsigned seed, float scale) {
     return image;
 }
 
-double value(const std::string& name, const ImagePair& pair, const Mask* mask = nullptr) { return measure(metric_named(name), pair, mask); }
+double value(const std::string& name, const ImagePair& pair, const Mask* mask = nullptr) {
+    return measure(metric_named(name), pair, mask);
+}
 
 std::string message(const auto& action) {
     try {
@@ -40,7 +42,8 @@ constexpr double rounding = 1e-12;
 }  // namespace
 
 TEST(Metric, FourPixelsByHand) {
-    // d = 1, -1, 0.5, 0: the second and third pixels catch a missing absolute value and a reference of 0 that is left out.
+    // d = 1, -1, 0.5, 0: the second and third pixels catch a missing absolute value and a reference of 0 that is left
+    // out.
     const ImagePair pair = image_pair(row({1, 2, 0, 4}), row({2, 1, 0.5f, 4}), {});
     EXPECT_NEAR(value("mse", pair), (1 + 1 + 0.25 + 0) / 4, rounding);
     EXPECT_NEAR(value("rmse", pair), 0.75, rounding);
@@ -60,7 +63,8 @@ TEST(Metric, LuminanceWeighsOnlyTheDenominator) {
     HostImage reference({1, 1}, 3), test({1, 1}, 3);
     reference.set_rgb(0, {0, 1, 0});
     test.set_rgb(0, {1, 1, 0});
-    EXPECT_NEAR(value("relmse_luminance", image_pair(reference, test, {})), 1.0 / 3 / (0.7152 * 0.7152 + 0.01), rounding);
+    EXPECT_NEAR(value("relmse_luminance", image_pair(reference, test, {})), 1.0 / 3 / (0.7152 * 0.7152 + 0.01),
+                rounding);
 }
 
 TEST(Metric, TrimmingDropsAThousandth) {
@@ -87,7 +91,8 @@ TEST(Metric, EqualImagesAreTheBestOfAll) {
 TEST(Metric, SymmetricOnesDoNotCareWhichIsTheReference) {
     const HostImage a = noise({180, 177}, 3, 1), b = noise({180, 177}, 4, 1);
     const ImagePair ab = image_pair(a, b, {}), ba = image_pair(b, a, {});
-    for (const char* name : {"mse", "rmse", "mae", "smape", "smape_damped", "psnr", "ssim", "ssim_luma", "ssim_sample", "ms_ssim", "flip"})
+    for (const char* name :
+         {"mse", "rmse", "mae", "smape", "smape_damped", "psnr", "ssim", "ssim_luma", "ssim_sample", "ms_ssim", "flip"})
         EXPECT_EQ(value(name, ab), value(name, ba)) << name;
     EXPECT_EQ(value("bias", ab), -value("bias", ba));
 }
@@ -131,7 +136,8 @@ TEST(Metric, NonFinitePixelsAreCountedAndLeftOut) {
     EXPECT_EQ(pair.test_counts.negative, 1u);
     EXPECT_EQ(pair.reference_counts.non_finite(), 1u);
     EXPECT_EQ(pair.finite.count(), 32u * 32 - 3);
-    for (const char* name : {"mse", "relmse", "psnr", "ssim", "flip", "energy_ratio"}) EXPECT_TRUE(std::isfinite(value(name, pair))) << name;
+    for (const char* name : {"mse", "relmse", "psnr", "ssim", "flip", "energy_ratio"})
+        EXPECT_TRUE(std::isfinite(value(name, pair))) << name;
     Mask far = full_mask({32, 32});
     for (size_t i = 0; i < far.inside.size(); ++i) far.inside[i] = i / 32 > 20;
     EXPECT_EQ(value("mse", pair, &far), value("mse", clean, &far));
@@ -155,7 +161,8 @@ TEST(Metric, DisplayMetricsSeeExposureAndToneMap) {
     HostImage brighter_a = a, brighter_b = b;
     for (float& v : brighter_a.values) v *= 4;
     for (float& v : brighter_b.values) v *= 4;
-    EXPECT_EQ(value("flip", image_pair(a, b, {.exposure_ev = 2})), value("flip", image_pair(brighter_a, brighter_b, {})));
+    EXPECT_EQ(value("flip", image_pair(a, b, {.exposure_ev = 2})),
+              value("flip", image_pair(brighter_a, brighter_b, {})));
     EXPECT_NE(value("flip", image_pair(a, b, {})), value("flip", image_pair(a, b, {.tone_map = ToneMap::aces})));
     EXPECT_EQ(value("mse", image_pair(a, b, {.exposure_ev = 2})), value("mse", image_pair(a, b, {})));
 }
@@ -166,11 +173,19 @@ TEST(Metric, NamesAreUniqueAndMistakesAreNamed) {
         EXPECT_TRUE(names.insert(metric.name).second) << metric.name;
         EXPECT_TRUE(formulas.insert(metric.formula).second) << metric.formula;
     }
-    EXPECT_NE(message([] { metric_named("relms"); }).find("no metric named 'relms'; did you mean 'relmse'?"), std::string::npos);
-    EXPECT_NE(message([] { image_pair(HostImage({2, 2}, 3), HostImage({2, 3}, 3), {}); }).find("2x2 pixels, but the test image has 2x3"), std::string::npos);
-    EXPECT_NE(message([] { image_pair(HostImage({0, 0}, 3), HostImage({0, 0}, 3), {}); }).find("zero size"), std::string::npos);
+    EXPECT_NE(message([] { metric_named("relms"); }).find("no metric named 'relms'; did you mean 'relmse'?"),
+              std::string::npos);
+    EXPECT_NE(message([] {
+                  image_pair(HostImage({2, 2}, 3), HostImage({2, 3}, 3), {});
+              }).find("2x2 pixels, but the test image has 2x3"),
+              std::string::npos);
+    EXPECT_NE(message([] {
+                  image_pair(HostImage({0, 0}, 3), HostImage({0, 0}, 3), {});
+              }).find("zero size"),
+              std::string::npos);
     const ImagePair small = image_pair(noise({100, 10}, 1, 1), noise({100, 10}, 2, 1), {});
-    EXPECT_NE(message([&] { value("ssim", small); }).find("at least 11x11 pixels, but these have 100x10"), std::string::npos);
+    EXPECT_NE(message([&] { value("ssim", small); }).find("at least 11x11 pixels, but these have 100x10"),
+              std::string::npos);
     EXPECT_NE(message([&] { value("ms_ssim", small); }).find("at least 176x176"), std::string::npos);
     EXPECT_NE(message([&] { value("hdr_flip", small); }).find("range of exposures"), std::string::npos);
 }

@@ -1,10 +1,10 @@
-#include "core/error.h"
 #include "metrics/noise.h"
+#include "core/error.h"
 #include "metrics/score.h"
 #include "metrics/statistics.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <random>
 
 namespace {
@@ -17,11 +17,13 @@ HostImage truth_image(glm::uvec2 extent) {
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 0; x < extent.x; ++x)
             for (int c = 0; c < 3; ++c)
-                image.pixel(x, y)[c] = (x > extent.x / 2 ? 2.0f : 0.5f) + 0.3f * std::sin(0.1f * float(x + y * unsigned(c + 1)));
+                image.pixel(x, y)[c] =
+                    (x > extent.x / 2 ? 2.0f : 0.5f) + 0.3f * std::sin(0.1f * float(x + y * unsigned(c + 1)));
     return image;
 }
 
-/// The truth plus noise whose standard deviation is `relative` of it; neighbours in blocks of `correlated` pixels share it.
+/// The truth plus noise whose standard deviation is `relative` of it; neighbours in blocks of `correlated` pixels share
+/// it.
 HostImage with_noise(const HostImage& truth, float relative, Random& random, unsigned correlated = 1) {
     HostImage image = truth;
     std::normal_distribution<float> normal;
@@ -43,7 +45,9 @@ HostImage mean_of(const HostImage& a, const HostImage& b) {
     return mean;
 }
 
-double exact(const char* metric, const HostImage& truth, const HostImage& test) { return measure(metric_named(metric), image_pair(truth, test, {})); }
+double exact(const char* metric, const HostImage& truth, const HostImage& test) {
+    return measure(metric_named(metric), image_pair(truth, test, {}));
+}
 
 struct Simulation {
     std::vector<double> corrected, naive;
@@ -51,13 +55,15 @@ struct Simulation {
 };
 
 /// Many references of the same truth against one test image.
-Simulation simulate(const char* metric, const HostImage& truth, const HostImage& test, float relative_noise, int repeats, unsigned correlated) {
+Simulation simulate(const char* metric, const HostImage& truth, const HostImage& test, float relative_noise,
+                    int repeats, unsigned correlated) {
     Random random(11);
     Simulation result;
     const Mask all = full_mask(truth.extent);
     const double expected = exact(metric, truth, test);
     for (int i = 0; i < repeats; ++i) {
-        const HostImage a = with_noise(truth, relative_noise, random, correlated), b = with_noise(truth, relative_noise, random, correlated);
+        const HostImage a = with_noise(truth, relative_noise, random, correlated),
+                        b = with_noise(truth, relative_noise, random, correlated);
         const MetricReference reference = metric_reference(mean_of(a, b), ReferenceHalves{a, b}, {metric}, {});
         const Score s = score(reference, test, std::span(&all, 1)).front();
         result.corrected.push_back(s.value);
@@ -87,8 +93,9 @@ TEST(Noise, IntervalsCoverTheTruthAtTheirRate) {
     const HostImage truth = truth_image({96, 96});
     Random random(3);
     const HostImage test = with_noise(truth, 0.1f, random);
-    // 200 trials at 95 %: a standard deviation of 1.5 %; 3.5 of them either way, and 36 tiles leave 1 % of under-coverage. Noise
-    // shared by blocks of 8x8 pixels would be covered far too rarely if pixels were taken as independent.
+    // 200 trials at 95 %: a standard deviation of 1.5 %; 3.5 of them either way, and 36 tiles leave 1 % of
+    // under-coverage. Noise shared by blocks of 8x8 pixels would be covered far too rarely if pixels were taken as
+    // independent.
     for (const unsigned correlated : {1u, 8u}) {
         const int covered = simulate("mse", truth, test, 0.2f, 200, correlated).covered;
         EXPECT_GE(covered, 177) << correlated;
@@ -105,7 +112,8 @@ TEST(Noise, RelativeErrorsAreCorrectedToAFewPercent) {
     const HostImage test = with_noise(truth, 0.2f, random);
     const double expected = exact("relmse", truth, test);
     const Simulation s = simulate("relmse", truth, test, 0.2f, 50, 1);
-    // The weight 1 / (r^2 + 0.01) comes from an estimate of r, so a bias of second order stays; the naive one is off by half.
+    // The weight 1 / (r^2 + 0.01) comes from an estimate of r, so a bias of second order stays; the naive one is off by
+    // half.
     EXPECT_NEAR(mean_estimate(s.corrected).value / expected, 1, 0.05);
     EXPECT_GT(mean_estimate(s.naive).value / expected, 1.4);
 }
@@ -142,7 +150,8 @@ TEST(Score, RowsHoldMetricsTimesMasks) {
     std::vector<Mask> masks = {full_mask(truth.extent), full_mask(truth.extent)};
     masks[1].name = "none";
     masks[1].inside.assign(masks[1].inside.size(), 0);
-    const MetricReference reference = metric_reference(mean_of(a, b), ReferenceHalves{a, b}, {"mse", "flip", "bias"}, {});
+    const MetricReference reference =
+        metric_reference(mean_of(a, b), ReferenceHalves{a, b}, {"mse", "flip", "bias"}, {});
     PixelCounts counts;
     const std::vector<Score> scores = score(reference, test, masks, &counts);
     ASSERT_EQ(scores.size(), 6u);

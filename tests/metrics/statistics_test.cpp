@@ -1,16 +1,17 @@
+#include "metrics/statistics.h"
 #include "core/error.h"
 #include "metrics/quantiles.h"
-#include "metrics/statistics.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <random>
 
 TEST(Quantiles, MatchTables) {
     // NIST/SEMATECH e-Handbook, section 1.3.6.7, to its three digits; the longer ones are closed forms.
     EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
-    EXPECT_NEAR(student_t_quantile(0.975, 1), std::tan(M_PI * 0.475), 1e-10);              // Cauchy
-    EXPECT_NEAR(student_t_quantile(0.975, 2), 0.95 * std::sqrt(2 / (1 - 0.95 * 0.95)), 1e-10);  // closed form of two degrees
+    EXPECT_NEAR(student_t_quantile(0.975, 1), std::tan(M_PI * 0.475), 1e-10);  // Cauchy
+    EXPECT_NEAR(student_t_quantile(0.975, 2), 0.95 * std::sqrt(2 / (1 - 0.95 * 0.95)),
+                1e-10);  // closed form of two degrees
     EXPECT_NEAR(student_t_quantile(0.975, 7), 2.365, 5e-4);
     EXPECT_NEAR(student_t_quantile(0.975, 100), 1.984, 5e-4);
     EXPECT_NEAR(student_t_quantile(0.975, 1e8), normal_quantile(0.975), 1e-6);  // differs by (z^3 + z) / (4 degrees)
@@ -66,12 +67,13 @@ TEST(Statistics, ErrorIsSplitIntoBiasAndVariance) {
     for (int i = 0; i < 8; ++i) seeds.add(noisy(0.1f, 1));
     const ReferenceHalves halves{noisy(0, 0.5f), noisy(0, 0.5f)};
     HostImage reference = truth;
-    for (size_t i = 0; i < reference.values.size(); ++i) reference.values[i] = (halves.a.values[i] + halves.b.values[i]) / 2;
+    for (size_t i = 0; i < reference.values.size(); ++i)
+        reference.values[i] = (halves.a.values[i] + halves.b.values[i]) / 2;
 
     const Mask all = full_mask(extent);
     const ErrorSplit split = split_error(seeds, reference, halves, all);
-    // 49152 values: the variance's mean has sd sqrt(2 / 7 / 49152) = 0.0024. The product (m - A)(m - B) has a variance of
-    // (1/8 + 0.25)^2 + (1/8)^2 = 0.16, V / 8 one of 2 / 7 / 64 = 0.004, so the bias^2 has sd 0.0018. Four of each.
+    // 49152 values: the variance's mean has sd sqrt(2 / 7 / 49152) = 0.0024. The product (m - A)(m - B) has a variance
+    // of (1/8 + 0.25)^2 + (1/8)^2 = 0.16, V / 8 one of 2 / 7 / 64 = 0.004, so the bias^2 has sd 0.0018. Four of each.
     EXPECT_NEAR(split.variance, 1, 0.0097);
     EXPECT_NEAR(split.bias_squared, 0.01, 0.0075);
     EXPECT_EQ(split.mse, split.bias_squared + split.variance);
