@@ -22,6 +22,20 @@ Environment sky(float sun) {
     return environment;
 }
 
+/// Prefiltered once for all tests of a program's run.
+struct Sky {
+    Environment environment;
+    PrefilteredEnvironment prefiltered = prefilter_environment(environment);
+};
+const Sky& smooth_sky() {
+    static const Sky result{sky(0.5f)};
+    return result;
+}
+const Sky& sunny_sky() {
+    static const Sky result{sky(64256)};
+    return result;
+}
+
 /// Mean of the texels' radiance over the lobe above the horizon, seen at the cosine mu_o, by direct integration with
 /// `split`^2 points per texel.
 glm::dvec3 integrate(const Environment& environment, glm::vec3 mirror_direction, float mu_o, float roughness,
@@ -74,8 +88,7 @@ double relative_error(const Environment& environment, const PrefilteredEnvironme
 }  // namespace
 
 TEST(prefiltered_environment, agrees_with_direct_integration_along_the_normal) {
-    const Environment environment = sky(0.5f);
-    const PrefilteredEnvironment prefiltered = prefilter_environment(environment);
+    const auto& [environment, prefiltered] = smooth_sky();
     // Bounds: quadrature on the tree 0.5 %, linear blend between two of 16 roughness levels and bilinear texels 1 %.
     for (const float roughness : {0.3f, 0.5f, 0.6875f, 0.85f, 1.0f}) {
         const double error = relative_error(environment, prefiltered, 1, roughness, 1);
@@ -85,8 +98,7 @@ TEST(prefiltered_environment, agrees_with_direct_integration_along_the_normal) {
 }
 
 TEST(prefiltered_environment, a_sun_neither_vanishes_nor_sparkles) {
-    const Environment environment = sky(64256);
-    const PrefilteredEnvironment prefiltered = prefilter_environment(environment);
+    const auto& [environment, prefiltered] = sunny_sky();
     const glm::vec3 sun = environment_direction((glm::vec2(100, 40) + 0.5f) / glm::vec2(256, 128), 0);
     // The sun is far brighter than all else, so this is the relative error of the lobe's density itself, tails and all:
     // bilinear texels, and between levels (multiples of 1/16) the blend of two lobes, each up to 2 %. Where the sun is
@@ -101,8 +113,7 @@ TEST(prefiltered_environment, a_sun_neither_vanishes_nor_sparkles) {
 }
 
 TEST(prefiltered_environment, the_error_of_a_round_lobe_grows_towards_grazing) {
-    const Environment environment = sky(0.5f);
-    const PrefilteredEnvironment prefiltered = prefilter_environment(environment);
+    const auto& [environment, prefiltered] = smooth_sky();
     // n = v = r ignores that a lobe seen from the side is cut by the horizon and turned towards the normal. The bounds
     // are some 1.3 times what was measured for this sky; they say what the fallback is worth, not what would be right.
     const float cosines[] = {1.0f, 0.8f, 0.5f, 0.2f};
@@ -144,19 +155,19 @@ TEST(prefiltered_environment, follows_the_rotation_and_gradient) {
                     pi * (1 + 0.8f * 2 / 3 * glm::dot(n, gradient.axis)), 2e-3f * pi);
     }
     Environment turned = sky(0.5f);
-    const PrefilteredEnvironment still = prefilter_environment(turned);
     turned.rotation = 1;
     const PrefilteredEnvironment moved = prefilter_environment(turned);
     const glm::vec3 d = glm::normalize(glm::vec3(1, 0.3f, 0.2f));
     const glm::vec2 uv = environment_uv(d, 1);
     // Texels of the rotated and the still maps do not coincide: two bilinear readings of a smooth function.
-    EXPECT_NEAR(mean_over_lobe(turned, moved, d, 0.5f).x,
-                mean_over_lobe(sky(0.5f), still, environment_direction(uv, 0), 0.5f).x, 5e-3f);
+    EXPECT_NEAR(
+        mean_over_lobe(turned, moved, d, 0.5f).x,
+        mean_over_lobe(smooth_sky().environment, smooth_sky().prefiltered, environment_direction(uv, 0), 0.5f).x,
+        5e-3f);
 }
 
 TEST(prefiltered_environment, irradiance_agrees_with_direct_integration) {
-    const Environment environment = sky(64256);
-    const PrefilteredEnvironment prefiltered = prefilter_environment(environment);
+    const auto& [environment, prefiltered] = sunny_sky();
     for (const glm::vec3 n : directions()) {
         double sum = 0, all = 0;
         for (unsigned y = 0; y < 128; ++y)

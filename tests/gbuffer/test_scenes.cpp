@@ -77,7 +77,7 @@ Scene varied_scene() {
                      .outer_cone_cos = 0.8f,
                      .position = {-4, 3, 2},
                      .direction = glm::normalize(glm::vec3(1, -0.5f, -1))}};
-    scene.environment = {.type = Environment::Type::gradient, .color = {0.4f, 0.5f, 0.6f}, .slope = {0.1f, 0.2f, 0.3f}};
+    scene.environment = {.type = Environment::Type::constant, .color = {0.4f, 0.5f, 0.6f}};
     scene.cameras = {{.name = "main",
                       .vertical_fov = 0.9f,
                       .near = 0.1f,
