@@ -10,11 +10,11 @@
 /// What `ssrlab compare REFERENCE TEST` is told.
 struct CompareOptions {
     std::filesystem::path reference, test;  ///< EXR: linear radiance; PNG: sRGB codes, decoded for linear metrics
-    std::vector<std::string> metrics;       ///< names; empty: default_compare_metrics()
-    std::filesystem::path map;  ///< error maps: .exr (a layer per metric, unnamed if there is one) or .png (one metric,
-                                ///< false colour); empty: none
-    float map_max = 1.0f;       ///< the error that is drawn as the brightest colour of a .png
-    MetricSettings settings;    ///< without flip_exposures they are taken from the reference
+    std::vector<std::string> metrics;       ///< names; empty: all that are usual and that the images allow
+    std::filesystem::path
+        map;                  ///< error maps, .exr: a layer per metric, or .png: one metric, false colour; empty: none
+    float map_max = 1.0f;     ///< the error that is drawn as the brightest colour of a .png
+    MetricSettings settings;  ///< without flip_exposures they are taken from the reference
     bool fail_on_non_finite = false;  ///< else non-finite pixels are left out of every mean and warned about
 };
 

@@ -14,13 +14,13 @@ struct MetricSettings {
     ToneMap tone_map = ToneMap::none;                     ///< ... tone-mapped, clamped to [0, 1] and sRGB-coded
     float pixels_per_degree = default_pixels_per_degree;  ///< of FLIP's observer
     ToneMap hdr_flip_tone_map = ToneMap::aces;
-    std::optional<FlipExposures>
-        flip_exposures;  ///< hdr_flip only: flip_exposure_range() of the scene's full reference image
+    /// Of hdr_flip only: flip_exposure_range() of the scene's full reference image.
+    std::optional<FlipExposures> flip_exposures;
 };
 
+/// Pixels with at least one such channel, each pixel counted once, in this order.
 struct PixelCounts {
-    size_t nan = 0, infinite = 0,
-           negative = 0;  ///< pixels with at least one such channel, each pixel counted once in this order
+    size_t nan = 0, infinite = 0, negative = 0;
     size_t non_finite() const { return nan + infinite; }
 };
 PixelCounts count_bad_pixels(const HostImage& rgb);
