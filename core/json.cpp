@@ -4,6 +4,7 @@
 #include "core/near_miss.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 nlohmann::json read_json(const std::filesystem::path& file) {
@@ -98,7 +99,10 @@ glm::vec3 JsonObject::vector(const std::string& key) {
     const nlohmann::json& value = need(key);
     const bool fits = value.is_array() && value.size() == 3 && std::ranges::all_of(value, [](const auto& v) { return v.is_number(); });
     if (!fits) fail(where_, ": '", key, "' must be an array of three numbers, not ", value.dump());
-    return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
+    const glm::vec3 vector(value[0].get<float>(), value[1].get<float>(), value[2].get<float>());
+    for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(vector[i])) fail(where_, ": '", key, "' has the number ", value[i].dump(), ", which float32 cannot hold");
+    return vector;
 }
 
 glm::vec3 JsonObject::vector(const std::string& key, glm::vec3 fallback) { return find(key) ? vector(key) : fallback; }

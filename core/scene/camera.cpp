@@ -17,17 +17,19 @@ CameraKey interpolated_key(const std::vector<CameraKey>& keys, float frame) {
 glm::mat4 looking(const CameraKey& key) {
     const glm::dvec3 back = glm::normalize(glm::dvec3(key.position) - glm::dvec3(key.target));
     glm::dvec3 right = glm::cross(glm::dvec3(key.up), back);
-    if (glm::length(right) < 1e-9) right = glm::cross(std::abs(back.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0), back);
+    if (glm::length(right) < 1e-9)
+        right = glm::cross(std::abs(back.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0), back);
     right = glm::normalize(right);
     const glm::dvec3 up = glm::cross(back, right);
     return glm::mat4(glm::vec4(right, 0.0f), glm::vec4(up, 0.0f), glm::vec4(back, 0.0f), glm::vec4(key.position, 1.0f));
 }
 
-/// The node's position and orientation without its scale (glTF 2.0, section 3.10.1).
+/// The node's position and orientation without its scale (glTF 2.0, section 3.10.1), and without its mirroring.
 glm::mat4 without_scale(const glm::mat4& world_from_node) {
-    glm::mat4 view = world_from_node;
-    for (int i = 0; i < 3; ++i) view[i] = glm::vec4(glm::normalize(glm::vec3(world_from_node[i])), 0.0f);
-    return view;
+    const glm::vec3 back = glm::normalize(glm::vec3(world_from_node[2]));
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(world_from_node[1]), back));
+    return glm::mat4(glm::vec4(right, 0.0f), glm::vec4(glm::cross(back, right), 0.0f), glm::vec4(back, 0.0f),
+                     world_from_node[3]);
 }
 
 float aspect_of(glm::uvec2 extent) { return float(extent.x) / float(extent.y); }
@@ -51,7 +53,8 @@ glm::dmat4 projection(const CameraPose& pose, double aspect, DepthDirection dire
         clip_from_view[2][3] = -1.0;
     }
     if (direction == DepthDirection::reversed)  // z' = w - z
-        for (int column = 0; column < 4; ++column) clip_from_view[column][2] = clip_from_view[column][3] - clip_from_view[column][2];
+        for (int column = 0; column < 4; ++column)
+            clip_from_view[column][2] = clip_from_view[column][3] - clip_from_view[column][2];
     return clip_from_view;
 }
 }  // namespace
@@ -104,7 +107,8 @@ CameraRay camera_ray(const CameraPose& pose, glm::uvec2 extent, glm::vec2 pixel)
         return {origin, -glm::normalize(glm::vec3(pose.world_from_view[2]))};
     }
     const float tangent = std::tan(0.5f * pose.vertical_fov);
-    const glm::vec3 direction = glm::mat3(pose.world_from_view) * glm::vec3(ndc.x * tangent * aspect, -ndc.y * tangent, -1.0f);
+    const glm::vec3 direction =
+        glm::mat3(pose.world_from_view) * glm::vec3(ndc.x * tangent * aspect, -ndc.y * tangent, -1.0f);
     return {glm::vec3(pose.world_from_view[3]), glm::normalize(direction)};
 }
 

@@ -27,7 +27,8 @@ void add_bytes(ContentHash& hash, const std::vector<T>& values) {
 void add(ContentHash& hash, const Texture& texture) {
     add(hash, texture.extent);
     add_bytes(hash, texture.rgba);
-    for (const int value : {int(texture.is_srgb), int(texture.wrap_u), int(texture.wrap_v), int(texture.is_nearest)}) add(hash, value);
+    for (const int value : {int(texture.is_srgb), int(texture.wrap_u), int(texture.wrap_v), int(texture.is_nearest)})
+        add(hash, value);
 }
 
 void add(ContentHash& hash, const TextureSlot& slot) {
@@ -39,11 +40,14 @@ void add(ContentHash& hash, const TextureSlot& slot) {
 void add(ContentHash& hash, const Material& material) {
     add(hash, material.base_color);
     add(hash, material.emission);
-    for (const float value : {material.alpha, material.metalness, material.roughness, material.normal_scale, material.specular, material.alpha_cutoff})
+    for (const float value : {material.alpha, material.metalness, material.roughness, material.normal_scale,
+                              material.specular, material.alpha_cutoff})
         add(hash, value);
-    for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture, &material.normal_texture, &material.emission_texture})
+    for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
+                                    &material.normal_texture, &material.emission_texture})
         add(hash, *slot);
-    for (const int value : {int(material.alpha_mode), int(material.is_double_sided), int(material.is_unlit)}) add(hash, value);
+    for (const int value : {int(material.alpha_mode), int(material.is_double_sided), int(material.is_unlit)})
+        add(hash, value);
 }
 
 void add(ContentHash& hash, const Mesh& mesh) {

@@ -14,7 +14,8 @@ Interpolation interpolation(const GltfFile& file, const std::string& name) {
     fail(file.name(), ": unknown interpolation '", name, "'; allowed are STEP, LINEAR and CUBICSPLINE");
 }
 
-AnimationChannel read_channel(const GltfFile& file, const tinygltf::AnimationSampler& sampler, Property property, const std::string& what) {
+AnimationChannel read_channel(const GltfFile& file, const tinygltf::AnimationSampler& sampler, Property property,
+                              const std::string& what) {
     AnimationChannel channel;
     channel.property = property;
     channel.interpolation = interpolation(file, sampler.interpolation);
@@ -26,7 +27,8 @@ AnimationChannel read_channel(const GltfFile& file, const tinygltf::AnimationSam
     const std::vector<float> values = read_floats(file, sampler.output, components, what + " values");
     const size_t per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
     if (values.size() != channel.times.size() * per_key * components)
-        fail(file.name(), ": ", what, " has ", channel.times.size(), " keys and ", values.size() / components, " values");
+        fail(file.name(), ": ", what, " has ", channel.times.size(), " keys and ", values.size() / components,
+             " values");
     for (size_t i = 0; i < values.size(); i += components)
         channel.values.emplace_back(values[i], values[i + 1], values[i + 2], components == 4 ? values[i + 3] : 0.0f);
     return channel;
@@ -45,13 +47,17 @@ void add_animation(GltfFile& file, const std::vector<int>& node_of, Scene& scene
             if (channel.target_node < 0) continue;  // of an extension; glTF 2.0, section 3.11: to be ignored
             const int node = node_of[checked_index(file, channel.target_node, node_of.size(), what + ": node")];
             if (node < 0) continue;  // outside the scene that is shown
-            const auto& sampler = animation.samplers[checked_index(file, channel.sampler, animation.samplers.size(), what + ": sampler")];
+            const auto& sampler =
+                animation.samplers[checked_index(file, channel.sampler, animation.samplers.size(), what + ": sampler")];
             const std::string& path = channel.target_path;
             if (path != "translation" && path != "rotation" && path != "scale") {
-                file.warnings.insert("The animated property '" + path + "' of animation '" + animation.name + "' is ignored.");
+                file.warnings.insert("The animated property '" + path + "' of animation '" + animation.name +
+                                     "' is ignored.");
                 continue;
             }
-            const Property property = path == "rotation" ? Property::rotation : path == "scale" ? Property::scale : Property::translation;
+            const Property property = path == "rotation" ? Property::rotation
+                                      : path == "scale"  ? Property::scale
+                                                         : Property::translation;
             scene.animation.push_back(read_channel(file, sampler, property, what));
             scene.animation.back().node = unsigned(node);
         }

@@ -11,9 +11,9 @@
 namespace {
 using nlohmann::json;
 
-const std::set<std::string> supported_extensions = {
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_specular",
-    "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"};
+const std::set<std::string> supported_extensions = {"KHR_lights_punctual",    "KHR_materials_emissive_strength",
+                                                    "KHR_materials_specular", "KHR_materials_unlit",
+                                                    "KHR_mesh_quantization",  "KHR_texture_transform"};
 // Drawn as if the extension were absent; the part that carries it says so in a warning of its own.
 const std::set<std::string> opaque_extensions = {"KHR_materials_transmission"};
 
@@ -26,20 +26,29 @@ uint32_t little_endian(const std::string& bytes, size_t at) {
 std::string glb_json(const std::string& bytes, const std::string& name) {
     const uint32_t json_chunk = 0x4E4F534A;
     if (bytes.size() < 20) fail(name, ": truncated .glb: ", bytes.size(), " bytes are less than its header");
-    if (little_endian(bytes, 4) != 2) fail(name, ": .glb version ", little_endian(bytes, 4), " is not supported, only 2");
+    if (little_endian(bytes, 4) != 2)
+        fail(name, ": .glb version ", little_endian(bytes, 4), " is not supported, only 2");
     const size_t length = little_endian(bytes, 8), json_length = little_endian(bytes, 12);
-    if (length > bytes.size()) fail(name, ": truncated .glb: its header says ", length, " bytes, the file has ", bytes.size());
+    if (length > bytes.size())
+        fail(name, ": truncated .glb: its header says ", length, " bytes, the file has ", bytes.size());
     if (little_endian(bytes, 16) != json_chunk) fail(name, ": the first chunk of the .glb is not JSON");
     const size_t json_end = 20 + json_length;
-    if (json_end > length) fail(name, ": truncated .glb: the JSON chunk of ", json_length, " bytes passes the end of the file");
+    if (json_end > length)
+        fail(name, ": truncated .glb: the JSON chunk of ", json_length, " bytes passes the end of the file");
     if (json_end + 8 <= length && json_end + 8 + little_endian(bytes, json_end) > length)
-        fail(name, ": truncated .glb: the binary chunk of ", little_endian(bytes, json_end), " bytes passes the end of the file");
+        fail(name, ": truncated .glb: the binary chunk of ", little_endian(bytes, json_end),
+             " bytes passes the end of the file");
     return bytes.substr(20, json_length);
 }
 
 json parse(const std::string& text, const std::string& name) {
+    const int deepest = 100;  // a glTF nests some ten levels; tinygltf recurses into what it is given
+    const auto check_depth = [&](int depth, json::parse_event_t, json&) {
+        if (depth > deepest) fail(name, ": its JSON nests more than ", deepest, " levels");
+        return true;
+    };
     try {
-        return json::parse(text);
+        return json::parse(text, check_depth);
     } catch (const json::parse_error& e) {
         const size_t end = std::min<size_t>(e.byte, text.size());
         const size_t line = 1 + std::count(text.begin(), text.begin() + long(end), '\n');
@@ -51,7 +60,8 @@ json parse(const std::string& text, const std::string& name) {
 uint64_t unsigned_member(const json& object, const char* key, uint64_t fallback, const std::string& where) {
     const auto found = object.find(key);
     if (found == object.end()) return fallback;
-    if (!found->is_number_unsigned()) fail(where, ": '", key, "' must be a whole number of 0 or more, not ", found->dump());
+    if (!found->is_number_unsigned())
+        fail(where, ": '", key, "' must be a whole number of 0 or more, not ", found->dump());
     return found->get<uint64_t>();
 }
 
@@ -59,7 +69,8 @@ const json& list(const json& root, const char* key, const std::string& name) {
     static const json none = json::array();
     const auto found = root.find(key);
     if (found == root.end()) return none;
-    const bool holds_objects = found->is_array() && std::ranges::all_of(*found, [](const json& o) { return o.is_object(); });
+    const bool holds_objects =
+        found->is_array() && std::ranges::all_of(*found, [](const json& o) { return o.is_object(); });
     if (!holds_objects) fail(name, ": '", key, "' must be an array of objects");
     return *found;
 }
@@ -71,7 +82,8 @@ void check_buffer_views(const json& root, const std::string& name) {
         const std::string where = name + ": bufferViews[" + std::to_string(i) + "]";
         const uint64_t buffer = unsigned_member(views[i], "buffer", buffers.size(), where);
         if (buffer >= buffers.size()) fail(where, " names buffer ", buffer, ", but there are ", buffers.size());
-        const uint64_t length = unsigned_member(buffers[buffer], "byteLength", 0, name + ": buffers[" + std::to_string(buffer) + "]");
+        const uint64_t length =
+            unsigned_member(buffers[buffer], "byteLength", 0, name + ": buffers[" + std::to_string(buffer) + "]");
         const uint64_t begin = unsigned_member(views[i], "byteOffset", 0, where);
         const uint64_t size = unsigned_member(views[i], "byteLength", 0, where);
         if (begin > length || size > length - begin || size > INT32_MAX)
@@ -96,7 +108,8 @@ void check_extensions(const json& root, GltfFile& file) {
             file.warnings.insert("The glTF extension " + extension + " is ignored.");
 }
 
-bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size, void*) {
+bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                  int size, void*) {
     image->image.assign(bytes, bytes + size);
     image->as_is = true;
     return true;
@@ -128,14 +141,16 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     std::string folder = path.parent_path().empty() ? "." : path.parent_path().string();
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_encoded, nullptr);
-    loader.SetFsCallbacks({exists_beside_gltf, tinygltf::ExpandFilePath, tinygltf::ReadWholeFile, tinygltf::WriteWholeFile, &folder});
+    loader.SetFsCallbacks(
+        {exists_beside_gltf, tinygltf::ExpandFilePath, tinygltf::ReadWholeFile, tinygltf::WriteWholeFile, &folder});
     std::string error, warning;
     bool is_loaded = false;
     try {
         const auto size = static_cast<unsigned>(bytes.size());
-        is_loaded = is_binary ? loader.LoadBinaryFromMemory(&file.model, &error, &warning,
-                                                            reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
-                              : loader.LoadASCIIFromString(&file.model, &error, &warning, bytes.data(), size, folder);
+        is_loaded =
+            is_binary ? loader.LoadBinaryFromMemory(&file.model, &error, &warning,
+                                                    reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
+                      : loader.LoadASCIIFromString(&file.model, &error, &warning, bytes.data(), size, folder);
     } catch (const std::exception& e) {
         fail(file.name(), ": malformed glTF: ", e.what());
     }
@@ -147,6 +162,7 @@ GltfFile read_gltf(const std::filesystem::path& path) {
 }
 
 size_t checked_index(const GltfFile& file, int index, size_t count, const std::string& what) {
-    if (index < 0 || size_t(index) >= count) fail(file.name(), ": ", what, " ", index, " does not exist; there are ", count);
+    if (index < 0 || size_t(index) >= count)
+        fail(file.name(), ": ", what, " ", index, " does not exist; there are ", count);
     return size_t(index);
 }

@@ -1,13 +1,13 @@
 #pragma once
+#include <tiny_gltf.h>
 #include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
-#include <tiny_gltf.h>
 #include <vector>
 
-/// A parsed glTF file with all its buffers; images are still encoded (tinygltf::Image::image holds the bytes of the PNG or
-/// JPEG). The files gltf_*.cpp turn its parts into those of a Scene.
+/// A parsed glTF file with all its buffers; images are still encoded (tinygltf::Image::image holds the bytes of the PNG
+/// or JPEG). The files gltf_*.cpp turn its parts into those of a Scene.
 struct GltfFile {
     std::filesystem::path path;
     tinygltf::Model model;
@@ -16,9 +16,9 @@ struct GltfFile {
     std::string name() const { return path.string(); }
 };
 
-/// Reads and checks what tinygltf 2.7 takes on trust: the chunks of a .glb, and that buffer views and the images in them lie
-/// inside their buffers. Fails with Error if the file or a buffer is missing, truncated or malformed, or if the file
-/// requires an extension that load_gltf() does not know.
+/// Reads and checks what tinygltf 2.7 takes on trust: the chunks of a .glb, and that buffer views and the images in
+/// them lie inside their buffers. Fails with Error if the file or a buffer is missing, truncated or malformed, or if
+/// the file requires an extension that load_gltf() does not know.
 GltfFile read_gltf(const std::filesystem::path& path);
 
 /// `index` as an index into a list of `count`, or an Error such as "a.gltf: mesh 2 names material 7, but there are 3".

@@ -19,7 +19,8 @@ void read_alpha(GltfFile& file, const tinygltf::Material& source, const std::str
     else if (source.alphaMode == "BLEND")
         file.warnings.insert("The " + what + " is blended (alphaMode BLEND) and drawn opaque.");
     else if (source.alphaMode != "OPAQUE")
-        fail(file.name(), ": ", what, " has the unknown alphaMode '", source.alphaMode, "'; allowed are OPAQUE, MASK and BLEND");
+        fail(file.name(), ": ", what, " has the unknown alphaMode '", source.alphaMode,
+             "'; allowed are OPAQUE, MASK and BLEND");
     material.alpha_cutoff = checked_number(file, source.alphaCutoff, 0.0, FLT_MAX, what + ": alphaCutoff");
 }
 
@@ -54,13 +55,15 @@ Material read_material(GltfFile& file, const tinygltf::Material& source, size_t 
     material.roughness = checked_number(file, pbr.roughnessFactor, 0.0, 1.0, what + ": roughnessFactor");
     material.emission = fixed_vector<3>(file, source.emissiveFactor, glm::vec3(0.0f), what + ": emissiveFactor");
     for (int i = 0; i < 3; ++i) checked_number(file, material.emission[i], 0.0, FLT_MAX, what + ": emissiveFactor");
-    material.normal_scale = checked_number(file, source.normalTexture.scale, -FLT_MAX, FLT_MAX, what + ": normal scale");
+    material.normal_scale =
+        checked_number(file, source.normalTexture.scale, -FLT_MAX, FLT_MAX, what + ": normal scale");
     material.is_double_sided = source.doubleSided;
     read_alpha(file, source, what, material);
     read_extensions(file, source, what, material);
 
     const auto slot = [&](const auto& info, bool is_srgb, const char* channel) {
-        return textures.slot(info.index, info.texCoord, info.extensions, is_srgb, std::string(channel) + " texture of " + what);
+        return textures.slot(info.index, info.texCoord, info.extensions, is_srgb,
+                             std::string(channel) + " texture of " + what);
     };
     material.base_color_texture = slot(pbr.baseColorTexture, true, "base colour");
     material.metalness_roughness_texture = slot(pbr.metallicRoughnessTexture, false, "metallic-roughness");
@@ -72,7 +75,8 @@ Material read_material(GltfFile& file, const tinygltf::Material& source, size_t 
 
 bool has_primitive_without_material(const GltfFile& file) {
     return std::ranges::any_of(file.model.meshes, [](const tinygltf::Mesh& mesh) {
-        return std::ranges::any_of(mesh.primitives, [](const tinygltf::Primitive& primitive) { return primitive.material < 0; });
+        return std::ranges::any_of(mesh.primitives,
+                                   [](const tinygltf::Primitive& primitive) { return primitive.material < 0; });
     });
 }
 }  // namespace

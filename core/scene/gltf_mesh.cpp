@@ -3,16 +3,16 @@
 #include "core/error.h"
 #include "core/scene/tangents.h"
 
-#include <glm/gtc/type_ptr.hpp>
 #include <tbb/parallel_for.h>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace {
 const tinygltf::Primitive& primitive_of(const GltfFile& file, size_t mesh, size_t primitive) {
     return file.model.meshes[mesh].primitives[primitive];
 }
 
-/// Index lists of strips and fans as triangles (glTF 2.0, section 3.7.2.1: the first vertex of odd strip triangles stays,
-/// the other two swap, so that all face the same way).
+/// Index lists of strips and fans as triangles (glTF 2.0, section 3.7.2.1: the first vertex of odd strip triangles
+/// stays, the other two swap, so that all face the same way).
 std::vector<uint32_t> triangle_list(const std::vector<uint32_t>& indices, int mode) {
     if (mode == TINYGLTF_MODE_TRIANGLES) return indices;
     std::vector<uint32_t> triangles;
@@ -27,7 +27,8 @@ std::vector<uint32_t> triangle_list(const std::vector<uint32_t>& indices, int mo
     return triangles;
 }
 
-std::vector<uint32_t> read_triangles(const GltfFile& file, const tinygltf::Primitive& primitive, size_t vertex_count, const std::string& what) {
+std::vector<uint32_t> read_triangles(const GltfFile& file, const tinygltf::Primitive& primitive, size_t vertex_count,
+                                     const std::string& what) {
     std::vector<uint32_t> indices;
     if (primitive.indices >= 0) {
         indices = read_indices(file, primitive.indices, what + " indices");
@@ -36,14 +37,16 @@ std::vector<uint32_t> read_triangles(const GltfFile& file, const tinygltf::Primi
         for (size_t i = 0; i < vertex_count; ++i) indices[i] = uint32_t(i);
     }
     for (const uint32_t index : indices)
-        if (index >= vertex_count) fail(file.name(), ": ", what, " has the index ", index, ", but only ", vertex_count, " vertices");
+        if (index >= vertex_count)
+            fail(file.name(), ": ", what, " has the index ", index, ", but only ", vertex_count, " vertices");
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
         fail(file.name(), ": ", what, " has ", indices.size(), " indices, no multiple of 3");
     return triangle_list(indices, mode);
 }
 
-/// Calls set(vertex, values) for each vertex with the attribute's values. Returns false if the primitive has none of that name.
+/// Calls set(vertex, values) for each vertex with the attribute's values. Returns false if the primitive has none of
+/// that name.
 template <class Set>
 bool read_attribute(const GltfFile& file, const tinygltf::Primitive& primitive, const char* name, unsigned components,
                     std::vector<Vertex>& vertices, const std::string& what, const Set& set) {
@@ -52,7 +55,8 @@ bool read_attribute(const GltfFile& file, const tinygltf::Primitive& primitive, 
     const std::string attribute = what + " " + name;
     const std::vector<float> values = read_floats(file, found->second, components, attribute);
     if (values.size() != vertices.size() * components)
-        fail(file.name(), ": ", attribute, " has ", values.size() / components, " elements for ", vertices.size(), " vertices");
+        fail(file.name(), ": ", attribute, " has ", values.size() / components, " elements for ", vertices.size(),
+             " vertices");
     for (size_t i = 0; i < vertices.size(); ++i) set(vertices[i], &values[i * components]);
     return true;
 }
@@ -69,10 +73,13 @@ Mesh read_mesh(const GltfFile& file, const Scene& scene, size_t mesh_index, size
     const std::string what = "mesh " + std::to_string(mesh_index) + " primitive " + std::to_string(primitive_index);
     Mesh mesh;
     mesh.name = file.model.meshes[mesh_index].name;
-    mesh.material = primitive.material < 0 ? unsigned(scene.materials.size() - 1)
-                                           : unsigned(checked_index(file, primitive.material, file.model.materials.size(), what + ": material"));
+    mesh.material =
+        primitive.material < 0
+            ? unsigned(scene.materials.size() - 1)
+            : unsigned(checked_index(file, primitive.material, file.model.materials.size(), what + ": material"));
     const auto position = primitive.attributes.find("POSITION");
-    const size_t accessor = checked_index(file, position->second, file.model.accessors.size(), what + " POSITION: accessor");
+    const size_t accessor =
+        checked_index(file, position->second, file.model.accessors.size(), what + " POSITION: accessor");
     const std::vector<float> positions = read_floats(file, int(accessor), 3, what + " POSITION");
     mesh.vertices.resize(positions.size() / 3, Vertex{.color = glm::vec4(1.0f)});
     for (size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i].position = glm::make_vec3(&positions[i * 3]);
@@ -81,11 +88,15 @@ Mesh read_mesh(const GltfFile& file, const Scene& scene, size_t mesh_index, size
         return read_attribute(file, primitive, name, components, mesh.vertices, what, set);
     };
     const bool has_normals = attribute("NORMAL", 3, [](Vertex& v, const float* x) { v.normal = {x[0], x[1], x[2]}; });
-    const bool has_tangents = attribute("TANGENT", 4, [](Vertex& v, const float* x) { v.tangent = {x[0], x[1], x[2], x[3]}; });
+    const bool has_tangents = attribute("TANGENT", 4, [](Vertex& v, const float* x) {
+        v.tangent = {x[0], x[1], x[2], x[3]};
+    });
     attribute("TEXCOORD_0", 2, [](Vertex& v, const float* x) { v.uv[0] = {x[0], x[1]}; });
     attribute("TEXCOORD_1", 2, [](Vertex& v, const float* x) { v.uv[1] = {x[0], x[1]}; });
     const unsigned components = color_components(file, primitive);
-    attribute("COLOR_0", components, [&](Vertex& v, const float* x) { v.color = {x[0], x[1], x[2], components == 4 ? x[3] : 1.0f}; });
+    attribute("COLOR_0", components, [&](Vertex& v, const float* x) {
+        v.color = {x[0], x[1], x[2], components == 4 ? x[3] : 1.0f};
+    });
     mesh.indices = read_triangles(file, primitive, mesh.vertices.size(), what);
 
     if (has_normals)
@@ -108,11 +119,14 @@ bool is_drawn(GltfFile& file, size_t mesh_index, size_t primitive_index) {
     const std::string name = file.model.meshes[mesh_index].name;
     if (!primitive.targets.empty()) file.warnings.insert("The morph targets of mesh '" + name + "' are ignored.");
     for (const auto& [attribute, accessor] : primitive.attributes) {
-        static const std::set<std::string> known = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
-        if (!known.contains(attribute)) file.warnings.insert("The vertex attribute " + attribute + " of mesh '" + name + "' is ignored.");
+        static const std::set<std::string> known = {"POSITION",   "NORMAL",     "TANGENT",
+                                                    "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+        if (!known.contains(attribute))
+            file.warnings.insert("The vertex attribute " + attribute + " of mesh '" + name + "' is ignored.");
     }
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-    if (mode > TINYGLTF_MODE_TRIANGLE_FAN) fail(file.name(), ": mesh ", mesh_index, " has the unknown primitive mode ", mode);
+    if (mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        fail(file.name(), ": mesh ", mesh_index, " has the unknown primitive mode ", mode);
     if (mode < TINYGLTF_MODE_TRIANGLES) {
         file.warnings.insert("Points or lines of mesh '" + name + "' are not drawn.");
         return false;
@@ -136,6 +150,8 @@ std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene) {
         }
     const size_t first = scene.meshes.size();
     scene.meshes.resize(first + drawn.size());
-    tbb::parallel_for(size_t(0), drawn.size(), [&](size_t i) { scene.meshes[first + i] = read_mesh(file, scene, drawn[i].first, drawn[i].second); });
+    tbb::parallel_for(size_t(0), drawn.size(), [&](size_t i) {
+        scene.meshes[first + i] = read_mesh(file, scene, drawn[i].first, drawn[i].second);
+    });
     return meshes_of;
 }

@@ -14,15 +14,18 @@ Node read_node(const GltfFile& file, const tinygltf::Node& source, size_t index)
     Node node;
     node.name = source.name;
     node.translation = fixed_vector<3>(file, source.translation, glm::vec3(0.0f), what + ": translation");
-    const glm::vec4 rotation = fixed_vector<4>(file, source.rotation, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f), what + ": rotation");
+    const glm::vec4 rotation =
+        fixed_vector<4>(file, source.rotation, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f), what + ": rotation");
     if (!(glm::dot(rotation, rotation) > 0.0f)) fail(file.name(), ": ", what, ": rotation is the zero quaternion");
     node.rotation = glm::normalize(rotation);
     node.scale = fixed_vector<3>(file, source.scale, glm::vec3(1.0f), what + ": scale");
     node.parent_from_node = transform(node.translation, node.rotation, node.scale);
     if (source.matrix.empty()) return node;
-    if (source.matrix.size() != 16) fail(file.name(), ": ", what, ": matrix must have 16 numbers, not ", source.matrix.size());
+    if (source.matrix.size() != 16)
+        fail(file.name(), ": ", what, ": matrix must have 16 numbers, not ", source.matrix.size());
     for (int i = 0; i < 16; ++i)
-        node.parent_from_node[i / 4][i % 4] = checked_number(file, source.matrix[size_t(i)], -FLT_MAX, FLT_MAX, what + ": matrix");
+        node.parent_from_node[i / 4][i % 4] =
+            checked_number(file, source.matrix[size_t(i)], -FLT_MAX, FLT_MAX, what + ": matrix");
     split_transform(node.parent_from_node, node.translation, node.rotation, node.scale);
     return node;
 }
@@ -47,7 +50,8 @@ PunctualLight read_light(const GltfFile& file, int index, int node) {
     light.range = checked_number(file, source.range, 0.0, FLT_MAX, what + ": range");
     light.node = node;
     if (light.type != LightType::spot) return light;
-    const double outer = checked_number(file, source.spot.outerConeAngle, 0.0, std::numbers::pi / 2, what + ": outerConeAngle");
+    const double outer =
+        checked_number(file, source.spot.outerConeAngle, 0.0, std::numbers::pi / 2, what + ": outerConeAngle");
     const double inner = checked_number(file, source.spot.innerConeAngle, 0.0, outer, what + ": innerConeAngle");
     light.inner_cone_cos = float(std::cos(inner));
     light.outer_cone_cos = float(std::cos(outer));
@@ -64,7 +68,8 @@ SceneCamera read_camera(const GltfFile& file, int index, int node) {
     camera.is_orthographic = source.type == "orthographic";
     if (camera.is_orthographic) {
         const auto& lens = source.orthographic;
-        camera.orthographic_height = 2.0f * checked_number(file, std::abs(lens.ymag), FLT_MIN, FLT_MAX / 4, what + ": ymag");
+        camera.orthographic_height =
+            2.0f * checked_number(file, std::abs(lens.ymag), FLT_MIN, FLT_MAX / 4, what + ": ymag");
         camera.near = checked_number(file, lens.znear, 0.0, FLT_MAX, what + ": znear");
         camera.far = checked_number(file, lens.zfar, 0.0, FLT_MAX, what + ": zfar");
     } else {
@@ -73,7 +78,8 @@ SceneCamera read_camera(const GltfFile& file, int index, int node) {
         camera.near = checked_number(file, lens.znear, FLT_MIN, FLT_MAX, what + ": znear");
         camera.far = checked_number(file, lens.zfar, 0.0, FLT_MAX, what + ": zfar");
     }
-    if (camera.far != 0.0f && camera.far <= camera.near) fail(file.name(), ": ", what, ": zfar ", camera.far, " is not beyond znear ", camera.near);
+    if (camera.far != 0.0f && camera.far <= camera.near)
+        fail(file.name(), ": ", what, ": zfar ", camera.far, " is not beyond znear ", camera.near);
     return camera;
 }
 
@@ -85,20 +91,25 @@ std::vector<int> roots(const GltfFile& file) {
     }
     std::vector<bool> is_child(model.nodes.size(), false);
     for (const auto& node : model.nodes)
-        for (const int child : node.children) is_child[checked_index(file, child, model.nodes.size(), "child node")] = true;
+        for (const int child : node.children)
+            is_child[checked_index(file, child, model.nodes.size(), "child node")] = true;
     std::vector<int> found;
     for (size_t i = 0; i < model.nodes.size(); ++i)
         if (!is_child[i]) found.push_back(int(i));
     return found;
 }
 
-void add_contents(GltfFile& file, const tinygltf::Node& source, const std::vector<std::vector<unsigned>>& meshes_of, unsigned node, Scene& scene) {
+void add_contents(GltfFile& file, const tinygltf::Node& source, const std::vector<std::vector<unsigned>>& meshes_of,
+                  unsigned node, Scene& scene) {
     if (source.mesh >= 0)
-        for (const unsigned mesh : meshes_of[checked_index(file, source.mesh, meshes_of.size(), "mesh")]) scene.instances.push_back({mesh, node});
+        for (const unsigned mesh : meshes_of[checked_index(file, source.mesh, meshes_of.size(), "mesh")])
+            scene.instances.push_back({mesh, node});
     if (source.camera >= 0) scene.cameras.push_back(read_camera(file, source.camera, int(node)));
-    if (source.skin >= 0) file.warnings.insert("The skin of node '" + source.name + "' is ignored: its mesh is drawn in bind pose.");
+    if (source.skin >= 0)
+        file.warnings.insert("The skin of node '" + source.name + "' is ignored: its mesh is drawn in bind pose.");
     if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end())
-        scene.lights.push_back(read_light(file, int(number_member(file, light->second, "light", -1.0f, "node '" + source.name + "'")), int(node)));
+        scene.lights.push_back(
+            read_light(file, index_member(file, light->second, "light", "node '" + source.name + "'"), int(node)));
 }
 }  // namespace
 
@@ -112,7 +123,8 @@ std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigne
     for (const int root : roots(file)) open.push_back({root, -1});
     for (size_t next = 0; next < open.size(); ++next) {  // breadth first: parents come before their children
         const size_t index = checked_index(file, open[next].node, nodes.size(), "node");
-        if (node_of[index] >= 0) fail(file.name(), ": node ", index, " ('", nodes[index].name, "') has two parents, or is its own ancestor");
+        if (node_of[index] >= 0)
+            fail(file.name(), ": node ", index, " ('", nodes[index].name, "') has two parents, or is its own ancestor");
         node_of[index] = int(scene.nodes.size());
         scene.nodes.push_back(read_node(file, nodes[index], index));
         scene.nodes.back().parent = open[next].parent;

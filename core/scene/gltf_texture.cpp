@@ -3,16 +3,21 @@
 #include "core/error.h"
 #include "core/scene/gltf_value.h"
 
-#include <cmath>
 #include <tbb/parallel_for.h>
+#include <algorithm>
+#include <cmath>
 
 namespace {
 TextureWrap wrap(const GltfFile& file, int mode) {
     switch (mode) {
-        case TINYGLTF_TEXTURE_WRAP_REPEAT: return TextureWrap::repeat;
-        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return TextureWrap::mirrored_repeat;
-        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return TextureWrap::clamp_to_edge;
-        default: fail(file.name(), ": a sampler has the unknown wrap mode ", mode);
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return TextureWrap::repeat;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return TextureWrap::mirrored_repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return TextureWrap::clamp_to_edge;
+        default:
+            fail(file.name(), ": a sampler has the unknown wrap mode ", mode);
     }
 }
 
@@ -52,7 +57,8 @@ Decoded decode_image(const GltfFile& file, size_t index) {
 }
 }  // namespace
 
-TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb, const std::string& what) {
+TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb,
+                               const std::string& what) {
     TextureSlot slot;
     if (texture < 0) return slot;
     const auto& model = file_.model;
@@ -61,13 +67,16 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
         file_.warnings.insert("The " + what + " is ignored, since its image is of a kind that ssrlab cannot decode.");
         return slot;
     }
+    if (texcoord < 0) fail(file_.name(), ": the ", what, " has the negative texCoord ", texcoord);
     slot.texcoord = unsigned(texcoord);
     if (const auto found = extensions.find("KHR_texture_transform"); found != extensions.end()) {
         slot.uv_transform = texture_transform(file_, found->second, what);
-        slot.texcoord = unsigned(number_member(file_, found->second, "texCoord", float(texcoord), what));
+        const int replacement = index_member(file_, found->second, "texCoord", what);
+        if (replacement >= 0) slot.texcoord = unsigned(replacement);
     }
     if (slot.texcoord > 1) {
-        file_.warnings.insert("The " + what + " uses the texture coordinates TEXCOORD_" + std::to_string(slot.texcoord) + ", which are replaced by TEXCOORD_0.");
+        file_.warnings.insert("The " + what + " uses the texture coordinates TEXCOORD_" +
+                              std::to_string(slot.texcoord) + ", which are replaced by TEXCOORD_0.");
         slot.texcoord = 0;
     }
     const auto [found, is_new] = index_of_.try_emplace({texture, is_srgb}, int(scene_.textures.size()));
@@ -80,7 +89,8 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
     added.name = !image.uri.empty() && !tinygltf::IsDataURI(image.uri) ? image.uri : image.name;
     added.is_srgb = is_srgb;
     if (source.sampler >= 0) {
-        const auto& sampler = model.samplers[checked_index(file_, source.sampler, model.samplers.size(), what + ": sampler")];
+        const auto& sampler =
+            model.samplers[checked_index(file_, source.sampler, model.samplers.size(), what + ": sampler")];
         added.wrap_u = wrap(file_, sampler.wrapS);
         added.wrap_v = wrap(file_, sampler.wrapT);
         added.is_nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
@@ -96,7 +106,8 @@ void GltfTextures::decode() {
     tbb::parallel_for(size_t(0), images.size(), [&](size_t i) { decoded[images[i]] = decode_image(file_, images[i]); });
     for (size_t i = 0; i < scene_.textures.size(); ++i) {
         Decoded& image = decoded[image_of_[i]];
-        const bool is_last_use = std::find(image_of_.begin() + long(i) + 1, image_of_.end(), image_of_[i]) == image_of_.end();
+        const bool is_last_use =
+            std::find(image_of_.begin() + long(i) + 1, image_of_.end(), image_of_[i]) == image_of_.end();
         scene_.textures[i].extent = image.extent;
         if (is_last_use)
             scene_.textures[i].rgba = std::move(image.rgba);

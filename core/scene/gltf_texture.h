@@ -5,13 +5,15 @@
 #include <map>
 #include <tuple>
 
-/// Collects the textures that materials ask for: each glTF texture once per use as colour or data, then decodes their images.
+/// Collects the textures that materials ask for: each glTF texture once per use as colour or data, then decodes their
+/// images.
 class GltfTextures {
 public:
     GltfTextures(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
     /// `info`: the index, texture coordinate set and extensions of a glTF textureInfo. `is_srgb`: used as colour.
-    TextureSlot slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb, const std::string& what);
+    TextureSlot slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb,
+                     const std::string& what);
 
     /// Decodes all images on all cores. Fails with Error if one cannot be decoded.
     void decode();

@@ -5,18 +5,29 @@
 #include <cfloat>
 
 float checked_number(const GltfFile& file, double value, double min, double max, const std::string& what) {
-    if (!(value >= min && value <= max)) fail(file.name(), ": ", what, " = ", value, " is outside [", min, ", ", max, "]");
+    if (!(value >= min && value <= max))
+        fail(file.name(), ": ", what, " = ", value, " is outside [", min, ", ", max, "]");
     return float(value);
 }
 
-float number_member(const GltfFile& file, const tinygltf::Value& object, const char* key, float fallback, const std::string& what) {
+float number_member(const GltfFile& file, const tinygltf::Value& object, const char* key, float fallback,
+                    const std::string& what) {
     if (!object.IsObject() || !object.Has(key)) return fallback;
     const tinygltf::Value& value = object.Get(key);
     if (!value.IsNumber()) fail(file.name(), ": ", what, ": '", key, "' must be a number");
     return checked_number(file, value.GetNumberAsDouble(), -FLT_MAX, FLT_MAX, what + ": '" + key + "'");
 }
 
-glm::vec2 vec2_member(const GltfFile& file, const tinygltf::Value& object, const char* key, glm::vec2 fallback, const std::string& what) {
+int index_member(const GltfFile& file, const tinygltf::Value& object, const char* key, const std::string& what) {
+    if (!object.IsObject() || !object.Has(key)) return -1;
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsInt() || value.GetNumberAsInt() < 0)
+        fail(file.name(), ": ", what, ": '", key, "' must be a whole number of 0 or more");
+    return value.GetNumberAsInt();
+}
+
+glm::vec2 vec2_member(const GltfFile& file, const tinygltf::Value& object, const char* key, glm::vec2 fallback,
+                      const std::string& what) {
     if (!object.IsObject() || !object.Has(key)) return fallback;
     const tinygltf::Value& value = object.Get(key);
     const bool fits = value.IsArray() && value.ArrayLen() == 2 && value.Get(0).IsNumber() && value.Get(1).IsNumber();
@@ -26,7 +37,8 @@ glm::vec2 vec2_member(const GltfFile& file, const tinygltf::Value& object, const
 }
 
 template <int N>
-glm::vec<N, float> fixed_vector(const GltfFile& file, const std::vector<double>& values, glm::vec<N, float> fallback, const std::string& what) {
+glm::vec<N, float> fixed_vector(const GltfFile& file, const std::vector<double>& values, glm::vec<N, float> fallback,
+                                const std::string& what) {
     if (values.empty()) return fallback;
     if (values.size() != size_t(N)) fail(file.name(), ": ", what, " must have ", N, " numbers, not ", values.size());
     glm::vec<N, float> vector;

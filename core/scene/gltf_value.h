@@ -4,12 +4,17 @@
 #include <glm/glm.hpp>
 
 // Members of a glTF extension object; an absent one is `fallback`, a malformed one an Error that names `what`.
-float number_member(const GltfFile& file, const tinygltf::Value& object, const char* key, float fallback, const std::string& what);
-glm::vec2 vec2_member(const GltfFile& file, const tinygltf::Value& object, const char* key, glm::vec2 fallback, const std::string& what);
+float number_member(const GltfFile& file, const tinygltf::Value& object, const char* key, float fallback,
+                    const std::string& what);
+/// -1 if absent; a whole number otherwise.
+int index_member(const GltfFile& file, const tinygltf::Value& object, const char* key, const std::string& what);
+glm::vec2 vec2_member(const GltfFile& file, const tinygltf::Value& object, const char* key, glm::vec2 fallback,
+                      const std::string& what);
 
 /// `values` as a vector of `N` finite numbers, or `fallback` if empty.
 template <int N>
-glm::vec<N, float> fixed_vector(const GltfFile& file, const std::vector<double>& values, glm::vec<N, float> fallback, const std::string& what);
+glm::vec<N, float> fixed_vector(const GltfFile& file, const std::vector<double>& values, glm::vec<N, float> fallback,
+                                const std::string& what);
 
 /// The number if it is finite and within [min, max], else an Error.
 float checked_number(const GltfFile& file, double value, double min, double max, const std::string& what);

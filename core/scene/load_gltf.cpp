@@ -3,6 +3,19 @@
 #include "core/scene/gltf_parts.h"
 #include "core/scene/load_scene.h"
 
+#include <set>
+
+namespace {
+/// glTF lets cameras share a name, and nodes a camera; here a name means one camera.
+void make_names_unique(std::vector<SceneCamera>& cameras) {
+    std::set<std::string> taken;
+    for (SceneCamera& camera : cameras) {
+        const std::string name = camera.name;
+        for (int i = 2; !taken.insert(camera.name).second; ++i) camera.name = name + "_" + std::to_string(i);
+    }
+}
+}  // namespace
+
 Scene load_gltf(const std::filesystem::path& path) {
     GltfFile file = read_gltf(path);
     Scene scene;
@@ -11,7 +24,9 @@ Scene load_gltf(const std::filesystem::path& path) {
     const auto meshes_of = add_meshes(file, scene);
     const auto node_of = add_nodes(file, meshes_of, scene);
     add_animation(file, node_of, scene);
+    make_names_unique(scene.cameras);
     scene.frame_count = animation_frames(scene);
+    for (SceneCamera& camera : scene.cameras) camera.frame_count = scene.frame_count;
     scene.warnings.assign(file.warnings.begin(), file.warnings.end());
     scene.content_hash = content_hash(scene);
     return scene;

@@ -62,6 +62,7 @@ Scene load_scene(const std::string& name, const std::vector<fs::path>& search_pa
     if (extension == ".gltf" || extension == ".glb") return load_bare_gltf(direct);
     if (extension == ".json") return load_scene_file(direct, search_path);
     for (const fs::path& folder : search_path)
-        if (!name.empty() && fs::exists(folder / name / "scene.json")) return load_scene_file(folder / name / "scene.json", search_path);
+        if (!name.empty() && fs::exists(folder / name / "scene.json"))
+            return load_scene_file(folder / name / "scene.json", search_path);
     fail("unknown scene '", name, "'", suggestion(name, list_scenes(search_path)));
 }

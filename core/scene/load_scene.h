@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <vector>
 
-/// Where scenes are looked for, in this order: `extra` (--scene-path), the colon-separated SSRLAB_SCENE_PATH, and ssrlab's
-/// own scenes folder.
+/// Where scenes are looked for, in this order: `extra` (--scene-path), the colon-separated SSRLAB_SCENE_PATH, and
+/// ssrlab's own scenes folder.
 std::vector<std::filesystem::path> scene_search_path(const std::vector<std::filesystem::path>& extra = {});
 
 /// Names of all folders in the search path that hold a scene.json, sorted, without repetition.
 std::vector<std::string> list_scenes(const std::vector<std::filesystem::path>& search_path);
 
-/// Loads `<folder of the search path>/<name>/scene.json` (its keys: scenes/README.md), or, if `name` is a path to a .json,
-/// .gltf or .glb file, that file; a bare glTF gets its own cameras, a default one that sees all of it, and a white environment.
-/// Fails with Error if something is missing, truncated or malformed.
+/// Loads `<folder of the search path>/<name>/scene.json` (its keys: scenes/README.md), or, if `name` is a path to a
+/// .json, .gltf or .glb file, that file; a bare glTF gets its own cameras, a default one that sees all of it, and a
+/// white environment. Fails with Error if something is missing, truncated or malformed.
 Scene load_scene(const std::string& name, const std::vector<std::filesystem::path>& search_path);
 
 /// Only the glTF 2.0 file (.gltf or .glb): meshes, materials, nodes, animation, lights, cameras.

@@ -19,12 +19,20 @@ void neutralise_channel(Scene& scene, TextureSlot& slot, size_t channel) {
 glm::vec3 read_color(JsonObject& entry, const std::string& key, float max) {
     const glm::vec3 color = entry.vector(key);
     for (int c = 0; c < 3; ++c)
-        if (!(color[c] >= 0.0f && color[c] <= max)) fail(entry.where(), ": '", key, "' has the part ", color[c], " outside of [0, ", max, "]");
+        if (!(color[c] >= 0.0f && color[c] <= max))
+            fail(entry.where(), ": '", key, "' has the part ", color[c], " outside of [0, ", max, "]");
     return color;
 }
 
+/// Removes what has the materials, and the warnings about how it would have been drawn.
 void hide(Scene& scene, const std::vector<bool>& is_hidden) {
-    std::erase_if(scene.instances, [&](const Instance& instance) { return is_hidden[scene.meshes[instance.mesh].material]; });
+    for (size_t i = 0; i < is_hidden.size(); ++i)
+        if (is_hidden[i])
+            std::erase_if(scene.warnings, [&](const std::string& warning) {
+                return warning.find("material '" + scene.materials[i].name + "'") != std::string::npos;
+            });
+    std::erase_if(scene.instances,
+                  [&](const Instance& instance) { return is_hidden[scene.meshes[instance.mesh].material]; });
 }
 
 }  // namespace
@@ -39,13 +47,17 @@ void apply_override(JsonObject& entry, Scene& scene) {
     }
     std::vector<bool> matches;
     for (const Material& m : scene.materials) matches.push_back(std::regex_match(m.name, expression));
-    if (std::ranges::find(matches, true) == matches.end()) fail(entry.where(), ": no material's whole name matches \"", pattern, "\"");
+    if (std::ranges::find(matches, true) == matches.end())
+        fail(entry.where(), ": no material's whole name matches \"", pattern, "\"");
 
     const bool is_hidden = entry.boolean("hidden", false), drops_normal_map = entry.boolean("drop_normal_map", false);
     const bool has_roughness = entry.has("roughness"), has_metalness = entry.has("metalness");
-    const float roughness = entry.number("roughness", 0.0f, 1.0f, 0.0f), metalness = entry.number("metalness", 0.0f, 1.0f, 0.0f);
-    const bool has_color = entry.has("base_color"), has_emission = entry.has("emission"), has_specular = entry.has("specular");
-    const glm::vec3 color = has_color ? read_color(entry, "base_color", 1.0f) : glm::vec3(0.0f), emission = has_emission ? read_color(entry, "emission", 1e12f) : glm::vec3(0.0f);
+    const float roughness = entry.number("roughness", 0.0f, 1.0f, 0.0f),
+                metalness = entry.number("metalness", 0.0f, 1.0f, 0.0f);
+    const bool has_color = entry.has("base_color"), has_emission = entry.has("emission"),
+               has_specular = entry.has("specular");
+    const glm::vec3 color = has_color ? read_color(entry, "base_color", 1.0f) : glm::vec3(0.0f),
+                    emission = has_emission ? read_color(entry, "emission", 1e12f) : glm::vec3(0.0f);
     const float specular = entry.number("specular", 0.0f, 1.0f, 1.0f);
     entry.finish();
 
@@ -58,7 +70,9 @@ void apply_override(JsonObject& entry, Scene& scene) {
             m.metalness_roughness_texture = {};
         else if (has_roughness || has_metalness)
             neutralise_channel(scene, m.metalness_roughness_texture, has_roughness ? 1 : 2);
-        if (has_color) m.base_color = color, m.base_color_texture = m.alpha_mode == AlphaMode::mask ? m.base_color_texture : TextureSlot{};
+        if (has_color)
+            m.base_color = color,
+            m.base_color_texture = m.alpha_mode == AlphaMode::mask ? m.base_color_texture : TextureSlot{};
         if (has_color && m.base_color_texture.texture >= 0)
             for (size_t c = 0; c < 3; ++c) neutralise_channel(scene, m.base_color_texture, c);
         if (has_emission) m.emission = emission, m.emission_texture = {};

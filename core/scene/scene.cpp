@@ -31,9 +31,15 @@ std::vector<Node> animated_nodes(const Scene& scene, float time) {
         Node& node = nodes[channel.node];
         const glm::vec4 value = sample_channel(channel, time);
         switch (channel.property) {
-            case AnimationChannel::Property::translation: node.translation = value; break;
-            case AnimationChannel::Property::rotation: node.rotation = value; break;
-            case AnimationChannel::Property::scale: node.scale = value; break;
+            case AnimationChannel::Property::translation:
+                node.translation = value;
+                break;
+            case AnimationChannel::Property::rotation:
+                node.rotation = value;
+                break;
+            case AnimationChannel::Property::scale:
+                node.scale = value;
+                break;
         }
         node.parent_from_node = transform(node.translation, node.rotation, node.scale);
     }
@@ -52,11 +58,14 @@ PunctualLight posed_light(PunctualLight light, const std::vector<glm::mat4>& wor
 
 ScenePose pose_scene(const Scene& scene, float frame) {
     ScenePose pose;
-    const std::vector<Node> nodes = scene.animation.empty() ? scene.nodes : animated_nodes(scene, frame / scene.frame_rate);
+    const std::vector<Node> nodes =
+        scene.animation.empty() ? scene.nodes : animated_nodes(scene, frame / scene.frame_rate);
     for (const Node& node : nodes)
-        pose.world_from_node.push_back(node.parent < 0 ? node.parent_from_node
-                                                       : pose.world_from_node[size_t(node.parent)] * node.parent_from_node);
-    for (const Instance& instance : scene.instances) pose.world_from_instance.push_back(pose.world_from_node[instance.node]);
+        pose.world_from_node.push_back(node.parent < 0
+                                           ? node.parent_from_node
+                                           : pose.world_from_node[size_t(node.parent)] * node.parent_from_node);
+    for (const Instance& instance : scene.instances)
+        pose.world_from_instance.push_back(pose.world_from_node[instance.node]);
     for (const PunctualLight& light : scene.lights) pose.lights.push_back(posed_light(light, pose.world_from_node));
     return pose;
 }

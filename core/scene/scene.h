@@ -13,7 +13,8 @@
 
 enum class TextureWrap { repeat, mirrored_repeat, clamp_to_edge };
 
-/// 8-bit RGBA texels, row 0 at v = 0 (glTF: top). Both renderers filter level 0 bilinearly, so that a pixel means the same in both.
+/// 8-bit RGBA texels, row 0 at v = 0 (glTF: top). Both renderers filter level 0 bilinearly, so that a pixel means the
+/// same in both.
 struct Texture {
     std::string name;
     glm::uvec2 extent{0, 0};
@@ -32,24 +33,27 @@ struct TextureSlot {
 
 enum class AlphaMode { opaque, mask };
 
-/// glTF 2.0 metallic-roughness (Appendix B). Factors multiply their textures. What glTF calls BLEND, and transmission, is
-/// drawn as opaque by both renderers unless scene.json hides the material: a G-buffer has one layer.
+/// glTF 2.0 metallic-roughness (Appendix B). Factors multiply their textures. What glTF calls BLEND, and transmission,
+/// is drawn as opaque by both renderers unless scene.json hides the material: a G-buffer has one layer.
 struct Material {
     std::string name;
     glm::vec3 base_color{1.0f};
     float alpha = 1.0f;
-    TextureSlot base_color_texture;  ///< RGB base colour, A alpha
+    TextureSlot base_color_texture;            ///< RGB base colour, A alpha
     float metalness = 1.0f, roughness = 1.0f;  ///< roughness is perceptual: alpha_ggx = roughness^2
     TextureSlot metalness_roughness_texture;   ///< G roughness, B metalness
     TextureSlot normal_texture;
     float normal_scale = 1.0f;
-    TextureSlot occlusion_texture;  ///< loaded and listed; neither renderer uses it, since both solve for occlusion or leave it out
+    TextureSlot occlusion_texture;  ///< loaded and listed; neither renderer uses it, since both solve for occlusion or
+                                    ///< leave it out
     glm::vec3 emission{0.0f};       ///< radiance (W sr^-1 m^-2): emissiveFactor times KHR_materials_emissive_strength
     TextureSlot emission_texture;
-    float specular = 1.0f;  ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term; 0: no dielectric reflection
+    float specular = 1.0f;  ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term; 0: no
+                            ///< dielectric reflection
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;  ///< a hit counts where alpha >= cutoff (AlphaMode::mask)
-    bool is_double_sided = false;  ///< both renderers draw all surfaces from both sides; this decides whether the back emits
+    bool is_double_sided =
+        false;              ///< both renderers draw all surfaces from both sides; this decides whether the back emits
     bool is_unlit = false;  ///< KHR_materials_unlit: radiates its base colour and reflects nothing
 };
 
@@ -57,7 +61,7 @@ struct Vertex {
     glm::vec3 position, normal;  ///< object space; normal has unit length
     glm::vec4 tangent;           ///< xyz unit, w = +-1: bitangent = w * cross(normal, tangent)
     glm::vec2 uv[2];
-    glm::vec4 color;             ///< COLOR_0, multiplies base colour and alpha; 1 if absent
+    glm::vec4 color;  ///< COLOR_0, multiplies base colour and alpha; 1 if absent
 };
 
 /// One glTF primitive, always indexed triangles. Shared by all its instances.
@@ -79,8 +83,9 @@ enum class LightType { directional, point, spot };
 struct PunctualLight {
     std::string name;
     LightType type = LightType::point;
-    glm::vec3 intensity{1.0f};  ///< colour times: irradiance at normal incidence (W m^-2, directional) or radiant intensity (W sr^-1)
-    float range = 0.0f;         ///< m; 0: unlimited. The smooth window of the extension is applied by both renderers.
+    glm::vec3 intensity{
+        1.0f};  ///< colour times: irradiance at normal incidence (W m^-2, directional) or radiant intensity (W sr^-1)
+    float range = 0.0f;  ///< m; 0: unlimited. The smooth window of the extension is applied by both renderers.
     float inner_cone_cos = 1.0f, outer_cone_cos = 0.70710678f;  ///< spot
     glm::vec3 position{0.0f}, direction{0.0f, 0.0f, -1.0f};     ///< direction: that in which the light travels
     int node = -1;  ///< poses position and direction; -1: they are in world space already
@@ -92,14 +97,15 @@ struct Environment {
     glm::vec3 color{0.0f};             ///< constant: the radiance. gradient: the radiance at the equator of `axis`
     glm::vec3 slope{0.0f};             ///< gradient: radiance = max(0, color + slope * dot(d, axis))
     glm::vec3 axis{0.0f, 1.0f, 0.0f};  ///< unit
-    HostImage latlong;                 ///< image: RGB, already times the scale; see core/shared/environment.h for its mapping
-    float rotation = 0.0f;             ///< image: about +Y (radians)
+    HostImage latlong;      ///< image: RGB, already times the scale; see core/shared/environment.h for its mapping
+    float rotation = 0.0f;  ///< image: about +Y (radians)
 
     bool is_black() const;
     glm::vec3 radiance(glm::vec3 direction) const;  ///< direction: unit, world space
 };
 
-/// Where a camera is at a frame, or a node of the glTF. Between keys position and target are linear in the frame number.
+/// Where a camera is at a frame, or a node of the glTF. Between keys position and target are linear in the frame
+/// number.
 struct CameraKey {
     float frame = 0.0f;
     glm::vec3 position{0.0f}, target{0.0f, 0.0f, -1.0f}, up{0.0f, 1.0f, 0.0f};
@@ -108,17 +114,18 @@ struct CameraKey {
 struct SceneCamera {
     std::string name;
     bool is_orthographic = false;
-    float vertical_fov = 0.87f;      ///< radians, perspective
+    float vertical_fov = 0.87f;        ///< radians, perspective
     float orthographic_height = 1.0f;  ///< m, full height of the view
     float near = 0.1f, far = 100.0f;   ///< m
-    std::vector<CameraKey> keys;     ///< one: static
-    int node = -1;                   ///< the glTF node that poses it in place of `keys`
-    float exposure_ev = 0.0f;        ///< for display: pixels are multiplied by 2^ev
-    unsigned frame_count = 1;        ///< length of its path
+    std::vector<CameraKey> keys;       ///< one: static
+    int node = -1;                     ///< the glTF node that poses it in place of `keys`
+    float exposure_ev = 0.0f;          ///< for display: pixels are multiplied by 2^ev
+    unsigned frame_count = 1;          ///< length of its path
 };
 
-/// glTF node: a transform below a parent, possibly animated. World matrices keep their sign: where the determinant of an
-/// instance's is negative, both renderers take the clockwise side of its triangles as the front (glTF 2.0, section 3.7.4).
+/// glTF node: a transform below a parent, possibly animated. World matrices keep their sign: where the determinant of
+/// an instance's is negative, both renderers take the clockwise side of its triangles as the front (glTF 2.0,
+/// section 3.7.4).
 struct Node {
     std::string name;
     int parent = -1;
@@ -136,8 +143,8 @@ struct AnimationChannel {
     enum class Property { translation, rotation, scale } property{};
     unsigned node = 0;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times;        ///< s, ascending
-    std::vector<glm::vec4> values;   ///< rotation: quaternion xyzw; cubic_spline: in-tangent, value, out-tangent per key
+    std::vector<float> times;       ///< s, ascending
+    std::vector<glm::vec4> values;  ///< rotation: quaternion xyzw; cubic_spline: in-tangent, value, out-tangent per key
 };
 
 struct Scene {

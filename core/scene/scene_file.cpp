@@ -4,9 +4,12 @@
 #include "core/exr.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "core/scene/camera_planes.h"
+#include "core/scene/camera_reader.h"
 #include "core/scene/content_hash.h"
 #include "core/scene/load_scene.h"
 #include "core/scene/material_override.h"
+#include "core/scene/merge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,53 +22,29 @@ namespace {
 constexpr float any_length = 1e9f;  // m; more than any scene, and exact enough in float32 to be of use
 
 /// A file named in scene.json: beside it, or in a folder of the search path.
-fs::path find_file(const std::string& name, const fs::path& scene_file, const std::vector<fs::path>& search_path, const std::string& where) {
+fs::path find_file(const std::string& name, const fs::path& scene_file, const std::vector<fs::path>& search_path,
+                   const std::string& where) {
     if (fs::exists(scene_file.parent_path() / name)) return scene_file.parent_path() / name;
     for (const fs::path& folder : search_path)
         if (fs::exists(folder / name)) return folder / name;
-    fail(where, ": '", name, "' is neither beside that file nor in the scene search path; name its folder with --scene-path or SSRLAB_SCENE_PATH");
-}
-
-/// Appends another glTF's parts, its indices moved behind those that are there.
-void merge(Scene& scene, Scene&& other) {
-    const int textures = int(scene.textures.size()), nodes = int(scene.nodes.size());
-    const unsigned materials = unsigned(scene.materials.size()), meshes = unsigned(scene.meshes.size());
-    for (Material& m : other.materials)
-        for (TextureSlot* slot : {&m.base_color_texture, &m.metalness_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emission_texture})
-            if (slot->texture >= 0) slot->texture += textures;
-    for (Mesh& mesh : other.meshes) mesh.material += materials;
-    for (Node& node : other.nodes)
-        if (node.parent >= 0) node.parent += nodes;
-    for (Instance& instance : other.instances) instance.mesh += meshes, instance.node += unsigned(nodes);
-    for (AnimationChannel& channel : other.animation) channel.node += unsigned(nodes);
-    for (PunctualLight& light : other.lights)
-        if (light.node >= 0) light.node += nodes;
-    for (SceneCamera& camera : other.cameras)
-        if (camera.node >= 0) camera.node += nodes;
-    const auto append = [](auto& to, auto& from) { to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end())); };
-    append(scene.textures, other.textures), append(scene.materials, other.materials), append(scene.meshes, other.meshes);
-    append(scene.nodes, other.nodes), append(scene.instances, other.instances), append(scene.animation, other.animation);
-    append(scene.lights, other.lights), append(scene.cameras, other.cameras), append(scene.warnings, other.warnings);
-    scene.frame_count = std::max(scene.frame_count, other.frame_count);
+    fail(where, ": '", name,
+         "' is neither beside that file nor in the scene search path; name its folder with --scene-path or "
+         "SSRLAB_SCENE_PATH");
 }
 
 glm::vec3 read_color(JsonObject& object, const std::string& key, glm::vec3 fallback) {
     const glm::vec3 color = object.vector(key, fallback);
-    if (!(color.x >= 0 && color.y >= 0 && color.z >= 0)) fail(object.where(), ": '", key, "' has a negative part; light and colours are at least 0");
+    if (!(color.x >= 0 && color.y >= 0 && color.z >= 0))
+        fail(object.where(), ": '", key, "' has a negative part; light and colours are at least 0");
     return color;
-}
-
-glm::vec3 read_direction(JsonObject& object, const std::string& key) {
-    const glm::vec3 v = object.vector(key);
-    if (!(glm::length(v) > 0)) fail(object.where(), ": '", key, "' has no length");
-    return glm::normalize(v);
 }
 
 HostImage read_latlong(const fs::path& file, float scale) {
     HostImage image = read_exr_rgb(file);
     for (float& v : image.values) {
         v *= scale;
-        if (!(v >= 0.0f && v < std::numeric_limits<float>::infinity())) fail(file.string(), ": an environment must be finite and not negative, but a texel is ", v);
+        if (!(v >= 0.0f && v < std::numeric_limits<float>::infinity()))
+            fail(file.string(), ": an environment must be finite and not negative, but a texel is ", v);
     }
     return image;
 }
@@ -83,7 +62,8 @@ Environment read_environment(JsonObject object, const fs::path& scene_file, cons
         environment.type = Environment::Type::image;
         environment.rotation = glm::radians(object.number("rotation_deg", -3600.0f, 3600.0f, 0.0f));
         const float scale = object.number("scale", 0.0f, 1e9f, 1.0f);
-        environment.latlong = read_latlong(find_file(object.text("image"), scene_file, search_path, object.where()), scale);
+        environment.latlong =
+            read_latlong(find_file(object.text("image"), scene_file, search_path, object.where()), scale);
     } else {
         environment.color = read_color(object, "constant", glm::vec3(0.0f));
         if (!object.has("constant")) fail(object.where(), " names no kind: give 'constant', 'gradient' or 'image'");
@@ -96,10 +76,12 @@ PunctualLight read_light(JsonObject object) {
     PunctualLight light;
     const std::string type = object.text("type");
     const std::vector<std::string> types = {"directional", "point", "spot"};
-    if (std::ranges::find(types, type) == types.end()) fail(object.where(), ": 'type' = \"", type, "\" is not known", suggestion(type, types));
+    if (std::ranges::find(types, type) == types.end())
+        fail(object.where(), ": 'type' = \"", type, "\" is not known", suggestion(type, types));
     light.type = type == "directional" ? LightType::directional : type == "point" ? LightType::point : LightType::spot;
     light.name = object.text("name", type);
-    const float strength = object.number(light.type == LightType::directional ? "irradiance" : "intensity", 0.0f, 1e12f);
+    const float strength =
+        object.number(light.type == LightType::directional ? "irradiance" : "intensity", 0.0f, 1e12f);
     light.intensity = strength * read_color(object, "color", glm::vec3(1.0f));
     if (light.type != LightType::point) light.direction = read_direction(object, "direction");
     if (light.type != LightType::directional) {
@@ -107,76 +89,23 @@ PunctualLight read_light(JsonObject object) {
         light.range = object.number("range", 0.0f, any_length, 0.0f);
     }
     if (light.type == LightType::spot) {
-        const float outer = object.number("outer_cone_deg", 0.1f, 90.0f, 45.0f), inner = object.number("inner_cone_deg", 0.0f, outer, 0.0f);
+        const float outer = object.number("outer_cone_deg", 0.1f, 90.0f, 45.0f),
+                    inner = object.number("inner_cone_deg", 0.0f, outer, 0.0f);
         light.inner_cone_cos = std::cos(glm::radians(inner)), light.outer_cone_cos = std::cos(glm::radians(outer));
     }
     object.finish();
     return light;
 }
 
-CameraKey read_key(JsonObject& object, float frame, glm::vec3 up) {
-    CameraKey key{.frame = frame, .position = object.vector("position"), .target = object.vector("target"), .up = up};
-    if (!(glm::length(glm::cross(key.target - key.position, up)) > 0.0f)) fail(object.where(), ": 'target' must differ from 'position', and not lie along 'up' from it");
-    return key;
-}
-
-/// Without values in the file, near and far enclose the scene: the farthest corner of its bounds at frame 0 is within far, and
-/// near is a ten-thousandth of that.
-void default_planes(SceneCamera& camera, const Scene& scene) {
-    const auto [low, high] = scene_bounds(scene, pose_scene(scene, 0.0f));
-    float farthest = 0.0f;
-    for (const CameraKey& key : camera.keys)
-        for (int corner = 0; corner < 8; ++corner)
-            farthest = std::max(farthest, glm::distance(key.position, glm::vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z)));
-    camera.far = farthest > 0.0f ? 1.01f * farthest : 100.0f;
-    camera.near = 1e-4f * camera.far;
-}
-
-SceneCamera read_camera(JsonObject object, const Scene& scene) {
-    if (object.has("gltf")) {
-        const std::string name = object.text("gltf");
-        SceneCamera camera = scene.camera(name);
-        camera.name = object.text("name", name);
-        camera.exposure_ev = object.number("exposure_ev", -100.0f, 100.0f, 0.0f);
-        camera.frame_count = unsigned(object.integer("frames", 1, 1000000, 1));
-        object.finish();
-        return camera;
-    }
-    SceneCamera camera{.name = object.text("name")};
-    const glm::vec3 up = object.has("up") ? read_direction(object, "up") : glm::vec3(0, 1, 0);
-    if (object.has("orthographic_height")) {
-        camera.is_orthographic = true;
-        camera.orthographic_height = object.number("orthographic_height", 1e-9f, any_length);
-    } else {
-        camera.vertical_fov = glm::radians(object.number("vfov_deg", 0.01f, 179.0f));
-    }
-    if (object.has("path")) {
-        for (JsonObject& step : object.objects("path")) {
-            const float frame = step.number("frame", 0.0f, 1e6f);
-            if (!camera.keys.empty() && frame <= camera.keys.back().frame) fail(step.where(), ": 'frame' = ", frame, " must be later than that of the key before");
-            camera.keys.push_back(read_key(step, frame, up));
-            step.finish();
-        }
-        if (camera.keys.empty()) fail(object.where(), ": 'path' is empty");
-    } else {
-        camera.keys = {read_key(object, 0.0f, up)};
-    }
-    camera.exposure_ev = object.number("exposure_ev", -100.0f, 100.0f, 0.0f);
-    camera.frame_count = unsigned(object.integer("frames", 1, 1000000, int(camera.keys.back().frame) + 1));
-    default_planes(camera, scene);
-    camera.near = object.number("near", 1e-9f, any_length, camera.near);
-    camera.far = object.number("far", 1e-9f, any_length, camera.far);
-    if (!(camera.near < camera.far)) fail(object.where(), ": 'near' = ", camera.near, " must be less than 'far' = ", camera.far);
-    object.finish();
-    return camera;
-}
-
 }  // namespace
 
 void finish_scene(Scene& scene) {
+    for (SceneCamera& camera : scene.cameras)
+        if (camera.far == 0.0f) camera.far = std::max(derive_planes(camera, scene).far, 2.0f * camera.near);
     for (size_t i = 0; i < scene.cameras.size(); ++i)
         for (size_t j = 0; j < i; ++j)
-            if (scene.cameras[i].name == scene.cameras[j].name) fail("scene '", scene.name, "' has two cameras named '", scene.cameras[i].name, "'");
+            if (scene.cameras[i].name == scene.cameras[j].name)
+                fail("scene '", scene.name, "' has two cameras named '", scene.cameras[i].name, "'");
     scene.content_hash = content_hash(scene);
 }
 
@@ -189,10 +118,12 @@ Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_
         const nlohmann::json& also = object.any("also");
         const bool is_list = also.is_array() && std::ranges::all_of(also, [](const auto& v) { return v.is_string(); });
         if (!is_list) fail(file.string(), ": 'also' must be an array of file names, not ", also.dump());
-        for (const nlohmann::json& name : also) merge(scene, load_gltf(find_file(name.get<std::string>(), file, search_path, file.string())));
+        for (const nlohmann::json& name : also)
+            merge(scene, load_gltf(find_file(name.get<std::string>(), file, search_path, file.string())));
     }
     scene.name = fs::absolute(file).parent_path().filename().string();
-    if (object.has("environment")) scene.environment = read_environment(object.object("environment"), file, search_path);
+    if (object.has("environment"))
+        scene.environment = read_environment(object.object("environment"), file, search_path);
     for (JsonObject& light : object.objects("lights")) scene.lights.push_back(read_light(light));
     for (JsonObject& entry : object.objects("overrides")) apply_override(entry, scene);
 

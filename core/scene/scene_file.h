@@ -7,5 +7,6 @@
 /// Reads a scene.json; its keys are in scenes/README.md. The scene's name is that of the folder.
 Scene load_scene_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& search_path);
 
-/// The last steps of loading: hides what is hidden, checks the cameras, and makes the content hash.
+/// The last steps of loading: gives a far plane to the glTF's cameras that have none, refuses two cameras of one name,
+/// and makes the content hash.
 void finish_scene(Scene& scene);

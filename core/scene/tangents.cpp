@@ -58,20 +58,26 @@ struct Gradient {
 
 Gradient gradient(const Mesh& mesh, size_t triangle, const TextureSlot& slot) {
     const auto vertex = [&](size_t i) -> const Vertex& { return mesh.vertices[mesh.indices[triangle * 3 + i]]; };
-    const auto uv = [&](size_t i) { return glm::dvec2(slot.uv_transform * glm::vec3(vertex(i).uv[slot.texcoord], 1.0f)); };
+    const auto uv = [&](size_t i) {
+        return glm::dvec2(slot.uv_transform * glm::vec3(vertex(i).uv[slot.texcoord], 1.0f));
+    };
     const glm::dvec3 e1 = glm::dvec3(vertex(1).position) - glm::dvec3(vertex(0).position);
     const glm::dvec3 e2 = glm::dvec3(vertex(2).position) - glm::dvec3(vertex(0).position);
     const glm::dvec2 d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
     const double area = d1.x * d2.y - d1.y * d2.x;
     if (area == 0.0) return {};
     const double sign = area > 0.0 ? 1.0 : -1.0;
-    const auto unit = [](glm::dvec3 v) { return glm::length(v) > 0.0 ? glm::vec3(glm::normalize(v)) : glm::vec3(0.0f); };
+    const auto unit = [](glm::dvec3 v) {
+        return glm::length(v) > 0.0 ? glm::vec3(glm::normalize(v)) : glm::vec3(0.0f);
+    };
     return {unit(sign * (e1 * d2.y - e2 * d1.y)), unit(sign * (e2 * d1.x - e1 * d2.x))};
 }
 
 /// The angle between the triangle's edges at its corner `i`, in the plane of the normal there.
 float corner_angle(const Mesh& mesh, size_t triangle, size_t i) {
-    const auto vertex = [&](size_t k) -> const Vertex& { return mesh.vertices[mesh.indices[triangle * 3 + (i + k) % 3]]; };
+    const auto vertex = [&](size_t k) -> const Vertex& {
+        return mesh.vertices[mesh.indices[triangle * 3 + (i + k) % 3]];
+    };
     const glm::vec3 n = vertex(0).normal;
     const auto edge = [&](size_t k) {
         const glm::vec3 e = vertex(k).position - vertex(0).position;
@@ -132,7 +138,8 @@ void derive_tangents(Mesh& mesh, const TextureSlot& slot) {
     const auto set_tangent = [&](uint32_t at, uint32_t from, Handedness hand) {
         const glm::vec3 n = mesh.vertices[at].normal;
         const glm::vec3 t = direction_or_zero(sums[welded[from]].sum[hand]);
-        mesh.vertices[at].tangent = glm::vec4(t == glm::vec3(0.0f) ? any_perpendicular(n) : t, hand == right ? 1.0f : -1.0f);
+        mesh.vertices[at].tangent =
+            glm::vec4(t == glm::vec3(0.0f) ? any_perpendicular(n) : t, hand == right ? 1.0f : -1.0f);
     };
     for (size_t i = 0; i < mesh.indices.size(); ++i) {
         const uint32_t index = mesh.indices[i];
@@ -152,7 +159,8 @@ void derive_tangents(Mesh& mesh, const TextureSlot& slot) {
     for (uint32_t index = 0; index < count; ++index) {
         if (taken[index] != undetermined) continue;
         const TangentSums& sum = sums[welded[index]];
-        set_tangent(index, index, glm::dot(sum.sum[left], sum.sum[left]) > glm::dot(sum.sum[right], sum.sum[right]) ? left : right);
+        set_tangent(index, index,
+                    glm::dot(sum.sum[left], sum.sum[left]) > glm::dot(sum.sum[right], sum.sum[right]) ? left : right);
     }
 }
 
@@ -164,6 +172,7 @@ void repair_tangents(Mesh& mesh) {
     for (Vertex& vertex : mesh.vertices) {
         const glm::vec3 along_u = direction_or_zero(glm::vec3(vertex.tangent));
         const glm::vec3 t = direction_or_zero(along_u - vertex.normal * glm::dot(vertex.normal, along_u));
-        vertex.tangent = glm::vec4(t == glm::vec3(0.0f) ? any_perpendicular(vertex.normal) : t, vertex.tangent.w < 0.0f ? -1.0f : 1.0f);
+        vertex.tangent = glm::vec4(t == glm::vec3(0.0f) ? any_perpendicular(vertex.normal) : t,
+                                   vertex.tangent.w < 0.0f ? -1.0f : 1.0f);
     }
 }

@@ -1,16 +1,17 @@
 #pragma once
 #include "core/scene/scene.h"
 
-/// Gives every triangle its own three vertices, whose normal is that of the triangle: what glTF 2.0, section 3.7.2.1, asks
-/// for where normals are missing.
+/// Gives every triangle its own three vertices, whose normal is that of the triangle: what glTF 2.0, section 3.7.2.1,
+/// asks for where normals are missing.
 void make_flat_normals(Mesh& mesh);
 
 /// Replaces normals of no length by that of a triangle which uses the vertex, and makes all of unit length.
 void repair_normals(Mesh& mesh);
 
-/// Derives tangents from positions, normals and the coordinates of `slot`, after Mikkelsen ("Simulation of Wrinkled Surfaces
-/// Revisited", 2008): per triangle along +u, averaged over equal vertices weighted by the corner's angle, apart for the two
-/// handednesses; a vertex that serves both is split. The bitangent runs along -v: glTF's v points down, +Y of a normal map up.
+/// Derives tangents from positions, normals and the coordinates of `slot`, after Mikkelsen ("Simulation of Wrinkled
+/// Surfaces Revisited", 2008): per triangle along +u, averaged over equal vertices weighted by the corner's angle,
+/// apart for the two handednesses; a vertex that serves both is split. The bitangent runs along -v: glTF's v points
+/// down, +Y of a normal map up.
 void derive_tangents(Mesh& mesh, const TextureSlot& slot);
 
 /// Makes the file's tangents unit and perpendicular to the normals, and their w +-1.

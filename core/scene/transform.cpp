@@ -9,8 +9,8 @@ glm::vec4 xyzw(glm::quat q) { return {q.x, q.y, q.z, q.w}; }
 
 glm::mat4 transform(glm::vec3 translation, glm::vec4 rotation, glm::vec3 scale) {
     const glm::mat3 turn = glm::mat3_cast(quaternion(rotation));
-    return glm::mat4(glm::vec4(turn[0] * scale.x, 0.0f), glm::vec4(turn[1] * scale.y, 0.0f), glm::vec4(turn[2] * scale.z, 0.0f),
-                     glm::vec4(translation, 1.0f));
+    return glm::mat4(glm::vec4(turn[0] * scale.x, 0.0f), glm::vec4(turn[1] * scale.y, 0.0f),
+                     glm::vec4(turn[2] * scale.z, 0.0f), glm::vec4(translation, 1.0f));
 }
 
 void split_transform(const glm::mat4& matrix, glm::vec3& translation, glm::vec4& rotation, glm::vec3& scale) {

@@ -1,0 +1,10 @@
+#pragma once
+#include "core/json.h"
+#include "core/scene/scene.h"
+
+/// One entry of scene.json's `cameras`; its keys are in scenes/README.md. `scene` holds the glTF's cameras, and the
+/// geometry from which near and far are derived where the entry gives none.
+SceneCamera read_camera(JsonObject entry, const Scene& scene);
+
+/// A vector of the file that must have a length, as a unit vector.
+glm::vec3 read_direction(JsonObject& object, const std::string& key);
