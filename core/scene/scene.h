@@ -44,16 +44,13 @@ struct Material {
     TextureSlot metalness_roughness_texture;   ///< G roughness, B metalness
     TextureSlot normal_texture;
     float normal_scale = 1.0f;
-    TextureSlot occlusion_texture;  ///< loaded and listed; neither renderer uses it, since both solve for occlusion or
-                                    ///< leave it out
+    TextureSlot occlusion_texture;  ///< listed only: both renderers solve for occlusion or leave it out
     glm::vec3 emission{0.0f};       ///< radiance (W sr^-1 m^-2): emissiveFactor times KHR_materials_emissive_strength
     TextureSlot emission_texture;
-    float specular = 1.0f;  ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term; 0: no
-                            ///< dielectric reflection
+    float specular = 1.0f;  ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;  ///< a hit counts where alpha >= cutoff (AlphaMode::mask)
-    bool is_double_sided =
-        false;              ///< both renderers draw all surfaces from both sides; this decides whether the back emits
+    bool is_double_sided = false;  ///< all surfaces are drawn from both sides; this decides whether the back emits
     bool is_unlit = false;  ///< KHR_materials_unlit: radiates its base colour and reflects nothing
 };
 
@@ -83,8 +80,8 @@ enum class LightType { directional, point, spot };
 struct PunctualLight {
     std::string name;
     LightType type = LightType::point;
-    glm::vec3 intensity{
-        1.0f};  ///< colour times: irradiance at normal incidence (W m^-2, directional) or radiant intensity (W sr^-1)
+    /// Colour times irradiance at normal incidence (directional, W m^-2), or radiant intensity (W sr^-1).
+    glm::vec3 intensity{1.0f};
     float range = 0.0f;  ///< m; 0: unlimited. The smooth window of the extension is applied by both renderers.
     float inner_cone_cos = 1.0f, outer_cone_cos = 0.70710678f;  ///< spot
     glm::vec3 position{0.0f}, direction{0.0f, 0.0f, -1.0f};     ///< direction: that in which the light travels

@@ -1,15 +1,21 @@
 #include "core/scene/camera.h"
 #include "core/shared/environment.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 namespace {
 
 CameraPose tilted(bool is_orthographic) {
-    const glm::vec3 z = glm::normalize(glm::vec3(0.3f, 0.5f, 1.0f)), x = glm::normalize(glm::cross(glm::vec3(0, 1, 0), z));
-    CameraPose pose{.is_orthographic = is_orthographic, .vertical_fov = 0.9f, .orthographic_height = 3.0f, .near = 0.05f, .far = 80.0f};
-    pose.world_from_view = glm::mat4(glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0), glm::vec4(1, 2, 3, 1));
+    const glm::vec3 z = glm::normalize(glm::vec3(0.3f, 0.5f, 1.0f)),
+                    x = glm::normalize(glm::cross(glm::vec3(0, 1, 0), z));
+    CameraPose pose{.is_orthographic = is_orthographic,
+                    .vertical_fov = 0.9f,
+                    .orthographic_height = 3.0f,
+                    .near = 0.05f,
+                    .far = 80.0f};
+    pose.world_from_view =
+        glm::mat4(glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0), glm::vec4(1, 2, 3, 1));
     return pose;
 }
 
@@ -24,9 +30,12 @@ TEST(Camera, RaysMeetTheirPixels) {
             for (const glm::vec2 pixel : {glm::vec2(0.5f, 0.5f), glm::vec2(480.5f, 270.5f), glm::vec2(100.5f, 200.5f)})
                 for (const double distance : {0.1, 3.0, 70.0}) {
                     const CameraRay ray = camera_ray(pose, extent, pixel);
-                    const glm::dvec4 clip = glm::dmat4(data.clip_from_view) * glm::dmat4(data.view_from_world) * glm::dvec4(glm::dvec3(ray.origin) + distance * glm::dvec3(ray.direction), 1.0);
+                    const glm::dvec4 clip =
+                        glm::dmat4(data.clip_from_view) * glm::dmat4(data.view_from_world) *
+                        glm::dvec4(glm::dvec3(ray.origin) + distance * glm::dvec3(ray.direction), 1.0);
                     const glm::dvec2 found = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(extent);
-                    // float32 matrices and rays: 2^-23 of a world coordinate of 3 m, seen from 0.1 m in 481 pixels, is some 1e-3.
+                    // float32 matrices and rays: 2^-23 of a world coordinate of 3 m, seen from 0.1 m in 481 pixels, is
+                    // some 1e-3.
                     EXPECT_NEAR(found.x, pixel.x, 2e-3);
                     EXPECT_NEAR(found.y, pixel.y, 2e-3);
                 }
@@ -76,5 +85,6 @@ TEST(EnvironmentRadiance, FiltersBilinearlyAndWraps) {
         for (unsigned y = 0; y < 2; ++y) environment.latlong.pixel(x, y)[0] = float(x);
     // u = 0 lies between the last and the first texel.
     EXPECT_NEAR(environment.radiance({-1, 0, -1e-7f}).x, 1.5f, 1e-3f);
-    EXPECT_NEAR(environment.radiance({std::cos(0.25f * 3.14159265f), 0, std::sin(0.25f * 3.14159265f)}).x, 2.0f, 1e-4f);  // u = 0.625: centre of texel 2
+    EXPECT_NEAR(environment.radiance({std::cos(0.25f * 3.14159265f), 0, std::sin(0.25f * 3.14159265f)}).x, 2.0f,
+                1e-4f);  // u = 0.625: centre of texel 2
 }

@@ -2,47 +2,14 @@
 #include "core/files.h"
 #include "core/png.h"
 #include "core/scene/load_scene.h"
-#include "tests/scene/gltf_writer.h"
+#include "tests/scene/gltf_fixture.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <fstream>
-#include <gtest/gtest.h>
 #include <random>
 
 namespace fs = std::filesystem;
-
-namespace {
-
-struct Gltf : testing::Test {
-    fs::path folder = fs::temp_directory_path() / ("ssrlab_gltf_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    GltfWriter writer;
-
-    void SetUp() override {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-    Scene load() { return load_gltf(writer.write_glb(folder / "a.glb")); }
-};
-
-std::string message(const auto& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "no error";
-}
-
-bool mentions(const std::vector<std::string>& warnings, const std::string& text) {
-    return std::ranges::any_of(warnings, [&](const std::string& w) { return w.find(text) != std::string::npos; });
-}
-
-void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance);
-}
-
-}  // namespace
 
 TEST_F(Gltf, ReadsBothContainersAlike) {
     writer.add_mesh_node(writer.quad());
@@ -53,15 +20,21 @@ TEST_F(Gltf, ReadsBothContainersAlike) {
 }
 
 TEST_F(Gltf, MaterialsFollowTheExtensions) {
-    writer.json["materials"] = {{{"name", "m"},
-                                 {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1.0, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.75}}},
-                                 {"emissiveFactor", {1, 0.5, 0}},
-                                 {"alphaMode", "MASK"},
-                                 {"alphaCutoff", 0.3},
-                                 {"doubleSided", true},
-                                 {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}, {"KHR_materials_specular", {{"specularFactor", 0.5}}}, {"KHR_materials_sheen", nlohmann::json::object()}}}},
-                                {{"name", "flat"}, {"extensions", {{"KHR_materials_unlit", nlohmann::json::object()}}}}};
-    writer.json["extensionsUsed"] = {"KHR_materials_emissive_strength", "KHR_materials_specular", "KHR_materials_unlit", "KHR_materials_sheen"};
+    writer.json["materials"] = {
+        {{"name", "m"},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.5, 0.25, 1.0, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.75}}},
+         {"emissiveFactor", {1, 0.5, 0}},
+         {"alphaMode", "MASK"},
+         {"alphaCutoff", 0.3},
+         {"doubleSided", true},
+         {"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}},
+           {"KHR_materials_specular", {{"specularFactor", 0.5}}},
+           {"KHR_materials_sheen", nlohmann::json::object()}}}},
+        {{"name", "flat"}, {"extensions", {{"KHR_materials_unlit", nlohmann::json::object()}}}}};
+    writer.json["extensionsUsed"] = {"KHR_materials_emissive_strength", "KHR_materials_specular", "KHR_materials_unlit",
+                                     "KHR_materials_sheen"};
     writer.add_mesh_node(writer.quad());
     const Scene scene = load();
     const Material& m = scene.materials.at(0);
@@ -85,9 +58,13 @@ TEST_F(Gltf, UnknownRequiredExtensionsAreRefused) {
 
 TEST_F(Gltf, HierarchyAndAnimationPoseInstances) {
     writer.add_mesh_node(writer.quad());
-    writer.json["nodes"] = {{{"children", {1}}, {"translation", {1, 0, 0}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}}, {{"mesh", 0}, {"translation", {0, 2, 0}}, {"scale", {2, 2, -2}}}};
+    writer.json["nodes"] = {
+        {{"children", {1}}, {"translation", {1, 0, 0}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}},
+        {{"mesh", 0}, {"translation", {0, 2, 0}}, {"scale", {2, 2, -2}}}};
     const int times = writer.floats({0, 1}, "SCALAR"), values = writer.floats({1, 0, 0, 1, 0, 10}, "VEC3");
-    writer.json["animations"] = {{{"samplers", {{{"input", times}, {"output", values}}}}, {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    writer.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", values}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
     Scene scene = load();
     scene.frame_rate = 10;
     const auto origin = [&](float frame) { return glm::vec3(pose_scene(scene, frame).world_from_instance.at(0)[3]); };
@@ -107,7 +84,8 @@ TEST_F(Gltf, DerivesTheTangentsOfAQuad) {
     primitive["material"] = 0;
     writer.add_mesh_node(primitive);
     const Scene scene = load();
-    // +u runs along +x; glTF's v runs down while +Y of a normal map points up, so the bitangent is +y = cross(z, x): w = 1.
+    // +u runs along +x; glTF's v runs down while +Y of a normal map points up, so the bitangent is +y = cross(z, x): w
+    // = 1.
     for (const Vertex& v : scene.meshes.at(0).vertices) {
         expect_near(v.tangent, {1, 0, 0}, 1e-6f);
         EXPECT_EQ(v.tangent.w, 1.0f);
@@ -115,7 +93,11 @@ TEST_F(Gltf, DerivesTheTangentsOfAQuad) {
 }
 
 TEST_F(Gltf, TexturesKnowTheirColourSpace) {
-    writer.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"scale", {2, 3}}}}}}}}}}}};
+    writer.json["materials"] = {
+        {{"pbrMetallicRoughness",
+          {{"baseColorTexture", {{"index", 0}}},
+           {"metallicRoughnessTexture",
+            {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"scale", {2, 3}}}}}}}}}}}};
     writer.json["textures"] = {{{"source", 0}}};
     writer.json["images"] = {{{"uri", "t.png"}}};
     write_png(folder / "t.png", HostImage({2, 1}, 3, 0.25f));
@@ -127,11 +109,14 @@ TEST_F(Gltf, TexturesKnowTheirColourSpace) {
     EXPECT_TRUE(scene.textures.at(size_t(m.base_color_texture.texture)).is_srgb);
     EXPECT_FALSE(scene.textures.at(size_t(m.metalness_roughness_texture.texture)).is_srgb);
     expect_near(m.metalness_roughness_texture.uv_transform * glm::vec3(1, 1, 1), {2.5f, 3, 1}, 1e-6f);
-    EXPECT_NEAR(linear_from_srgb(float(scene.textures.at(size_t(m.base_color_texture.texture)).rgba[0]) / 255.0f), 0.25f, 0.005f);  // one code near 137 is 0.004
+    EXPECT_NEAR(linear_from_srgb(float(scene.textures.at(size_t(m.base_color_texture.texture)).rgba[0]) / 255.0f),
+                0.25f, 0.005f);  // one code near 137 is 0.004
 }
 
 TEST_F(Gltf, MissingNormalsAreFlat) {
-    nlohmann::json primitive = {{"attributes", {{"POSITION", writer.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3")}}}, {"indices", writer.indices({0, 1, 2, 0, 3, 1})}};
+    nlohmann::json primitive = {
+        {"attributes", {{"POSITION", writer.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3")}}},
+        {"indices", writer.indices({0, 1, 2, 0, 3, 1})}};
     writer.add_mesh_node(primitive);
     const Scene scene = load();
     ASSERT_EQ(scene.meshes.at(0).vertices.size(), 6u);
@@ -162,8 +147,10 @@ TEST_F(Gltf, DamagedFilesNeverCrash) {
     size_t refused = 0;
     for (int i = 0; i < 400; ++i) {
         std::string damaged = whole;
-        if (i % 2) damaged.resize(random() % damaged.size());
-        else for (int flips = 0; flips < 3; ++flips) damaged[random() % damaged.size()] ^= char(1u << random() % 8);
+        if (i % 2)
+            damaged.resize(random() % damaged.size());
+        else
+            for (int flips = 0; flips < 3; ++flips) damaged[random() % damaged.size()] ^= char(1u << random() % 8);
         write_text(folder / "d.glb", damaged);
         try {
             load_gltf(folder / "d.glb");
@@ -180,7 +167,8 @@ TEST(ThirdPartyScenes, LoadWithWarningsThatAreUnderstood) {
     const auto path = scene_search_path();
     for (const std::string& name : list_scenes(path)) try {
             const Scene scene = load_scene(name, path);
-            std::printf("%s: %zu triangles, %zu materials, %zu textures\n", name.c_str(), scene.triangle_count(), scene.materials.size(), scene.textures.size());
+            std::printf("%s: %zu triangles, %zu materials, %zu textures\n", name.c_str(), scene.triangle_count(),
+                        scene.materials.size(), scene.textures.size());
             for (const std::string& warning : scene.warnings) std::printf("  %s\n", warning.c_str());
         } catch (const Error& e) {
             EXPECT_NE(std::string(e.what()).find("search path"), std::string::npos) << name << ": " << e.what();

@@ -3,7 +3,8 @@
 #include <fstream>
 
 std::filesystem::path GltfWriter::write_glb(const std::filesystem::path& file) {
-    json["buffers"] = {{{"byteLength", bytes.size()}}};
+    const bool has_bytes = !bytes.empty();  // an empty chunk should be omitted (glTF 2.0, section 4.4.3.3)
+    if (has_bytes) json["buffers"] = {{{"byteLength", bytes.size()}}};
     std::string text = json.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     bytes.resize((bytes.size() + 3) / 4 * 4);
@@ -12,10 +13,10 @@ std::filesystem::path GltfWriter::write_glb(const std::filesystem::path& file) {
         const auto number = uint32_t(value);
         out.write(reinterpret_cast<const char*>(&number), 4);
     };
-    word(0x46546c67), word(2), word(12 + 8 + text.size() + 8 + bytes.size());
+    word(0x46546c67), word(2), word(12 + 8 + text.size() + (has_bytes ? 8 + bytes.size() : 0));
     word(text.size()), word(0x4e4f534a);
     out << text;
-    word(bytes.size()), word(0x004e4942);
+    if (has_bytes) word(bytes.size()), word(0x004e4942);
     out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     return file;
 }
@@ -23,7 +24,8 @@ std::filesystem::path GltfWriter::write_glb(const std::filesystem::path& file) {
 std::filesystem::path GltfWriter::write_gltf(const std::filesystem::path& file) {
     const auto buffer = std::filesystem::path(file).replace_extension(".bin");
     json["buffers"] = {{{"byteLength", bytes.size()}, {"uri", buffer.filename().string()}}};
-    std::ofstream(buffer, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    std::ofstream(buffer, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     std::ofstream(file) << json.dump(1);
     return file;
 }

@@ -6,19 +6,22 @@
 #include "tests/scene/gltf_writer.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 namespace fs = std::filesystem;
 
 namespace {
 
 struct SceneFile : testing::Test {
-    fs::path root = fs::temp_directory_path() / ("ssrlab_scene_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path root = fs::temp_directory_path() /
+                    ("ssrlab_scene_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 
     void SetUp() override {
         fs::remove_all(root);
         fs::create_directories(root / "room");
         GltfWriter writer;
-        writer.json["materials"] = {{{"name", "floor"}, {"pbrMetallicRoughness", {{"roughnessFactor", 0.9}}}}, {{"name", "glass"}}};
+        writer.json["materials"] = {{{"name", "floor"}, {"pbrMetallicRoughness", {{"roughnessFactor", 0.9}}}},
+                                    {{"name", "glass"}}};
         nlohmann::json quad = writer.quad(), pane = writer.quad();
         quad["material"] = 0, pane["material"] = 1;
         writer.add_mesh_node(quad);
@@ -42,14 +45,17 @@ struct SceneFile : testing::Test {
     }
 };
 
-const std::string camera = R"("cameras": [{"name": "main", "position": [0, 0, 3], "target": [0, 0, 0], "vfov_deg": 60}])";
+const std::string camera =
+    R"("cameras": [{"name": "main", "position": [0, 0, 3], "target": [0, 0, 0], "vfov_deg": 60}])";
 
 }  // namespace
 
 TEST_F(SceneFile, NamesEnvironmentLightsAndOverrides) {
-    const Scene scene = load(R"({"gltf": "room.glb", "environment": {"gradient": {"color": [1, 1, 1], "slope": [0.5, 0.5, 0.5], "axis": [0, 2, 0]}},
+    const Scene scene = load(
+        R"({"gltf": "room.glb", "environment": {"gradient": {"color": [1, 1, 1], "slope": [0.5, 0.5, 0.5], "axis": [0, 2, 0]}},
         "lights": [{"type": "point", "position": [0, 1, 0], "color": [1, 0.5, 0.25], "intensity": 4}],
-        "overrides": [{"material": "flo.*", "roughness": 0.1, "metalness": 1}, {"material": "glass", "hidden": true}], )" + camera + "}");
+        "overrides": [{"material": "flo.*", "roughness": 0.1, "metalness": 1}, {"material": "glass", "hidden": true}], )" +
+        camera + "}");
     EXPECT_EQ(scene.name, "room");
     EXPECT_EQ(scene.triangle_count(), 2u);  // the pane is hidden
     EXPECT_EQ(scene.materials[0].roughness, 0.1f);
@@ -61,7 +67,8 @@ TEST_F(SceneFile, NamesEnvironmentLightsAndOverrides) {
 }
 
 TEST_F(SceneFile, PathsAreLinearBetweenKeys) {
-    const Scene scene = load(R"({"gltf": "room.glb", "cameras": [{"name": "dolly", "vfov_deg": 50, "path": [{"frame": 0, "position": [0, 0, 4], "target": [0, 0, 0]}, {"frame": 10, "position": [0, 2, 4], "target": [0, 2, 0]}]}]})");
+    const Scene scene = load(
+        R"({"gltf": "room.glb", "cameras": [{"name": "dolly", "vfov_deg": 50, "path": [{"frame": 0, "position": [0, 0, 4], "target": [0, 0, 0]}, {"frame": 10, "position": [0, 2, 4], "target": [0, 2, 0]}]}]})");
     EXPECT_EQ(scene.camera("dolly").frame_count, 11u);
     const CameraPose pose = pose_camera(scene.camera("dolly"), pose_scene(scene, 0), 5);
     EXPECT_NEAR(pose.world_from_view[3].y, 1.0f, 1e-6f);
@@ -72,26 +79,44 @@ TEST_F(SceneFile, PathsAreLinearBetweenKeys) {
 TEST_F(SceneFile, EnvironmentImagesAreFoundByTheSearchPath) {
     HostImage sky({8, 4}, 3, 2.0f);
     write_exr(root / "skies/sky.exr", sky);
-    EXPECT_NEAR(load(R"({"gltf": "room.glb", "environment": {"image": "skies/sky.exr", "scale": 3}, )" + camera + "}").environment.radiance({1, 0, 0}).x, 6.0f, 1e-5f);
+    EXPECT_NEAR(load(R"({"gltf": "room.glb", "environment": {"image": "skies/sky.exr", "scale": 3}, )" + camera + "}")
+                    .environment.radiance({1, 0, 0})
+                    .x,
+                6.0f, 1e-5f);
     sky.values[7] = -1.0f;
     write_exr(root / "skies/sky.exr", sky);
-    EXPECT_NE(mistake(R"({"gltf": "room.glb", "environment": {"image": "skies/sky.exr"}, )" + camera + "}").find("must be finite and not negative"), std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "environment": {"image": "skies/sky.exr"}, )" + camera + "}")
+                  .find("must be finite and not negative"),
+              std::string::npos);
 }
 
 TEST_F(SceneFile, MistakesNameFileAndKey) {
-    EXPECT_NE(mistake(R"({"gltf": "room.glb", "enviroment": {}, )" + camera + "}").find("did you mean 'environment'?"), std::string::npos);
-    EXPECT_NE(mistake(R"({"gltf": "rom.glb", )" + camera + "}").find("'rom.glb' is neither beside that file"), std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "enviroment": {}, )" + camera + "}").find("did you mean 'environment'?"),
+              std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "rom.glb", )" + camera + "}").find("'rom.glb' is neither beside that file"),
+              std::string::npos);
     EXPECT_NE(mistake(R"({"gltf": "room.glb"})").find("no camera"), std::string::npos);
-    EXPECT_NE(mistake(R"({"gltf": "room.glb", "overrides": [{"material": "roof"}], )" + camera + "}").find("no material's whole name matches \"roof\""), std::string::npos);
-    EXPECT_NE(mistake(R"({"gltf": "room.glb", "overrides": [{"material": "floor", "roughness": 2}], )" + camera + "}").find("outside [0, 1]"), std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "overrides": [{"material": "roof"}], )" + camera + "}")
+                  .find("no material's whole name matches \"roof\""),
+              std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "overrides": [{"material": "floor", "roughness": 2}], )" + camera + "}")
+                  .find("outside [0, 1]"),
+              std::string::npos);
     EXPECT_NE(mistake("{\"gltf\": \"room.glb\",,}").find("scene.json:1:"), std::string::npos);
 }
 
 TEST_F(SceneFile, HashesWhatLightDependsOn) {
     const std::string plain = load(R"({"gltf": "room.glb", )" + camera + "}").content_hash;
-    EXPECT_EQ(load(R"({"gltf": "room.glb", "cameras": [{"name": "other", "position": [0, 1, 3], "target": [0, 0, 0], "vfov_deg": 30}]})").content_hash, plain);
-    EXPECT_NE(load(R"({"gltf": "room.glb", "overrides": [{"material": "floor", "roughness": 0.2}], )" + camera + "}").content_hash, plain);
-    EXPECT_NE(load(R"({"gltf": "room.glb", "environment": {"constant": [1, 1, 1]}, )" + camera + "}").content_hash, plain);
+    EXPECT_EQ(
+        load(
+            R"({"gltf": "room.glb", "cameras": [{"name": "other", "position": [0, 1, 3], "target": [0, 0, 0], "vfov_deg": 30}]})")
+            .content_hash,
+        plain);
+    EXPECT_NE(load(R"({"gltf": "room.glb", "overrides": [{"material": "floor", "roughness": 0.2}], )" + camera + "}")
+                  .content_hash,
+              plain);
+    EXPECT_NE(load(R"({"gltf": "room.glb", "environment": {"constant": [1, 1, 1]}, )" + camera + "}").content_hash,
+              plain);
 }
 
 TEST(Scenes, AllOfOursLoadWithoutWarning) {
@@ -104,4 +129,43 @@ TEST(Scenes, AllOfOursLoadWithoutWarning) {
         ++loaded;
     }
     EXPECT_GE(loaded, 10u);
+}
+
+TEST_F(SceneFile, FurtherFilesAreMergedAndWarningsOfTheHiddenDropped) {
+    GltfWriter writer;
+    writer.json["materials"] = {{{"name", "water"}, {"alphaMode", "BLEND"}}};
+    nlohmann::json quad = writer.quad();
+    quad["material"] = 0;
+    writer.add_mesh_node(quad);
+    writer.json["nodes"][0]["translation"] = {0, 0, -5};
+    writer.write_glb(root / "room/stage.glb");
+    const std::string both = R"({"gltf": "room.glb", "also": ["stage.glb"], )";
+    const Scene scene = load(both + camera + "}");
+    ASSERT_EQ(scene.instances.size(), 3u);
+    EXPECT_EQ(scene.materials[scene.meshes[scene.instances[2].mesh].material].name, "water");
+    EXPECT_EQ(pose_scene(scene, 0).world_from_instance[2][3].z, -5.0f);
+    EXPECT_EQ(scene.warnings.size(), 1u);
+    const Scene dry = load(both + R"("overrides": [{"material": "water", "hidden": true}], )" + camera + "}");
+    EXPECT_EQ(dry.instances.size(), 2u);
+    EXPECT_TRUE(dry.warnings.empty());
+    EXPECT_NE(dry.content_hash, scene.content_hash);
+}
+
+TEST_F(SceneFile, UnknownScenesAndBareFiles) {
+    load(R"({"gltf": "room.glb", )" + camera + "}");
+    try {
+        load_scene("rom", {root});
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(std::string(e.what()), "unknown scene 'rom'; did you mean 'room'?");
+    }
+    const Scene bare = load_scene((root / "room/room.glb").string(), {});
+    EXPECT_EQ(bare.environment.color, glm::vec3(1));
+    const CameraPose pose = pose_camera(bare.cameras.at(0), pose_scene(bare, 0), 0);
+    const CameraData data = camera_data(pose, nullptr, {.extent = {100, 100}});
+    for (const Vertex& v : bare.meshes[0].vertices) {  // the default camera sees all of it
+        const glm::vec4 clip = data.clip_from_world * glm::vec4(v.position, 1);
+        EXPECT_LT(std::max({std::abs(clip.x), std::abs(clip.y), clip.z}), clip.w);
+        EXPECT_GT(clip.z, 0.0f);
+    }
 }

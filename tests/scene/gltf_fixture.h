@@ -1,0 +1,45 @@
+#pragma once
+#include "core/error.h"
+#include "core/scene/load_scene.h"
+#include "tests/scene/gltf_writer.h"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+
+namespace fs = std::filesystem;
+
+struct Gltf : testing::Test {
+    fs::path folder =
+        fs::temp_directory_path() /
+        ("ssrlab_gltf_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    GltfWriter writer;
+
+    void SetUp() override {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    /// The mesh of a file with the one primitive.
+    Mesh load_mesh(const nlohmann::json& primitive) {
+        writer.add_mesh_node(primitive);
+        return load().meshes.at(0);
+    }
+    Scene load() { return load_gltf(writer.write_glb(folder / "a.glb")); }
+};
+
+inline std::string message(const auto& action) {
+    try {
+        action();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+inline bool mentions(const std::vector<std::string>& warnings, const std::string& text) {
+    return std::ranges::any_of(warnings, [&](const std::string& w) { return w.find(text) != std::string::npos; });
+}
+
+inline void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance);
+}

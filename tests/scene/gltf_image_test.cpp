@@ -1,0 +1,114 @@
+#include "core/files.h"
+#include "core/png.h"
+#include "tests/scene/gltf_fixture.h"
+
+namespace {
+std::string base64(const std::string& bytes) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t group = 0;
+        for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? uint8_t(bytes[i + k]) : 0u);
+        for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+struct Images : Gltf {
+    std::string png;  ///< 3 x 1: black, grey 0.5 (code 188), white
+
+    void SetUp() override {
+        Gltf::SetUp();
+        HostImage image({3, 1}, 3);
+        image.values = {0, 0, 0, 0.5f, 0.5f, 0.5f, 1, 1, 1};
+        write_png(folder / "t.png", image);
+        png = read_text(folder / "t.png");
+        writer.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+        writer.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+        writer.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
+        nlohmann::json quad = writer.quad();
+        quad["material"] = 0;
+        writer.add_mesh_node(quad);
+    }
+    void expect_texels(const Scene& scene) {
+        const Texture& texture = scene.textures.at(0);
+        EXPECT_EQ(texture.extent, glm::uvec2(3, 1));
+        EXPECT_EQ(texture.rgba, (std::vector<uint8_t>{0, 0, 0, 255, 188, 188, 188, 255, 255, 255, 255, 255}));
+    }
+};
+}  // namespace
+
+TEST_F(Images, AreReadFromFilesBuffersAndDataUris) {
+    writer.json["images"] = {{{"uri", "t.png"}}};
+    const Scene external = load();
+    expect_texels(external);
+    EXPECT_EQ(external.textures[0].wrap_u, TextureWrap::clamp_to_edge);
+    EXPECT_EQ(external.textures[0].wrap_v, TextureWrap::mirrored_repeat);
+    EXPECT_TRUE(external.textures[0].is_nearest);
+    writer.json["images"] = {{{"uri", "data:image/png;base64," + base64(png)}}};
+    expect_texels(load());
+    writer.json["images"] = {{{"bufferView", writer.view(png.data(), png.size())}, {"mimeType", "image/png"}}};
+    expect_texels(load());
+}
+
+TEST_F(Images, MayBeNamedWithBlanks) {
+    fs::rename(folder / "t.png", folder / "a tile.png");
+    writer.json["images"] = {{{"uri", "a%20tile.png"}}};
+    expect_texels(load());
+}
+
+TEST_F(Images, BuffersMayBeDataUris) {
+    writer.json["images"] = {{{"uri", "t.png"}}};
+    const std::string bytes(reinterpret_cast<const char*>(writer.bytes.data()), writer.bytes.size());
+    writer.json["buffers"] = {
+        {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
+    write_text(folder / "d.gltf", writer.json.dump());
+    EXPECT_EQ(load_gltf(folder / "d.gltf").triangle_count(), 2u);
+}
+
+TEST_F(Images, MissingOrBrokenOnesAreErrors) {
+    writer.json["images"] = {{{"uri", "none.png"}}};
+    EXPECT_NE(message([&] { load(); }).find("none.png"), std::string::npos);
+    write_text(folder / "cut.png", png.substr(0, png.size() / 2));
+    writer.json["images"] = {{{"uri", "cut.png"}}};
+    EXPECT_NE(message([&] { load(); }).find("cannot decode image 0 ('cut.png')"), std::string::npos);
+    std::string empty = png;
+    empty[19] = 0;  // the lowest byte of the width in the header: 0 x 1 texels
+    write_text(folder / "empty.png", empty);
+    writer.json["images"] = {{{"uri", "empty.png"}}};
+    EXPECT_NE(message([&] { load(); }).find("empty.png"), std::string::npos);
+}
+
+TEST_F(Images, OfUnknownKindsAreReported) {
+    writer.json["images"] = {{{"uri", "t.png"}}};
+    writer.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    writer.json["extensionsUsed"] = {"KHR_texture_basisu"};
+    const Scene scene = load();
+    EXPECT_EQ(scene.materials[0].base_color_texture.texture, -1);
+    EXPECT_TRUE(mentions(scene.warnings, "KHR_texture_basisu"));
+    EXPECT_TRUE(mentions(scene.warnings, "base colour texture of material 'material_0' is ignored"));
+}
+
+TEST_F(Images, TransformsMayNameOtherCoordinates) {
+    writer.json["images"] = {{{"uri", "t.png"}}};
+    const float quarter = 1.57079633f;
+    writer.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
+        {"rotation", quarter}, {"scale", {2, 1}}, {"texCoord", 1}};
+    const TextureSlot slot = load().materials[0].base_color_texture;
+    EXPECT_EQ(slot.texcoord, 1u);
+    // The extension's rotation matrix takes (u, v) = (2, 0) to (2 cos, -2 sin).
+    expect_near(slot.uv_transform * glm::vec3(1, 0, 1), {0, -2, 1}, 1e-6f);
+}
+
+TEST_F(Images, BlendingAndTransmissionAreReported) {
+    writer.json["images"] = {{{"uri", "t.png"}}};
+    writer.json["materials"][0]["alphaMode"] = "BLEND";
+    writer.json["materials"].push_back(
+        {{"name", "pane"}, {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
+    writer.json["extensionsUsed"] = {"KHR_materials_transmission"};
+    writer.json["extensionsRequired"] = {"KHR_materials_transmission"};
+    const Scene scene = load();
+    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::opaque);
+    EXPECT_TRUE(mentions(scene.warnings, "'material_0' is blended"));
+    EXPECT_TRUE(mentions(scene.warnings, "'pane' transmits light"));
+}
