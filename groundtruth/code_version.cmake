@@ -1,0 +1,10 @@
+# Writes OUT, a header with the hash of all FILES, so that a changed path tracer never takes over references of an older one.
+set(hashes "")
+foreach(file ${FILES})
+  file(SHA256 ${file} hash)
+  get_filename_component(name ${file} NAME)
+  string(APPEND hashes "${name} ${hash}\n")
+endforeach()
+string(SHA256 version "${hashes}")
+string(SUBSTRING ${version} 0 16 version)
+file(WRITE ${OUT} "#pragma once\n#include <string_view>\ninline constexpr std::string_view code_version = \"${version}\";\n")

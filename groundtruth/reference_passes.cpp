@@ -1,0 +1,157 @@
+#include "groundtruth/reference_passes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <numeric>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <xmmintrin.h>
+
+namespace {
+
+constexpr unsigned tile_size = 8;  ///< pixels; neighbours meet the same nodes of the BVH
+
+/// Denormals count as zero while it lives: Embree asks for it, and arithmetic on them is slow. The mode belongs to a thread.
+struct FlushDenormals {
+    const unsigned before = _mm_getcsr();
+    FlushDenormals() { _mm_setcsr(before | 0x8040); }  // FTZ and DAZ
+    ~FlushDenormals() { _mm_setcsr(before); }
+};
+
+struct Tile {
+    unsigned x, y;
+    double samples;  ///< to be done
+};
+
+/// The tiles with work left; those with most first, so that no thread is left alone with one at the end.
+std::vector<Tile> unfinished_tiles(const ReferenceState& state) {
+    const glm::uvec2 extent = state.reference.extent;
+    const std::vector<float>& count = state.reference.sample_count.values;
+    std::vector<Tile> tiles;
+    for (unsigned y = 0; y < extent.y; y += tile_size)
+        for (unsigned x = 0; x < extent.x; x += tile_size) {
+            Tile tile{x, y, 0};
+            for (unsigned j = y; j < std::min(y + tile_size, extent.y); ++j)
+                for (unsigned i = x; i < std::min(x + tile_size, extent.x); ++i) {
+                    const size_t pixel = size_t(j) * extent.x + i;
+                    tile.samples += double(state.sample_goal.values[pixel]) - count[pixel];
+                }
+            if (tile.samples > 0) tiles.push_back(tile);
+        }
+    std::ranges::stable_sort(tiles, std::ranges::greater{}, &Tile::samples);
+    return tiles;
+}
+
+/// What all threads of a pass share.
+struct PassCounts {
+    double samples_before;  ///< of all pixels
+    std::atomic<uint64_t> rays = 0, non_finite = 0, samples = 0;
+    std::atomic<bool> pause = false;
+    std::mutex looks_at_clock;
+};
+
+double seconds_since(RenderClock::Instant instant) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - instant).count();
+}
+
+void report(const PassCounts& counts, const RenderClock& clock, const Reference& reference) {
+    const double rays = reference.rays + double(counts.rays) - clock.rays_before;
+    const double done = counts.samples_before + double(counts.samples);
+    const double made = done - clock.phase_samples_before;
+    double left = (clock.phase_samples - done) / std::max(made, 1.0) * seconds_since(clock.phase_start);
+    double fraction = done / clock.phase_samples;
+    if (clock.time_limit > 0) {
+        left = std::clamp(clock.time_limit - clock.seconds(), 0.0, left);
+        fraction = std::max(fraction, clock.seconds() / clock.time_limit);
+    }
+    clock.run.progress(std::min(fraction, 1.0), rays / std::max(seconds_since(clock.start), 1e-9), left);
+}
+
+/// Called by every thread after each pixel; one at a time looks at the clock.
+void look_at_clock(PassCounts& counts, RenderClock& clock, const Reference& reference) {
+    const std::unique_lock lock(counts.looks_at_clock, std::try_to_lock);
+    if (!lock) return;
+    const double save_interval = std::max(clock.run.seconds_between_saves, 20 * clock.save_seconds);
+    if (!clock.run.state_file.empty() && seconds_since(clock.last_save) > save_interval) counts.pause = true;
+    if (!clock.run.progress || seconds_since(clock.last_report) < clock.run.seconds_between_reports) return;
+    clock.last_report = std::chrono::steady_clock::now();
+    report(counts, clock, reference);
+}
+
+void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& tile, PassCounts& counts, RenderClock& clock) {
+    Reference& reference = state.reference;
+    const SampleSet set = state.is_pilot ? SampleSet::pilot : SampleSet::final;
+    for (unsigned y = tile.y; y < std::min(tile.y + tile_size, reference.extent.y); ++y)
+        for (unsigned x = tile.x; x < std::min(tile.x + tile_size, reference.extent.x); ++x) {
+            if (counts.pause) return;
+            const size_t pixel = size_t(y) * reference.extent.x + x;
+            const unsigned samples = unsigned(state.sample_goal.values[pixel] - reference.sample_count.values[pixel]);
+            if (samples == 0) continue;
+            const PixelCost cost = add_samples(reference, tracer, x, y, state.settings.seed, set, samples / batch_count);
+            if (state.is_pilot) state.rays_per_sample.values[pixel] = float(double(cost.rays) / samples);
+            counts.rays += cost.rays;
+            counts.non_finite += cost.non_finite;
+            counts.samples += samples;
+            look_at_clock(counts, clock, reference);
+        }
+}
+
+void save(ReferenceState& state, RenderClock& clock) {
+    if (clock.run.state_file.empty()) return;
+    const auto start = std::chrono::steady_clock::now();
+    state.reference.seconds = clock.seconds();
+    write_reference_state(clock.run.state_file, state);
+    clock.save_seconds = seconds_since(start);
+    clock.last_save = std::chrono::steady_clock::now();
+}
+
+}  // namespace
+
+double RenderClock::seconds() const { return seconds_before + seconds_since(start); }
+
+double total_samples(const Reference& reference) {
+    const std::vector<float>& counts = reference.sample_count.values;
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
+}
+
+void clear_samples(ReferenceState& state, glm::uvec2 extent) {
+    Reference& reference = state.reference;
+    reference.extent = extent;
+    reference.non_finite_samples = 0;
+    reference.passes.clear();
+    for (ReferenceOutput* output : {&reference.image, &reference.diffuse, &reference.specular, &reference.incident})
+        for (HostImage* image : {&output->mean, &output->half_a, &output->half_b, &output->variance}) *image = HostImage(extent, 3);
+    for (HostImage* image : {&reference.geometric_normal, &reference.normal}) *image = HostImage(extent, 3);
+    for (HostImage* image : {&reference.sample_count, &reference.depth, &reference.material_id}) *image = HostImage(extent, 1);
+    reference.lobe_samples = HostImage(extent, 2);
+    state.sample_goal = {};
+    state.rays_per_sample = {};
+}
+
+void render_pass(ReferenceState& state, const PixelTracer& tracer, RenderClock& clock) {
+    for (;;) {
+        const std::vector<Tile> tiles = unfinished_tiles(state);
+        if (tiles.empty()) return;
+        PassCounts counts{.samples_before = total_samples(state.reference)};
+        std::atomic<size_t> next = 0;
+        const auto work = [&](int) {
+            const FlushDenormals flush;
+            for (size_t tile; !counts.pause && (tile = next++) < tiles.size();)
+                render_tile(state, tracer, tiles[tile], counts, clock);
+        };
+        const auto add_counts = [&] {
+            state.reference.rays += double(counts.rays);
+            state.reference.non_finite_samples += counts.non_finite;
+        };
+        try {
+            tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), work, tbb::simple_partitioner());
+        } catch (...) {
+            add_counts();
+            save(state, clock);
+            throw;
+        }
+        add_counts();
+        if (counts.pause) save(state, clock);
+    }
+}

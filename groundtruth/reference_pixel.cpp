@@ -1,0 +1,116 @@
+#include "groundtruth/reference_pixel.h"
+
+#include <array>
+
+namespace {
+
+/// A sum and the number of samples that it is to be divided by, per batch.
+struct Batches {
+    std::array<glm::dvec3, batch_count> sums{};
+    std::array<double, batch_count> weights{};
+};
+
+/// Both halves of one output of one pass.
+struct PassMeans {
+    glm::dvec3 half[2] = {glm::dvec3(0.0), glm::dvec3(0.0)};
+    double weight[2] = {0, 0};
+    glm::dvec3 variance{0.0};  ///< of the mean of the halves
+};
+
+/// The variance of a half is that of a ratio of sums, linearised (Cochran, "Sampling Techniques", 6.4); where all weights are
+/// equal it is the variance of the batch means over their number. Deviations are taken within a half: so the difference of
+/// the halves is independent of the stated variance, and audits it.
+PassMeans means(const Batches& batches) {
+    constexpr double batches_per_half = batch_count / 2;
+    PassMeans pass;
+    for (unsigned h = 0; h < 2; ++h) {
+        glm::dvec3 sum(0.0);
+        for (unsigned b = h; b < batch_count; b += 2) {
+            sum += batches.sums[b];
+            pass.weight[h] += batches.weights[b];
+        }
+        if (pass.weight[h] == 0) continue;
+        pass.half[h] = sum / pass.weight[h];
+        glm::dvec3 squares(0.0);
+        for (unsigned b = h; b < batch_count; b += 2) {
+            const glm::dvec3 deviation = batches.sums[b] - pass.half[h] * batches.weights[b];
+            squares += deviation * deviation;
+        }
+        const double scale = batches_per_half / (batches_per_half - 1) / (pass.weight[h] * pass.weight[h]);
+        pass.variance += 0.25 * scale * squares;
+    }
+    return pass;
+}
+
+/// Weighs old and new by their samples. Means are kept as float32: each merge rounds once, and passes are few.
+void merge(ReferenceOutput& output, size_t pixel, const PassMeans& pass, const double (&old_weight)[2]) {
+    HostImage* halves[2] = {&output.half_a, &output.half_b};
+    for (unsigned h = 0; h < 2; ++h) {
+        const double total = old_weight[h] + pass.weight[h];
+        if (total == 0) continue;
+        const glm::dvec3 old = halves[h]->rgb(pixel);
+        halves[h]->set_rgb(pixel, glm::vec3(old + (pass.half[h] - old) * (pass.weight[h] / total)));
+    }
+    output.mean.set_rgb(pixel, 0.5f * (output.half_a.rgb(pixel) + output.half_b.rgb(pixel)));
+
+    const double before = old_weight[0] + old_weight[1], added = pass.weight[0] + pass.weight[1];
+    if (before + added == 0) return;
+    const double share = added / (before + added), rest = before / (before + added);
+    const glm::dvec3 old_variance = output.variance.rgb(pixel);
+    output.variance.set_rgb(pixel, glm::vec3(rest * rest * old_variance + share * share * pass.variance));
+}
+
+/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators").
+uint64_t mix(uint64_t z) {
+    z += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+void write_first_hit(Reference& reference, size_t pixel, const FirstHit& hit) {
+    if (!hit.is_hit) return;
+    reference.depth.values[pixel] = hit.depth;
+    reference.geometric_normal.set_rgb(pixel, hit.geometric_normal);
+    reference.normal.set_rgb(pixel, hit.normal);
+    reference.material_id.values[pixel] = float(hit.material + 1);
+}
+
+}  // namespace
+
+PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed, SampleSet set,
+                      unsigned batch_samples) {
+    const size_t pixel = size_t(y) * reference.extent.x + x;
+    const FirstHit hit = tracer.first_hit(x, y);
+    write_first_hit(reference, pixel, hit);
+
+    const double samples_before = reference.sample_count.values[pixel];
+    const uint64_t pass_seed = mix(mix(seed) ^ mix(uint64_t(set) + 1) ^ uint64_t(samples_before));
+    PixelCost cost{.rays = 1};
+    Batches diffuse, specular, image, incident;
+    for (unsigned b = 0; b < batch_count; ++b) {
+        PixelEstimate estimate;
+        if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, mix(pass_seed + b), 0, batch_samples, estimate);
+        diffuse.sums[b] = estimate.diffuse + glm::dvec3(hit.emitted) * double(batch_samples);
+        specular.sums[b] = estimate.specular;
+        image.sums[b] = diffuse.sums[b] + specular.sums[b];
+        incident.sums[b] = estimate.incident;
+        diffuse.weights[b] = specular.weights[b] = image.weights[b] = batch_samples;
+        incident.weights[b] = double(estimate.lobe_samples);
+        cost.rays += estimate.rays;
+        cost.non_finite += estimate.non_finite;
+    }
+
+    const double old_weight[2] = {samples_before / 2, samples_before / 2};
+    merge(reference.diffuse, pixel, means(diffuse), old_weight);
+    merge(reference.specular, pixel, means(specular), old_weight);
+    merge(reference.image, pixel, means(image), old_weight);
+
+    float* lobe_samples = &reference.lobe_samples.values[pixel * 2];
+    const double old_lobe_weight[2] = {lobe_samples[0], lobe_samples[1]};
+    const PassMeans incident_means = means(incident);
+    merge(reference.incident, pixel, incident_means, old_lobe_weight);
+    for (unsigned h = 0; h < 2; ++h) lobe_samples[h] += float(incident_means.weight[h]);
+    reference.sample_count.values[pixel] += float(batch_samples * batch_count);
+    return cost;
+}
