@@ -34,7 +34,9 @@ int figures_command(const FiguresOptions& options);  ///< the exit code of the f
 struct CompareCommandOptions {
     std::filesystem::path reference, test, map;
     std::vector<std::string> metrics;
-    bool as_json = false;
+    bool as_json = false, fail_on_non_finite = false;
+    float exposure_ev = 0.0f, map_max = 1.0f;
+    std::string tone_map = "none";
 };
 void compare_images_command(const CompareCommandOptions& options);
 

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "experiments/commands.h"
+#include "metrics/tone_map.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -55,7 +56,11 @@ int parse_and_run(int argc, char** argv) {
     compare_command_.add_option("reference", compare.reference)->required()->type_name("REFERENCE");
     compare_command_.add_option("test", compare.test)->required()->type_name("TEST");
     compare_command_.add_option("--metric", compare.metrics, "May be repeated; see: ssrlab list metrics")->type_name("NAME");
-    compare_command_.add_option("--map", compare.map, "Write the first metric's error map, as EXR")->type_name("FILE.exr");
+    compare_command_.add_option("--map", compare.map, "Write the error map: .exr (a layer per metric) or .png (one metric, in false colour)")->type_name("FILE");
+    compare_command_.add_option("--map-max", compare.map_max, "The error that a .png map shows as its brightest colour")->check(CLI::PositiveNumber)->capture_default_str();
+    compare_command_.add_option("--exposure", compare.exposure_ev, "Display metrics look at radiance times 2^EV")->type_name("EV")->check(CLI::Range(-100.0, 100.0))->capture_default_str();
+    compare_command_.add_option("--tone-map", compare.tone_map, "Of display metrics")->check(CLI::IsMember(tone_map_names))->capture_default_str();
+    compare_command_.add_flag("--fail-on-non-finite", compare.fail_on_non_finite, "Exit with 2 if a pixel is NaN or Inf; else such pixels are left out and counted in a warning");
     compare_command_.add_flag("--json", compare.as_json, "Print one JSON object");
     compare_command_.callback([&] { compare_images_command(compare); });
 

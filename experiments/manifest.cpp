@@ -98,12 +98,14 @@ nlohmann::json study_entry(const Config& config, Device& device) {
             {"images", nlohmann::json::array()}};
 }
 
+nlohmann::json fact_entry(const SceneFact& fact) { return {{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}}; }
+
 nlohmann::json left_out_entry(const LeftOut& part) { return {{"what", part.what}, {"fact", part.fact}, {"why", part.why}, {"saved_ms", nullptr}}; }
 
 nlohmann::json shot_entry(const Shot& shot, unsigned frame, const Reference& reference, const FrameTruth& truth, const Config& config) {
     nlohmann::json needs = nlohmann::json::array(), left_out = nlohmann::json::array();
     if (shot.config.gbuffer.empty()) {
-        for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) needs.push_back({{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}});
+        for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) needs.push_back(fact_entry(fact));
         const ShotFrame now = shot_frame(shot, frame);
         const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
         for (const LeftOut& part : tracer.left_out()) left_out.push_back(left_out_entry(part));

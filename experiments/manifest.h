@@ -15,6 +15,7 @@ nlohmann::json study_entry(const Config& config, Device& device);
 
 nlohmann::json shot_entry(const Shot& shot, unsigned frame, const Reference& reference, const FrameTruth& truth, const Config& config);
 nlohmann::json gbuffer_shot_entry(const Shot& shot);  ///< of a G-buffer without a reference
+nlohmann::json fact_entry(const SceneFact& fact);
 nlohmann::json left_out_entry(const LeftOut& part);
 
 /// The variant's output on the CPU. `incident` mixes fallback and radiance as the compositor does.

@@ -83,6 +83,7 @@ PreparedFrame prepare_frame(Study& study, const Shot& shot, FrameSource& source,
     PreparedFrame prepared{.frame = frame, .shot_name = shot.name(frame), .reference_hash = reference.hash,
                            .truth = frame_truth(reference, one_channel(host.normal, 3), specular_reflectance(host), study.config, shot.camera.exposure_ev)};
     study.manifest["shots"].push_back(shot_entry(shot, frame, reference, prepared.truth, study.config));
+    for (const SceneFact& fact : list_facts(pixel_facts(host))) study.manifest["shots"].back()["needs"].push_back(fact_entry(fact));
     for (const LeftOut& part : source.left_out()) study.manifest["shots"].back()["left_out"].push_back(left_out_entry(part));
     for (nlohmann::json& image : save_reference_images(study.settings.out, prepared.shot_name, reference, shot.camera.exposure_ev))
         study.manifest["images"].push_back(std::move(image));

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "metrics/quantiles.h"
 #include "experiments/csv.h"
 #include "experiments/results.h"
 
@@ -48,7 +49,7 @@ void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows) {
     const bool reference_is_exact = !has_interval && s.floor.value_or(0.0) == 0.0;
     if (!has_interval && !(reference_is_exact && s.seed_deviation)) return;
     const double from_seeds =
-        s.seed_deviation ? student_t_975(s.seeds - 1) * *s.seed_deviation / std::sqrt(double(s.seeds)) : 0.0;
+        s.seed_deviation ? student_t_quantile(0.975, double(s.seeds - 1)) * *s.seed_deviation / std::sqrt(double(s.seeds)) : 0.0;
     s.low = *s.value - std::hypot(from_seeds, has_interval ? *s.value - mean(*lows) : 0.0);
     s.high = *s.value + std::hypot(from_seeds, has_interval ? mean(*highs) - *s.value : 0.0);
 }
@@ -153,17 +154,4 @@ void write_summaries(const std::filesystem::path& folder, std::span<const Metric
     for (const TimeSummary& t : times)
         text += csv_line(t.shot, t.variant, t.point, t.stage, t.clock, t.frames, t.median, t.low, t.high);
     write_text(folder / "time_summary.csv", text);
-}
-
-double student_t_975(unsigned degrees) {
-    if (degrees == 0) fail("Student's t distribution needs at least one degree of freedom");
-    // Any table of the distribution; above its end the expansion of Abramowitz & Stegun 26.7.5 is good to 2e-5.
-    constexpr std::array table = {12.70620, 4.30265, 3.18245, 2.77645, 2.57058,
-                                  2.44691,  2.36462, 2.30600, 2.26216, 2.22814};
-    if (degrees <= table.size()) return table[degrees - 1];
-    constexpr double z = 1.959963984540054, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, z9 = z7 * z * z;
-    const double n = degrees;
-    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
-           (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n) +
-           (79 * z9 + 776 * z7 + 1482 * z5 - 1920 * z3 - 945 * z) / (92160 * n * n * n * n);
 }

@@ -41,6 +41,3 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows);
 /// Writes summary.csv and time_summary.csv, which the report and the figures show.
 void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors,
                      std::span<const TimeSummary> times);
-
-/// The 97.5 % quantile of Student's t distribution; degrees >= 1.
-double student_t_975(unsigned degrees);

@@ -51,7 +51,13 @@ void reference_command(const ReferenceCommandOptions& options, const CommonOptio
 }
 
 void compare_images_command(const CompareCommandOptions& options) {
-    const Comparison result = compare({.reference = options.reference, .test = options.test, .metrics = options.metrics, .map = options.map, .settings = {}});
+    const Comparison result = compare({.reference = options.reference,
+                                       .test = options.test,
+                                       .metrics = options.metrics,
+                                       .map = options.map,
+                                       .map_max = options.map_max,
+                                       .settings = {.exposure_ev = options.exposure_ev, .tone_map = tone_map_named(options.tone_map)},
+                                       .fail_on_non_finite = options.fail_on_non_finite});
     if (options.as_json)
         std::cout << to_json(result).dump(2) << '\n';
     else

@@ -121,14 +121,6 @@ TEST(Summary, AddsUpAStageThatRunsTwiceInAFrame) {
     EXPECT_EQ(t.high, 7.0);
 }
 
-TEST(Summary, KnowsStudentsT) {
-    // Tables of Student's t, to their five decimals.
-    EXPECT_NEAR(student_t_975(1), 12.70620, 1e-5);
-    EXPECT_NEAR(student_t_975(11), 2.20099, 2e-5);
-    EXPECT_NEAR(student_t_975(30), 2.04227, 1e-5);
-    EXPECT_NEAR(student_t_975(1000000), 1.95996, 1e-5);
-}
-
 TEST(ReportImages, HalvesComeBackAsImathRoundsThem) {
     HostImage image({3, 2}, 3);
     std::mt19937 random(3);
