@@ -2,9 +2,9 @@
 #define SHARED_ENVIRONMENT_H
 #include "core/shared/language.h"
 
-// A latitude-longitude environment image: u = 0.5 + atan2(z, x) / (2 pi), v = acos(y) / pi, so that the middle of the image
-// is +X, its left half -Z, and its top row +Y. A positive rotation turns the image counter-clockwise as seen from +Y (the
-// right-hand rule): at 90 degrees its middle is seen along -Z.
+// A latitude-longitude environment image: u = 0.5 + atan2(z, x) / (2 pi), v = acos(y) / pi, so that the middle of the
+// image is +X, its left half -Z, and its top row +Y. A positive rotation turns the image counter-clockwise as seen from
+// +Y (the right-hand rule): at 90 degrees its middle is seen along -Z.
 
 /// `direction`: unit, world space, away from the scene. `rotation`: radians about +Y. u in [0, 1], v in [0, 1].
 SHARED vec2 environment_uv(vec3 direction, float rotation) {
