@@ -21,8 +21,8 @@ std::vector<TriangleRecord> make_records(const Mesh& mesh, const InstanceRecord&
             const uint32_t index = mesh.indices[3 * t + corner];
             const Vertex& vertex = mesh.vertices[index];
             record.corner[k] = index;
-            record.position[k] = glm::vec4(glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0f)), 0.0f);
-            record.normal[k] = glm::vec4(instance.normal_matrix * vertex.normal, 0.0f);
+            record.position[k] = glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0f));
+            record.normal[k] = instance.normal_matrix * vertex.normal;
         }
         const glm::dvec3 p0(record.position[0]), p1(record.position[1]), p2(record.position[2]);
         const glm::dvec3 normal = glm::cross(p1 - p0, p2 - p0);

@@ -9,8 +9,8 @@
 /// What shading reads of a triangle, side by side so that a hit costs two cache lines. The order of the corners makes
 /// cross(p1 - p0, p2 - p0) point to the front, also under transforms of negative determinant.
 struct alignas(64) TriangleRecord {
-    glm::vec4 position[3];   ///< w: 0
-    glm::vec4 normal[3];     ///< as the normal matrix leaves it: it is normalised after interpolation, as by the rasteriser; w: 0
+    glm::vec3 position[3];
+    glm::vec3 normal[3];     ///< as the normal matrix leaves it: it is normalised after interpolation, as by the rasteriser
     glm::vec3 front_normal;  ///< unit geometric normal
     uint32_t corner[3];      ///< vertices of the mesh, for its other attributes
 };
@@ -30,7 +30,7 @@ struct InstanceRecord {
 struct SurfacePoint {
     glm::vec3 position, error;   ///< m; `error` is the half extent of a box that holds the exact point
     glm::vec3 front_normal;      ///< unit geometric normal of the front side
-    glm::vec3 normal;            ///< unit interpolated vertex normal
+    glm::vec3 normal;            ///< interpolated vertex normal, of any length
 };
 
 /// Embree's view of one frame: a mesh drawn once is baked into the top level, one drawn more often becomes a BVH of its own.
@@ -70,29 +70,37 @@ private:
 /// Bound of the relative error of n float operations in a row (Higham 2002, section 3.1).
 constexpr float rounding_bound(int n) { return float(n) * 0x1p-24f / (1.0f - float(n) * 0x1p-24f); }
 
+/// Without the branches of glm::abs.
+inline glm::vec3 magnitude(glm::vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
 inline SurfacePoint EmbreeScene::point(uint32_t instance_index, uint32_t triangle, float u, float v) const {
     const InstanceRecord& instance = instances_[instance_index];
     const TriangleRecord& record = instance.triangles[triangle];
     const float w = 1.0f - u - v;
-    const glm::vec4 p0 = w * record.position[0], p1 = u * record.position[1], p2 = v * record.position[2];
-    const glm::vec4 normal = w * record.normal[0] + u * record.normal[1] + v * record.normal[2];
-    SurfacePoint point{glm::vec3(p0 + p1 + p2), glm::vec3(rounding_bound(7) * (glm::abs(p0) + glm::abs(p1) + glm::abs(p2))),
-                       record.front_normal, glm::vec3(normal)};
+    const glm::vec3 p0 = w * record.position[0], p1 = u * record.position[1], p2 = v * record.position[2];
+    SurfacePoint point{p0 + p1 + p2, rounding_bound(7) * (magnitude(p0) + magnitude(p1) + magnitude(p2)), record.front_normal,
+                       w * record.normal[0] + u * record.normal[1] + v * record.normal[2]};
     if (!instance.is_baked) place(instance, point);
-    const float square = glm::dot(point.normal, point.normal);
-    point.normal = square > 0 ? point.normal * (1.0f / std::sqrt(square)) : point.front_normal;
     return point;
 }
 
+/// A unit vector along an interpolated normal, or `fallback` where there is none. Branchless, for vector loops.
+inline glm::vec3 unit_normal(glm::vec3 normal, glm::vec3 fallback) {
+    const float square = glm::dot(normal, normal), scale = 1.0f / std::sqrt(square);
+    const bool is_known = square > 0.0f;
+    return {is_known ? normal.x * scale : fallback.x, is_known ? normal.y * scale : fallback.y, is_known ? normal.z * scale : fallback.z};
+}
+
 /// `position` moved out of its error box along the normal, to the side of `direction` (Pharr, Jakob and Humphreys 2016,
-/// "Physically Based Rendering", section 3.9.5). Rounding must not undo the offset: one more step of the float grid away from
-/// the surface sees to that.
+/// "Physically Based Rendering", section 3.9.5). Rounding must not undo the offset, and a point on a plane through the origin
+/// has no error at all: one more step of the float grid, and a little that counts only at zero, see to both.
 inline glm::vec3 offset_origin(glm::vec3 position, glm::vec3 error, glm::vec3 normal, glm::vec3 direction) {
-    const glm::vec3 size = glm::abs(normal) * error;
+    const glm::vec3 size = magnitude(normal) * error;
     const float side = glm::dot(normal, direction) < 0 ? -1.0f : 1.0f;
-    const glm::vec3 offset = side * (size.x + size.y + size.z) * normal;
-    const glm::vec3 origin = position + offset, step = glm::abs(origin) * 0x1p-23f;
-    return {origin.x + (offset.x > 0 ? step.x : offset.x < 0 ? -step.x : 0.0f),
-            origin.y + (offset.y > 0 ? step.y : offset.y < 0 ? -step.y : 0.0f),
-            origin.z + (offset.z > 0 ? step.z : offset.z < 0 ? -step.z : 0.0f)};
+    const glm::vec3 outward = side * normal;
+    const glm::vec3 origin = position + (size.x + size.y + size.z) * outward;
+    const glm::vec3 step = magnitude(origin) * 0x1p-23f + 1e-20f;
+    return {origin.x + (outward.x > 0 ? step.x : outward.x < 0 ? -step.x : 0.0f),
+            origin.y + (outward.y > 0 ? step.y : outward.y < 0 ? -step.y : 0.0f),
+            origin.z + (outward.z > 0 ? step.z : outward.z < 0 ? -step.z : 0.0f)};
 }

@@ -117,7 +117,7 @@ double seconds(const Work& work) {
 }
 
 void compare_with_bare_embree(benchmark::State& state, const Setting& setting) {
-    const unsigned samples = 16;
+    const unsigned samples = 64;
     const PathTracer tracer(setting.scene, setting.pose, setting.camera, {width, height}, {});
     const std::vector<Tile> recorded = render(tracer, samples, true);
     double rays = 0, paths = 0;

@@ -76,7 +76,7 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, st
     for (uint32_t t = 0; t < instance.mesh->indices.size() / 3; ++t) {
         Triangle& light = triangles_.emplace_back();
         for (int k = 0; k < 3; ++k) {
-            const glm::vec3 position(instance.triangles[t].position[k]);
+            const glm::vec3 position = instance.triangles[t].position[k];
             light.position[k] = instance.is_baked ? position : glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f));
         }
         const glm::dvec3 p0(light.position[0]), p1(light.position[1]), p2(light.position[2]);
@@ -127,9 +127,9 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
         const float cosine = -glm::dot(direction, lights.normal.get(lane));
         const bool is_lit = (cosine > 0.0f) | ((cosine < 0.0f) & (emits_behind[lane] != 0));
         lights.position.set(lane, position);
-        lights.error.set(lane, 0x1p-21f * (glm::abs(a) + glm::abs(b) + glm::abs(c)));  // 8 roundings
+        lights.error.set(lane, 0x1p-21f * (magnitude(a) + magnitude(b) + magnitude(c)));  // 8 roundings
         lights.direction.set(lane, direction);
-        lights.pdf[lane] = is_lit ? lights.pdf[lane] * square / glm::abs(cosine) : 0.0f;
+        lights.pdf[lane] = is_lit ? lights.pdf[lane] * square / std::fabs(cosine) : 0.0f;
         lights.is_delta[lane] = 0;
         lights.is_infinite[lane] = 0;
     }

@@ -21,6 +21,8 @@ struct LobeValues {
     float diffuse_pdf, specular_pdf;
 };
 
+const float inverse_pi = 1.0f / pi;
+
 inline float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 /// o.z must be > 0. Both lobes vanish for an unlit surface (base colour 0 and specular 0 are its equivalent).
@@ -28,7 +30,7 @@ inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float
     Lobes lobes;
     lobes.o = vec3(o.x, o.y, o.z);
     const bool is_lambert = model == ReflectionModel::lambert, has_rise = model == ReflectionModel::gltf;
-    lobes.diffuse_over_pi = base_color * ((is_lambert ? 1.0f : 1.0f - metalness) / pi);
+    lobes.diffuse_over_pi = base_color * ((is_lambert ? 1.0f : 1.0f - metalness) * inverse_pi);
     lobes.f0 = is_lambert ? vec3(0.0f) : specular_f0(base_color, metalness, specular);
     lobes.fresnel_rise = has_rise ? vec3(specular_f90(metalness, specular)) - lobes.f0 : vec3(0.0f);
     lobes.dielectric_f0 = is_lambert ? 0.0f : 0.04f * specular;
@@ -60,7 +62,7 @@ inline LobeValues evaluate(const Lobes& lobes, vec3 i) {
     const float masked_d = i.z > 0.0f ? d : 0.0f;
     LobeValues values;
     values.diffuse = lobes.diffuse_over_pi * ((1.0f - lobes.dielectric_f0 - lobes.dielectric_rise * w) * cosine);
-    values.diffuse_pdf = cosine / pi;
+    values.diffuse_pdf = cosine * inverse_pi;
     values.specular = (lobes.f0 + lobes.fresnel_rise * w) * (masked_d * cosine * 0.5f / (lobes.o.z * root_i + cosine * lobes.root_o));
     values.specular_pdf = masked_d * lobes.pdf_scale;
     return values;

@@ -29,6 +29,7 @@ MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bo
         surface.emitted = material.is_unlit ? material.base_color : material.emission;
         constants.varies = evaluate_everything || has_color || material.metalness_roughness_texture.texture >= 0 ||
                            material.normal_texture.texture >= 0 || material.emission_texture.texture >= 0;
+        any_varies_ |= constants.varies;
         constants.emission_varies = evaluate_everything || (material.is_unlit ? has_color : material.emission_texture.texture >= 0);
         constants.emits = surface.emitted != glm::vec3(0.0f);
         constants.emits_behind = material.is_double_sided;
@@ -40,6 +41,26 @@ MaterialTable::Corners MaterialTable::corners(uint32_t instance_index, uint32_t 
     const TriangleRecord& record = instance.triangles[triangle];
     const Vertex* vertices = instance.mesh->vertices.data();
     return {{vertices + record.corner[0], vertices + record.corner[1], vertices + record.corner[2]}, {1.0f - u - v, u, v}};
+}
+
+void MaterialTable::prefetch_corners(uint32_t instance_index, uint32_t triangle) const {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    if (!constants_[instance.material].varies) return;
+    for (const uint32_t corner : instance.triangles[triangle].corner) {
+        const char* vertex = reinterpret_cast<const char*>(&instance.mesh->vertices[corner]);
+        __builtin_prefetch(vertex);
+        __builtin_prefetch(vertex + sizeof(Vertex) - 1);
+    }
+}
+
+void MaterialTable::prefetch_texels(uint32_t instance_index, uint32_t triangle, float u, float v) const {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    if (!constants_[instance.material].varies) return;
+    const Material& material = scene_.materials[instance.material];
+    const Corners at = corners(instance_index, triangle, u, v);
+    for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture, &material.normal_texture,
+                                    &material.emission_texture})
+        if (slot->texture >= 0) prefetch_texture(scene_.textures[size_t(slot->texture)], at.uv(*slot));
 }
 
 glm::vec2 MaterialTable::Corners::uv(const TextureSlot& slot) const {
@@ -76,21 +97,33 @@ glm::vec3 MaterialTable::mapped_normal(const Material& material, const Corners& 
     return mapped_length > 0 ? mapped / mapped_length : normal;
 }
 
-void MaterialTable::vary(const Material& material, const Corners& corners, const InstanceRecord& instance, ShadedPoint& point) const {
+/// All but the place and the normals.
+ShadedPoint MaterialTable::properties(const Material& material, const Corners& corners) const {
     const glm::vec3 color = material.base_color * glm::vec3(corners.color()) * glm::vec3(sample(material.base_color_texture, corners));
-    point.base_color = material.is_unlit ? glm::vec3(0.0f) : color;
     const glm::vec4 metalness_roughness = sample(material.metalness_roughness_texture, corners);
+    ShadedPoint point;
+    point.is_unlit = material.is_unlit;
+    point.base_color = material.is_unlit ? glm::vec3(0.0f) : color;
     point.metalness = material.metalness * metalness_roughness.b;
     point.roughness = material.roughness * metalness_roughness.g;
+    point.specular = material.is_unlit ? 0.0f : material.specular;
     point.emitted = material.is_unlit ? color : material.emission * glm::vec3(sample(material.emission_texture, corners));
-    if (material.normal_texture.texture >= 0) point.normal = mapped_normal(material, corners, instance, point.normal);
+    return point;
+}
+
+ShadedPoint MaterialTable::shade_varying(SurfacePoint surface, uint32_t instance_index, uint32_t triangle, float u, float v,
+                                         glm::vec3 view) const {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    const Material& material = scene_.materials[instance.material];
+    const Corners at = corners(instance_index, triangle, u, v);
+    if (material.normal_texture.texture >= 0)
+        surface.normal = mapped_normal(material, at, instance, unit_normal(surface.normal, surface.front_normal));
+    return facing(surface, properties(material, at), material.is_double_sided, view);
 }
 
 glm::vec3 MaterialTable::emission(uint32_t instance_index, uint32_t triangle, float u, float v) const {
     const InstanceRecord& instance = geometry_.instance(instance_index);
     const Constants& constants = constants_[instance.material];
     if (!constants.emission_varies) return constants.surface.emitted;
-    ShadedPoint point;
-    vary(scene_.materials[instance.material], corners(instance_index, triangle, u, v), instance, point);
-    return point.emitted;
+    return properties(scene_.materials[instance.material], corners(instance_index, triangle, u, v)).emitted;
 }

@@ -2,14 +2,13 @@
 #include "core/scene/scene.h"
 #include "groundtruth/embree_scene.h"
 
-#include <algorithm>
 #include <vector>
 
 /// What the path tracer knows of a point once its material is evaluated: the same quantities as a pixel of the G-buffer.
 struct ShadedPoint {
     glm::vec3 position, error;     ///< m; see SurfacePoint
     glm::vec3 geometric_normal;    ///< unit, on the viewer's side
-    glm::vec3 normal;              ///< unit shading normal
+    glm::vec3 normal;              ///< shading normal, of any length; see unit_normal()
     glm::vec3 base_color;
     float metalness = 0, roughness = 0, specular = 0;
     glm::vec3 emitted;             ///< radiance towards the viewer (W sr^-1 m^-2)
@@ -22,8 +21,14 @@ class MaterialTable {
 public:
     MaterialTable(const Scene& scene, const EmbreeScene& geometry, bool evaluate_everything);
 
-    /// `view` points from the surface to the viewer.
-    ShadedPoint shade(uint32_t instance, uint32_t triangle, float u, float v, glm::vec3 view) const;
+    /// Calls take(ShadedPoint): inlined, so that the point stays in registers. `view` points from the surface to the viewer.
+    template <class Take>
+    void shade(uint32_t instance, uint32_t triangle, float u, float v, glm::vec3 view, const Take& take) const;
+
+    /// Both ask the processor for what shade() will read of a textured surface, the second one for what the first one's
+    /// answer leads to.
+    void prefetch_corners(uint32_t instance, uint32_t triangle) const;
+    void prefetch_texels(uint32_t instance, uint32_t triangle, float u, float v) const;
 
     /// Radiance that the material emits at barycentrics (u, v), on a side that emits.
     glm::vec3 emission(uint32_t instance, uint32_t triangle, float u, float v) const;
@@ -35,9 +40,7 @@ public:
     bool emission_varies(uint32_t material) const { return constants_[material].emission_varies; }
 
     /// Whether any material has textures or vertex colours.
-    bool any_varies() const {
-        return std::ranges::any_of(constants_, [](const Constants& each) { return each.varies; });
-    }
+    bool any_varies() const { return any_varies_; }
 
 private:
     struct Constants {
@@ -52,29 +55,34 @@ private:
     };
     Corners corners(uint32_t instance, uint32_t triangle, float u, float v) const;
     glm::vec4 sample(const TextureSlot& slot, const Corners& corners) const;
-    void vary(const Material& material, const Corners& corners, const InstanceRecord& instance, ShadedPoint& point) const;
+    static ShadedPoint facing(const SurfacePoint& surface, const ShadedPoint& properties, bool emits_behind, glm::vec3 view);
+    ShadedPoint shade_varying(SurfacePoint surface, uint32_t instance, uint32_t triangle, float u, float v, glm::vec3 view) const;
+    ShadedPoint properties(const Material& material, const Corners& corners) const;
     glm::vec3 mapped_normal(const Material& material, const Corners& corners, const InstanceRecord& instance, glm::vec3 normal) const;
 
     const Scene& scene_;
     const EmbreeScene& geometry_;
     std::vector<Constants> constants_;
+    bool any_varies_ = false;
 };
 
-inline ShadedPoint MaterialTable::shade(uint32_t instance_index, uint32_t triangle, float u, float v, glm::vec3 view) const {
-    const InstanceRecord& instance = geometry_.instance(instance_index);
-    const SurfacePoint surface = geometry_.point(instance_index, triangle, u, v);
-    const Constants& constants = constants_[instance.material];
-    ShadedPoint point = constants.surface;
-    point.position = surface.position;
-    point.error = surface.error;
-    point.geometric_normal = surface.front_normal;
-    point.normal = surface.normal;
-    if (constants.varies) vary(scene_.materials[instance.material], corners(instance_index, triangle, u, v), instance, point);
+/// Completes the properties of a material to those of a point, turned to the viewer.
+inline ShadedPoint MaterialTable::facing(const SurfacePoint& surface, const ShadedPoint& properties, bool emits_behind, glm::vec3 view) {
+    const bool is_behind = glm::dot(surface.front_normal, view) < 0;
+    const float side = is_behind ? -1.0f : 1.0f;
+    const bool is_dark = is_behind && !emits_behind;
+    return {surface.position,      surface.error,        side * surface.front_normal, side * surface.normal,
+            properties.base_color, properties.metalness, properties.roughness,        properties.specular,
+            is_dark ? glm::vec3(0.0f) : properties.emitted, properties.is_unlit};
+}
 
-    if (glm::dot(surface.front_normal, view) < 0) {
-        point.geometric_normal = -point.geometric_normal;
-        point.normal = -point.normal;
-        if (!constants.emits_behind) point.emitted = glm::vec3(0.0f);
-    }
-    return point;
+template <class Take>
+inline void MaterialTable::shade(uint32_t instance_index, uint32_t triangle, float u, float v, glm::vec3 view, const Take& take) const {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    const Constants& constants = constants_[instance.material];
+    const SurfacePoint surface = geometry_.point(instance_index, triangle, u, v);
+    if (constants.varies)
+        take(shade_varying(surface, instance_index, triangle, u, v, view));
+    else
+        take(facing(surface, constants.surface, constants.emits_behind, view));
 }

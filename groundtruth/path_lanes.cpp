@@ -1,13 +1,23 @@
 #include "groundtruth/path_lanes.h"
 
+#include <bit>
 #include <cmath>
 
+namespace {
+
+constexpr uint32_t all_lanes = (1ull << lane_count) - 1;
+
+template <class Work>
+void for_each_bit(uint32_t bits, const Work& work) {
+    for (; bits != 0; bits &= bits - 1) work(std::countr_zero(bits));
+}
+
+}  // namespace
+
 void PathLanes::start(const PathStart& path) {
-    while (busy_ == lane_count) advance();
-    int lane = 0;
-    while (is_busy_[lane]) ++lane;
-    ++busy_;
-    is_busy_[lane] = 1;
+    while (busy_ == all_lanes) advance();
+    const int lane = std::countr_one(busy_);
+    busy_ |= 1u << lane;
     origin_.set(lane, path.origin);
     direction_.set(lane, path.direction);
     throughput_.set(lane, vec3(1.0f));
@@ -22,50 +32,58 @@ void PathLanes::start(const PathStart& path) {
 }
 
 void PathLanes::finish() {
-    while (busy_ > 0) advance();
+    while (busy_ != 0) advance();
 }
 
 void PathLanes::trace_rays() {
     RTCRayHit ray[lane_count];
-    for (int lane = 0; lane < lane_count; ++lane) {
-        continues_[lane] = 0;
-        if (!is_busy_[lane]) continue;
+    uint32_t hits = 0;
+    for_each_bit(busy_, [&](int lane) {
         const vec3 origin = origin_.get(lane), direction = direction_.get(lane);
         count_ray(estimate_, origin, direction, infinite_distance, false);
-        continues_[lane] = intersect(scene_.geometry.handle(), origin, direction, ray[lane]);
-        if (continues_[lane]) scene_.geometry.prefetch(ray[lane].hit.instID[0], ray[lane].hit.primID);
+        if (!intersect(scene_.geometry.handle(), origin, direction, ray[lane])) return;
+        hits |= 1u << lane;
+        scene_.geometry.prefetch(ray[lane].hit.instID[0], ray[lane].hit.primID);
+    });
+    if (scene_.materials.any_varies()) {
+        for_each_bit(hits, [&](int lane) { scene_.materials.prefetch_corners(ray[lane].hit.instID[0], ray[lane].hit.primID); });
+        for_each_bit(hits, [&](int lane) {
+            const RTCHit& hit = ray[lane].hit;
+            scene_.materials.prefetch_texels(hit.instID[0], hit.primID, hit.u, hit.v);
+        });
     }
-    for (int lane = 0; lane < lane_count; ++lane) {
-        if (!is_busy_[lane]) continue;
-        const vec3 direction = direction_.get(lane);
-        if (continues_[lane]) {
-            continues_[lane] = meet(lane, ray[lane]);
-        } else if (scene_.has_environment) {
-            const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(direction));
-            radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
-        }
-    }
+    if (scene_.has_environment) for_each_bit(busy_ & ~hits, [&](int lane) { leave(lane); });
+    continues_ = {};
+    for_each_bit(hits, [&](int lane) { meet(lane, ray[lane]); });
 }
 
-/// Takes in the surface at the end of a ray, and its emission. False if the path ends there.
-bool PathLanes::meet(int lane, const RTCRayHit& ray) {
+/// A path that meets nothing sees the environment.
+void PathLanes::leave(int lane) {
+    const vec3 direction = direction_.get(lane);
+    const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(direction));
+    radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
+}
+
+/// Takes in the surface at the end of a ray, and its emission.
+void PathLanes::meet(int lane, const RTCRayHit& ray) {
     const uint32_t instance = ray.hit.instID[0], triangle = ray.hit.primID;
     const vec3 direction = direction_.get(lane);
-    const ShadedPoint surface = scene_.materials.shade(instance, triangle, ray.hit.u, ray.hit.v, -direction);
-    if (surface.emitted != vec3(0.0f)) {
-        const float light_pdf = scene_.lights.triangle_pdf(instance, triangle, surface.geometric_normal, direction, ray.ray.tfar);
-        const float weight = scene_.mis.of_bsdf(pdf_[lane], light_pdf);
-        radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * surface.emitted * weight);
-    }
-    position_.set(lane, surface.position);
-    error_.set(lane, surface.error);
-    geometric_normal_.set(lane, surface.geometric_normal);
-    normal_.set(lane, surface.normal);
-    base_color_.set(lane, surface.base_color);
-    metalness_[lane] = surface.metalness;
-    roughness_[lane] = surface.roughness;
-    specular_[lane] = surface.specular;
-    return depth_[lane] < scene_.settings.max_depth && !surface.is_unlit && dot(direction, surface.normal) < 0;
+    scene_.materials.shade(instance, triangle, ray.hit.u, ray.hit.v, -direction, [&](const ShadedPoint& surface) {
+        if (surface.emitted != vec3(0.0f)) {
+            const float light_pdf = scene_.lights.triangle_pdf(instance, triangle, surface.geometric_normal, direction, ray.ray.tfar);
+            const float weight = scene_.mis.of_bsdf(pdf_[lane], light_pdf);
+            radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * surface.emitted * weight);
+        }
+        position_.set(lane, surface.position);
+        error_.set(lane, surface.error);
+        geometric_normal_.set(lane, surface.geometric_normal);
+        normal_.set(lane, surface.normal);
+        base_color_.set(lane, surface.base_color);
+        metalness_[lane] = surface.metalness;
+        roughness_[lane] = surface.roughness;
+        specular_[lane] = surface.specular;
+        continues_[lane] = depth_[lane] < scene_.settings.max_depth && !surface.is_unlit;
+    });
 }
 
 void PathLanes::sample_lights() {
@@ -85,17 +103,18 @@ void PathLanes::scatter() {
     const MisHeuristic mis = scene_.mis;
     FOR_EACH_LANE {
         const vec3 geometric_normal = geometric_normal_.get(lane), throughput = throughput_.get(lane);
-        const mat3 world_from_local = basis_from_normal(normal_.get(lane));
+        const mat3 world_from_local = basis_from_normal(unit_normal(normal_.get(lane), geometric_normal));
         const vec3 o = -direction_.get(lane) * world_from_local;
         const Lobes lobes = make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane], o, model);
         const float q = lobes.specular_probability;
+        const bool reflects = (continues_[lane] != 0) & (o.z > 0.0f);  // the viewer may be below the shading horizon
 
         if constexpr (has_lights) {
             const vec3 to_light = lights_.direction.get(lane);
             const LobeValues f = evaluate(lobes, to_light * world_from_local);
             const float light_pdf = lights_.pdf[lane], bsdf_pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
             const float weight = lights_.is_delta[lane] ? 1.0f : mis.of_light(light_pdf, bsdf_pdf);
-            const bool is_used = (continues_[lane] != 0) & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
+            const bool is_used = reflects & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
             const vec3 direct = throughput * (f.diffuse + f.specular) * lights_.radiance.get(lane) * (weight / light_pdf);
             direct_.set(lane, keep_if(is_used, direct));
             aim_shadow_ray(position_.get(lane), error_.get(lane), geometric_normal, lane, lights_);
@@ -115,7 +134,7 @@ void PathLanes::scatter() {
         const bool plays = has_roulette & (depth_[lane] >= 2) & (greatest < 1.0f);
         const float survival = plays ? greatest : 1.0f;
         const bool survives = sequence_.random(reversed_sample_[lane], pair_[lane]) < survival;
-        const bool goes_on = (continues_[lane] != 0) & (i.z > 0) & (dot(direction, geometric_normal) > 0) & (pdf > 0) & (greatest > 0) & survives;
+        const bool goes_on = reflects & (i.z > 0) & (dot(direction, geometric_normal) > 0) & (pdf > 0) & (greatest > 0) & survives;
 
         continues_[lane] = goes_on;
         throughput_.set(lane, next * (1.0f / survival));
@@ -128,12 +147,10 @@ void PathLanes::scatter() {
 }
 
 void PathLanes::trace_shadow_rays() {
-    for (int lane = 0; lane < lane_count; ++lane) {
-        if (!is_busy_[lane]) continue;
+    for_each_bit(busy_, [&](int lane) {
         const vec3 direct = direct_.get(lane);
-        if (direct == vec3(0.0f)) continue;
-        if (is_visible(scene_, lights_, lane, estimate_)) radiance_.set(lane, radiance_.get(lane) + direct);
-    }
+        if (direct != vec3(0.0f) && is_visible(scene_, lights_, lane, estimate_)) radiance_.set(lane, radiance_.get(lane) + direct);
+    });
 }
 
 /// One segment of every path: to the next vertex, light there, and a new direction.
@@ -142,13 +159,13 @@ void PathLanes::advance() {
     if (!scene_.lights.empty()) sample_lights();
     scene_.lights.empty() ? scatter<false>() : scatter<true>();
     if (!scene_.lights.empty()) trace_shadow_rays();
-    for (int lane = 0; lane < lane_count; ++lane)
-        if (is_busy_[lane] && !continues_[lane]) end(lane);
+    uint32_t continuing = 0;
+    for (int lane = 0; lane < lane_count; ++lane) continuing |= continues_[lane] << lane;
+    for_each_bit(busy_ & ~continuing, [&](int lane) { end(lane); });
+    busy_ &= continuing;
 }
 
 void PathLanes::end(int lane) {
-    --busy_;
-    is_busy_[lane] = 0;
     const vec3 radiance = radiance_.get(lane), reflected = weight_.get(lane) * radiance;
     if (!std::isfinite(reflected.x + reflected.y + reflected.z)) {
         ++estimate_.non_finite;

@@ -29,7 +29,8 @@ public:
 private:
     void advance();
     void trace_rays();
-    bool meet(int lane, const RTCRayHit& ray);
+    void leave(int lane);
+    void meet(int lane, const RTCRayHit& ray);
     void sample_lights();
     template <bool has_lights>
     void scatter();
@@ -39,15 +40,14 @@ private:
     const TracedScene& scene_;
     const SobolSequence& sequence_;
     PixelEstimate& estimate_;
-    int busy_ = 0;  ///< lanes that hold a path
+    uint32_t busy_ = 0;  ///< bit per lane: it holds a path
 
     // Of each path:
-    Lanes<uint32_t> is_busy_;
     LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
     Lanes<float> pdf_;  ///< with which direction_ was drawn
     Lanes<uint32_t> depth_, pair_, reversed_sample_, is_specular_;
     // Of the vertex that it has reached:
-    Lanes<uint32_t> continues_;
+    Lanes<uint32_t> continues_;  ///< 1 if there is one, and later if the path goes on from it, else 0
     LanesVec3 position_, error_, geometric_normal_, normal_, base_color_;
     Lanes<float> metalness_, roughness_, specular_;
     LightLanes lights_;

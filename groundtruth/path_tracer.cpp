@@ -48,21 +48,25 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
     LightLanes lights;
     scene.lights.sample(is_wanted, point, x, y, lights);
 
+    // Copies, which no store of the loop can reach.
+    const Lobes lobes = vertex.lobes;
+    const mat3 world_from_local = vertex.world_from_local;
+    const vec3 position = hit.position, error = hit.position_error, geometric_normal = hit.geometric_normal;
+    const MisHeuristic mis = scene.mis;
     LanesVec3 diffuse, specular, incident;
     FOR_EACH_LANE {
         const vec3 to_light = lights.direction.get(lane);
-        const LobeValues f = evaluate(vertex.lobes, to_light * vertex.world_from_local);
+        const LobeValues f = evaluate(lobes, to_light * world_from_local);
         const float pdf = lights.pdf[lane];
-        const bool is_delta = lights.is_delta[lane] != 0, is_used = (pdf > 0) & (dot(to_light, hit.geometric_normal) > 0);
-        const float over_pdf = is_used ? 1.0f / pdf : 0.0f;
+        const bool is_delta = lights.is_delta[lane] != 0, is_used = (pdf > 0) & (dot(to_light, geometric_normal) > 0);
         // Each output is an estimator of its own: the light shares its weight with the lobe of that output.
-        const float diffuse_weight = is_delta ? over_pdf : over_pdf * scene.mis.of_light(pdf, f.diffuse_pdf);
-        const float specular_weight = is_delta ? over_pdf : over_pdf * scene.mis.of_light(pdf, f.specular_pdf);
+        const float diffuse_weight = (is_delta ? 1.0f : mis.of_light(pdf, f.diffuse_pdf)) / pdf;
+        const float specular_weight = (is_delta ? 1.0f : mis.of_light(pdf, f.specular_pdf)) / pdf;
         const vec3 radiance = lights.radiance.get(lane);
         diffuse.set(lane, keep_if(is_used, f.diffuse * radiance * diffuse_weight));
         specular.set(lane, keep_if(is_used, f.specular * radiance * specular_weight));
-        aim_shadow_ray(hit.position, hit.position_error, hit.geometric_normal, lane, lights);
         incident.set(lane, keep_if(is_used & !is_delta, radiance * (f.specular_pdf * specular_weight)));
+        aim_shadow_ray(position, error, geometric_normal, lane, lights);
     }
     for (int lane = 0; lane < count; ++lane) {
         const vec3 parts[3] = {vertex.wants_diffuse ? diffuse.get(lane) : vec3(0.0f), vertex.wants_specular ? specular.get(lane) : vec3(0.0f),
@@ -155,22 +159,23 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
         return hit;
     }
     const uint32_t instance = ray.hit.instID[0];
-    const ShadedPoint surface = scene.materials.shade(instance, ray.hit.primID, ray.hit.u, ray.hit.v, hit.view);
+    scene.materials.shade(instance, ray.hit.primID, ray.hit.u, ray.hit.v, hit.view, [&](const ShadedPoint& surface) {
+        hit.position = surface.position;
+        hit.position_error = surface.error;
+        hit.geometric_normal = surface.geometric_normal;
+        hit.normal = unit_normal(surface.normal, surface.geometric_normal);
+        hit.base_color = surface.base_color;
+        hit.metalness = surface.metalness;
+        hit.roughness = surface.roughness;
+        hit.specular = surface.specular;
+        hit.emitted = surface.emitted;
+        hit.is_unlit = surface.is_unlit;
+    });
     hit.is_hit = true;
-    hit.position = surface.position;
-    hit.position_error = surface.error;
-    hit.distance = glm::length(surface.position - camera_ray.origin);
-    hit.depth = glm::dot(surface.position - vec3(state_->camera.world_from_view[3]), -vec3(state_->camera.world_from_view[2]));
-    hit.geometric_normal = surface.geometric_normal;
-    hit.normal = surface.normal;
-    hit.base_color = surface.base_color;
-    hit.metalness = surface.metalness;
-    hit.roughness = surface.roughness;
-    hit.specular = surface.specular;
+    hit.distance = glm::length(hit.position - camera_ray.origin);
+    hit.depth = glm::dot(hit.position - vec3(state_->camera.world_from_view[3]), -vec3(state_->camera.world_from_view[2]));
     hit.material = scene.geometry.instance(instance).material;
     hit.instance = instance;
-    hit.emitted = surface.emitted;
-    hit.is_unlit = surface.is_unlit;
     return hit;
 }
 

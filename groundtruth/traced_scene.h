@@ -21,9 +21,6 @@ struct TracedScene {
 /// What the scene does not need and is not traced or evaluated for it; nothing with PathTracerSettings::keep_all.
 std::vector<LeftOut> left_out_features(const TracedScene& traced);
 
-/// Where a surface lies in a coordinate plane through the origin, points on it are exact and nothing offsets them: only hits
-/// at a distance of zero must be left out.
-inline constexpr float nearest_hit = std::numeric_limits<float>::min();
 inline constexpr float infinite_distance = std::numeric_limits<float>::infinity();
 /// Shadow rays end this much before the light, relative to its distance, so that they do not meet the light itself.
 inline constexpr float shadow_end = 0.9999f;
@@ -32,7 +29,7 @@ inline constexpr float shadow_end = 0.9999f;
 inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTCRayHit& ray) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    ray.ray = {origin.x, origin.y, origin.z, nearest_hit, direction.x, direction.y, direction.z, 0.0f, infinite_distance, ~0u, 0, 0};
+    ray.ray = {origin.x, origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f, infinite_distance, ~0u, 0, 0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context, &ray);
@@ -44,7 +41,7 @@ inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTC
 inline bool is_occluded(RTCScene scene, glm::vec3 origin, glm::vec3 direction, float far) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay ray{origin.x, origin.y, origin.z, nearest_hit, direction.x, direction.y, direction.z, 0.0f, far, ~0u, 0, 0};
+    RTCRay ray{origin.x, origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f, far, ~0u, 0, 0};
     rtcOccluded1(scene, &context, &ray);
     return ray.tfar < 0;
 }
