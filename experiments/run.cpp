@@ -226,7 +226,7 @@ void run_study(const Config& config, const RunSettings& settings) {
     Device device(settings.device);
     Study study{.config = config, .settings = settings, .device = device, .cells = CellStore(settings.out / "cells"), .progress = Progress(total_work(config)),
                 .code = code_hash(), .manifest = study_entry(config, device), .finished = {}};
-    for (const std::string& warning : study.manifest["warnings"]) study.progress.say("warning: " + warning);
+    for (const auto& warning : study.manifest["warnings"]) study.progress.say("warning: " + warning.get<std::string>());
     for (const ShotConfig& shot : config.shots) {
         if (shot.gbuffer.empty())
             run_scene_shot(study, shot);
