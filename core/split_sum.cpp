@@ -2,9 +2,9 @@
 
 #include "core/shared/brdf.h"
 
+#include <tbb/parallel_for.h>
 #include <array>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace {
 
@@ -43,8 +43,8 @@ glm::dvec2 split_sum(double mu_o, double alpha) {
     const double length = std::sqrt(a2 * sin_o * sin_o + mu_o * mu_o);
     const double v_x = alpha * sin_o / length, v_z = mu_o / length;
 
-    // Integrates over the spherical cap of sample_ggx_normal(), whose measure absorbs the density of visible normals. For
-    // each azimuth the reflection is above the horizon on one or two intervals of z, found by scanning.
+    // Integrates over the spherical cap of sample_ggx_normal(), whose measure absorbs the density of visible normals.
+    // For each azimuth the reflection is above the horizon on one or two intervals of z, found by scanning.
     glm::dvec2 sum(0.0);
     for (const glm::dvec2& azimuth : along_azimuth) {
         // Cubic steps crowd the nodes where the azimuth is opposite to the viewer's and the integrand changes fastest.
@@ -75,7 +75,8 @@ glm::dvec2 split_sum(double mu_o, double alpha) {
                 const double root_i = std::sqrt(a2 + (1 - a2) * mu_i * mu_i);
                 const double weight = mu_i * (mu_o + root_o) / (mu_o * root_i + mu_i * root_o);
                 const double w = std::pow(std::max(0.0, 1 - o_m), 5);
-                sum += azimuth.y * azimuth_step * cap.y * step * (to - from) / (1 + v_z) * weight * glm::dvec2(1 - w, w);
+                sum +=
+                    azimuth.y * azimuth_step * cap.y * step * (to - from) / (1 + v_z) * weight * glm::dvec2(1 - w, w);
             }
         };
         double from = -v_z, z = -v_z;

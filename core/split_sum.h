@@ -7,6 +7,7 @@
 /// mu_o: cosine of the viewer in (0, 1]. `alpha` is the GGX width, not clamped here. Error below 5e-5.
 glm::dvec2 split_sum(double mu_o, double alpha);
 
-/// Two channels A, B; column = mu_o, row = perceptual roughness, both at texel centres (i + 0.5) / size, for bilinear reading
-/// clamped at the edges: with 64 its error is below 1e-3, but for views within 6 degrees of grazing, where it reaches 6e-3.
+/// Two channels A, B; column = mu_o, row = perceptual roughness, both at texel centres (i + 0.5) / size, for bilinear
+/// reading clamped at the edges: with 64 its error is below 1e-3, but for views within 6 degrees of grazing, where it
+/// reaches 6e-3.
 HostImage split_sum_table(unsigned size = 64);

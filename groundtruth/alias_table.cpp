@@ -20,7 +20,8 @@ AliasTable::AliasTable(std::span<const double> weights) {
     }
     const auto set = [&](uint32_t slot, double keep, uint32_t alias) {
         const double threshold = std::min(std::floor(keep * 0x1p32), 4294967295.0);
-        entries_[slot] = {uint32_t(threshold), alias, threshold > 0 ? 0x1p32 / threshold : 0, 0x1p32 / (0x1p32 - threshold)};
+        entries_[slot] = {uint32_t(threshold), alias, threshold > 0 ? 0x1p32 / threshold : 0,
+                          0x1p32 / (0x1p32 - threshold)};
     };
     while (!small.empty() && !large.empty()) {
         const uint32_t from = small.back(), to = large.back();

@@ -3,9 +3,9 @@
 #include "core/error.h"
 #include "groundtruth/texture_lookup.h"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace {
 
@@ -46,7 +46,8 @@ void EmbreeScene::test_alpha(const RTCFilterFunctionNArguments* arguments) {
     const AlphaTest& test = *static_cast<const AlphaTest*>(arguments->geometryUserPtr);
     if (arguments->valid[0] != -1) return;
     const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0), w = 1.0f - u - v;
+    const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0),
+                w = 1.0f - u - v;
     const TriangleRecord& record = (*test.records)[triangle];
     const Vertex &a = test.mesh->vertices[record.corner[0]], &b = test.mesh->vertices[record.corner[1]],
                  &c = test.mesh->vertices[record.corner[2]];
@@ -59,13 +60,15 @@ void EmbreeScene::test_alpha(const RTCFilterFunctionNArguments* arguments) {
     if (test.material->alpha_mode == AlphaMode::mask && alpha < test.material->alpha_cutoff) arguments->valid[0] = 0;
 }
 
-RTCGeometry EmbreeScene::make_triangles(const std::vector<TriangleRecord>& records, const Scene& scene, const Mesh& mesh,
-                                        bool test_every_alpha) {
+RTCGeometry EmbreeScene::make_triangles(const std::vector<TriangleRecord>& records, const Scene& scene,
+                                        const Mesh& mesh, bool test_every_alpha) {
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                  3 * sizeof(float), std::max<size_t>(1, mesh.vertices.size())));
-    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                   3 * sizeof(uint32_t), std::max<size_t>(1, records.size())));
+    auto* positions =
+        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                    3 * sizeof(float), std::max<size_t>(1, mesh.vertices.size())));
+    auto* indices =
+        static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                       3 * sizeof(uint32_t), std::max<size_t>(1, records.size())));
     if (!positions || !indices) fail_machine("out of memory while Embree took over mesh '", mesh.name, "'");
     for (size_t t = 0; t < records.size(); ++t)
         for (int k = 0; k < 3; ++k) {
@@ -160,7 +163,8 @@ void EmbreeScene::place(const InstanceRecord& instance, SurfacePoint& point) con
     point.position = linear * local + translation;
     // Embree meets the instance in its own space, to which it moves each ray with rounding errors of the same size.
     point.error = absolute(linear) * point.error +
-                  2.0f * rounding_bound(4) * (absolute(linear) * glm::abs(local) + glm::abs(translation) + glm::abs(point.position));
+                  2.0f * rounding_bound(4) *
+                      (absolute(linear) * glm::abs(local) + glm::abs(translation) + glm::abs(point.position));
     point.normal = instance.normal_matrix * point.normal;
     point.front_normal = glm::normalize(instance.normal_matrix * point.front_normal);
 }

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/scene/scene.h"
 
-#include <cmath>
 #include <embree3/rtcore.h>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -10,7 +10,8 @@
 /// cross(p1 - p0, p2 - p0) point to the front, also under transforms of negative determinant.
 struct alignas(64) TriangleRecord {
     glm::vec3 position[3];
-    glm::vec3 normal[3];     ///< as the normal matrix leaves it: it is normalised after interpolation, as by the rasteriser
+    glm::vec3
+        normal[3];  ///< as the normal matrix leaves it: it is normalised after interpolation, as by the rasteriser
     glm::vec3 front_normal;  ///< unit geometric normal
     uint32_t corner[3];      ///< vertices of the mesh, for its other attributes
 };
@@ -21,19 +22,20 @@ struct InstanceRecord {
     const Mesh* mesh = nullptr;
     uint32_t material = 0;
     bool is_baked = true;
-    bool is_mirrored = false;       ///< negative determinant
+    bool is_mirrored = false;  ///< negative determinant
     glm::mat4 world_from_object{1.0f};
     glm::mat3 normal_matrix{1.0f};  ///< inverse transpose
 };
 
 /// A point on a surface in world space, from barycentrics: it is closer to the triangle than origin + t direction.
 struct SurfacePoint {
-    glm::vec3 position, error;   ///< m; `error` is the half extent of a box that holds the exact point
-    glm::vec3 front_normal;      ///< unit geometric normal of the front side
-    glm::vec3 normal;            ///< interpolated vertex normal, of any length
+    glm::vec3 position, error;  ///< m; `error` is the half extent of a box that holds the exact point
+    glm::vec3 front_normal;     ///< unit geometric normal of the front side
+    glm::vec3 normal;           ///< interpolated vertex normal, of any length
 };
 
-/// Embree's view of one frame: a mesh drawn once is baked into the top level, one drawn more often becomes a BVH of its own.
+/// Embree's view of one frame: a mesh drawn once is baked into the top level, one drawn more often becomes a BVH of its
+/// own.
 class EmbreeScene {
 public:
     /// Geometry ids are indices of Scene::instances. Fails with MachineError if Embree cannot build it.
@@ -63,7 +65,8 @@ private:
     std::vector<RTCScene> mesh_scenes_;
 
     void place(const InstanceRecord& instance, SurfacePoint& point) const;
-    RTCGeometry make_triangles(const std::vector<TriangleRecord>& records, const Scene& scene, const Mesh& mesh, bool test_every_alpha);
+    RTCGeometry make_triangles(const std::vector<TriangleRecord>& records, const Scene& scene, const Mesh& mesh,
+                               bool test_every_alpha);
     static void test_alpha(const RTCFilterFunctionNArguments* arguments);
 };
 
@@ -78,8 +81,8 @@ inline SurfacePoint EmbreeScene::point(uint32_t instance_index, uint32_t triangl
     const TriangleRecord& record = instance.triangles[triangle];
     const float w = 1.0f - u - v;
     const glm::vec3 p0 = w * record.position[0], p1 = u * record.position[1], p2 = v * record.position[2];
-    SurfacePoint point{p0 + p1 + p2, rounding_bound(7) * (magnitude(p0) + magnitude(p1) + magnitude(p2)), record.front_normal,
-                       w * record.normal[0] + u * record.normal[1] + v * record.normal[2]};
+    SurfacePoint point{p0 + p1 + p2, rounding_bound(7) * (magnitude(p0) + magnitude(p1) + magnitude(p2)),
+                       record.front_normal, w * record.normal[0] + u * record.normal[1] + v * record.normal[2]};
     if (!instance.is_baked) place(instance, point);
     return point;
 }
@@ -88,19 +91,26 @@ inline SurfacePoint EmbreeScene::point(uint32_t instance_index, uint32_t triangl
 inline glm::vec3 unit_normal(glm::vec3 normal, glm::vec3 fallback) {
     const float square = glm::dot(normal, normal), scale = 1.0f / std::sqrt(square);
     const bool is_known = square > 0.0f;
-    return {is_known ? normal.x * scale : fallback.x, is_known ? normal.y * scale : fallback.y, is_known ? normal.z * scale : fallback.z};
+    return {is_known ? normal.x * scale : fallback.x, is_known ? normal.y * scale : fallback.y,
+            is_known ? normal.z * scale : fallback.z};
 }
 
 /// `position` moved out of its error box along the normal, to the side of `direction` (Pharr, Jakob and Humphreys 2016,
-/// "Physically Based Rendering", section 3.9.5). Rounding must not undo the offset, and a point on a plane through the origin
-/// has no error at all: one more step of the float grid, and a little that counts only at zero, see to both.
+/// "Physically Based Rendering", section 3.9.5). Rounding must not undo the offset, and a point on a plane through the
+/// origin has no error at all: one more step of the float grid, and a little that counts only at zero, see to both.
 inline glm::vec3 offset_origin(glm::vec3 position, glm::vec3 error, glm::vec3 normal, glm::vec3 direction) {
     const glm::vec3 size = magnitude(normal) * error;
     const float side = glm::dot(normal, direction) < 0 ? -1.0f : 1.0f;
     const glm::vec3 outward = side * normal;
     const glm::vec3 origin = position + (size.x + size.y + size.z) * outward;
     const glm::vec3 step = magnitude(origin) * 0x1p-23f + 1e-20f;
-    return {origin.x + (outward.x > 0 ? step.x : outward.x < 0 ? -step.x : 0.0f),
-            origin.y + (outward.y > 0 ? step.y : outward.y < 0 ? -step.y : 0.0f),
-            origin.z + (outward.z > 0 ? step.z : outward.z < 0 ? -step.z : 0.0f)};
+    return {origin.x + (outward.x > 0   ? step.x
+                        : outward.x < 0 ? -step.x
+                                        : 0.0f),
+            origin.y + (outward.y > 0   ? step.y
+                        : outward.y < 0 ? -step.y
+                                        : 0.0f),
+            origin.z + (outward.z > 0   ? step.z
+                        : outward.z < 0 ? -step.z
+                                        : 0.0f)};
 }

@@ -65,7 +65,8 @@ glm::vec3 EnvironmentTable::sample(glm::uvec2 bits, float& pdf) const {
     const float x = float(rest) * 0x1p-32f, y = float(bits.y) * 0x1p-32f;
     const float column = float(cell % width_), row = float(cell / width_);
     const float u0 = column * cell_extent_.x, u1 = std::min(1.0f, u0 + cell_extent_.x);
-    const float top = std::cos(pi * row * cell_extent_.y), bottom = std::cos(pi * std::min(1.0f, (row + 1) * cell_extent_.y));
+    const float top = std::cos(pi * row * cell_extent_.y),
+                bottom = std::cos(pi * std::min(1.0f, (row + 1) * cell_extent_.y));
     const float v = std::acos(std::clamp(top + y * (bottom - top), -1.0f, 1.0f)) / pi;
     return environment_direction({u0 + x * (u1 - u0), v}, rotation_);
 }

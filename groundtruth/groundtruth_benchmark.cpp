@@ -3,16 +3,16 @@
 #include "groundtruth/path_tracer.h"
 
 #include <benchmark/benchmark.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 // How fast the path tracer is next to Embree alone: a render, then the very same rays replayed with rtcIntersect1 and
-// rtcOccluded1 and nothing else, on the same cores, in the same order, and in the same run. `ratio` is the share of Embree's bare rate
-// that remains with sampling and shading; 0.7 is the goal.
+// rtcOccluded1 and nothing else, on the same cores, in the same order, and in the same run. `ratio` is the share of
+// Embree's bare rate that remains with sampling and shading; 0.7 is the goal.
 
 namespace {
 
@@ -21,7 +21,8 @@ constexpr unsigned width = 256, height = 256, tile = 16;
 void add_quad(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, unsigned material) {
     Mesh mesh{.name = "quad", .material = material};
     const glm::vec3 normal = glm::normalize(glm::cross(b - a, c - a));
-    for (const glm::vec3 corner : {a, b, c, d}) mesh.vertices.push_back({corner, normal, {1, 0, 0, 1}, {}, glm::vec4(1.0f)});
+    for (const glm::vec3 corner : {a, b, c, d})
+        mesh.vertices.push_back({corner, normal, {1, 0, 0, 1}, {}, glm::vec4(1.0f)});
     mesh.indices = {0, 1, 2, 0, 2, 3};
     scene.instances.push_back({unsigned(scene.meshes.size()), 0});
     scene.meshes.push_back(std::move(mesh));
@@ -32,7 +33,8 @@ void add_sphere(Scene& scene, glm::vec3 center, float radius, unsigned rings, un
     for (unsigned j = 0; j <= rings; ++j)
         for (unsigned i = 0; i <= 2 * rings; ++i) {
             const float polar = float(M_PI) * float(j) / float(rings), azimuth = float(M_PI) * float(i) / float(rings);
-            const glm::vec3 normal(std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth));
+            const glm::vec3 normal(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                                   std::sin(polar) * std::sin(azimuth));
             mesh.vertices.push_back({center + radius * normal, normal, {1, 0, 0, 1}, {}, glm::vec4(1.0f)});
         }
     for (unsigned j = 0; j < rings; ++j)
@@ -57,7 +59,8 @@ Scene make_box() {
         scene.materials.push_back(material);
         return unsigned(scene.materials.size() - 1);
     };
-    const unsigned white = add(glm::vec3(.73f), 0, 1, 0), red = add({.65f, .05f, .05f}, 0, 1, 0), green = add({.12f, .45f, .15f}, 0, 1, 0);
+    const unsigned white = add(glm::vec3(.73f), 0, 1, 0), red = add({.65f, .05f, .05f}, 0, 1, 0),
+                   green = add({.12f, .45f, .15f}, 0, 1, 0);
     const unsigned metal = add({.9f, .8f, .6f}, 1, .2f, 0), lamp = add(glm::vec3(0), 0, 1, 15);
     add_quad(scene, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, metal);
     add_quad(scene, {-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}, white);
@@ -104,7 +107,8 @@ std::vector<Tile> render(const PathTracer& tracer, unsigned samples, bool record
         if (record) result.estimate.record = &result.rays;
         const unsigned x0 = unsigned(index) % (width / tile) * tile, y0 = unsigned(index) / (width / tile) * tile;
         for (unsigned y = y0; y < y0 + tile; ++y)
-            for (unsigned x = x0; x < x0 + tile; ++x) tracer.trace(x, y, tracer.first_hit(x, y), 7, 0, samples, result.estimate);
+            for (unsigned x = x0; x < x0 + tile; ++x)
+                tracer.trace(x, y, tracer.first_hit(x, y), 7, 0, samples, result.estimate);
     });
     return tiles;
 }
@@ -127,7 +131,8 @@ void compare_with_bare_embree(benchmark::State& state, const Setting& setting) {
     for (auto _ : state) {
         const double render_time = seconds([&] { benchmark::DoNotOptimize(render(tracer, samples, false)); });
         const double bare_time = seconds([&] {
-            tbb::parallel_for(size_t(0), recorded.size(), [&](size_t i) { benchmark::DoNotOptimize(tracer.replay(recorded[i].rays)); });
+            tbb::parallel_for(size_t(0), recorded.size(),
+                              [&](size_t i) { benchmark::DoNotOptimize(tracer.replay(recorded[i].rays)); });
         });
         render_seconds += render_time;
         bare_seconds += bare_time;
@@ -154,7 +159,10 @@ int main(int argc, char** argv) try {
         for (std::string name; std::getline(list, name, ',');) settings.emplace_back(name, loaded_setting(name));
     }
     for (const auto& [name, setting] : settings)
-        benchmark::RegisterBenchmark(name.c_str(), compare_with_bare_embree, setting)->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(2);
+        benchmark::RegisterBenchmark(name.c_str(), compare_with_bare_embree, setting)
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond)
+            ->MinTime(2);
     benchmark::RunSpecifiedBenchmarks();
 } catch (const Error& error) {
     std::cerr << error.what() << '\n';

@@ -3,9 +3,10 @@
 
 #include <cstdint>
 
-/// Paths are advanced side by side: the rays of all lanes are traced one after the other, which lets the processor begin one
-/// while it waits for another, and the arithmetic of all lanes is written as plain loops over them, which the compiler turns into
-/// vector instructions. Such loops are marked FOR_EACH_LANE and hold no calls, no early exits and no stores in branches.
+/// Paths are advanced side by side: the rays of all lanes are traced one after the other, which lets the processor
+/// begin one while it waits for another, and the arithmetic of all lanes is written as plain loops over them, which the
+/// compiler turns into vector instructions. Such loops are marked FOR_EACH_LANE and hold no calls, no early exits and
+/// no stores in branches.
 inline constexpr int lane_count = 16;
 
 #define FOR_EACH_LANE _Pragma("GCC ivdep") for (int lane = 0; lane < lane_count; ++lane)
@@ -24,7 +25,11 @@ struct LanesVec3 {
 };
 
 /// v or zero, without a branch, whatever v holds.
-inline vec3 keep_if(bool condition, vec3 v) { return {condition ? v.x : 0.0f, condition ? v.y : 0.0f, condition ? v.z : 0.0f}; }
+inline vec3 keep_if(bool condition, vec3 v) {
+    return {condition ? v.x : 0.0f, condition ? v.y : 0.0f, condition ? v.z : 0.0f};
+}
 
 /// a or b, without a branch.
-inline vec3 choose(bool condition, vec3 a, vec3 b) { return {condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z}; }
+inline vec3 choose(bool condition, vec3 a, vec3 b) {
+    return {condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z};
+}

@@ -39,8 +39,8 @@ double punctual_power(const PunctualLight& light, double scene_radius) {
 
 }  // namespace
 
-LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry, const MaterialTable& materials,
-                           bool sample_environment, bool compensate)
+LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry,
+                           const MaterialTable& materials, bool sample_environment, bool compensate)
     : geometry_(geometry), materials_(materials), first_triangle_(scene.instances.size(), no_light) {
     std::vector<double> powers;
     for (uint32_t i = 0; i < scene.instances.size(); ++i)
@@ -58,26 +58,30 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
         environment_ = EnvironmentTable(scene.environment, compensate);
         if (!environment_.empty()) {
             environment_index_ = powers.size();
-            powers.push_back(std::max(environment_.mean_luminance(), 1e-30) * 4 * M_PI * M_PI * std::max(radius * radius, 1e-12));
+            powers.push_back(std::max(environment_.mean_luminance(), 1e-30) * 4 * M_PI * M_PI *
+                             std::max(radius * radius, 1e-12));
             environment_source_ = &scene.environment;
         }
     }
     table_ = AliasTable(powers);
     needs_more_ = powers.size() > triangles_.size();
     for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
-    for (size_t i = 0; i < triangles_.size() && !table_.empty(); ++i) triangles_[i].area_pdf *= float(table_.probability(i));
+    for (size_t i = 0; i < triangles_.size() && !table_.empty(); ++i)
+        triangles_[i].area_pdf *= float(table_.probability(i));
     if (environment_index_ != none) environment_probability_ = float(table_.probability(environment_index_));
 }
 
 void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, std::vector<double>& powers) {
     const InstanceRecord& instance = geometry_.instance(instance_index);
     first_triangle_[instance_index] = uint32_t(triangles_.size());
-    const bool varies = materials_.emission_varies(instance.material), emits_behind = scene.materials[instance.material].is_double_sided;
+    const bool varies = materials_.emission_varies(instance.material),
+               emits_behind = scene.materials[instance.material].is_double_sided;
     for (uint32_t t = 0; t < instance.mesh->indices.size() / 3; ++t) {
         Triangle& light = triangles_.emplace_back();
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 position = instance.triangles[t].position[k];
-            light.position[k] = instance.is_baked ? position : glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f));
+            light.position[k] =
+                instance.is_baked ? position : glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f));
         }
         const glm::dvec3 p0(light.position[0]), p1(light.position[1]), p2(light.position[2]);
         const double area = 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0));
@@ -96,8 +100,8 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, st
     }
 }
 
-void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& x, const Lanes<uint32_t>& y,
-                          LightLanes& lights) const {
+void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& x,
+                          const Lanes<uint32_t>& y, LightLanes& lights) const {
     Lanes<uint32_t> choice, rest, emits_behind;
     LanesVec3 p0, p1, p2;
     Lanes<float> u, v;
@@ -138,11 +142,13 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
         const uint32_t index = choice[lane];
         if (index < triangles_.size()) {
             if (triangles_[index].emission_varies)
-                lights.radiance.set(lane, materials_.emission(triangles_[index].instance, triangles_[index].triangle, u[lane], v[lane]));
+                lights.radiance.set(lane, materials_.emission(triangles_[index].instance, triangles_[index].triangle,
+                                                              u[lane], v[lane]));
         } else if (index == environment_index_) {
             sample_environment(rest[lane], y[lane], lane, lights);
         } else {
-            sample_punctual(lights_[index - triangles_.size()], point.get(lane), float(table_.probability(index)), lane, lights);
+            sample_punctual(lights_[index - triangles_.size()], point.get(lane), float(table_.probability(index)), lane,
+                            lights);
         }
     }
 }
@@ -156,7 +162,8 @@ void LightSampler::sample_environment(uint32_t x, uint32_t y, int lane, LightLan
     lights.is_infinite[lane] = 1;
 }
 
-void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane, LightLanes& lights) const {
+void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
+                                   LightLanes& lights) const {
     glm::vec3 direction = -light.direction, irradiance = light.intensity;
     lights.is_delta[lane] = 1;
     lights.is_infinite[lane] = light.type == LightType::directional;
@@ -164,10 +171,13 @@ void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, 
         const glm::vec3 to_light = light.position - point;
         const float distance = glm::length(to_light);
         direction = to_light / distance;
-        if (distance > 0) irradiance *= punctual_falloff(distance, light.range);
-        else probability = 0.0f;
+        if (distance > 0)
+            irradiance *= punctual_falloff(distance, light.range);
+        else
+            probability = 0.0f;
         if (light.type == LightType::spot)
-            irradiance *= spot_attenuation(-glm::dot(direction, light.direction), light.inner_cone_cos, light.outer_cone_cos);
+            irradiance *=
+                spot_attenuation(-glm::dot(direction, light.direction), light.inner_cone_cos, light.outer_cone_cos);
     }
     lights.pdf[lane] = probability;
     lights.direction.set(lane, direction);
@@ -177,7 +187,8 @@ void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, 
     lights.normal.set(lane, glm::vec3(0.0f));
 }
 
-float LightSampler::triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction, float distance) const {
+float LightSampler::triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
+                                 float distance) const {
     if (first_triangle_[instance] == no_light) return 0.0f;
     const float cosine = std::abs(glm::dot(normal, direction));
     return cosine > 0 ? triangles_[first_triangle_[instance] + triangle].area_pdf * distance * distance / cosine : 0.0f;

@@ -6,10 +6,11 @@
 
 /// Directions in which light may arrive at a point per lane, before visibility is known.
 struct LightLanes {
-    LanesVec3 direction;                ///< unit, towards the light
-    LanesVec3 radiance;                 ///< of a delta light: irradiance at normal incidence; W sr^-1 m^-2 else
-    Lanes<float> pdf;                   ///< sr^-1, times the probability of the choice; of a delta light: that probability; 0: no sample
-    LanesVec3 position, error, normal;  ///< of the point on the light, if not infinite; a punctual light has no error and no normal
+    LanesVec3 direction;  ///< unit, towards the light
+    LanesVec3 radiance;   ///< of a delta light: irradiance at normal incidence; W sr^-1 m^-2 else
+    Lanes<float> pdf;  ///< sr^-1, times the probability of the choice; of a delta light: that probability; 0: no sample
+    LanesVec3 position, error,
+        normal;  ///< of the point on the light, if not infinite; a punctual light has no error and no normal
     Lanes<uint32_t> is_delta, is_infinite;
     // Of the rays that test visibility, filled in by aim_shadow_rays():
     LanesVec3 shadow_origin, shadow_direction;
@@ -31,19 +32,20 @@ public:
 
     /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives. The sampler must not be empty().
     /// Lanes that are not wanted get anything.
-    void sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& x, const Lanes<uint32_t>& y,
-                LightLanes& lights) const;
+    void sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& x,
+                const Lanes<uint32_t>& y, LightLanes& lights) const;
 
     /// Density (sr^-1) with which sample() finds a point of an emissive triangle along `direction` at `distance` (m).
-    float triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction, float distance) const;
+    float triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
+                       float distance) const;
     float environment_pdf(glm::vec3 direction) const;
 
 private:
     struct Triangle {
         glm::vec3 position[3];
         glm::vec3 front_normal;
-        glm::vec3 radiance;    ///< constant emission
-        float area_pdf;        ///< probability of the choice over the area (m^-2)
+        glm::vec3 radiance;  ///< constant emission
+        float area_pdf;      ///< probability of the choice over the area (m^-2)
         uint32_t instance, triangle;
         bool emission_varies, emits_behind;
     };
@@ -52,7 +54,8 @@ private:
 
     void add_triangles(const Scene& scene, uint32_t instance, std::vector<double>& powers);
     void sample_environment(uint32_t x, uint32_t y, int lane, LightLanes& lights) const;
-    void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane, LightLanes& lights) const;
+    void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
+                         LightLanes& lights) const;
 
     const EmbreeScene& geometry_;
     const MaterialTable& materials_;

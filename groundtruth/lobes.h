@@ -2,16 +2,16 @@
 #include "core/shared/brdf.h"
 #include "groundtruth/path_tracer.h"
 
-/// The glTF BRDF at one point, seen from one direction: a specular and a diffuse lobe, with all that does not depend on the
-/// direction of light computed once.
+/// The glTF BRDF at one point, seen from one direction: a specular and a diffuse lobe, with all that does not depend on
+/// the direction of light computed once.
 struct Lobes {
     vec3 diffuse_over_pi;
     vec3 f0, fresnel_rise;                 ///< F = f0 + fresnel_rise w, w = (1 - o.m)^5
     float dielectric_f0, dielectric_rise;  ///< the same of Fd, which the diffuse lobe loses
     float alpha;
-    vec3 o;                               ///< towards the viewer, local frame
-    float root_o, pdf_scale;              ///< smith_root(o.z); pdf = D pdf_scale
-    float specular_probability;           ///< with which a path continues along the specular lobe
+    vec3 o;                      ///< towards the viewer, local frame
+    float root_o, pdf_scale;     ///< smith_root(o.z); pdf = D pdf_scale
+    float specular_probability;  ///< with which a path continues along the specular lobe
     bool has_diffuse, has_specular;
 };
 
@@ -26,7 +26,8 @@ const float inverse_pi = 1.0f / pi;
 inline float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 /// o.z must be > 0. Both lobes vanish for an unlit surface (base colour 0 and specular 0 are its equivalent).
-inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float specular, vec3 o, ReflectionModel model) {
+inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float specular, vec3 o,
+                        ReflectionModel model) {
     Lobes lobes;
     lobes.o = vec3(o.x, o.y, o.z);
     const bool is_lambert = model == ReflectionModel::lambert, has_rise = model == ReflectionModel::gltf;
@@ -42,7 +43,8 @@ inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float
     // Reflectances at the mirror direction stand in for the albedos of the lobes: only the variance depends on them.
     const float w = schlick_weight(o.z);
     const float specular_albedo = luminance(lobes.f0 + lobes.fresnel_rise * w);
-    const float diffuse_albedo = luminance(lobes.diffuse_over_pi) * pi * (1.0f - lobes.dielectric_f0 - lobes.dielectric_rise * w);
+    const float diffuse_albedo =
+        luminance(lobes.diffuse_over_pi) * pi * (1.0f - lobes.dielectric_f0 - lobes.dielectric_rise * w);
     const vec3 grazing = lobes.f0 + lobes.fresnel_rise;
     lobes.has_specular = grazing.x + grazing.y + grazing.z > 0.0f;
     lobes.has_diffuse = lobes.diffuse_over_pi.x + lobes.diffuse_over_pi.y + lobes.diffuse_over_pi.z > 0.0f;
@@ -63,7 +65,8 @@ inline LobeValues evaluate(const Lobes& lobes, vec3 i) {
     LobeValues values;
     values.diffuse = lobes.diffuse_over_pi * ((1.0f - lobes.dielectric_f0 - lobes.dielectric_rise * w) * cosine);
     values.diffuse_pdf = cosine * inverse_pi;
-    values.specular = (lobes.f0 + lobes.fresnel_rise * w) * (masked_d * cosine * 0.5f / (lobes.o.z * root_i + cosine * lobes.root_o));
+    values.specular =
+        (lobes.f0 + lobes.fresnel_rise * w) * (masked_d * cosine * 0.5f / (lobes.o.z * root_i + cosine * lobes.root_o));
     values.specular_pdf = masked_d * lobes.pdf_scale;
     return values;
 }

@@ -30,7 +30,8 @@ MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bo
         constants.varies = evaluate_everything || has_color || material.metalness_roughness_texture.texture >= 0 ||
                            material.normal_texture.texture >= 0 || material.emission_texture.texture >= 0;
         any_varies_ |= constants.varies;
-        constants.emission_varies = evaluate_everything || (material.is_unlit ? has_color : material.emission_texture.texture >= 0);
+        constants.emission_varies =
+            evaluate_everything || (material.is_unlit ? has_color : material.emission_texture.texture >= 0);
         constants.emits = surface.emitted != glm::vec3(0.0f);
         constants.emits_behind = material.is_double_sided;
     }
@@ -40,7 +41,8 @@ MaterialTable::Corners MaterialTable::corners(uint32_t instance_index, uint32_t 
     const InstanceRecord& instance = geometry_.instance(instance_index);
     const TriangleRecord& record = instance.triangles[triangle];
     const Vertex* vertices = instance.mesh->vertices.data();
-    return {{vertices + record.corner[0], vertices + record.corner[1], vertices + record.corner[2]}, {1.0f - u - v, u, v}};
+    return {{vertices + record.corner[0], vertices + record.corner[1], vertices + record.corner[2]},
+            {1.0f - u - v, u, v}};
 }
 
 void MaterialTable::prefetch_corners(uint32_t instance_index, uint32_t triangle) const {
@@ -58,14 +60,15 @@ void MaterialTable::prefetch_texels(uint32_t instance_index, uint32_t triangle, 
     if (!constants_[instance.material].varies) return;
     const Material& material = scene_.materials[instance.material];
     const Corners at = corners(instance_index, triangle, u, v);
-    for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture, &material.normal_texture,
-                                    &material.emission_texture})
+    for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
+                                    &material.normal_texture, &material.emission_texture})
         if (slot->texture >= 0) prefetch_texture(scene_.textures[size_t(slot->texture)], at.uv(*slot));
 }
 
 glm::vec2 MaterialTable::Corners::uv(const TextureSlot& slot) const {
     const unsigned set = slot.texcoord;
-    const glm::vec2 at = weight[0] * vertex[0]->uv[set] + weight[1] * vertex[1]->uv[set] + weight[2] * vertex[2]->uv[set];
+    const glm::vec2 at =
+        weight[0] * vertex[0]->uv[set] + weight[1] * vertex[1]->uv[set] + weight[2] * vertex[2]->uv[set];
     return glm::vec2(slot.uv_transform * glm::vec3(at, 1.0f));
 }
 
@@ -82,7 +85,8 @@ glm::vec4 MaterialTable::sample(const TextureSlot& slot, const Corners& corners)
 glm::vec3 MaterialTable::mapped_normal(const Material& material, const Corners& corners, const InstanceRecord& instance,
                                        glm::vec3 normal) const {
     const glm::vec4 texel = sample(material.normal_texture, corners);
-    const glm::vec3 local = (2.0f * glm::vec3(texel) - 1.0f) * glm::vec3(material.normal_scale, material.normal_scale, 1.0f);
+    const glm::vec3 local =
+        (2.0f * glm::vec3(texel) - 1.0f) * glm::vec3(material.normal_scale, material.normal_scale, 1.0f);
     const glm::vec3 tangent_sum = corners.weight[0] * glm::vec3(corners.vertex[0]->tangent) +
                                   corners.weight[1] * glm::vec3(corners.vertex[1]->tangent) +
                                   corners.weight[2] * glm::vec3(corners.vertex[2]->tangent);
@@ -99,7 +103,8 @@ glm::vec3 MaterialTable::mapped_normal(const Material& material, const Corners& 
 
 /// All but the place and the normals.
 ShadedPoint MaterialTable::properties(const Material& material, const Corners& corners) const {
-    const glm::vec3 color = material.base_color * glm::vec3(corners.color()) * glm::vec3(sample(material.base_color_texture, corners));
+    const glm::vec3 color =
+        material.base_color * glm::vec3(corners.color()) * glm::vec3(sample(material.base_color_texture, corners));
     const glm::vec4 metalness_roughness = sample(material.metalness_roughness_texture, corners);
     ShadedPoint point;
     point.is_unlit = material.is_unlit;
@@ -107,12 +112,13 @@ ShadedPoint MaterialTable::properties(const Material& material, const Corners& c
     point.metalness = material.metalness * metalness_roughness.b;
     point.roughness = material.roughness * metalness_roughness.g;
     point.specular = material.is_unlit ? 0.0f : material.specular;
-    point.emitted = material.is_unlit ? color : material.emission * glm::vec3(sample(material.emission_texture, corners));
+    point.emitted =
+        material.is_unlit ? color : material.emission * glm::vec3(sample(material.emission_texture, corners));
     return point;
 }
 
-ShadedPoint MaterialTable::shade_varying(SurfacePoint surface, uint32_t instance_index, uint32_t triangle, float u, float v,
-                                         glm::vec3 view) const {
+ShadedPoint MaterialTable::shade_varying(SurfacePoint surface, uint32_t instance_index, uint32_t triangle, float u,
+                                         float v, glm::vec3 view) const {
     const InstanceRecord& instance = geometry_.instance(instance_index);
     const Material& material = scene_.materials[instance.material];
     const Corners at = corners(instance_index, triangle, u, v);

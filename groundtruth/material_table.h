@@ -4,24 +4,26 @@
 
 #include <vector>
 
-/// What the path tracer knows of a point once its material is evaluated: the same quantities as a pixel of the G-buffer.
+/// What the path tracer knows of a point once its material is evaluated: the same quantities as a pixel of the
+/// G-buffer.
 struct ShadedPoint {
-    glm::vec3 position, error;     ///< m; see SurfacePoint
-    glm::vec3 geometric_normal;    ///< unit, on the viewer's side
-    glm::vec3 normal;              ///< shading normal, of any length; see unit_normal()
+    glm::vec3 position, error;   ///< m; see SurfacePoint
+    glm::vec3 geometric_normal;  ///< unit, on the viewer's side
+    glm::vec3 normal;            ///< shading normal, of any length; see unit_normal()
     glm::vec3 base_color;
     float metalness = 0, roughness = 0, specular = 0;
-    glm::vec3 emitted;             ///< radiance towards the viewer (W sr^-1 m^-2)
+    glm::vec3 emitted;  ///< radiance towards the viewer (W sr^-1 m^-2)
     bool is_unlit = false;
 };
 
-/// Evaluates glTF materials at hits. Emission leaves the front side only, unless the material is double-sided (glTF 2.0,
-/// section 3.9.6: what is not double-sided has no back side to see).
+/// Evaluates glTF materials at hits. Emission leaves the front side only, unless the material is double-sided
+/// (glTF 2.0, section 3.9.6: what is not double-sided has no back side to see).
 class MaterialTable {
 public:
     MaterialTable(const Scene& scene, const EmbreeScene& geometry, bool evaluate_everything);
 
-    /// Calls take(ShadedPoint): inlined, so that the point stays in registers. `view` points from the surface to the viewer.
+    /// Calls take(ShadedPoint): inlined, so that the point stays in registers. `view` points from the surface to the
+    /// viewer.
     template <class Take>
     void shade(uint32_t instance, uint32_t triangle, float u, float v, glm::vec3 view, const Take& take) const;
 
@@ -55,10 +57,13 @@ private:
     };
     Corners corners(uint32_t instance, uint32_t triangle, float u, float v) const;
     glm::vec4 sample(const TextureSlot& slot, const Corners& corners) const;
-    static ShadedPoint facing(const SurfacePoint& surface, const ShadedPoint& properties, bool emits_behind, glm::vec3 view);
-    ShadedPoint shade_varying(SurfacePoint surface, uint32_t instance, uint32_t triangle, float u, float v, glm::vec3 view) const;
+    static ShadedPoint facing(const SurfacePoint& surface, const ShadedPoint& properties, bool emits_behind,
+                              glm::vec3 view);
+    ShadedPoint shade_varying(SurfacePoint surface, uint32_t instance, uint32_t triangle, float u, float v,
+                              glm::vec3 view) const;
     ShadedPoint properties(const Material& material, const Corners& corners) const;
-    glm::vec3 mapped_normal(const Material& material, const Corners& corners, const InstanceRecord& instance, glm::vec3 normal) const;
+    glm::vec3 mapped_normal(const Material& material, const Corners& corners, const InstanceRecord& instance,
+                            glm::vec3 normal) const;
 
     const Scene& scene_;
     const EmbreeScene& geometry_;
@@ -67,17 +72,20 @@ private:
 };
 
 /// Completes the properties of a material to those of a point, turned to the viewer.
-inline ShadedPoint MaterialTable::facing(const SurfacePoint& surface, const ShadedPoint& properties, bool emits_behind, glm::vec3 view) {
+inline ShadedPoint MaterialTable::facing(const SurfacePoint& surface, const ShadedPoint& properties, bool emits_behind,
+                                         glm::vec3 view) {
     const bool is_behind = glm::dot(surface.front_normal, view) < 0;
     const float side = is_behind ? -1.0f : 1.0f;
     const bool is_dark = is_behind && !emits_behind;
-    return {surface.position,      surface.error,        side * surface.front_normal, side * surface.normal,
-            properties.base_color, properties.metalness, properties.roughness,        properties.specular,
-            is_dark ? glm::vec3(0.0f) : properties.emitted, properties.is_unlit};
+    return {surface.position,      surface.error,         side * surface.front_normal,
+            side * surface.normal, properties.base_color, properties.metalness,
+            properties.roughness,  properties.specular,   is_dark ? glm::vec3(0.0f) : properties.emitted,
+            properties.is_unlit};
 }
 
 template <class Take>
-inline void MaterialTable::shade(uint32_t instance_index, uint32_t triangle, float u, float v, glm::vec3 view, const Take& take) const {
+inline void MaterialTable::shade(uint32_t instance_index, uint32_t triangle, float u, float v, glm::vec3 view,
+                                 const Take& take) const {
     const InstanceRecord& instance = geometry_.instance(instance_index);
     const Constants& constants = constants_[instance.material];
     const SurfacePoint surface = geometry_.point(instance_index, triangle, u, v);

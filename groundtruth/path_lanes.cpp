@@ -46,7 +46,8 @@ void PathLanes::trace_rays() {
         scene_.geometry.prefetch(ray[lane].hit.instID[0], ray[lane].hit.primID);
     });
     if (scene_.materials.any_varies()) {
-        for_each_bit(hits, [&](int lane) { scene_.materials.prefetch_corners(ray[lane].hit.instID[0], ray[lane].hit.primID); });
+        for_each_bit(
+            hits, [&](int lane) { scene_.materials.prefetch_corners(ray[lane].hit.instID[0], ray[lane].hit.primID); });
         for_each_bit(hits, [&](int lane) {
             const RTCHit& hit = ray[lane].hit;
             scene_.materials.prefetch_texels(hit.instID[0], hit.primID, hit.u, hit.v);
@@ -61,7 +62,8 @@ void PathLanes::trace_rays() {
 void PathLanes::leave(int lane) {
     const vec3 direction = direction_.get(lane);
     const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(direction));
-    radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
+    radiance_.set(lane,
+                  radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
 }
 
 /// Takes in the surface at the end of a ray, and its emission.
@@ -70,7 +72,8 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
     const vec3 direction = direction_.get(lane);
     scene_.materials.shade(instance, triangle, ray.hit.u, ray.hit.v, -direction, [&](const ShadedPoint& surface) {
         if (surface.emitted != vec3(0.0f)) {
-            const float light_pdf = scene_.lights.triangle_pdf(instance, triangle, surface.geometric_normal, direction, ray.ray.tfar);
+            const float light_pdf =
+                scene_.lights.triangle_pdf(instance, triangle, surface.geometric_normal, direction, ray.ray.tfar);
             const float weight = scene_.mis.of_bsdf(pdf_[lane], light_pdf);
             radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * surface.emitted * weight);
         }
@@ -105,7 +108,8 @@ void PathLanes::scatter() {
         const vec3 geometric_normal = geometric_normal_.get(lane), throughput = throughput_.get(lane);
         const mat3 world_from_local = basis_from_normal(unit_normal(normal_.get(lane), geometric_normal));
         const vec3 o = -direction_.get(lane) * world_from_local;
-        const Lobes lobes = make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane], o, model);
+        const Lobes lobes =
+            make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane], o, model);
         const float q = lobes.specular_probability;
         const bool reflects = (continues_[lane] != 0) & (o.z > 0.0f);  // the viewer may be below the shading horizon
 
@@ -115,7 +119,8 @@ void PathLanes::scatter() {
             const float light_pdf = lights_.pdf[lane], bsdf_pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
             const float weight = lights_.is_delta[lane] ? 1.0f : mis.of_light(light_pdf, bsdf_pdf);
             const bool is_used = reflects & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
-            const vec3 direct = throughput * (f.diffuse + f.specular) * lights_.radiance.get(lane) * (weight / light_pdf);
+            const vec3 direct =
+                throughput * (f.diffuse + f.specular) * lights_.radiance.get(lane) * (weight / light_pdf);
             direct_.set(lane, keep_if(is_used, direct));
             aim_shadow_ray(position_.get(lane), error_.get(lane), geometric_normal, lane, lights_);
         }
@@ -124,7 +129,8 @@ void PathLanes::scatter() {
         const vec2 u = sequence_.pair(reversed_sample_[lane], pair_[lane] + 1);
         const bool is_specular = u.x < q;
         const vec2 stretched(is_specular ? u.x / q : (u.x - q) / (1.0f - q), u.y);
-        const vec3 i = choose(is_specular, sample_ggx_reflection_bounded(o, lobes.alpha, stretched), sample_cosine(stretched));
+        const vec3 i =
+            choose(is_specular, sample_ggx_reflection_bounded(o, lobes.alpha, stretched), sample_cosine(stretched));
         const LobeValues f = evaluate(lobes, i);
         const float pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
         const vec3 direction = world_from_local * i;
@@ -134,7 +140,8 @@ void PathLanes::scatter() {
         const bool plays = has_roulette & (depth_[lane] >= 2) & (greatest < 1.0f);
         const float survival = plays ? greatest : 1.0f;
         const bool survives = sequence_.random(reversed_sample_[lane], pair_[lane]) < survival;
-        const bool goes_on = reflects & (i.z > 0) & (dot(direction, geometric_normal) > 0) & (pdf > 0) & (greatest > 0) & survives;
+        const bool goes_on =
+            reflects & (i.z > 0) & (dot(direction, geometric_normal) > 0) & (pdf > 0) & (greatest > 0) & survives;
 
         continues_[lane] = goes_on;
         throughput_.set(lane, next * (1.0f / survival));
@@ -149,7 +156,8 @@ void PathLanes::scatter() {
 void PathLanes::trace_shadow_rays() {
     for_each_bit(busy_, [&](int lane) {
         const vec3 direct = direct_.get(lane);
-        if (direct != vec3(0.0f) && is_visible(scene_, lights_, lane, estimate_)) radiance_.set(lane, radiance_.get(lane) + direct);
+        if (direct != vec3(0.0f) && is_visible(scene_, lights_, lane, estimate_))
+            radiance_.set(lane, radiance_.get(lane) + direct);
     });
 }
 

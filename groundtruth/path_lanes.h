@@ -11,10 +11,10 @@ inline constexpr uint32_t diffuse_stream = 1u << 16;  ///< pairs of the paths th
 /// A path that leaves the first hit.
 struct PathStart {
     glm::vec3 origin, direction;
-    glm::vec3 weight;           ///< f mu_i / pdf of its lobe
-    float pdf;                  ///< sr^-1, of its lobe
-    uint32_t reversed_sample;   ///< the index of the sample, bits reversed
-    bool is_specular;           ///< adds to `specular` and `incident`, else to `diffuse`
+    glm::vec3 weight;          ///< f mu_i / pdf of its lobe
+    float pdf;                 ///< sr^-1, of its lobe
+    uint32_t reversed_sample;  ///< the index of the sample, bits reversed
+    bool is_specular;          ///< adds to `specular` and `incident`, else to `diffuse`
 };
 
 /// Paths in flight. A lane whose path has ended takes the next one, so that all lanes stay busy until finish().

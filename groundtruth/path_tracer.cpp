@@ -2,9 +2,9 @@
 
 #include "groundtruth/path_lanes.h"
 
-#include <cmath>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
+#include <cmath>
 
 namespace {
 
@@ -32,8 +32,8 @@ struct FirstVertex {
 };
 
 /// Light samples at the first hit, for the lanes' worth of samples that begins with `first_sample`.
-void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence, unsigned first_sample, int count,
-                      PixelEstimate& estimate) {
+void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
+                      unsigned first_sample, int count, PixelEstimate& estimate) {
     const FirstHit& hit = vertex.hit;
     Lanes<uint32_t> x, y;
     Lanes<uint32_t> is_wanted;
@@ -69,7 +69,8 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
         aim_shadow_ray(position, error, geometric_normal, lane, lights);
     }
     for (int lane = 0; lane < count; ++lane) {
-        const vec3 parts[3] = {vertex.wants_diffuse ? diffuse.get(lane) : vec3(0.0f), vertex.wants_specular ? specular.get(lane) : vec3(0.0f),
+        const vec3 parts[3] = {vertex.wants_diffuse ? diffuse.get(lane) : vec3(0.0f),
+                               vertex.wants_specular ? specular.get(lane) : vec3(0.0f),
                                vertex.wants_specular ? incident.get(lane) : vec3(0.0f)};
         const vec3 sum = parts[0] + parts[1] + parts[2];
         if (sum == vec3(0.0f)) continue;
@@ -84,14 +85,16 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
 }
 
 /// Starts the paths of one lobe for a lanes' worth of samples.
-void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsigned first_sample, int count, bool is_specular,
-                 PathLanes& paths, PixelEstimate& estimate) {
+void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsigned first_sample, int count,
+                 bool is_specular, PathLanes& paths, PixelEstimate& estimate) {
     const FirstHit& hit = vertex.hit;
     LanesVec3 origin, direction, weight;
     Lanes<float> pdf, local_height;
     FOR_EACH_LANE {
-        const vec2 u = sequence.pair(reverse_bits(first_sample + uint32_t(lane)), is_specular ? pair_specular : pair_diffuse);
-        const vec3 i = choose(is_specular, sample_ggx_reflection_bounded(vertex.lobes.o, vertex.lobes.alpha, u), sample_cosine(u));
+        const vec2 u =
+            sequence.pair(reverse_bits(first_sample + uint32_t(lane)), is_specular ? pair_specular : pair_diffuse);
+        const vec3 i =
+            choose(is_specular, sample_ggx_reflection_bounded(vertex.lobes.o, vertex.lobes.alpha, u), sample_cosine(u));
         const LobeValues f = evaluate(vertex.lobes, i);
         const float lobe_pdf = is_specular ? f.specular_pdf : f.diffuse_pdf;
         const vec3 towards = vertex.world_from_local * i;
@@ -105,16 +108,19 @@ void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsig
         if (!(pdf[lane] > 0)) continue;
         if (is_specular) ++estimate.lobe_samples;
         if (local_height[lane] <= 0) continue;
-        paths.start({origin.get(lane), direction.get(lane), weight.get(lane), pdf[lane], reverse_bits(first_sample + uint32_t(lane)), is_specular});
+        paths.start({origin.get(lane), direction.get(lane), weight.get(lane), pdf[lane],
+                     reverse_bits(first_sample + uint32_t(lane)), is_specular});
     }
 }
 
 /// Specular paths of a surface that reflects nothing: the price of not leaving them out.
-void trace_in_vain(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence, unsigned first_sample, unsigned count) {
+void trace_in_vain(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
+                   unsigned first_sample, unsigned count) {
     PixelEstimate unused;
     PathLanes paths(scene, sequence, unused);
     for (unsigned done = 0; done < count; done += lane_count)
-        start_paths(vertex, sequence, first_sample + done, int(std::min(count - done, unsigned(lane_count))), true, paths, unused);
+        start_paths(vertex, sequence, first_sample + done, int(std::min(count - done, unsigned(lane_count))), true,
+                    paths, unused);
     paths.finish();
 }
 
@@ -143,7 +149,8 @@ size_t PathTracer::replay(std::span<const RecordedRay> rays) const {
     size_t hits = 0;
     RTCRayHit hit;
     for (const RecordedRay& ray : rays)
-        hits += ray.is_shadow ? is_occluded(scene, ray.origin, ray.direction, ray.far) : intersect(scene, ray.origin, ray.direction, hit);
+        hits += ray.is_shadow ? is_occluded(scene, ray.origin, ray.direction, ray.far)
+                              : intersect(scene, ray.origin, ray.direction, hit);
     return hits;
 }
 
@@ -173,14 +180,15 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
     });
     hit.is_hit = true;
     hit.distance = glm::length(hit.position - camera_ray.origin);
-    hit.depth = glm::dot(hit.position - vec3(state_->camera.world_from_view[3]), -vec3(state_->camera.world_from_view[2]));
+    hit.depth =
+        glm::dot(hit.position - vec3(state_->camera.world_from_view[3]), -vec3(state_->camera.world_from_view[2]));
     hit.material = scene.geometry.instance(instance).material;
     hit.instance = instance;
     return hit;
 }
 
-void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
-                       PixelEstimate& estimate) const {
+void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample,
+                       unsigned count, PixelEstimate& estimate) const {
     const FlushDenormals flush;
     estimate.samples += count;
     if (!hit.is_hit || hit.is_unlit) return;
@@ -201,5 +209,6 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
         if (vertex.wants_diffuse) start_paths(vertex, sequence, first_sample + done, lanes, false, paths, estimate);
     }
     paths.finish();
-    if (scene.settings.keep_all && scene.settings.specular && !vertex.wants_specular) trace_in_vain(scene, vertex, sequence, first_sample, count);
+    if (scene.settings.keep_all && scene.settings.specular && !vertex.wants_specular)
+        trace_in_vain(scene, vertex, sequence, first_sample, count);
 }

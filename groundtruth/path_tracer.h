@@ -12,8 +12,8 @@
 /// others exist so that tests can compare them (Veach and Guibas 1995, "Optimally Combining Sampling Techniques").
 enum class LightStrategy { power, balance, light_only, bsdf_only };
 
-/// `gltf` is the material model of every result. The other two have closed-form solutions in closed scenes: `lambert` reflects
-/// baseColor / pi and nothing specularly, `constant_fresnel` uses F90 = F0.
+/// `gltf` is the material model of every result. The other two have closed-form solutions in closed scenes: `lambert`
+/// reflects baseColor / pi and nothing specularly, `constant_fresnel` uses F90 = F0.
 enum class ReflectionModel { gltf, lambert, constant_fresnel };
 
 struct PathTracerSettings {
@@ -51,14 +51,16 @@ struct RecordedRay {
 
 /// Sums over the samples of one pixel, to be divided as written here.
 struct PixelEstimate {
-    glm::dvec3 diffuse{0.0};   ///< / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
+    glm::dvec3 diffuse{
+        0.0};  ///< / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
     glm::dvec3 specular{0.0};  ///< / samples: specularly reflected radiance
     glm::dvec3 incident{0.0};  ///< / lobe_samples: mean incident radiance over the lobe above the horizon
     uint64_t samples = 0;
     uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
-    uint64_t non_finite = 0;    ///< samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0
-    uint64_t rays = 0;          ///< traced, of both kinds
-    uint64_t paths = 0;         ///< rays that left the first hit along a lobe
+    uint64_t non_finite =
+        0;  ///< samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0
+    uint64_t rays = 0;                           ///< traced, of both kinds
+    uint64_t paths = 0;                          ///< rays that left the first hit along a lobe
     std::vector<RecordedRay>* record = nullptr;  ///< takes down each ray, if given
 };
 
@@ -69,10 +71,11 @@ struct PixelEstimate {
 /// `incident` leaves out punctual lights: they are deltas, which a mean over directions cannot hold; `diffuse` and
 /// `specular` include them.
 ///
-/// Surfaces are seen from both sides, normals turned to the side of the viewer; the geometric normal says which side that
-/// is. Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below the
-/// horizon of the shading normal reflect nothing and are no part of the lobe; directions above it but below the geometric
-/// one meet the surface itself and carry no light. Unlit surfaces radiate their base colour and reflect nothing.
+/// Surfaces are seen from both sides, normals turned to the side of the viewer; the geometric normal says which side
+/// that is. Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below
+/// the horizon of the shading normal reflect nothing and are no part of the lobe; directions above it but below the
+/// geometric one meet the surface itself and carry no light. Unlit surfaces radiate their base colour and reflect
+/// nothing.
 class PathTracer {
 public:
     /// `scene` must outlive the tracer. Fails with MachineError if Embree runs out of memory.
@@ -85,9 +88,9 @@ public:
     /// The hit of the ray through the centre of pixel (x, y), y down.
     FirstHit first_hit(unsigned x, unsigned y) const;
 
-    /// Adds samples [first_sample, first_sample + count) of the Owen-scrambled Sobol' sequence that (x, y, seed) selects.
-    /// Different seeds give independent scrambles; the error falls fastest when count is a power of two that divides
-    /// first_sample. Unlit hits and the background have nothing to estimate: only `samples` grows.
+    /// Adds samples [first_sample, first_sample + count) of the Owen-scrambled Sobol' sequence that (x, y, seed)
+    /// selects. Different seeds give independent scrambles; the error falls fastest when count is a power of two that
+    /// divides first_sample. Unlit hits and the background have nothing to estimate: only `samples` grows.
     void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
                PixelEstimate& estimate) const;
 

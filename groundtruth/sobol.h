@@ -2,9 +2,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-/// Owen-scrambled Sobol' points, padded: every pair of dimensions is its own randomisation of the first two Sobol' dimensions,
-/// which form a (0, 2)-sequence. Counter-based: a pair is a function of (seed, pair index, sample index) and nothing else.
-/// Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4). All functions are branchless, for vector loops.
+/// Owen-scrambled Sobol' points, padded: every pair of dimensions is its own randomisation of the first two Sobol'
+/// dimensions, which form a (0, 2)-sequence. Counter-based: a pair is a function of (seed, pair index, sample index)
+/// and nothing else. Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4). All functions are branchless, for
+/// vector loops.
 
 inline uint32_t reverse_bits(uint32_t x) {
     x = x << 16 | x >> 16;
@@ -14,8 +15,8 @@ inline uint32_t reverse_bits(uint32_t x) {
     return (x & 0x55555555u) << 1 | (x & 0xaaaaaaaau) >> 1;
 }
 
-/// Laine and Karras 2011's permutation with Burley's constants: each bit is flipped by a hash of the bits below it, so that
-/// between two bit reversals it is an Owen scramble.
+/// Laine and Karras 2011's permutation with Burley's constants: each bit is flipped by a hash of the bits below it, so
+/// that between two bit reversals it is an Owen scramble.
 inline uint32_t laine_karras(uint32_t x, uint32_t seed) {
     x += seed;
     x ^= x * 0x6c50b47cu;
@@ -25,8 +26,8 @@ inline uint32_t laine_karras(uint32_t x, uint32_t seed) {
     return x;
 }
 
-/// The second Sobol' dimension, bit-reversed. Its generator matrix is Pascal's triangle modulo 2: digit j is the sum of all
-/// index bits i whose binary digits include those of j (Lucas' theorem), which five folds add up.
+/// The second Sobol' dimension, bit-reversed. Its generator matrix is Pascal's triangle modulo 2: digit j is the sum of
+/// all index bits i whose binary digits include those of j (Lucas' theorem), which five folds add up.
 inline uint32_t reversed_sobol_y(uint32_t index) {
     index ^= index >> 16 & 0x0000ffffu;
     index ^= index >> 8 & 0x00ff00ffu;
@@ -56,14 +57,16 @@ inline float unit_float(uint32_t bits) { return float(int32_t(bits >> 8)) * 0x1p
 struct SobolSequence {
     uint32_t seed_a, seed_b;
 
-    explicit SobolSequence(uint64_t seed) : seed_a(uint32_t(hash_bits_64(seed))), seed_b(uint32_t(hash_bits_64(seed) >> 32)) {}
+    explicit SobolSequence(uint64_t seed)
+        : seed_a(uint32_t(hash_bits_64(seed))), seed_b(uint32_t(hash_bits_64(seed) >> 32)) {}
 
     /// 32-bit fixed-point coordinates of pair `pair` of a sample whose index has its bits reversed.
     glm::uvec2 bits(uint32_t reversed_sample, uint32_t pair) const {
         const uint32_t shuffle = hash_bits(seed_a + 0x9e3779b9u * pair);
         const uint32_t scramble_x = hash_bits(shuffle ^ seed_b), scramble_y = hash_bits(scramble_x + 0x85ebca6bu);
         const uint32_t index = reverse_bits(laine_karras(reversed_sample, shuffle));
-        return {reverse_bits(laine_karras(index, scramble_x)), reverse_bits(laine_karras(reversed_sobol_y(index), scramble_y))};
+        return {reverse_bits(laine_karras(index, scramble_x)),
+                reverse_bits(laine_karras(reversed_sobol_y(index), scramble_y))};
     }
     glm::vec2 pair(uint32_t reversed_sample, uint32_t index) const {
         const glm::uvec2 b = bits(reversed_sample, index);

@@ -25,11 +25,13 @@ inline int wrap(int i, int size, TextureWrap mode) {
 inline glm::vec4 texel(const Texture& texture, int x, int y) {
     const uint8_t* code = &texture.rgba[4 * (size_t(y) * texture.extent.x + size_t(x))];
     const float alpha = float(code[3]) * (1.0f / 255.0f);
-    if (texture.is_srgb) return {linear_from_code[code[0]], linear_from_code[code[1]], linear_from_code[code[2]], alpha};
+    if (texture.is_srgb)
+        return {linear_from_code[code[0]], linear_from_code[code[1]], linear_from_code[code[2]], alpha};
     return glm::vec4(float(code[0]), float(code[1]), float(code[2]), float(code[3])) * (1.0f / 255.0f);
 }
 
-/// uv in texels. A coordinate beyond the range of int cannot address a texel; the fraction of so large a float is zero anyway.
+/// uv in texels. A coordinate beyond the range of int cannot address a texel; the fraction of so large a float is zero
+/// anyway.
 inline glm::vec2 texel_position(const Texture& texture, glm::vec2 uv) {
     const glm::vec2 p = glm::clamp(uv * glm::vec2(texture.extent), glm::vec2(-1e9f), glm::vec2(1e9f));
     return p.x == p.x && p.y == p.y ? p : glm::vec2(0.0f);
@@ -41,7 +43,8 @@ glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
     const glm::ivec2 size(texture.extent);
     glm::vec2 p = texel_position(texture, uv);
     if (texture.is_nearest)
-        return texel(texture, wrap(int(std::floor(p.x)), size.x, texture.wrap_u), wrap(int(std::floor(p.y)), size.y, texture.wrap_v));
+        return texel(texture, wrap(int(std::floor(p.x)), size.x, texture.wrap_u),
+                     wrap(int(std::floor(p.y)), size.y, texture.wrap_v));
 
     p -= 0.5f;
     const glm::vec2 corner = glm::floor(p), f = p - corner;

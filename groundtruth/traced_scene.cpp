@@ -18,7 +18,8 @@ TracedScene::TracedScene(const Scene& scene, const ScenePose& pose, const PathTr
       mis(settings.strategy),
       geometry(scene, pose, settings.keep_all),
       materials(scene, geometry, settings.keep_all),
-      lights(scene, pose, geometry, materials, samples_environment(scene, settings.strategy), settings.strategy != LightStrategy::light_only),
+      lights(scene, pose, geometry, materials, samples_environment(scene, settings.strategy),
+             settings.strategy != LightStrategy::light_only),
       has_environment(settings.keep_all || !scene.environment.is_black()) {}
 
 std::vector<LeftOut> left_out_features(const TracedScene& traced) {
@@ -29,7 +30,8 @@ std::vector<LeftOut> left_out_features(const TracedScene& traced) {
         return !material.is_unlit && (material.metalness > 0 || (material.specular > 0 && material.metalness < 1));
     };
     if (!traced.geometry.has_alpha_tests())
-        features.push_back({"alpha tests", "no alpha masks", "Embree calls no intersection filter, so that every ray stays in its own code."});
+        features.push_back({"alpha tests", "no alpha masks",
+                            "Embree calls no intersection filter, so that every ray stays in its own code."});
     if (!traced.materials.any_varies())
         features.push_back({"texture lookups", "no textures", "Each material is one set of constants."});
     if (traced.lights.empty())

@@ -29,7 +29,8 @@ inline constexpr float shadow_end = 0.9999f;
 inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTCRayHit& ray) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    ray.ray = {origin.x, origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f, infinite_distance, ~0u, 0, 0};
+    ray.ray = {origin.x,    origin.y, origin.z,          0.0f, direction.x, direction.y,
+               direction.z, 0.0f,     infinite_distance, ~0u,  0,           0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context, &ray);
@@ -55,7 +56,8 @@ inline void count_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direc
 inline void aim_shadow_ray(glm::vec3 position, glm::vec3 error, glm::vec3 normal, int lane, LightLanes& lights) {
     const glm::vec3 direction = lights.direction.get(lane);
     const glm::vec3 origin = offset_origin(position, error, normal, direction);
-    const glm::vec3 target = offset_origin(lights.position.get(lane), lights.error.get(lane), lights.normal.get(lane), -direction);
+    const glm::vec3 target =
+        offset_origin(lights.position.get(lane), lights.error.get(lane), lights.normal.get(lane), -direction);
     const bool is_infinite = lights.is_infinite[lane] != 0;
     lights.shadow_origin.set(lane, origin);
     lights.shadow_direction.set(lane, choose(is_infinite, direction, target - origin));

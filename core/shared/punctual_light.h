@@ -4,8 +4,8 @@
 
 // KHR_lights_punctual, as its specification recommends.
 
-/// Irradiance at normal incidence (W m^-2) of a point or spot light per radiant intensity (W sr^-1), at `distance` (m). A
-/// range > 0 (m) fades it out smoothly; 0 is unlimited.
+/// Irradiance at normal incidence (W m^-2) of a point or spot light per radiant intensity (W sr^-1), at `distance` (m).
+/// A range > 0 (m) fades it out smoothly; 0 is unlimited.
 SHARED float punctual_falloff(float distance, float range) {
     float square = distance * distance;
     float window = 1.0f;

@@ -5,9 +5,9 @@
 #include "groundtruth/sobol.h"
 #include "tests/groundtruth/vectors.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <functional>
-#include <gtest/gtest.h>
 #include <numeric>
 
 namespace {
@@ -17,19 +17,24 @@ vec3 direction(double cosine, double azimuth) {
     return vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
 }
 
-/// Tail of the chi-square distribution as a standard normal deviate (Wilson and Hilferty 1931), good for 30 degrees and more.
+/// Tail of the chi-square distribution as a standard normal deviate (Wilson and Hilferty 1931), good for 30 degrees and
+/// more.
 double normal_deviate(double chi_square, double degrees) {
     const double k = 2 / (9 * degrees);
     return (std::cbrt(chi_square / degrees) - (1 - k)) / std::sqrt(k);
 }
 
-/// Pearson's test of samples against a density over the hemisphere of +z, 30 x 60 cells in (cosine, azimuth), and one cell
-/// for all samples below it. Returns the normal deviate of chi-square: beyond 5.2 with probability 1e-7 if all is right.
-double chi_square_deviate(const std::function<vec3(vec2)>& sample, const std::function<float(vec3)>& pdf, uint64_t seed) {
+/// Pearson's test of samples against a density over the hemisphere of +z, 30 x 60 cells in (cosine, azimuth), and one
+/// cell for all samples below it. Returns the normal deviate of chi-square: beyond 5.2 with probability 1e-7 if all is
+/// right.
+double chi_square_deviate(const std::function<vec3(vec2)>& sample, const std::function<float(vec3)>& pdf,
+                          uint64_t seed) {
     constexpr int rows = 30, columns = 60, panels = 3, samples = 200000;
     // Nodes and weights of Gauss-Legendre quadrature on [0, 1].
-    constexpr double node[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155, 0.95308992296933200};
-    constexpr double weight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
+    constexpr double node[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
+                                0.95308992296933200};
+    constexpr double weight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
+                                  0.11846344252809454};
     std::vector<double> observed(rows * columns + 1, 0.0), expected(observed.size(), 0.0);
     uint64_t state = seed;
     for (int i = 0; i < samples; ++i) {
@@ -43,9 +48,11 @@ double chi_square_deviate(const std::function<vec3(vec2)>& sample, const std::fu
         for (int column = 0; column < columns; ++column)
             for (int y = 0; y < 5 * panels; ++y)
                 for (int x = 0; x < 5; ++x) {
-                    const double cosine = (row + (y / 5 + node[y % 5]) / panels) / rows, azimuth = 2 * M_PI * ((column + node[x]) / columns - 0.5);
-                    expected[size_t(row * columns + column)] +=
-                        samples * weight[y % 5] / panels * weight[x] * 2 * M_PI / (rows * columns) * pdf(direction(cosine, azimuth));
+                    const double cosine = (row + (y / 5 + node[y % 5]) / panels) / rows,
+                                 azimuth = 2 * M_PI * ((column + node[x]) / columns - 0.5);
+                    expected[size_t(row * columns + column)] += samples * weight[y % 5] / panels * weight[x] * 2 *
+                                                                M_PI / (rows * columns) *
+                                                                pdf(direction(cosine, azimuth));
                 }
     const double above = std::accumulate(expected.begin(), expected.end(), 0.0);
     EXPECT_LT(above, samples * 1.001);  // a density, not more
@@ -73,7 +80,7 @@ struct LobeView {
     float alpha, cosine;
 };
 // The narrowest lobe is left to the furnace tests: its density varies within the cells.
-const LobeView lobe_views[] = {{0.1f, 0.25f}, {0.1f, 0.5f}, {0.1f, 1.0f},  {0.25f, 0.05f}, {0.25f, 0.5f}, {0.25f, 0.9f},
+const LobeView lobe_views[] = {{0.1f, 0.25f}, {0.1f, 0.5f},  {0.1f, 1.0f}, {0.25f, 0.05f}, {0.25f, 0.5f}, {0.25f, 0.9f},
                                {0.5f, 0.1f},  {0.5f, 0.75f}, {0.5f, 1.0f}, {1.0f, 0.05f},  {1.0f, 0.5f},  {1.0f, 1.0f}};
 
 }  // namespace
@@ -83,9 +90,11 @@ TEST(brdf, samplers_follow_their_densities) {
         SCOPED_TRACE(testing::Message() << "alpha " << alpha << ", cosine " << cosine);
         const vec3 o = direction(cosine, 0.7);
         EXPECT_LT(chi_square_deviate([&](vec2 u) { return sample_ggx_reflection(o, alpha, u); },
-                                     [&](vec3 i) { return ggx_reflection_pdf(o, i, alpha); }, 1), 5.2);
+                                     [&](vec3 i) { return ggx_reflection_pdf(o, i, alpha); }, 1),
+                  5.2);
         EXPECT_LT(chi_square_deviate([&](vec2 u) { return sample_ggx_reflection_bounded(o, alpha, u); },
-                                     [&](vec3 i) { return ggx_reflection_bounded_pdf(o, i, alpha); }, 2), 5.2);
+                                     [&](vec3 i) { return ggx_reflection_bounded_pdf(o, i, alpha); }, 2),
+                  5.2);
     }
     EXPECT_LT(chi_square_deviate([](vec2 u) { return sample_cosine(u); }, [](vec3 i) { return i.z / pi; }, 3), 5.2);
 }
@@ -95,8 +104,12 @@ TEST(brdf, chi_square_test_has_power) {
     const vec3 o = direction(0.5, 0.7);
     const auto sample = [&](vec2 u) { return sample_ggx_reflection(o, alpha, u); };
     // A lobe that is 10 % wider, and the bounded density for unbounded samples.
-    EXPECT_GT(chi_square_deviate(sample, [&](vec3 i) { return ggx_reflection_pdf(o, i, 1.1f * alpha); }, 1), 5.2);
-    EXPECT_GT(chi_square_deviate(sample, [&](vec3 i) { return ggx_reflection_bounded_pdf(o, i, alpha); }, 1), 5.2);
+    EXPECT_GT(chi_square_deviate(
+                  sample, [&](vec3 i) { return ggx_reflection_pdf(o, i, 1.1f * alpha); }, 1),
+              5.2);
+    EXPECT_GT(chi_square_deviate(
+                  sample, [&](vec3 i) { return ggx_reflection_bounded_pdf(o, i, alpha); }, 1),
+              5.2);
 }
 
 TEST(brdf, distribution_is_exact_in_float) {
@@ -117,7 +130,8 @@ TEST(brdf, weights_stay_in_range_at_grazing_views) {
             const vec3 o = direction(mu, 0.3);
             for (uint32_t i = 0; i < 256; ++i) {
                 const glm::vec2 u = SobolSequence(5).pair(reverse_bits(i), 0);
-                for (const vec3 towards : {sample_ggx_reflection(o, alpha, u), sample_ggx_reflection_bounded(o, alpha, u)}) {
+                for (const vec3 towards :
+                     {sample_ggx_reflection(o, alpha, u), sample_ggx_reflection_bounded(o, alpha, u)}) {
                     ASSERT_NEAR(length(towards), 1, 1e-5);
                     const float weight = ggx_reflection_weight(mu, towards.z, alpha);
                     ASSERT_TRUE(weight >= 0 && weight <= 1.00001f) << weight;
@@ -134,14 +148,19 @@ TEST(brdf, lobe_evaluation_agrees_with_the_shared_formulas) {
             const vec3 o = direction(0.6, 0), i = direction(0.4, 2.6), m = normalize(o + i);
             const float specular = 0.8f, alpha = ggx_alpha(roughness), w = schlick_weight(dot(o, m));
             const Lobes lobes = make_lobes(color, metalness, roughness, specular, o, ReflectionModel::gltf);
-            const LobeValues found = evaluate(lobes, i), swapped = evaluate(make_lobes(color, metalness, roughness, specular, i, ReflectionModel::gltf), o);
+            const LobeValues found = evaluate(lobes, i),
+                             swapped = evaluate(
+                                 make_lobes(color, metalness, roughness, specular, i, ReflectionModel::gltf), o);
             // glTF 2.0, Appendix B, written out; KHR_materials_specular scales the dielectric Fresnel term.
             const float dielectric = specular * (0.04f + 0.96f * w), lobe = ggx_specular(o, i, alpha);
             for (int channel = 0; channel < 3; ++channel) {
                 const float metal = color[channel] + (1 - color[channel]) * w;
-                EXPECT_NEAR(found.diffuse[channel], (1 - metalness) * (1 - dielectric) * color[channel] / pi * i.z, 1e-6f);
-                EXPECT_NEAR(found.specular[channel], ((1 - metalness) * dielectric + metalness * metal) * lobe * i.z, 1e-5f * (1 + lobe));
-                EXPECT_NEAR(found.specular[channel] / i.z, swapped.specular[channel] / o.z, 1e-5f * (1 + lobe));  // reciprocity
+                EXPECT_NEAR(found.diffuse[channel], (1 - metalness) * (1 - dielectric) * color[channel] / pi * i.z,
+                            1e-6f);
+                EXPECT_NEAR(found.specular[channel], ((1 - metalness) * dielectric + metalness * metal) * lobe * i.z,
+                            1e-5f * (1 + lobe));
+                EXPECT_NEAR(found.specular[channel] / i.z, swapped.specular[channel] / o.z,
+                            1e-5f * (1 + lobe));  // reciprocity
             }
             EXPECT_NEAR(found.specular_pdf, ggx_reflection_bounded_pdf(o, i, alpha), 1e-5f * (1 + found.specular_pdf));
         }
@@ -181,7 +200,8 @@ TEST(golden_brdf, sampled_albedo_and_first_moments) {
                 normal += weight * towards.z / samples;
             }
             SCOPED_TRACE(testing::Message() << "alpha " << alpha << ", cosine " << mu);
-            // 2^14 points of a (0, 2)-sequence: the integrand jumps at the horizon, so the error falls like N^-3/4, 7e-4.
+            // 2^14 points of a (0, 2)-sequence: the integrand jumps at the horizon, so the error falls like N^-3/4,
+            // 7e-4.
             EXPECT_NEAR(albedo, double(table["E"][row][column]), 7e-4);
             EXPECT_NEAR(tangential, double(moments["Mt"][row][column]), 7e-4);
             EXPECT_NEAR(normal, double(moments["Mz"][row][column]), 7e-4);
@@ -204,17 +224,21 @@ TEST(golden_split_sum, table) {
     const HostImage table = split_sum_table();
     const auto size = float(table.extent.x);
     const auto texel = [&](int x, int y) {
-        const float* value = table.pixel(unsigned(std::clamp(x, 0, int(size) - 1)), unsigned(std::clamp(y, 0, int(size) - 1)));
+        const float* value =
+            table.pixel(unsigned(std::clamp(x, 0, int(size) - 1)), unsigned(std::clamp(y, 0, int(size) - 1)));
         return glm::dvec2(value[0], value[1]);
     };
     const nlohmann::json dense = golden_table("brdf_lut")["dense"];
     for (size_t row = 0; row < dense["perceptualRoughness"].size(); ++row)
         for (size_t column = 0; column < dense["cosTheta"].size(); ++column) {
-            const float y = float(dense["perceptualRoughness"][row]) * size - 0.5f, x = float(dense["cosTheta"][column]) * size - 0.5f;
+            const float y = float(dense["perceptualRoughness"][row]) * size - 0.5f,
+                        x = float(dense["cosTheta"][column]) * size - 0.5f;
             const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
             const glm::dvec2 found = glm::mix(glm::mix(texel(x0, y0), texel(x0 + 1, y0), double(x - float(x0))),
-                                              glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), double(x - float(x0))), double(y - float(y0)));
-            // Bilinear interpolation misses half the second derivative times (1/128)^2, which is large at grazing views only.
+                                              glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), double(x - float(x0))),
+                                              double(y - float(y0)));
+            // Bilinear interpolation misses half the second derivative times (1/128)^2, which is large at grazing views
+            // only.
             const double tolerance = double(dense["cosTheta"][column]) < 0.1 ? 6e-3 : 1e-3;
             EXPECT_NEAR(found.x, double(dense["A"][row][column]), tolerance);
             EXPECT_NEAR(found.y, double(dense["B"][row][column]), tolerance);

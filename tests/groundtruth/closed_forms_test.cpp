@@ -2,12 +2,13 @@
 #include "tests/groundtruth/test_scene.h"
 #include "tests/groundtruth/vectors.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 // Scenes whose radiance has a closed form, rendered by the real path tracer. Each of the 60 or so comparisons allows 6
-// standard errors of 16 batches (Student's t with 15 degrees of freedom: p = 2.4e-5, so 0.2 % of all choices of seeds would
-// fail a correct tracer somewhere; the seeds are fixed) plus what the scene deviates from the ideal one, as stated.
+// standard errors of 16 batches (Student's t with 15 degrees of freedom: p = 2.4e-5, so 0.2 % of all choices of seeds
+// would fail a correct tracer somewhere; the seeds are fixed) plus what the scene deviates from the ideal one, as
+// stated.
 
 namespace {
 
@@ -41,9 +42,11 @@ TEST(golden_closed_forms, diffuse_enclosure) {  // 1
     scene.room(glm::vec3(-1), glm::vec3(1), scene.add(lambert_material(0.5f, 0.5f)));
     const CameraPose camera = looking_along({0.2f, 0.1f, 0.3f}, {0.3f, -0.5f, -1.0f});
     for (const ReflectionModel model : {ReflectionModel::gltf, ReflectionModel::lambert}) {
-        expect_mean(render(scene, camera, 1024, {.model = model}).diffuse, analytic("diffuse_enclosure_Le0.5_rho0.5"), 1e-6);
+        expect_mean(render(scene, camera, 1024, {.model = model}).diffuse, analytic("diffuse_enclosure_Le0.5_rho0.5"),
+                    1e-6);
         // Without light samples and roulette each path adds the same geometric series.
-        const PathTracerSettings exact{.max_depth = 8, .strategy = LightStrategy::bsdf_only, .russian_roulette = false, .model = model};
+        const PathTracerSettings exact{
+            .max_depth = 8, .strategy = LightStrategy::bsdf_only, .russian_roulette = false, .model = model};
         const double truncated = golden_table("analytic_cases")["diffuse_enclosure_Le0.5_rho0.5"]["truncated_depth8"];
         EXPECT_NEAR(render(scene, camera, 16, exact).diffuse.mean.x, truncated, 1e-6);
     }
@@ -88,9 +91,11 @@ TEST(golden_closed_forms, dielectric_and_metal_furnace) {  // 3
             const PixelMoments pixel = render(dielectric, camera, 2048);
             // The tables have 6 digits.
             expect_mean(pixel.diffuse, furnace["diffuse_part"][column], 2e-6);
-            Moments total{pixel.diffuse.mean + pixel.specular.mean, pixel.diffuse.standard_error + pixel.specular.standard_error};
+            Moments total{pixel.diffuse.mean + pixel.specular.mean,
+                          pixel.diffuse.standard_error + pixel.specular.standard_error};
             expect_mean(total, furnace["total_by_perceptualRoughness"][row][column], 4e-6);
-            expect_mean(render(metal, camera, 2048).specular, 0.3 * double(table["A"][row][column]) + double(table["B"][row][column]), 4e-6);
+            expect_mean(render(metal, camera, 2048).specular,
+                        0.3 * double(table["A"][row][column]) + double(table["B"][row][column]), 4e-6);
         }
     }
 }
@@ -105,8 +110,8 @@ TEST(golden_closed_forms, smooth_mirror_follows_schlick) {  // 4, 17
         const unsigned lamp = scene.add(lambert_material(0.0f, 3.0f));
         scene.room(glm::vec3(-50, -1, -50), glm::vec3(50, 50, 50), lamp);
         const PixelMoments pixel = render(scene, looking_at_origin(up, {1, 0, 0}, std::stof(text)), 4096);
-        // The lobe of the narrowest alpha, 1e-3, is not a delta: it loses 2e-4 at the most grazing view and averages Schlick's
-        // curve over a milliradian or two.
+        // The lobe of the narrowest alpha, 1e-3, is not a delta: it loses 2e-4 at the most grazing view and averages
+        // Schlick's curve over a milliradian or two.
         expect_mean(pixel.specular, 3 * double(value), 3 * 1e-3 * double(value));
         expect_mean(pixel.incident, 3.0, 1e-5);
     }
@@ -144,12 +149,17 @@ TEST(golden_closed_forms, disk_light_on_lambert) {  // 6
     const int n = 256;
     for (int i = 0; i <= n; ++i) {
         const double angle = 2 * M_PI * i / n;
-        disk.vertices.push_back({glm::vec3(i == n ? 0 : std::cos(angle), 2, i == n ? 0 : std::sin(angle)), {0, -1, 0}, {1, 0, 0, 1}, {}, glm::vec4(1)});
+        disk.vertices.push_back({glm::vec3(i == n ? 0 : std::cos(angle), 2, i == n ? 0 : std::sin(angle)),
+                                 {0, -1, 0},
+                                 {1, 0, 0, 1},
+                                 {},
+                                 glm::vec4(1)});
         if (i < n) disk.indices.insert(disk.indices.end(), {uint32_t(n), uint32_t(i), uint32_t((i + 1) % n)});
     }
     scene.mesh(std::move(disk));
     // The polygon has 1e-4 less area than its circle.
-    expect_mean(render(scene, looking_at_origin(up, {0, 0, 1}, 0.2f), 4096).diffuse, analytic("disk_light_coaxial"), 2e-4);
+    expect_mean(render(scene, looking_at_origin(up, {0, 0, 1}, 0.2f), 4096).diffuse, analytic("disk_light_coaxial"),
+                2e-4);
 }
 
 TEST(golden_closed_forms, rectangle_light_on_lambert) {  // 7
@@ -197,13 +207,17 @@ TEST(golden_closed_forms, facing_mirrors) {  // 10
         const CameraPose camera = looking_along({0, .5f, 0}, {0, -1, 0});
         for (const unsigned depth : {4u, 64u})
             for (const bool roulette : {false, true}) {
-                const PixelMoments pixel = render(scene, camera, 1024, {.max_depth = depth, .russian_roulette = roulette});
+                const PixelMoments pixel =
+                    render(scene, camera, 1024, {.max_depth = depth, .russian_roulette = roulette});
                 const Moments total{pixel.diffuse.mean + pixel.specular.mean, pixel.specular.standard_error};
                 const double exact = (1 - std::pow(double(reflectance), depth + 1)) / (1 - reflectance);
                 // Each reflection at alpha = 1e-3 loses 1e-6, and a few of 1e5 rays leave the narrow core of the lobe.
                 expect_mean(total, exact, 1e-4 * exact);
                 if (depth == 64) {
-                    EXPECT_NEAR(exact, analytic(reflectance < 0.6f ? "facing_mirrors_axis_R0.5_Le1" : "facing_mirrors_axis_R0.9_Le1"), 0.012);
+                    EXPECT_NEAR(
+                        exact,
+                        analytic(reflectance < 0.6f ? "facing_mirrors_axis_R0.5_Le1" : "facing_mirrors_axis_R0.9_Le1"),
+                        0.012);
                 }
             }
     }
@@ -214,7 +228,8 @@ TEST(golden_closed_forms, mirror_box_of_constant_fresnel) {  // 11
     Material mirror = metal_material(0.5f, 0.0f);
     mirror.emission = glm::vec3(1.0f);
     scene.room(glm::vec3(-1), glm::vec3(1), scene.add(mirror));
-    const PixelMoments pixel = render(scene, looking_along({.2f, .1f, .3f}, {.4f, -.5f, -1}), 1024, {.model = ReflectionModel::constant_fresnel});
+    const PixelMoments pixel = render(scene, looking_along({.2f, .1f, .3f}, {.4f, -.5f, -1}), 1024,
+                                      {.model = ReflectionModel::constant_fresnel});
     const Moments total{pixel.diffuse.mean + pixel.specular.mean, pixel.specular.standard_error};
     expect_mean(total, 2.0, 2e-4);  // the lobe of alpha = 1e-3 loses up to 2e-5 in these directions
 }
@@ -222,7 +237,8 @@ TEST(golden_closed_forms, mirror_box_of_constant_fresnel) {  // 11
 TEST(golden_closed_forms, lambert_under_gradient) {  // 12
     TestScene scene;
     add_floor(scene, scene.add(lambert_material(0.5f)));
-    scene.scene.environment = {.type = Environment::Type::gradient, .color = glm::vec3(1), .slope = glm::vec3(.8f), .axis = {.8f, .6f, 0}};
+    scene.scene.environment = {
+        .type = Environment::Type::gradient, .color = glm::vec3(1), .slope = glm::vec3(.8f), .axis = {.8f, .6f, 0}};
     const CameraPose camera = looking_at_origin(up, {0, 0, 1}, 0.3f);
     expect_mean(render(scene, camera, 2048).diffuse, analytic("lambert_linear_gradient"), 1e-6);
 
@@ -234,7 +250,8 @@ TEST(golden_closed_forms, lambert_under_gradient) {  // 12
         for (unsigned x = 0; x < 512; ++x) {
             const double azimuth = 2 * M_PI * ((x + 0.5) / 512 - 0.5), polar = M_PI * (y + 0.5) / 256;
             const double cosine = 0.8 * std::sin(polar) * std::cos(azimuth) + 0.6 * std::cos(polar);
-            environment.latlong.set_rgb(size_t(y) * 512 + x, glm::vec3(float(1 + 0.5 * 0.5 * (3 * cosine * cosine - 1))));
+            environment.latlong.set_rgb(size_t(y) * 512 + x,
+                                        glm::vec3(float(1 + 0.5 * 0.5 * (3 * cosine * cosine - 1))));
         }
     // Bilinear filtering flattens a quadratic by its curvature times (texel angle)^2 / 8: 3e-5.
     expect_mean(render(scene, camera, 4096).diffuse, analytic("lambert_sh2"), 5e-5);
@@ -249,7 +266,8 @@ TEST(golden_closed_forms, ggx_under_gradient) {  // 13
             SCOPED_TRACE(testing::Message() << "alpha " << alpha << ", cosine " << cosine);
             TestScene scene;
             add_floor(scene, scene.add(metal_material(1.0f, std::sqrt(alpha))));
-            scene.scene.environment = {.type = Environment::Type::gradient, .color = glm::vec3(1), .slope = glm::vec3(.8f), .axis = axis};
+            scene.scene.environment = {
+                .type = Environment::Type::gradient, .color = glm::vec3(1), .slope = glm::vec3(.8f), .axis = axis};
             // The viewer is at +x, so the mirror tangent is -x.
             const double exact = double(table["E"][row][column]) + 0.8 * (-axis.x * double(moments["Mt"][row][column]) +
                                                                           axis.y * double(moments["Mz"][row][column]));

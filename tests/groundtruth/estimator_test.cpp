@@ -1,14 +1,14 @@
 #include "tests/groundtruth/test_scene.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <cmath>
 
-// Properties that hold for any scene: the mean does not depend on how it is estimated. z-tests allow 6 joint standard errors
-// of 16 batches each (Student's t, about 30 degrees of freedom: p = 1.4e-6 a comparison, 500 comparisons: 0.07 % of all
-// choices of seeds would fail a correct tracer; the seeds are fixed).
+// Properties that hold for any scene: the mean does not depend on how it is estimated. z-tests allow 6 joint standard
+// errors of 16 batches each (Student's t, about 30 degrees of freedom: p = 1.4e-6 a comparison, 500 comparisons: 0.07 %
+// of all choices of seeds would fail a correct tracer; the seeds are fixed).
 
 namespace {
 
@@ -23,7 +23,8 @@ TestScene make_room(float scale = 1.0f) {
     room.scene.textures.push_back(stripes);
     fence.alpha_mode = AlphaMode::mask;
     fence.base_color_texture.texture = 0;
-    const unsigned floor = room.add(metal_material(0.8f, 0.7f)), painted = room.add(plastic), grey = room.add(wall), mask = room.add(fence);
+    const unsigned floor = room.add(metal_material(0.8f, 0.7f)), painted = room.add(plastic), grey = room.add(wall),
+                   mask = room.add(fence);
     const unsigned lamp = room.add(lambert_material(0.0f, 5.0f * scale));
     room.quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, floor);
     room.quad({-2, 0, -2}, {2, 0, -2}, {2, 3, -2}, {-2, 3, -2}, grey);
@@ -31,7 +32,11 @@ TestScene make_room(float scale = 1.0f) {
     room.quad({0.5f, 2.5f, -0.5f}, {1.5f, 2.5f, -0.5f}, {1.5f, 2.5f, 0.5f}, {0.5f, 2.5f, 0.5f}, lamp);
     room.quad({0, 1.5f, -1}, {2, 1.5f, -1}, {2, 1.5f, 1}, {0, 1.5f, 1}, mask);
     room.sphere({-0.7f, 0.6f, -0.5f}, 0.6f, 24, painted);
-    room.scene.lights.push_back({.type = LightType::spot, .intensity = glm::vec3(2.0f * scale), .range = 20, .position = {-1, 2.5f, 1}, .direction = {0, -1, 0}});
+    room.scene.lights.push_back({.type = LightType::spot,
+                                 .intensity = glm::vec3(2.0f * scale),
+                                 .range = 20,
+                                 .position = {-1, 2.5f, 1},
+                                 .direction = {0, -1, 0}});
     Environment& sky = room.scene.environment;
     sky.type = Environment::Type::image;
     sky.latlong = HostImage({32, 16}, 3, 0.2f * scale);
@@ -56,7 +61,9 @@ struct Render {
 Render render_room(const TestScene& room, const PathTracerSettings& settings, unsigned samples, uint64_t seed) {
     const PathTracer tracer(room.scene, room.pose(), room_camera(), extent, settings);
     Render result{std::vector<PixelMoments>(std::size(pixels))};
-    tbb::parallel_for(size_t(0), std::size(pixels), [&](size_t i) { result.pixels[i] = render_pixel(tracer, pixels[i].x, pixels[i].y, samples, seed); });
+    tbb::parallel_for(size_t(0), std::size(pixels), [&](size_t i) {
+        result.pixels[i] = render_pixel(tracer, pixels[i].x, pixels[i].y, samples, seed);
+    });
     return result;
 }
 
@@ -114,13 +121,15 @@ TEST(estimator, translation_changes_nothing) {
     const Render here = render_room(room, {}, 4096, 6);
     const PathTracer tracer(moved.scene, moved.pose(), camera, extent, {});
     Render there{std::vector<PixelMoments>(std::size(pixels))};
-    for (size_t i = 0; i < std::size(pixels); ++i) there.pixels[i] = render_pixel(tracer, pixels[i].x, pixels[i].y, 4096, 7);
+    for (size_t i = 0; i < std::size(pixels); ++i)
+        there.pixels[i] = render_pixel(tracer, pixels[i].x, pixels[i].y, 4096, 7);
     expect_same_means(there, here);
 }
 
 TEST(estimator, scaling_all_light_by_1024_scales_every_bit) {
     const TestScene dim = make_room(), bright = make_room(1024);
-    const PathTracer a(dim.scene, dim.pose(), room_camera(), extent, {}), b(bright.scene, bright.pose(), room_camera(), extent, {});
+    const PathTracer a(dim.scene, dim.pose(), room_camera(), extent, {}),
+        b(bright.scene, bright.pose(), room_camera(), extent, {});
     for (const glm::uvec2 pixel : pixels) {
         const PixelEstimate x = sums(a, pixel, 256), y = sums(b, pixel, 256);
         EXPECT_EQ(x.diffuse * 1024.0, y.diffuse);
@@ -141,7 +150,8 @@ TEST(estimator, leaving_out_changes_no_bit) {
     ScenePose pose = plain.pose();
     pose.world_from_instance.pop_back();
     const CameraPose camera = looking_along({0.1f, 0.2f, 3}, {0.1f, 0.2f, -1});
-    const PathTracer lean(plain.scene, pose, camera, {1, 1}, {}), full(plain.scene, pose, camera, {1, 1}, {.keep_all = true});
+    const PathTracer lean(plain.scene, pose, camera, {1, 1}, {}),
+        full(plain.scene, pose, camera, {1, 1}, {.keep_all = true});
     EXPECT_EQ(lean.left_out().size(), 5u);
     EXPECT_TRUE(full.left_out().empty());
     const PixelEstimate a = sums(lean, {0, 0}, 512), b = sums(full, {0, 0}, 512);
@@ -151,9 +161,11 @@ TEST(estimator, leaving_out_changes_no_bit) {
     EXPECT_EQ(a.incident, b.incident);
 
     const TestScene room = make_room();
-    const PathTracer lean_room(room.scene, room.pose(), room_camera(), extent, {}), full_room(room.scene, room.pose(), room_camera(), extent, {.keep_all = true});
+    const PathTracer lean_room(room.scene, room.pose(), room_camera(), extent, {}),
+        full_room(room.scene, room.pose(), room_camera(), extent, {.keep_all = true});
     EXPECT_TRUE(lean_room.left_out().empty());
-    for (const glm::uvec2 pixel : pixels) EXPECT_EQ(sums(lean_room, pixel, 64).diffuse, sums(full_room, pixel, 64).diffuse);
+    for (const glm::uvec2 pixel : pixels)
+        EXPECT_EQ(sums(lean_room, pixel, 64).diffuse, sums(full_room, pixel, 64).diffuse);
 }
 
 TEST(estimator, splitting_samples_changes_only_rounding) {
@@ -163,7 +175,8 @@ TEST(estimator, splitting_samples_changes_only_rounding) {
         const PixelEstimate whole = sums(tracer, pixel, 192);
         PixelEstimate parts;
         const FirstHit hit = tracer.first_hit(pixel.x, pixel.y);
-        for (const auto& [first, count] : {std::pair(0u, 5u), {5u, 59u}, {64u, 128u}}) tracer.trace(pixel.x, pixel.y, hit, 9, first, count, parts);
+        for (const auto& [first, count] : {std::pair(0u, 5u), {5u, 59u}, {64u, 128u}})
+            tracer.trace(pixel.x, pixel.y, hit, 9, first, count, parts);
         EXPECT_EQ(whole.samples, parts.samples);
         EXPECT_EQ(whole.lobe_samples, parts.lobe_samples);
         EXPECT_EQ(whole.rays, parts.rays);
@@ -184,7 +197,9 @@ TEST(estimator, number_of_threads_changes_no_bit) {
         std::vector<PixelEstimate>& image = images[threads > 1];
         image.resize(extent.x * extent.y);
         tbb::task_arena(threads).execute([&] {
-            tbb::parallel_for(0u, extent.x * extent.y, [&](unsigned i) { image[i] = sums(tracer, {i % extent.x, i / extent.x}, 32); });
+            tbb::parallel_for(0u, extent.x * extent.y, [&](unsigned i) {
+                image[i] = sums(tracer, {i % extent.x, i / extent.x}, 32);
+            });
         });
     }
     for (size_t i = 0; i < images[0].size(); ++i) {
@@ -199,7 +214,8 @@ TEST(estimator, independent_seeds_differ_as_their_errors_say) {
     const PathTracer tracer(room.scene, room.pose(), room_camera(), {16, 16}, {});
     std::vector<double> z(256, 0.0);
     tbb::parallel_for(0u, 256u, [&](unsigned i) {
-        const PixelMoments a = render_pixel(tracer, i % 16, i / 16, 128, 20), b = render_pixel(tracer, i % 16, i / 16, 128, 21);
+        const PixelMoments a = render_pixel(tracer, i % 16, i / 16, 128, 20),
+                           b = render_pixel(tracer, i % 16, i / 16, 128, 21);
         const double error = std::hypot(a.diffuse.standard_error.y, b.diffuse.standard_error.y);
         if (error > 0) z[i] = (a.diffuse.mean.y - b.diffuse.mean.y) / error;
     });

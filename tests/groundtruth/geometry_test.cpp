@@ -1,8 +1,8 @@
 #include "tests/groundtruth/test_scene.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
 
 // What rays meet: closed scenes do not leak, surfaces do not shadow themselves, masks cut, instances equal copies.
 
@@ -23,14 +23,17 @@ TEST(geometry, closed_rooms_do_not_leak) {
         box.room(glm::vec3(offset - 1), glm::vec3(offset + 1), box.add(metal_material(0.9f, 0.5f)));
         ball.sphere(glm::vec3(offset), 1.0f, 64, ball.add(lambert_material(0.9f)), true);
         for (const TestScene* scene : {&box, &ball})
-            for (const glm::vec3 direction : {glm::vec3(1, 0.2f, 0.1f), glm::vec3(0, -1, 0), glm::vec3(-0.3f, 0.5f, -0.8f)}) {
+            for (const glm::vec3 direction :
+                 {glm::vec3(1, 0.2f, 0.1f), glm::vec3(0, -1, 0), glm::vec3(-0.3f, 0.5f, -0.8f)}) {
                 const PixelMoments pixel = render(*scene, looking_along(glm::vec3(offset) + 0.1f, direction), 512);
                 ASSERT_TRUE(pixel.hit.is_hit);
                 const double leaked = (pixel.diffuse.mean.x + pixel.specular.mean.x) / 1e6;
-                // At 1000 m a float step is 6e-5 m: a hit so close to an edge may be rounded to the far side of the next
-                // wall, which happens to a few hits in 1e4 of this 2 m room.
-                if (offset < 1000) EXPECT_EQ(leaked, 0.0) << "offset " << offset;
-                else EXPECT_LT(leaked, 1e-3);
+                // At 1000 m a float step is 6e-5 m: a hit so close to an edge may be rounded to the far side of the
+                // next wall, which happens to a few hits in 1e4 of this 2 m room.
+                if (offset < 1000)
+                    EXPECT_EQ(leaked, 0.0) << "offset " << offset;
+                else
+                    EXPECT_LT(leaked, 1e-3);
             }
     }
 }
@@ -38,8 +41,10 @@ TEST(geometry, closed_rooms_do_not_leak) {
 TEST(geometry, lamp_a_millimetre_above_a_surface_lights_it) {
     TestScene scene;
     add_floor(scene, scene.add(lambert_material(0.5f)));
-    scene.quad({-.5f, 1e-3f, -.5f}, {.5f, 1e-3f, -.5f}, {.5f, 1e-3f, .5f}, {-.5f, 1e-3f, .5f}, scene.add(lambert_material(0, 10)));
-    const double exact = 5 * polygon_form_factor(glm::dvec3(0), up, {{-.5, 1e-3, -.5}, {.5, 1e-3, -.5}, {.5, 1e-3, .5}, {-.5, 1e-3, .5}});
+    scene.quad({-.5f, 1e-3f, -.5f}, {.5f, 1e-3f, -.5f}, {.5f, 1e-3f, .5f}, {-.5f, 1e-3f, .5f},
+               scene.add(lambert_material(0, 10)));
+    const double exact = 5 * polygon_form_factor(glm::dvec3(0), up,
+                                                 {{-.5, 1e-3, -.5}, {.5, 1e-3, -.5}, {.5, 1e-3, .5}, {-.5, 1e-3, .5}});
     // The camera looks from between the lamp and the floor.
     const PixelMoments pixel = render(scene, looking_along({0, 5e-4f, 0}, {0, -1, 0}), 1024);
     for (int channel = 0; channel < 3; ++channel)
@@ -77,7 +82,8 @@ TEST(geometry, alpha_mask_cuts_camera_rays_and_shadow_rays) {
     mask.base_color_texture.texture = 0;
     add_floor(scene, scene.add(lambert_material(0.5f)));
     scene.quad({-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1}, scene.add(mask));  // opaque for x < 0
-    scene.scene.lights.push_back({.type = LightType::directional, .intensity = glm::vec3(2.0f), .direction = {0, -1, 0}});
+    scene.scene.lights.push_back(
+        {.type = LightType::directional, .intensity = glm::vec3(2.0f), .direction = {0, -1, 0}});
     const PixelMoments covered = render(scene, looking_along({-.5f, 2, 0}, {0, -1, 0}), 16);
     const PixelMoments open = render(scene, looking_along({.5f, 2, 0}, {0, -1, 0}), 16);
     EXPECT_EQ(covered.hit.material, 1u);
@@ -112,7 +118,8 @@ TEST(geometry, instances_equal_baked_copies) {
     // Two balls, one mirrored and stretched, as two instances of one mesh and as two meshes.
     TestScene one, two;
     for (TestScene* scene : {&one, &two}) {
-        scene->scene.environment = {.type = Environment::Type::gradient, .color = glm::vec3(1), .slope = glm::vec3(0.5f)};
+        scene->scene.environment = {
+            .type = Environment::Type::gradient, .color = glm::vec3(1), .slope = glm::vec3(0.5f)};
         add_floor(*scene, scene->add(lambert_material(0.6f)), 5);
         Material shiny = metal_material(0.7f, 0.4f);
         shiny.emission = {0.2f, 0, 0};
@@ -121,7 +128,8 @@ TEST(geometry, instances_equal_baked_copies) {
     two.mesh(two.scene.meshes[1]);
     ScenePose pose = two.pose();
     pose.world_from_instance[1] = glm::translate(glm::mat4(1.0f), glm::vec3(-.7f, .6f, 0));
-    pose.world_from_instance[2] = glm::rotate(glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(.7f, .8f, 0)), glm::vec3(-1, 1.5f, 1)), 0.3f, up);
+    pose.world_from_instance[2] = glm::rotate(
+        glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(.7f, .8f, 0)), glm::vec3(-1, 1.5f, 1)), 0.3f, up);
     one.scene.instances.push_back({1, 0});
     CameraPose camera = looking_along({0, 1.5f, 4}, {0, -0.25f, -1});
     camera.is_orthographic = false;

@@ -5,8 +5,8 @@
 #include "groundtruth/traced_scene.h"
 #include "tests/groundtruth/test_scene.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <set>
 
 namespace {
@@ -68,7 +68,9 @@ TEST(sobol, integrates_smooth_functions_faster_than_random_numbers) {
             double sum = 0;
             for (uint32_t i = 0; i < 256; ++i) {
                 const SobolSequence sequence(seed);
-                const glm::vec2 u = random ? glm::vec2(sequence.random(reverse_bits(i), 0), sequence.random(reverse_bits(i), 1)) : sequence.pair(reverse_bits(i), 0);
+                const glm::vec2 u =
+                    random ? glm::vec2(sequence.random(reverse_bits(i), 0), sequence.random(reverse_bits(i), 1))
+                           : sequence.pair(reverse_bits(i), 0);
                 sum += std::exp(u.x) * u.y / 256;
             }
             squares += (sum - (M_E - 1) / 2) * (sum - (M_E - 1) / 2) / 64;
@@ -99,15 +101,18 @@ TEST(alias_table, draws_by_weight_and_hands_back_a_uniform_number) {
 
 TEST(environment_table, density_integrates_to_one_and_is_that_of_the_samples) {
     Environment sky{.type = Environment::Type::image, .latlong = HostImage({48, 24}, 3, 0.1f), .rotation = 0.7f};
-    for (int channel = 0; channel < 3; ++channel) sky.latlong.pixel(30, 6)[channel] = 50, sky.latlong.pixel(5, 23)[channel] = 9;
+    for (int channel = 0; channel < 3; ++channel)
+        sky.latlong.pixel(30, 6)[channel] = 50, sky.latlong.pixel(5, 23)[channel] = 9;
     for (const bool compensate : {false, true}) {
         const EnvironmentTable table(sky, compensate);
         double integral = 0, light = 0, sampled_light = 0;
         const int rows = 480, columns = 960;
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column) {
-                const glm::vec3 d = environment_direction({(column + 0.5f) / columns, (row + 0.5f) / rows}, sky.rotation);
-                const double solid_angle = 2 * M_PI / columns * (std::cos(M_PI * row / rows) - std::cos(M_PI * (row + 1) / rows));
+                const glm::vec3 d =
+                    environment_direction({(column + 0.5f) / columns, (row + 0.5f) / rows}, sky.rotation);
+                const double solid_angle =
+                    2 * M_PI / columns * (std::cos(M_PI * row / rows) - std::cos(M_PI * (row + 1) / rows));
                 integral += table.pdf(d) * solid_angle;
                 if (table.pdf(d) > 0) light += sky.radiance(d).x * solid_angle;
             }
@@ -147,8 +152,10 @@ TEST(light_sampler, densities_are_those_of_the_surfaces_that_rays_meet) {
             RTCRayHit ray;
             const vec3 direction = lights.direction.get(lane);
             if (!intersect(traced.geometry.handle(), vec3(0), direction, ray)) continue;  // past a facet seen edge-on
-            const vec3 normal = traced.geometry.point(ray.hit.instID[0], ray.hit.primID, ray.hit.u, ray.hit.v).front_normal;
-            const float pdf = traced.lights.triangle_pdf(ray.hit.instID[0], ray.hit.primID, normal, direction, ray.ray.tfar);
+            const vec3 normal =
+                traced.geometry.point(ray.hit.instID[0], ray.hit.primID, ray.hit.u, ray.hit.v).front_normal;
+            const float pdf =
+                traced.lights.triangle_pdf(ray.hit.instID[0], ray.hit.primID, normal, direction, ray.ray.tfar);
             // A ray along a shared edge may meet the neighbour, whose density is another.
             if (std::abs(pdf - lights.pdf[lane]) < 1e-3f * pdf) solid_angle += 1.0 / pdf / samples;
         }

@@ -36,10 +36,12 @@ void TestScene::sphere(glm::vec3 center, float radius, int n, unsigned material,
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= 2 * n; ++i) {
             const double polar = M_PI * j / n, azimuth = M_PI * (i % (2 * n)) / n;
-            const glm::dvec3 direction(std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth));
+            const glm::dvec3 direction(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                                       std::sin(polar) * std::sin(azimuth));
             const glm::vec3 normal(is_inward ? -direction : direction);
             const glm::vec2 uv(float(i) / float(2 * n), float(j) / float(n));
-            sphere.vertices.push_back({center + radius * glm::vec3(direction), normal, {1, 0, 0, 1}, {uv, uv}, glm::vec4(1.0f)});
+            sphere.vertices.push_back(
+                {center + radius * glm::vec3(direction), normal, {1, 0, 0, 1}, {uv, uv}, glm::vec4(1.0f)});
         }
     const auto at = [&](int i, int j) { return uint32_t(j * (2 * n + 1) + i); };
     for (int j = 0; j < n; ++j)
@@ -87,13 +89,16 @@ CameraPose looking_along(glm::vec3 eye, glm::vec3 direction) {
     CameraPose pose;
     pose.is_orthographic = true;
     pose.orthographic_height = 0.01f;
-    const glm::vec3 up = std::abs(direction.y) < 0.9f * glm::length(direction) ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    pose.world_from_view = glm::mat4(glm::inverse(glm::lookAt(glm::dvec3(eye), glm::dvec3(eye) + glm::dvec3(direction), glm::dvec3(up))));
+    const glm::vec3 up =
+        std::abs(direction.y) < 0.9f * glm::length(direction) ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    pose.world_from_view =
+        glm::mat4(glm::inverse(glm::lookAt(glm::dvec3(eye), glm::dvec3(eye) + glm::dvec3(direction), glm::dvec3(up))));
     return pose;
 }
 
 CameraPose looking_at_origin(glm::vec3 normal, glm::vec3 towards, float cosine) {
-    const glm::dvec3 view = double(cosine) * glm::dvec3(normal) + std::sqrt(1 - double(cosine) * cosine) * glm::dvec3(towards);
+    const glm::dvec3 view =
+        double(cosine) * glm::dvec3(normal) + std::sqrt(1 - double(cosine) * cosine) * glm::dvec3(towards);
     return looking_along(glm::vec3(view), glm::vec3(-view));
 }
 
@@ -113,14 +118,15 @@ PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsi
     for (int output = 0; output < 3; ++output) {
         for (const glm::dvec3& mean : means[output]) moments[output]->mean += mean / double(batch_count);
         glm::dvec3 squares(0.0);
-        for (const glm::dvec3& mean : means[output]) squares += (mean - moments[output]->mean) * (mean - moments[output]->mean);
+        for (const glm::dvec3& mean : means[output])
+            squares += (mean - moments[output]->mean) * (mean - moments[output]->mean);
         moments[output]->standard_error = glm::sqrt(squares / double(batch_count * (batch_count - 1)));
     }
     return result;
 }
 
-PixelMoments render(const TestScene& scene, const CameraPose& camera, unsigned samples_per_batch, PathTracerSettings settings,
-                    uint64_t seed) {
+PixelMoments render(const TestScene& scene, const CameraPose& camera, unsigned samples_per_batch,
+                    PathTracerSettings settings, uint64_t seed) {
     const ScenePose pose = scene.pose();
     return render_pixel(PathTracer(scene.scene, pose, camera, {1, 1}, settings), 0, 0, samples_per_batch, seed);
 }
@@ -128,7 +134,8 @@ PixelMoments render(const TestScene& scene, const CameraPose& camera, unsigned s
 double polygon_form_factor(glm::dvec3 point, glm::dvec3 normal, const std::vector<glm::dvec3>& corners) {
     double sum = 0;
     for (size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec3 a = glm::normalize(corners[i] - point), b = glm::normalize(corners[(i + 1) % corners.size()] - point);
+        const glm::dvec3 a = glm::normalize(corners[i] - point),
+                         b = glm::normalize(corners[(i + 1) % corners.size()] - point);
         const glm::dvec3 edge = glm::cross(a, b);
         const double sine = glm::length(edge);
         if (sine > 0) sum += std::atan2(sine, glm::dot(a, b)) * glm::dot(edge / sine, normal);

@@ -31,8 +31,8 @@ Material metal_material(float f0, float roughness);
 /// An orthographic camera at `eye` that looks along `direction`; a single pixel sees the point ahead of it.
 CameraPose looking_along(glm::vec3 eye, glm::vec3 direction);
 
-/// An orthographic camera 1 m from the origin that sees it under the angle whose cosine to `normal` is `cosine`; the viewer's
-/// side is `towards`, a unit vector perpendicular to `normal`.
+/// An orthographic camera 1 m from the origin that sees it under the angle whose cosine to `normal` is `cosine`; the
+/// viewer's side is `towards`, a unit vector perpendicular to `normal`.
 CameraPose looking_at_origin(glm::vec3 normal, glm::vec3 towards, float cosine);
 
 struct Moments {
@@ -46,17 +46,18 @@ struct PixelMoments {
 
 inline constexpr unsigned batch_count = 16;
 
-/// Renders one pixel with 16 independent batches; the standard error comes from their spread, so that it follows Student's t
-/// distribution with 15 degrees of freedom.
-PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsigned samples_per_batch, uint64_t seed = 1);
+/// Renders one pixel with 16 independent batches; the standard error comes from their spread, so that it follows
+/// Student's t distribution with 15 degrees of freedom.
+PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsigned samples_per_batch,
+                          uint64_t seed = 1);
 
 /// The one pixel of a camera.
-PixelMoments render(const TestScene& scene, const CameraPose& camera, unsigned samples_per_batch, PathTracerSettings settings = {},
-                    uint64_t seed = 1);
+PixelMoments render(const TestScene& scene, const CameraPose& camera, unsigned samples_per_batch,
+                    PathTracerSettings settings = {}, uint64_t seed = 1);
 
-/// Irradiance / radiance at `point` with unit `normal` from a polygon wholly above its horizon (Lambert 1760): the mean over
-/// its edges of angle times the normal's cosine to the edge's plane. Its area counts as seen from the side that sees it
-/// counter-clockwise.
+/// Irradiance / radiance at `point` with unit `normal` from a polygon wholly above its horizon (Lambert 1760): the mean
+/// over its edges of angle times the normal's cosine to the edge's plane. Its area counts as seen from the side that
+/// sees it counter-clockwise.
 double polygon_form_factor(glm::dvec3 point, glm::dvec3 normal, const std::vector<glm::dvec3>& corners);
 
 /// Sum over the front-facing triangles of the scene's mesh `index`.
