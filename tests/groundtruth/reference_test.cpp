@@ -1,0 +1,154 @@
+// References: their halves and variances, their stops, their states and the cache.
+#include "core/error.h"
+#include "core/scene/load_scene.h"
+#include "groundtruth/reference_cache.h"
+#include "groundtruth/reference_error.h"
+#include "groundtruth/reference_file.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr glm::uvec2 extent(32, 18);
+
+struct References : testing::Test {
+    fs::path folder =
+        fs::temp_directory_path() /
+        ("ssrlab_reference_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    Scene scene = load_scene("roughness_gradient", {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    ScenePose pose = pose_scene(scene, 0);
+    CameraPose camera = pose_camera(scene.cameras.front(), pose, 0);
+
+    void SetUp() override { fs::remove_all(folder); }
+    void TearDown() override { fs::remove_all(folder); }
+
+    Reference render(const ReferenceSettings& settings, const ReferenceRun& run = {}) const {
+        return render_reference(scene, pose, camera, extent, settings, run);
+    }
+};
+
+ReferenceSettings samples(unsigned count, unsigned seed = 1) { return {.max_samples = count, .seed = seed}; }
+
+/// Mean over all values of (a - b)^2 / (variance of a + variance of b), where there is any variance.
+double mean_z_squared(const ReferenceOutput& a, const ReferenceOutput& b) {
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < a.mean.values.size(); ++i) {
+        const double variance = double(a.variance.values[i]) + b.variance.values[i];
+        if (variance <= 0) continue;
+        sum += std::pow(double(a.mean.values[i]) - b.mean.values[i], 2) / variance;
+        ++count;
+    }
+    return sum / double(count);
+}
+
+double mean_of(const HostImage& image) {
+    double sum = 0;
+    for (const float v : image.values) sum += v;
+    return sum / double(image.values.size());
+}
+
+}  // namespace
+
+TEST_F(References, AreTheSameBitsForAnyNumberOfThreads) {
+    const Reference four = render(samples(64));
+    Reference one;
+    tbb::task_arena(1).execute([&] { one = render(samples(64)); });
+    EXPECT_EQ(one.specular.mean.values, four.specular.mean.values);
+    EXPECT_EQ(one.incident.variance.values, four.incident.variance.values);
+}
+
+TEST_F(References, AreTheMeanOfTheirHalves) {
+    const Reference r = render(samples(64));
+    for (const ReferenceOutput* output : {&r.image, &r.diffuse, &r.specular})
+        for (size_t i = 0; i < output->mean.values.size(); ++i)
+            EXPECT_NEAR(output->mean.values[i], 0.5f * (output->half_a.values[i] + output->half_b.values[i]),
+                        1e-6f + 1e-6f * std::abs(output->mean.values[i]));  // float32 rounding of three numbers
+    for (size_t i = 0; i < r.image.mean.values.size(); ++i)
+        EXPECT_NEAR(r.image.mean.values[i], r.diffuse.mean.values[i] + r.specular.mean.values[i],
+                    1e-6f + 1e-6f * r.image.mean.values[i]);
+    EXPECT_EQ(r.non_finite_samples, 0u);
+}
+
+TEST_F(References, OfOtherSeedsDifferByTheirStatedVariance) {
+    // z^2 of two renders with about 30 degrees of freedom has mean 30/28 if batch means are normal. Rare bright paths make it
+    // smaller. Over some 700 noisy values its own standard error is sqrt(2 / 700) = 5 %: the bounds are 6 of them.
+    const double z = mean_z_squared(render(samples(256, 1)).specular, render(samples(256, 2)).specular);
+    EXPECT_GT(z, 0.7);
+    EXPECT_LT(z, 1.4);
+}
+
+TEST_F(References, StoppedByTheirErrorAreUnbiased) {
+    ReferenceSettings adaptive{.max_samples = 4096, .target_relative_error = 0.03f, .seed = 3};
+    const Reference stopped = render(adaptive), fixed = render(samples(2048, 4));
+    const double z = mean_z_squared(stopped.specular, fixed.specular);
+    EXPECT_GT(z, 0.6);
+    EXPECT_LT(z, 1.5);
+    // The means over the image agree to 1 %: each pixel is known to 3 %, and there are hundreds.
+    EXPECT_NEAR(mean_of(stopped.specular.mean) / mean_of(fixed.specular.mean), 1.0, 0.01);
+    EXPECT_GT(stopped.reached_share, 0.9f);
+}
+
+TEST_F(References, ContinueWhereTheyWereStopped) {
+    const Reference whole = render(samples(1024));
+    struct Stop {};
+    ReferenceRun run;
+    fs::create_directories(folder);
+    run.state_file = folder / "state.exr";
+    run.seconds_between_reports = 0;
+    run.seconds_between_saves = 0;
+    int reports = 0;
+    run.progress = [&](double fraction, double, double) {
+        if (fraction > 0.3 && ++reports > 3) throw Stop{};
+    };
+    EXPECT_THROW(render(samples(1024), run), Stop);
+    EXPECT_TRUE(fs::exists(run.state_file));
+    run.progress = {};
+    const Reference continued = render(samples(1024), run);
+    EXPECT_EQ(continued.specular.mean.values, whole.specular.mean.values);
+    EXPECT_EQ(continued.image.variance.values, whole.image.variance.values);
+}
+
+TEST_F(References, AreCachedByContent) {
+    const auto cached = [&](const ReferenceSettings& settings) { return cached_reference(scene, pose, camera, extent, settings, folder); };
+    const Reference first = cached(samples(64));
+    EXPECT_FALSE(first.from_cache);
+    const Reference again = cached(samples(64));
+    EXPECT_TRUE(again.from_cache);
+    EXPECT_EQ(again.specular.mean.values, first.specular.mean.values);
+    EXPECT_EQ(again.lobe_samples.values, first.lobe_samples.values);
+    EXPECT_FALSE(cached(samples(64, 9)).from_cache);
+    camera.vertical_fov *= 1.1f;
+    EXPECT_FALSE(cached(samples(64)).from_cache);
+    scene.content_hash = "another scene";
+    EXPECT_FALSE(cached(samples(64)).from_cache);
+    for (const auto& file : fs::directory_iterator(folder))
+        if (file.path().extension() == ".exr") fs::resize_file(file.path(), 1000);
+    EXPECT_FALSE(cached(samples(64)).from_cache);  // truncated: rendered anew
+    EXPECT_TRUE(cached(samples(64)).from_cache);
+}
+
+TEST_F(References, SurviveTheirFile) {
+    Reference r = render(samples(64));
+    const std::vector<float> specular = r.specular.mean.values, normal = r.normal.values;
+    write_reference(folder / "r.exr", r, samples(64));
+    const Reference back = read_reference(folder / "r.exr");
+    EXPECT_EQ(back.specular.mean.values, specular);
+    EXPECT_EQ(back.normal.values, normal);
+    EXPECT_EQ(back.extent, extent);
+    EXPECT_THROW(read_reference(folder / "none.exr"), Error);
+}
+
+TEST(ReferenceOfNothing, IsTheSkyExactly) {
+    const Scene sky = load_scene("sky_only", {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    const ScenePose pose = pose_scene(sky, 0);
+    const CameraPose camera = pose_camera(sky.cameras.front(), pose, 0);
+    const Reference r = render_reference(sky, pose, camera, extent, samples(16));
+    for (size_t i = 0; i < r.image.mean.pixel_count(); ++i) EXPECT_EQ(r.image.mean.rgb(i), sky.environment.color);
+    EXPECT_EQ(mean_of(r.specular.mean), 0.0);
+    EXPECT_THROW(render_reference(sky, pose, camera, {0, 4}, samples(16)), Error);
+}
