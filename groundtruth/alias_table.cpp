@@ -10,6 +10,7 @@ AliasTable::AliasTable(std::span<const double> weights) {
 
     const size_t count = weights.size();
     entries_.resize(count);
+    size_ = uint32_t(count);
     probabilities_.resize(count);
     std::vector<double> share(count);  // of a slot; the mean is 1
     std::vector<uint32_t> small, large;

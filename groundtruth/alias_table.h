@@ -17,14 +17,14 @@ public:
         uint32_t rest;  ///< uniform 32-bit fixed point
     };
     Choice sample(uint32_t bits) const {
-        const uint64_t product = uint64_t(bits) * entries_.size();
+        const uint64_t product = uint64_t(bits) * size_;
         const uint32_t slot = uint32_t(product >> 32), fraction = uint32_t(product);
         const Entry& entry = entries_[slot];
         if (fraction < entry.threshold) return {slot, uint32_t(fraction * entry.scale_below)};
         return {entry.alias, uint32_t((fraction - entry.threshold) * entry.scale_above)};
     }
-    bool empty() const { return entries_.empty(); }
-    size_t size() const { return entries_.size(); }
+    bool empty() const { return size_ == 0; }
+    size_t size() const { return size_; }
     double probability(size_t index) const { return probabilities_[index]; }
 
 private:
@@ -33,5 +33,6 @@ private:
         double scale_below, scale_above;
     };
     std::vector<Entry> entries_;
+    uint32_t size_ = 0;
     std::vector<double> probabilities_;
 };

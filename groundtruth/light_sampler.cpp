@@ -46,6 +46,8 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
     for (uint32_t i = 0; i < scene.instances.size(); ++i)
         if (materials.emits(geometry.instance(i).material)) add_triangles(scene, i, powers);
 
+    triangle_count_ = uint32_t(triangles_.size());
+
     const auto bounds = scene_bounds(scene, pose);
     const double radius = 0.5 * glm::length(glm::dvec3(bounds[1]) - glm::dvec3(bounds[0]));
     for (const PunctualLight& light : pose.lights) {
@@ -64,7 +66,7 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
         }
     }
     table_ = AliasTable(powers);
-    needs_more_ = powers.size() > triangles_.size();
+    needs_more_ = powers.size() > triangle_count_;
     for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
     for (size_t i = 0; i < triangles_.size() && !table_.empty(); ++i)
         triangles_[i].area_pdf *= float(table_.probability(i));
@@ -110,7 +112,7 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
         const AliasTable::Choice chosen = table_.sample(x[lane]);
         choice[lane] = chosen.index;
         rest[lane] = chosen.rest;
-        if (chosen.index >= triangles_.size()) continue;
+        if (chosen.index >= triangle_count_) continue;
         const Triangle& light = triangles_[chosen.index];
         p0.set(lane, light.position[0]);
         p1.set(lane, light.position[1]);
@@ -140,14 +142,14 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
     for (int lane = 0; lane < lane_count && needs_more_; ++lane) {
         if (!is_wanted[lane]) continue;
         const uint32_t index = choice[lane];
-        if (index < triangles_.size()) {
+        if (index < triangle_count_) {
             if (triangles_[index].emission_varies)
                 lights.radiance.set(lane, materials_.emission(triangles_[index].instance, triangles_[index].triangle,
                                                               u[lane], v[lane]));
         } else if (index == environment_index_) {
             sample_environment(rest[lane], y[lane], lane, lights);
         } else {
-            sample_punctual(lights_[index - triangles_.size()], point.get(lane), float(table_.probability(index)), lane,
+            sample_punctual(lights_[index - triangle_count_], point.get(lane), float(table_.probability(index)), lane,
                             lights);
         }
     }

@@ -60,6 +60,7 @@ private:
     const EmbreeScene& geometry_;
     const MaterialTable& materials_;
     std::vector<Triangle> triangles_;
+    uint32_t triangle_count_ = 0;
     std::vector<uint32_t> first_triangle_;  ///< of each instance, or no_light
     std::vector<PunctualLight> lights_;
     EnvironmentTable environment_;

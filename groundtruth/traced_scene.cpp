@@ -22,6 +22,10 @@ TracedScene::TracedScene(const Scene& scene, const ScenePose& pose, const PathTr
              settings.strategy != LightStrategy::light_only),
       has_environment(settings.keep_all || !scene.environment.is_black()) {}
 
+void record_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow) {
+    estimate.record->push_back({origin, direction, far, is_shadow});
+}
+
 std::vector<LeftOut> left_out_features(const TracedScene& traced) {
     std::vector<LeftOut> features;
     if (traced.settings.keep_all) return features;

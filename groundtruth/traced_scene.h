@@ -47,9 +47,13 @@ inline bool is_occluded(RTCScene scene, glm::vec3 origin, glm::vec3 direction, f
     return ray.tfar < 0;
 }
 
+/// Out of line, since only benchmarks ask for it.
+void record_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow);
+
 inline void count_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow) {
     ++estimate.rays;
-    if (estimate.record) estimate.record->push_back({origin, direction, far, is_shadow});
+    if (estimate.record) [[unlikely]]
+        record_ray(estimate, origin, direction, far, is_shadow);
 }
 
 /// Aims a shadow ray from a point to the light of a lane, offset at both ends. Branchless, for vector loops.

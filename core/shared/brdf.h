@@ -16,8 +16,8 @@ SHARED float ggx_alpha(float perceptual_roughness) {
     return max(perceptual_roughness * perceptual_roughness, min_ggx_alpha);
 }
 
-/// GGX distribution of normals (Walter et al. 2007, eq. 33) for a unit micro-normal m. sin^2 is taken from m.xy: 1 - m.z^2
-/// loses up to 35 % of D in float at alpha = 1e-3.
+/// GGX distribution of normals (Walter et al. 2007, eq. 33) for a unit micro-normal m. sin^2 is taken from m.xy: 1 -
+/// m.z^2 loses up to 35 % of D in float at alpha = 1e-3.
 SHARED float ggx_distribution(vec3 m, float alpha) {
     float a2 = alpha * alpha;
     float t = m.x * m.x + m.y * m.y + a2 * m.z * m.z;
@@ -45,7 +45,8 @@ SHARED float schlick_weight(float cosine) {
     return x2 * x2 * x;
 }
 
-/// Reflectance at normal incidence of the mix of dielectric (ior 1.5, scaled by KHR_materials_specular's factor) and metal.
+/// Reflectance at normal incidence of the mix of dielectric (ior 1.5, scaled by KHR_materials_specular's factor) and
+/// metal.
 SHARED vec3 specular_f0(vec3 base_color, float metalness, float specular) {
     return mix(vec3(0.04f * specular), base_color, metalness);
 }
@@ -59,8 +60,8 @@ SHARED float ggx_specular(vec3 o, vec3 i, float alpha) {
     return ggx_distribution(normalize(o + i), alpha) * smith_visibility(o.z, i.z, alpha);
 }
 
-/// Density (sr^-1) over directions i of sample_ggx_reflection() without `bounded`: Heitz 2018, eq. 17, rearranged so that
-/// nothing is divided by mu_o. Directions below the horizon have a density too: such samples count as zero.
+/// Density (sr^-1) over directions i of sample_ggx_reflection() without `bounded`: Heitz 2018, eq. 17, rearranged so
+/// that nothing is divided by mu_o. Directions below the horizon have a density too: such samples count as zero.
 SHARED float ggx_reflection_pdf(vec3 o, vec3 i, float alpha) {
     return ggx_distribution(normalize(o + i), alpha) / (2.0f * (o.z + smith_root(o.z, alpha)));
 }
@@ -72,8 +73,8 @@ SHARED float ggx_reflection_weight(float mu_o, float mu_i, float alpha) {
     return mu_i * (mu_o + root_o) / (mu_o * smith_root(mu_i, alpha) + mu_i * root_o);
 }
 
-/// The share of o's z component that bounds the sampled cap: Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX
-/// Reflections", isotropic. Fewer samples end below the horizon, those above keep their relative density.
+/// The share of o's z component that bounds the sampled cap: Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for
+/// Smith-GGX Reflections", isotropic. Fewer samples end below the horizon, those above keep their relative density.
 SHARED float ggx_cap_bound(float mu_o, float alpha) {
     float s = 1.0f + sqrt(max(0.0f, 1.0f - mu_o * mu_o));
     float s2 = s * s;
@@ -96,8 +97,9 @@ SHARED vec2 unit_circle(float turns) {
     return vec2(flips_cosine ? -a : a, flips_sine ? -b : b);
 }
 
-/// A visible micro-normal (unit) for o.z > 0 and u in [0, 1)^2: Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
-/// Spherical Caps". `bound` is 1 for the whole lobe or ggx_cap_bound() for the part that can reflect above the horizon.
+/// A visible micro-normal (unit) for o.z > 0 and u in [0, 1)^2: Dupuy and Benyoub 2023, "Sampling Visible GGX Normals
+/// with Spherical Caps". `bound` is 1 for the whole lobe or ggx_cap_bound() for the part that can reflect above the
+/// horizon.
 SHARED vec3 sample_ggx_normal(vec3 o, float alpha, vec2 u, float bound) {
     vec3 v = normalize(vec3(alpha * o.x, alpha * o.y, o.z));
     float b = bound * v.z;
@@ -122,7 +124,8 @@ SHARED vec3 sample_ggx_reflection_bounded(vec3 o, float alpha, vec2 u) {
 
 /// Density (sr^-1) of sample_ggx_reflection_bounded().
 SHARED float ggx_reflection_bounded_pdf(vec3 o, vec3 i, float alpha) {
-    return ggx_distribution(normalize(o + i), alpha) / (2.0f * (ggx_cap_bound(o.z, alpha) * o.z + smith_root(o.z, alpha)));
+    return ggx_distribution(normalize(o + i), alpha) /
+           (2.0f * (ggx_cap_bound(o.z, alpha) * o.z + smith_root(o.z, alpha)));
 }
 
 /// A unit vector over the hemisphere of +z with density mu / pi (Malley's method), for u in [0, 1)^2.
@@ -132,7 +135,8 @@ SHARED vec3 sample_cosine(vec2 u) {
     return vec3(r * azimuth.x, r * azimuth.y, sqrt(max(0.0f, 1.0f - u.x)));
 }
 
-/// Columns tangent, bitangent, normal of a right-handed frame: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+/// Columns tangent, bitangent, normal of a right-handed frame: Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited".
 SHARED mat3 basis_from_normal(vec3 n) {
     float s = n.z >= 0.0f ? 1.0f : -1.0f;
     float a = -1.0f / (s + n.z);
