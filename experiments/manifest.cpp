@@ -150,14 +150,16 @@ nlohmann::json gbuffer_shot_entry(const Shot& shot) {
             {"needs", nlohmann::json::array()}, {"left_out", nlohmann::json::array()}};
 }
 
-CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite) {
+CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite, const HostImage& reflectance) {
     const HostImage radiance = graph.download(reflections.radiance), fallback = graph.download(gbuffer.fallback);
     CompositedImages images{.specular = first_three(graph.download(composite.specular)), .incident = HostImage(radiance.extent, 3), .confidence = graph.download(reflections.confidence)};
-    for (size_t i = 0; i < images.incident.pixel_count(); ++i)
+    for (size_t i = 0; i < images.incident.pixel_count(); ++i) {
+        if (!reflectance.values.empty() && reflectance.rgb(i) == glm::vec3(0.0f)) continue;
         for (size_t c = 0; c < 3; ++c) {
             const float a = images.confidence.values[i], from = fallback.values[i * fallback.channels + c], to = radiance.values[i * radiance.channels + c];
             images.incident.values[i * 3 + c] = a == 0.0f ? from : from * (1.0f - a) + to * a;
         }
+    }
     return images;
 }
 

@@ -18,8 +18,9 @@ nlohmann::json gbuffer_shot_entry(const Shot& shot);  ///< of a G-buffer without
 nlohmann::json fact_entry(const SceneFact& fact);
 nlohmann::json left_out_entry(const LeftOut& part);
 
-/// The variant's output on the CPU. `incident` mixes fallback and radiance as the compositor does.
-CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite);
+/// The variant's output on the CPU. `incident` mixes fallback and radiance as the compositor does, and is
+/// 0 where `reflectance` (of the G-buffer; may be empty) is 0, as in the truth.
+CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite, const HostImage& reflectance);
 
 /// Writes images/<shot>/...; returns the manifest's entries for them.
 std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot, const Reference& reference, float exposure_ev);

@@ -116,7 +116,7 @@ Cell run_cell(Study& study, const Shot& shot, FrameSource& source, const std::ve
         const Reflections reflections = variant->render(graph, gbuffer);
         const Composite composite = compositor.render(gbuffer, reflections);
 
-        const CompositedImages images = download_results(graph, gbuffer, reflections, composite);
+        const CompositedImages images = download_results(graph, gbuffer, reflections, composite, frame.truth.reflectance);
         const ResultRow row{.shot = frame.shot_name, .scene = shot.scene.name, .camera = shot.camera.name, .frame = frame.frame, .width = shot.config.extent.x,
                             .height = shot.config.extent.y, .variant = config.variant, .point = config.point, .seed = seed};
         for (ResultRow& r : measure_result(frame.truth, images, study.config, row)) cell.rows.push_back(std::move(r));
@@ -186,6 +186,8 @@ void run_gbuffer_shot(Study& study, const ShotConfig& shot_config) {
     study.progress.say(shot.scene.name + ", from files");
     for (const std::string& note : loaded.notes) study.progress.say("note: " + note);
     study.work_done += reference_work;
+    // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
+    if (!shot_config.reference.empty() && !study.config.direct_lit) loaded.gbuffer.lit = {};
     const HostImage file_lit = loaded.gbuffer.lit;
     const std::unique_ptr<FrameSource> source = file_source(study.device, std::move(loaded.gbuffer));
     std::vector<PreparedFrame> frames;
@@ -205,7 +207,7 @@ void run_gbuffer_shot(Study& study, const ShotConfig& shot_config) {
 }
 
 /// Writes what is finished so far, so that a long study can be read while it runs.
-void write_results(Study& study) {
+void write_results(Study& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
     for (const Cell& cell : study.finished)
         for (const nlohmann::json& entry : cell.images) {
@@ -214,7 +216,7 @@ void write_results(Study& study) {
             else
                 manifest["images"].push_back(entry);
         }
-    manifest["finished"] = time_stamp();
+    if (is_last) manifest["finished"] = time_stamp();
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
     write_tables(study.settings.out, study.finished);
     write_report(study.settings.out);
@@ -232,7 +234,7 @@ void run_study(const Config& config, const RunSettings& settings) {
             run_scene_shot(study, shot);
         else
             run_gbuffer_shot(study, shot);
-        write_results(study);
+        write_results(study, &shot == &config.shots.back());
     }
     study.progress.say("\nReport: " + std::filesystem::absolute(settings.out / "report.html").lexically_normal().string());
 }

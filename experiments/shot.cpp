@@ -8,7 +8,7 @@
 
 std::string Shot::name(unsigned frame) const {
     std::string name = scene.name + "." + camera.name + "." + std::to_string(config.extent.x) + "x" + std::to_string(config.extent.y);
-    if (config.frames.size() > 1) name += ".f" + std::to_string(frame);
+    if (config.frames != std::vector<unsigned>{0}) name += ".f" + std::to_string(frame);
     return name;
 }
 
@@ -25,7 +25,7 @@ Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer) {
     shot.config.extent = gbuffer.extent();
     shot.scene.name = std::filesystem::absolute(config.gbuffer).lexically_normal().filename().string();
     ContentHash hash;
-    for (const HostImage* image : {&gbuffer.depth, &gbuffer.normal, &gbuffer.base_color, &gbuffer.emission, &gbuffer.lit, &gbuffer.fallback}) hash.add(std::as_bytes(std::span(image->values)));
+    for (const HostImage* image : {&gbuffer.depth, &gbuffer.geometric_normal, &gbuffer.normal, &gbuffer.base_color, &gbuffer.emission, &gbuffer.motion, &gbuffer.material_id, &gbuffer.previous_depth, &gbuffer.previous_normal, &gbuffer.lit, &gbuffer.fallback}) hash.add(std::as_bytes(std::span(image->values)));
     hash.add(std::as_bytes(std::span(&gbuffer.camera, 1)));
     shot.scene.content_hash = hash.hex();
     SceneFacts& facts = shot.facts;
