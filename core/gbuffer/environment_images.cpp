@@ -30,3 +30,16 @@ PassGraph::Pass& EnvironmentImages::bind(PassGraph::Pass& pass) const {
         .set("environment_slope", glm::vec4(environment_.slope, 0))
         .set("environment_axis", glm::vec4(environment_.axis, 0));
 }
+
+PassGraph::Pass& bind_environment(PassGraph::Pass& pass, const GBuffer& gbuffer) {
+    if (gbuffer.environment) return gbuffer.environment->bind(pass);
+    const unsigned type_of_file = 3;
+    const glm::vec4 unused(0);
+    return pass.read(gbuffer.fallback.as("environment"))
+        .read(gbuffer.fallback.as("prefiltered_environment"))
+        .set("environment_type", type_of_file)
+        .set("environment_rotation", 0.0f)
+        .set("environment_color", unused)
+        .set("environment_slope", unused)
+        .set("environment_axis", unused);
+}

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/prefiltered_environment.h"
 #include "core/gpu/pass_graph.h"
 
@@ -18,3 +19,7 @@ private:
     PrefilteredEnvironment prefiltered_;
     Image sharp_, atlas_;
 };
+
+/// Binds the environment that G-buffer's rays see where they meet nothing, for shaders that call
+/// environment_along_ray(). A G-buffer from files knows it only as `fallback`, its mean over each pixel's lobe.
+PassGraph::Pass& bind_environment(PassGraph::Pass& pass, const GBuffer& gbuffer);

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+class EnvironmentImages;
+
 /// The first hit of every pixel, and the lit colour which SSR reads. World space, metres, linear radiance. Images of one
 /// extent; each is bound in shaders by its member's name.
 struct GBuffer {
@@ -16,6 +18,8 @@ struct GBuffer {
     Image previous_depth, previous_normal;  ///< of the frame before; in the first frame this frame's own
     Image lit;               ///< rgba32f: emission and diffusely reflected radiance towards the camera; environment where nothing was hit
     Image fallback;          ///< rgba32f: the environment prefiltered over each pixel's specular lobe, for composite and variants
+
+    const EnvironmentImages* environment = nullptr;  ///< for bind_environment(); none with a G-buffer from files
 
     std::vector<Image> images() const {
         return {depth, geometric_normal, normal, base_color, emission, motion, material_id, previous_depth, previous_normal, lit, fallback};

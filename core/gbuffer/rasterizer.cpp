@@ -61,13 +61,13 @@ void Rasterizer::list_left_out() {
 Rasterizer::Frame Rasterizer::pose(const SceneCamera& camera, const FrameView& view) const {
     Frame frame{.scene = pose_scene(scene_, float(view.frame))};
     const CameraPose now = pose_camera(camera, frame.scene, float(view.frame));
-    if (view.frame == 0) {
+    if (const std::optional<unsigned> predecessor = view.predecessor()) {
+        frame.previous_scene = pose_scene(scene_, float(*predecessor));
+        const CameraPose before = pose_camera(camera, frame.previous_scene, float(*predecessor));
+        frame.camera = camera_data(now, &before, view);
+    } else {
         frame.previous_scene = frame.scene;
         frame.camera = camera_data(now, nullptr, view);
-    } else {
-        frame.previous_scene = pose_scene(scene_, float(view.frame - 1));
-        const CameraPose before = pose_camera(camera, frame.previous_scene, float(view.frame - 1));
-        frame.camera = camera_data(now, &before, view);
     }
     return frame;
 }
@@ -76,17 +76,18 @@ GBuffer Rasterizer::render(const SceneCamera& camera, const FrameView& view) {
     if (view.extent != options_.extent)
         fail("a frame of ", view.extent.x, " x ", view.extent.y, " was asked of a rasteriser of ", options_.extent.x,
              " x ", options_.extent.y);
-    const bool follows = last_camera_ == &camera && last_view_.frame + 1 == view.frame &&
+    const std::optional<unsigned> predecessor = view.predecessor();
+    const bool follows = last_camera_ == &camera && last_view_.frame == predecessor &&
                          last_view_.jitter == view.previous_jitter &&
                          last_view_.depth_direction == view.depth_direction;
-    if (view.frame > 0 && !follows) {
+    if (predecessor && !follows) {
         FrameView before = view;
-        before.frame = view.frame - 1;
+        before.frame = *predecessor;
         before.jitter = view.previous_jitter;
         draw(pose(camera, before));
     }
     GBuffer gbuffer = draw(pose(camera, view));
-    if (view.frame == 0) {
+    if (!predecessor) {
         gbuffer.previous_depth = gbuffer.depth.as("previous_depth");
         gbuffer.previous_normal = gbuffer.normal.as("previous_normal");
     }
@@ -113,7 +114,8 @@ GBuffer Rasterizer::draw(const Frame& frame) {
               .previous_depth = depth.previous,
               .previous_normal = normal.previous,
               .lit = graph_.image("lit", Format::rgba32f),
-              .fallback = graph_.image("fallback", Format::rgba32f)};
+              .fallback = graph_.image("fallback", Format::rgba32f),
+              .environment = &environment_};
 
     const Image depth_buffer = graph_.image("depth_buffer", format_of(options_.depth_format));
     graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));

@@ -23,8 +23,8 @@ public:
     Rasterizer(Device& device, const Scene& scene, const RasterizerOptions& options);
 
     /// The G-buffer of one frame, all but `lit`, which one of the functions below fills. view.extent must be that of
-    /// the options. Frame 0 has no predecessor; others need the frame before, which is drawn first unless it was the
-    /// last one. With view.jitter samples lie at pixel centre + jitter.
+    /// the options. view.predecessor() is drawn first unless it was the last one drawn; the first frame has none, and
+    /// gets its own depth and normal as the previous ones. With view.jitter samples lie at pixel centre + jitter.
     GBuffer render(const SceneCamera& camera, const FrameView& view);
 
     /// Emission and direct diffuse light, of punctual lights and of the environment, without any shadow. Seconds faster

@@ -70,13 +70,12 @@ bool lights_differ(const PunctualLight& a, const PunctualLight& b) {
     return a.position != b.position || a.direction != b.direction;
 }
 
-void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera, unsigned first_frame,
-                unsigned frame_count) {
-    ScenePose before = pose_scene(scene, first_frame > 0 ? first_frame - 1 : 0);
-    glm::mat4 view_before = pose_camera(camera, before, first_frame > 0 ? first_frame - 1 : 0).world_from_view;
-    for (unsigned frame = first_frame; frame < first_frame + frame_count; ++frame) {
-        const ScenePose now = pose_scene(scene, frame);
-        const glm::mat4 view_now = pose_camera(camera, now, frame).world_from_view;
+void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera, std::span<const unsigned> frames) {
+    ScenePose before = pose_scene(scene, float(frames.front()));
+    glm::mat4 view_before = pose_camera(camera, before, float(frames.front())).world_from_view;
+    for (const unsigned frame : frames.subspan(1)) {
+        const ScenePose now = pose_scene(scene, float(frame));
+        const glm::mat4 view_now = pose_camera(camera, now, float(frame)).world_from_view;
         facts.camera_moves |= view_now != view_before;
         facts.objects_move |= now.world_from_instance != before.world_from_instance;
         facts.lights_move |= !std::ranges::equal(now.lights, before.lights, std::not_fn(lights_differ));
@@ -116,10 +115,17 @@ SceneFacts material_facts(const Scene& scene) {
     return facts;
 }
 
-SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count) {
+SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, std::span<const unsigned> frames) {
     SceneFacts facts = material_facts(scene);
-    add_motion(facts, scene, camera, first_frame, frame_count);
+    if (!frames.empty()) add_motion(facts, scene, camera, frames);
     return facts;
+}
+
+SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count) {
+    std::vector<unsigned> frames;
+    if (first_frame > 0) frames.push_back(first_frame - 1);
+    for (unsigned i = 0; i < frame_count; ++i) frames.push_back(first_frame + i);
+    return derive_facts(scene, camera, frames);
 }
 
 std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {

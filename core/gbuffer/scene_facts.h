@@ -3,6 +3,8 @@
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
+#include <span>
+
 /// What a scene holds and a shot of it shows, as far as someone can leave work out for lack of it. Only what is drawn
 /// counts: materials of visible triangles, lights that shine, motion within the frames of the shot.
 struct SceneFacts {
@@ -21,6 +23,9 @@ struct SceneFacts {
 /// The facts of frames first_frame ... first_frame + frame_count - 1 of one camera. Frame 0 has no predecessor, so
 /// nothing moves in it.
 SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count);
+
+/// The facts of these frames, rendered in this order; the first of them has no predecessor.
+SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, std::span<const unsigned> frames);
 
 /// The same without what depends on a shot: nothing moves.
 SceneFacts material_facts(const Scene& scene);

@@ -42,10 +42,14 @@ Buffer PassGraph::buffer(const std::string& name, size_t bytes) {
 }
 
 PassGraph::History PassGraph::history(const std::string& name, Format format) {
+    return history(name, format, impl_->extent);
+}
+
+PassGraph::History PassGraph::history(const std::string& name, Format format, glm::uvec2 extent) {
     const auto side = [&](unsigned parity) {
         const std::string full_name = name + "#" + std::to_string(parity);
         const bool is_new = !impl_->images.contains(full_name);
-        const Image image = this->image(full_name, format);
+        const Image image = image_of(full_name, format, extent);
         if (is_new) clear(image, glm::vec4(0.0f));
         return image;
     };

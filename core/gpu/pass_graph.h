@@ -91,6 +91,7 @@ public:
         Image current, previous;  ///< named `name` and `previous_<name>`
     };
     History history(const std::string& name, Format format);
+    History history(const std::string& name, Format format, glm::uvec2 extent);
 
     class Pass;
     Pass compute(const std::string&

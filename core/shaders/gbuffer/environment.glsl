@@ -4,7 +4,7 @@
 #include "core/shared/prefiltered_environment.h"
 
 layout(push_constant) uniform EnvironmentConstants {
-    uint environment_type;     // 0: constant, 1: gradient, 2: image
+    uint environment_type;     // 0: constant, 1: gradient, 2: image, 3: per pixel, from a file
     float environment_rotation;
     vec4 environment_color, environment_slope, environment_axis;
 };
@@ -27,6 +27,11 @@ vec3 environment_radiance(vec3 direction) {
     vec3 top = mix(environment_texel(x, y, size), environment_texel(x + 1, y, size), f.x);
     vec3 bottom = mix(environment_texel(x, y + 1, size), environment_texel(x + 1, y + 1, size), f.x);
     return mix(top, bottom, f.y);
+}
+
+// Radiance that a ray of the pixel sees if it meets nothing; `direction`: world space, unit.
+vec3 environment_along_ray(ivec2 pixel, vec3 direction) {
+    return environment_type == 3u ? texelFetch(environment, pixel, 0).rgb : environment_radiance(direction);
 }
 
 vec3 prefiltered_level(uint level, vec3 direction) {

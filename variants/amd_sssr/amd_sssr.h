@@ -1,0 +1,27 @@
+#pragma once
+#include "core/variant.h"
+#include "variants/amd_sssr/denoiser_parameters.h"
+#include "variants/amd_sssr/tracing_parameters.h"
+#include "variants/common/blue_noise.h"
+
+#include <optional>
+
+/// AMD FidelityFX Stochastic Screen-Space Reflections with its reflection denoiser, as the shaders of FidelityFX SDK
+/// 1.1.4 compute them (effects SSSR 1.5 and Denoiser 1.3, MIT licence). Defaults are those of AMD's sample.
+///
+/// Deviations: surfaces from roughness_threshold_alpha on take the G-buffer's prefiltered environment in place of a
+/// mip of a cube map, with confidence 0; a ray's own miss takes the environment in the ray's direction, as published, so
+/// that all other pixels have confidence 1. Texel fetches outside an image are tested and give 0, where the original
+/// relies on the driver.
+class AmdSssr final : public Variant {
+public:
+    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
+    std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
+
+private:
+    TracingParameters tracing_{params};
+    DenoiserParameters denoiser_{params};
+    std::optional<BlueNoise> noise_;
+    unsigned frame_ = 0;  ///< frames rendered so far
+    bool is_left_out_ = false;
+};

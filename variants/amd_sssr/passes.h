@@ -1,0 +1,51 @@
+#pragma once
+#include "core/gbuffer/gbuffer.h"
+#include "core/gpu/pass_graph.h"
+#include "variants/amd_sssr/denoiser_parameters.h"
+
+// The passes of AMD FidelityFX SSSR in their order. Each adds its dispatches to the graph; tests run them one by one.
+// Names of images and buffers are those that the shaders of this folder use.
+
+/// What outlives a frame. As in the original two images of each kind take turns, and passes of one frame use both: see
+/// amd_denoise().
+struct AmdHistories {
+    PassGraph::History radiance;         ///< rgb W sr^-1 m^-2; w length of the ray (m) until the denoiser drops it
+    PassGraph::History variance;         ///< squared relative change of luminance
+    PassGraph::History sample_count;     ///< frames
+    PassGraph::History average_radiance; ///< one texel per 8x8 tile, rounded up
+    PassGraph::History roughness;        ///< alpha
+};
+
+/// Images of the graph's extent, black in the first frame. `is_float`: all but roughness in 32 bits per channel in place
+/// of the original's 16 (11, 11, 10 for averages); `is_float_roughness`: alpha in 32 in place of 8 bits.
+AmdHistories amd_histories(PassGraph& graph, bool is_float, bool is_float_roughness);
+
+/// What classification found to do, and the indirect arguments that start it.
+struct AmdWork {
+    Buffer ray_list;            ///< bits 0-14 x, 15-28 y, 29 copy to the horizontal neighbour in the quad, 30 vertical, 31 diagonal
+    Buffer tile_list;           ///< of 8x8 pixels to denoise: y << 16 | x of the first pixel
+    Buffer counters;            ///< rays being listed, rays, tiles being listed, tiles
+    Buffer indirect_arguments;  ///< groups to intersect (3 words), groups to denoise (3 words, at byte 12)
+};
+
+/// Mip 0 is `depth`, each following texel the nearest of 2x2: min, or max for reversed depth. `mips` at least 2, capped by
+/// the extent. One dispatch (AMD's Single Pass Downsampler).
+Image amd_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips);
+
+/// Lists rays and tiles; writes alpha, clears histories.radiance.current (environment where too rough) and writes
+/// `confidence`: 1 where the technique is responsible.
+AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& pyramid, const AmdHistories& histories,
+                     const Image& confidence);
+
+/// Turns counters into indirect arguments and rewinds them.
+void amd_prepare_arguments(PassGraph& graph, const AmdWork& work);
+
+/// Traces the listed rays into histories.radiance.current. `noise`: 128x128, two channels in [0, 1].
+void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Image& pyramid, const Image& noise,
+                   const AmdWork& work, const AmdHistories& histories);
+
+/// Reproject reads radiance.previous, variance.previous, sample_count.previous, roughness.previous and writes their
+/// current sides, `reprojected_radiance` and average_radiance.current; prefilter then overwrites radiance.previous and
+/// variance.previous; resolve overwrites radiance.current and variance.current, which the next frame sees as history.
+void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
+                 const DenoiserParameters& parameters);

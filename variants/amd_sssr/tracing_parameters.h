@@ -1,0 +1,82 @@
+#pragma once
+#include "core/parameters.h"
+
+/// Parameters of pyramid, classification, noise and intersection, under the original's names. "SSSR 1.5" is the effect
+/// in FidelityFX SDK 1.1.4; its defaults are those of AMD's sample. Switches under "corrections" mend one defect each.
+struct TracingParameters {
+    ParameterSet& params;
+
+    // clang-format off
+    Param<unsigned> samples_per_quad{params, "samples_per_quad", 1, {1, 4},
+        {"rays", "rays that each 2x2 pixels start at least: 1, 2 or 4; 3 counts as 4", "SSSR 1.5, samplesPerQuad"}, Use::constant};
+    Switch guided_tracing{params, "guided_tracing", true,
+        {"", "pixels whose variance of the last frame exceeds variance_threshold trace rays of their own",
+         "SSSR 1.5, temporalVarianceGuidedTracingEnabled"}};
+    Param<float> variance_threshold{params, "variance_threshold", 0.0f, {0.0f, 1.0f},
+        {"squared relative change of luminance", "exceeded by pixels that trace rays of their own",
+         "SSSR 1.5, varianceThreshold; at its default of 0 nearly every pixel traces from the second frame on"}};
+    Param<float> roughness_threshold_alpha{params, "roughness_threshold_alpha", 0.2f, {0.0f, 1.0f},
+        {"alpha", "GGX alpha (squared perceptual roughness) from which surfaces are left to the prefiltered environment",
+         "SSSR 1.5, roughnessThreshold"}};
+    Param<unsigned> max_traversal_intersections{params, "max_traversal_intersections", 128, {0, 4096},
+        {"steps", "texels of the depth pyramid that one ray may visit", "SSSR 1.5, maxTraversalIntersections"}};
+    Param<unsigned> min_traversal_occupancy{params, "min_traversal_occupancy", 4, {0, 128},
+        {"lanes", "a subgroup with at most this many rays left gives them up, so the result depends on its size; 0: none are",
+         "SSSR 1.5, minTraversalOccupancy"}, Use::constant};
+    Param<unsigned> most_detailed_mip{params, "most_detailed_mip", 0, {0, 5},
+        {"mip", "finest level of the depth pyramid for all but mirrors, which use 0", "SSSR 1.5, mostDetailedMip"}};
+    Param<float> depth_buffer_thickness{params, "depth_buffer_thickness", 0.015f, {0.0f, 1e6f},
+        {"m", "distance between ray and surface at which the confidence of a hit has fallen to 0",
+         "SSSR 1.5, depthBufferThickness"}};
+    Param<float> ibl_factor{params, "ibl_factor", 1.0f, {0.0f, 1e3f},
+        {"", "multiplies the environment where a ray finds nothing", "SSSR 1.5, iblFactor"}};
+    Param<unsigned> pyramid_mips{params, "pyramid_mips", 7, {2, 13},
+        {"mips", "levels of the depth pyramid, the full resolution included; as many as the image has, at most",
+         "SSSR 1.5: 7; version 1.3 builds the whole chain"}};
+    Choice march{params, "march", "sdk", {"sdk", "slides"},
+        {"", "sdk: advances to the first texel border without a test, compares distances bit by bit, and looks at the "
+         "occupancy before it advances. slides: starts at the origin, compares floats, looks at the occupancy afterwards",
+         "SSSR 1.5, ffx_sssr.h; slides of 2020, 'Stochastic Screen Space Reflections', traversal loop"}};
+
+    // Corrections.
+    Switch thickness_at_hit_mip{params, "thickness_at_hit_mip", false,
+        {"", "measures thickness and background against the level that the march ended on. The original takes the "
+         "nearest of 2x2 pixels, so that confidence is lost wherever depth varies", "ssrlab; SSSR 1.5 reads mip 1"}};
+    Switch independent_noise_shifts{params, "independent_noise_shifts", false,
+        {"", "shifts the two random numbers by different irrationals every frame. The original shifts both by the golden "
+         "ratio, so that a pixel's samples stay on one diagonal of the unit square and never cover the lobe", "ssrlab; "
+         "Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"}};
+    Switch trace_orphans{params, "trace_orphans", false,
+        {"", "a pixel that waits for the ray of a quad neighbour which traces none traces its own. In the original it "
+         "stays black: dark contours where a quad's first pixel is sky, rough or of another surface", "ssrlab"}};
+    Switch clip_ray_to_near_plane{params, "clip_ray_to_near_plane", false,
+        {"", "shortens the unit step that gives the ray's direction on the screen so that it stays before the near plane; "
+         "behind the camera it would be mirrored", "ssrlab"}};
+    Switch guard_zero_direction{params, "guard_zero_direction", false,
+        {"", "a ray along a screen axis divides by a number that is not 0; in the original's GLSL the guard only works if "
+         "all three components are 0", "ssrlab; AMD's hybrid reflections sample guards each component"}};
+    Switch guard_mirror_normal{params, "guard_mirror_normal", false,
+        {"", "mirrors reflect about the shading normal itself. The original samples a lobe of width 0, which is not a "
+         "number where the random number rounds to 1", "ssrlab"}};
+    Switch above_horizon{params, "above_horizon", false,
+        {"", "samples visible normals only where they reflect above the surface, and counts rays below the geometric "
+         "surface as misses; the original traces them", "Eto and Tokuyoshi 2023, 'Bounded VNDF Sampling for Smith-GGX "
+         "Reflections'"}};
+    Switch stop_outside_screen{params, "stop_outside_screen", false,
+        {"", "ends a ray where it leaves the screen, and treats texels that odd-sized levels lack as to be refined. The "
+         "original reads 0 there: with reversed depth whole strips at the lower and right edge are skipped", "ssrlab; "
+         "AMD's hybrid reflections sample ends rays so"}};
+    Switch reject_unfinished{params, "reject_unfinished", false,
+        {"", "a ray that ran out of steps, or was given up by its subgroup, is a miss. The original validates wherever it "
+         "stood", "ssrlab"}};
+    Switch accept_contact_hits{params, "accept_contact_hits", false,
+        {"", "rejects a hit only in the pixel that its ray started from. The original rejects those nearer than two pixels "
+         "on both axes, so that contact reflections show the environment", "ssrlab"}};
+    Switch far_misses{params, "far_misses", false,
+        {"", "a ray that misses has the length of the far plane. The original stores the length to wherever it was "
+         "given up, and the denoiser reprojects the environment from there", "ssrlab"}};
+    Switch float_roughness{params, "float_roughness", false,
+        {"", "keeps alpha in 32 bits. In 8 bits an alpha below 0.002 is rated as glossy by one pass and as a mirror by "
+         "the next", "ssrlab; SSSR 1.5 stores R8_UNORM"}};
+    // clang-format on
+};
