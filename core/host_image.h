@@ -22,3 +22,11 @@ struct HostImage {
         for (int i = 0; i < 3; ++i) values[index * channels + i] = c[i];
     }
 };
+
+/// `count` channels from `first` on, as an image of their own; first + count <= image.channels.
+inline HostImage channels_of(const HostImage& image, unsigned first, unsigned count) {
+    HostImage part(image.extent, count);
+    for (size_t i = 0; i < part.pixel_count(); ++i)
+        for (unsigned c = 0; c < count; ++c) part.values[i * count + c] = image.values[i * image.channels + first + c];
+    return part;
+}

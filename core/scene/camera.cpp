@@ -95,7 +95,7 @@ CameraData camera_data(const CameraPose& pose, const CameraPose* previous, const
             .extent = {extent, 1.0f / extent},
             .depth = {pose.near, pose.far, is_reversed ? 0.0f : 1.0f, is_reversed ? 1.0f : 0.0f},
             .jitter = {view.jitter, view.previous_jitter},
-            .frame = {view.frame, view.seed, pose.is_orthographic, previous != nullptr}};
+            .frame = {view.rendered_index(), view.seed, pose.is_orthographic, previous != nullptr}};
 }
 
 CameraRay camera_ray(const CameraPose& pose, glm::uvec2 extent, glm::vec2 pixel) {

@@ -2,6 +2,8 @@
 #include "core/scene/scene.h"
 #include "core/shared/camera.h"
 
+#include <optional>
+
 /// How depth is stored: precision is one of the things that ssrlab studies.
 enum class DepthFormat { d32f, d24, d16 };
 enum class DepthDirection { standard, reversed };
@@ -20,11 +22,22 @@ CameraPose pose_camera(const SceneCamera& camera, const ScenePose& scene_pose, f
 struct FrameView {
     glm::uvec2 extent{0, 0};
     DepthDirection depth_direction = DepthDirection::standard;
-    unsigned frame = 0, seed = 0;
+    unsigned frame = 0, seed = 0;  ///< `frame`: which pose of camera and scene
     glm::vec2 jitter{0.0f}, previous_jitter{0.0f};  ///< pixels, y down: samples lie at pixel centre + jitter
+
+    /// For frames rendered in a row whose poses do not count up by one: held, warmed up, or jumping.
+    std::optional<unsigned> index;           ///< how many frames were rendered before; none: `frame` many
+    std::optional<unsigned> previous_frame;  ///< pose of the one before; none: frame - 1. Not looked at if index is 0
+
+    unsigned rendered_index() const { return index.value_or(frame); }
+    /// Pose of the frame rendered before; none for the first.
+    std::optional<unsigned> predecessor() const {
+        if (rendered_index() == 0) return std::nullopt;
+        return previous_frame.value_or(frame > 0 ? frame - 1 : 0);
+    }
 };
 
-/// The block which shaders see. `previous` is the pose of the frame before, or nullptr for the first frame.
+/// The block which shaders see. `previous` is the pose of the frame rendered before, or nullptr for the first frame.
 CameraData camera_data(const CameraPose& pose, const CameraPose* previous, const FrameView& view);
 
 /// Vulkan clip space: y down, z in [0, 1], near plane at 0 (standard) or 1 (reversed).

@@ -13,6 +13,6 @@ struct CameraData {
     vec4 extent;                            ///< width, height, 1 / width, 1 / height (pixels)
     vec4 depth;                             ///< near (m), far (m), device depth of the far plane (1, or 0 if reversed), 1 if reversed
     vec4 jitter;                            ///< TAA jitter of this and of the previous frame (pixels, y down): xy, zw
-    uvec4 frame;                            ///< index of the frame, seed, 1 if orthographic, 1 if there is a previous frame
+    uvec4 frame;                            ///< number of frames rendered before, seed, 1 if orthographic, 1 if there is a previous frame
 };
 #endif
