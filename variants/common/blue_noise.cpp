@@ -1,0 +1,52 @@
+#include "variants/common/blue_noise.h"
+
+#include "core/error.h"
+#include "core/png.h"
+
+namespace {
+
+constexpr glm::uvec2 table_extent{128, 128};
+
+/// What one frame adds to the two numbers, in units of 2^-32: the golden ratio with the digits of SSSR 1.5, and the first
+/// two powers of 1 / 1.3247179572447460, the real root of x^3 = x + 1; both modulo 1.
+glm::uvec2 shift_per_frame(NoiseShift shift) {
+    switch (shift) {
+        case NoiseShift::golden_diagonal:
+            return glm::uvec2(0.61803398875 * 0x1p32);
+        case NoiseShift::r2:
+            return {0.7548776662466928 * 0x1p32, 0.5698402909980533 * 0x1p32};
+    }
+    fail("no shift for NoiseShift ", int(shift));
+}
+
+}  // namespace
+
+HostImage blue_noise_table() {
+    const char* const file = SSRLAB_SOURCE_DIR "/variants/common/blue_noise_table.png";
+    const HostImage rgb = read_png_codes(file);
+    if (rgb.extent != table_extent)
+        fail(file, " is ", rgb.extent.x, "x", rgb.extent.y, "; the table of blue noise is ", table_extent.x, "x",
+             table_extent.y);
+    HostImage table(table_extent, 2);
+    for (size_t i = 0; i < table.values.size(); ++i) table.values[i] = rgb.values[i / 2 * 3 + i % 2];
+    return table;
+}
+
+Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision precision) {
+    const Image table = graph.image_of("blue_noise_table", Format::rg8, table_extent);
+    if (uploaded_table_.lock() != table.storage) {
+        graph.upload(table, blue_noise_table());
+        uploaded_table_ = table.storage;
+    }
+    const bool is_8_bit = precision == NoisePrecision::bits_8;
+    const Image noise = graph.image_of("blue_noise", is_8_bit ? Format::rg8 : Format::rg32f, table_extent);
+    const glm::uvec2 per_frame = shift_per_frame(shift);
+    graph.compute("common/blue_noise.comp")
+        .read(table)
+        .write(noise)
+        .set("shift_x", per_frame.x)
+        .set("shift_y", per_frame.y)
+        .set("is_8_bit", unsigned(is_8_bit))
+        .run();
+    return noise;
+}
