@@ -18,6 +18,7 @@ SCENES = [
     glossy.normal_mapped, glossy.all_rough, glossy.all_rough_mirror_tile, glossy.sky_only, glossy.furnace,
     glossy.furnace_sphere,
     motion.disocclusion, motion.disocclusion_moving_column, motion.moving_objects, motion.border_crossing,
+    motion.passing_pillars, motion.moving_emitter, motion.stepping_emitter, motion.rotating_mirror,
 ]
 
 

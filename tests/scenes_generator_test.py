@@ -38,6 +38,10 @@ COUNTS = {
     "disocclusion_moving_column": (2 + 12 + 40 * 10 * 2, 14, 3),
     "moving_objects": (2 + 12 + 2 * 96 * 47 + 12 + 32 * 8 * 2, 5, 5),
     "border_crossing": (2 + 9 * 12 + 2, 11, 11),
+    "passing_pillars": (3 * 2 + (7 + 13 + 21) * 12 + 50 * 6 * 2, 8, 3 + 41 + 1),
+    "moving_emitter": (3 * 2 + 3 * 12 + 32 * 7 * 2, 6, 7),
+    "stepping_emitter": (3 * 2 + 3 * 12 + 32 * 7 * 2, 6, 7),
+    "rotating_mirror": (2 + 3 * 64 + 9 * 12 + 32 * 8 * 2, 15, 14),
 }
 
 # scene/camera: position, target, vertical field of view in degrees
@@ -64,6 +68,10 @@ CAMERAS = {
     "disocclusion/main": ((-1, 1.5, 2), (0, 0.8, -4), 45),
     "moving_objects/main": ((0, 1.6, 2.5), (0, 0.6, -3.5), 45),
     "border_crossing/main": ((0, 1.2, 2), (0, -0.3, -3), 40),
+    "passing_pillars/main": ((0, 0.5, 0), (0, -0.4, -10), 55),
+    "moving_emitter/main": ((0, 1.4, 2.5), (0, 0.2, -4), 45),
+    "stepping_emitter/main": ((0, 1.4, 2.5), (0, 0.2, -4), 45),
+    "rotating_mirror/main": ((0, 2.2, 3.6), (0, 1, -1.6), 45),
     "all_rough/main": ((0, 1.6, 4), (0, 0.8, -5), 50),
     "furnace/main": ((0, 1.7, 3), (0, 1.3, -5), 50),
 }
@@ -178,6 +186,11 @@ class Structure(unittest.TestCase):
             for i, place in enumerate(places):
                 self.assertAlmostEqual(place[0], first + 0.1 * i)
                 self.assertEqual(place[1:], [0, z])
+        passing = Glb(SCENES / "passing_pillars/scene.glb")
+        for distance, count in ((2, 7), (10, 13), (50, 21)):
+            places = passing.nodes_of(f"pillar_{distance}m")
+            self.assertEqual((len(places), {z for _, _, z in places}), (count, {-distance}))
+            self.assertIn(0, [x for x, _, _ in places])
 
     def test_mirrors_of_axis_parallel_turn_view_rays_along_the_axes(self):
         glb = Glb(SCENES / "axis_parallel/scene.glb")
@@ -190,12 +203,25 @@ class Structure(unittest.TestCase):
             self.assertLess(math.dist(reflected[name], direction), 2e-7, name)
 
     def test_animations_run_as_long_as_their_scenes(self):
-        for scene in ("firefly_moving", "disocclusion_moving_column", "moving_objects"):
+        for scene in ("firefly_moving", "disocclusion_moving_column", "moving_objects", "moving_emitter",
+                      "rotating_mirror"):
             glb, scene_json = Glb(SCENES / scene / "scene.glb"), description(scene)
             (animation,) = glb.gltf["animations"]
             last = (scene_json["frame_count"] - 1) / scene_json["frame_rate"]
             for sampler in animation["samplers"]:
                 self.assertGreaterEqual(glb.gltf["accessors"][sampler["input"]]["max"][0], last - 1e-6)
+
+    def test_lamps_of_stepping_emitter_stand_before_and_after_one_frame(self):
+        glb, scene_json = Glb(SCENES / "stepping_emitter/scene.glb"), description("stepping_emitter")
+        (animation,) = glb.gltf["animations"]
+        self.assertEqual(len(animation["samplers"]), 3)
+        for sampler in animation["samplers"]:
+            self.assertEqual(sampler["interpolation"], "STEP")
+            start, step = glb.read(sampler["input"])
+            self.assertEqual((start, step * scene_json["frame_rate"]), (0, 30))
+            before, after = glb.read(sampler["output"])
+            self.assertAlmostEqual(after[0] - before[0], 1.2, places=6)  # float32
+            self.assertEqual(after[1:], before[1:])
 
     def test_the_normal_map_holds_unit_vectors(self):
         glb = Glb(SCENES / "normal_mapped/scene.glb")
@@ -240,7 +266,8 @@ class Cameras(unittest.TestCase):
     def test_straight_paths(self):
         for scene, name, frames, offset in (("mirror_pillars", "dolly", 120, (0, 0, -4)),
                                             ("fence", "lateral", 60, (0.2, 0, 0)),
-                                            ("disocclusion", "lateral", 60, (2, 0, 0))):
+                                            ("disocclusion", "lateral", 60, (2, 0, 0)),
+                                            ("passing_pillars", "lateral", 60, (2.4, 0, 0))):
             found, keys = self.path(scene, name)
             self.assertEqual(found, frames)
             self.assertEqual(minus(keys[-1]["position"], keys[0]["position"]), [*offset])
@@ -264,6 +291,17 @@ class Cameras(unittest.TestCase):
         self.assertAlmostEqual(max(pitches) - pitches[0], 10, places=4)
         self.assertAlmostEqual(min(pitches) - pitches[0], -10, places=4)
         self.assertAlmostEqual(pitches[-1], pitches[0], places=4)
+
+    def test_yaw_of_passing_pillars(self):
+        frames, keys = self.path("passing_pillars", "yaw")
+        self.assertEqual(frames, 60)
+        self.assertEqual({(*key["position"],) for key in keys}, {(0, 0.5, 0)})
+        directions = [minus(key["target"], key["position"]) for key in keys]
+        turns = [math.degrees(math.atan2(x, -z)) for x, _, z in directions]
+        for before, after in zip(turns, turns[1:]):
+            self.assertAlmostEqual(after - before, 2, places=4)
+        self.assertAlmostEqual(turns[0], -15, places=4)
+        self.assertAlmostEqual(turns[-1], 15, places=4)
 
 
 if __name__ == "__main__":

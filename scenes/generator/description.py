@@ -54,6 +54,17 @@ def pitching(still, name, degrees, frames):
     return moving(still, name, keys, frames)
 
 
+def yawing(still, name, degrees, frames):
+    """Turns right by `degrees` about its own place, the view of `still` in the middle. A key each 2 degrees, of which
+    `degrees` must be a multiple. The camera must look along x = 0."""
+    _, y, z = [b - a for a, b in zip(still["position"], still["target"])]
+    keys = []
+    for i in range(degrees // 2 + 1):
+        c, s = cosine(2 * i - degrees / 2), sine(2 * i - degrees / 2)
+        keys.append((still["position"], [a + b for a, b in zip(still["position"], (-s * z, y, c * z))]))
+    return moving(still, name, keys, frames)
+
+
 def scene_json(cameras, environment=DIM, **more):
     """`more`: lights, frame_count, frame_rate."""
     return {"gltf": "scene.glb", "environment": {"constant": list(environment)}, **more, "cameras": cameras}

@@ -114,11 +114,12 @@ class Model:
         self.nodes.append(node)
         return len(self.nodes) - 1
 
-    def animate(self, node, path, times, values):
-        """Linear keys; `path`: translation or rotation; `times` in seconds. The node rests at its first key."""
+    def animate(self, node, path, times, values, interpolation="LINEAR"):
+        """`path`: translation or rotation; `times` in seconds; STEP in place of LINEAR holds a key until the next. The
+        node rests at its first key."""
         self.nodes[node][path] = tidy_all(values[0])
         output = self.accessor(values, 4 if path == "rotation" else 3)
-        self.channels.append((node, path, self.accessor(times, 1), output))
+        self.channels.append((node, path, self.accessor(times, 1), output, interpolation))
 
     # The file
 
@@ -136,10 +137,10 @@ class Model:
             gltf["textures"] = [{"source": 0, "sampler": 0}]
         if self.channels:
             gltf["animations"] = [{
-                "samplers": [{"input": times, "output": output, "interpolation": "LINEAR"}
-                             for _, _, times, output in self.channels],
+                "samplers": [{"input": times, "output": output, "interpolation": interpolation}
+                             for _, _, times, output, interpolation in self.channels],
                 "channels": [{"sampler": i, "target": {"node": node, "path": path}}
-                             for i, (node, path, _, _) in enumerate(self.channels)]}]
+                             for i, (node, path, *_) in enumerate(self.channels)]}]
         if self.binary:
             gltf["buffers"] = [{"byteLength": len(self.binary)}]
         return gltf

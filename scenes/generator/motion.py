@@ -1,10 +1,10 @@
 """Things that move, and a camera that turns: what temporal reuse gets wrong."""
 import random
 
-from .description import camera, pitching, scene_json, shifted
+from .description import camera, pitching, scene_json, shifted, yawing
 from .gltf import Model
-from .parts import BOX, add_box, add_checker_wall, add_mirror_floor, hue
-from .shapes import Shape, cosine, rectangle, sine, unit_sphere
+from .parts import BOX, add_box, add_checker_wall, add_mirror_floor, hue, reflector
+from .shapes import Shape, cosine, floor, rectangle, sine, tilted_disc, unit_sphere
 
 
 def add_disocclusion(model):
@@ -67,3 +67,76 @@ def border_crossing():
     model.add("sign", rectangle((0, 3.2, -4), (7, 0, 0), (0, 0.3, 0)), model.flat("sign", (3, 3, 3)))
     main = camera("main", (0, 1.2, 2), (0, -0.3, -3), 40)
     return model, scene_json([main, pitching(main, "pitch", 10, frames=120)])
+
+
+def passing_pillars():
+    """Each path has the view of `main` in its middle."""
+    model = Model()
+    for roughness, x_min, x_max in ((0.1, -100, -0.8), (0, -0.8, 0.8), (0.3, 0.8, 100)):
+        material = reflector(model, roughness)
+        model.add(f"floor_r{round(100 * roughness):02}", floor(x_min, x_max, -60, 2), material)
+    # Distance, number, spacing, half width and height in metres: seen from 0.5 m above the floor all are about as tall.
+    rows = ((2, 7, 1.2, 0.06, 1.2), (10, 13, 2.5, 0.3, 3), (50, 21, 8, 1.5, 12))
+    for row, (distance, count, spacing, half_width, height) in enumerate(rows):
+        shine = model.flat(f"pillar_{distance}m", [2 * c for c in hue(row / 3)])
+        for i in range(count):
+            place = ((i - (count - 1) / 2) * spacing, height / 2, -distance)
+            model.add(f"pillar_{distance}m_{i:02}", BOX, shine, at=place, scale=(half_width, height / 2, half_width))
+    add_checker_wall(model, 200, 24, z=-60, cell=4, light=(0.15, 0.15, 0.15), dark=(0.04, 0.04, 0.05))
+    main = camera("main", (0, 0.5, 0), (0, -0.4, -10), 55)
+    # Pixels per frame where the image is 320 x 180: 3.5 at 2 m, 0.7 at 10 m, 0.14 at 50 m; the turn 1.5 at all of them.
+    start = camera("start", (-1.2, 0.5, 0), (-1.2, -0.4, -10), 55)
+    lateral, yaw = shifted(start, "lateral", (2.4, 0, 0), frames=60), yawing(main, "yaw", 30, frames=60)
+    return model, scene_json([main, lateral, yaw])
+
+
+ROUGHNESSES = (0, 0.1, 0.3)
+
+
+def add_emitters(model):
+    """Three strips of floor, a wall, and a lamp that hovers over each strip; returns (x, node) of each lamp."""
+    lamp, lamps = model.flat("lamp", (4, 3, 1.5)), []
+    for i, roughness in enumerate(ROUGHNESSES):
+        x = 3 * (i - 1)
+        model.add(f"floor_r{round(100 * roughness):02}", floor(x - 1.5, x + 1.5, -7, 2), reflector(model, roughness))
+        lamps.append((x, model.add(f"lamp{i}", BOX, lamp, at=(x, 0.7, -4), scale=(0.2, 0.2, 0.2))))
+    add_checker_wall(model, 16, 3.5, z=-7, cell=0.5, light=(0.3, 0.3, 0.3), dark=(0.05, 0.05, 0.06))
+    return lamps
+
+
+EMITTER_CAMERA = camera("main", (0, 1.4, 2.5), (0, 0.2, -4), 45)
+
+
+def moving_emitter():
+    model = Model()
+    for x, node in add_emitters(model):
+        # 60 frames: to the right and back, twice; 2.7 pixels per frame where the image is 320 x 180.
+        places = [(x + offset, 0.7, -4) for offset in (-0.6, 0.6, -0.6, 0.6, -0.6)]
+        model.animate(node, "translation", (0, 0.5, 1, 1.5, 2), places)
+    return model, scene_json([EMITTER_CAMERA | {"frames": 60}], frame_count=60, frame_rate=30)
+
+
+def stepping_emitter():
+    model = Model()
+    for x, node in add_emitters(model):
+        # Frame 30 is the first after the step.
+        model.animate(node, "translation", (0, 1), [(x - 0.6, 0.7, -4), (x + 0.6, 0.7, -4)], interpolation="STEP")
+    return model, scene_json([EMITTER_CAMERA | {"frames": 60}], frame_count=60, frame_rate=30)
+
+
+def rotating_mirror():
+    model = Model()
+    model.add("ground", floor(-6, 6, -7, 2, y=-0.15), model.flat("ground", (0.06, 0.06, 0.06)))
+    disc = tilted_disc(5)
+    # 90 degrees per second for 2 s; keys each 90, since a slerp takes the shorter way.
+    turns = [(0, sine(turn / 2), 0, cosine(turn / 2)) for turn in (0, 90, 180)]
+    for i, roughness in enumerate(ROUGHNESSES):
+        node = model.add(f"disc_r{round(100 * roughness):02}", disc, reflector(model, roughness),
+                         at=(2.4 * (i - 1), 0, -1), scale=(1.15, 1.15, 1.15))
+        model.animate(node, "rotation", (0, 1, 2), turns)
+    for i in range(9):
+        color = [1.5 * c for c in hue(i / 9)]
+        add_box(model, f"pillar{i}", color, (-4 + i, 1, -4), (0.15, 1.15, 0.15))
+    add_checker_wall(model, 16, 4, z=-7, cell=0.5, light=(0.3, 0.3, 0.3), dark=(0.05, 0.05, 0.06))
+    main = camera("main", (0, 2.2, 3.6), (0, 1, -1.6), 45, frames=60)
+    return model, scene_json([main], frame_count=60, frame_rate=30)

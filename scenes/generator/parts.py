@@ -19,6 +19,13 @@ def add_mirror_floor(model):
     model.add("floor", floor(-20, 20, -30, 10), model.mirror())
 
 
+def reflector(model, roughness):
+    """A mirror, or above roughness 0 (perceptual) the same metal, roughened."""
+    if roughness == 0:
+        return model.mirror()
+    return model.surface(f"metal_r{round(100 * roughness):02}", (0.95, 0.95, 0.95), 1.0, roughness)
+
+
 def add_checker_wall(model, width, height, z, cell, light=(0.8, 0.8, 0.8), dark=(0.08, 0.08, 0.1)):
     wall = checker_wall(width, height, z, cell)
     model.add("wall", wall, model.flat("wall_light", light), model.flat("wall_dark", dark))

@@ -82,6 +82,14 @@ def unit_box():
     return shape
 
 
+def tilted_disc(degrees, sides=64):
+    """Radius 1 about the origin, flat, facing up but leaning towards +x by `degrees`."""
+    c, s = cosine(degrees), sine(degrees)
+    rim = [(c * cosine(360 * i / sides), -s * cosine(360 * i / sides), -sine(360 * i / sides)) for i in range(sides)]
+    indices = [index for i in range(sides) for index in (0, 1 + i, 1 + (i + 1) % sides)]
+    return Shape([(0.0, 0.0, 0.0)] + rim, [normalized((s, c, 0.0))] * (sides + 1), [indices])
+
+
 def unit_pole(sides=16):
     """Radius 1 about +y, from y = 0 to 1; open at the foot, which stands on a floor."""
     ring = [(cosine(360 * i / sides), sine(360 * i / sides)) for i in range(sides)]
