@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 namespace {
@@ -44,9 +45,9 @@ bool is_edge(const MaskInputs& in, glm::uvec2 p) {
     return false;
 }
 
-bool is_reflective(const MaskInputs& in, glm::uvec2 p) {
+bool reflects(const MaskInputs& in, glm::uvec2 p) {
     const float* reflectance = in.reflectance.pixel(p.x, p.y);
-    return *in.material_id.pixel(p.x, p.y) != 0 && *in.roughness.pixel(p.x, p.y) <= in.reflective_max_roughness &&
+    return *in.material_id.pixel(p.x, p.y) != 0 &&
            *std::max_element(reflectance, reflectance + in.reflectance.channels) >= in.reflective_min_reflectance;
 }
 
@@ -54,7 +55,23 @@ bool is_inside(const std::string& name, const MaskInputs& in, glm::uvec2 p) {
     if (name == "all") return true;
     if (name == "edge") return is_edge(in, p);
     const bool is_hit = *in.confidence.pixel(p.x, p.y) >= hit_confidence;
-    return is_reflective(in, p) && (name == "reflective" || is_hit == (name == "hit"));
+    return reflects(in, p) && *in.roughness.pixel(p.x, p.y) <= in.reflective_max_roughness &&
+           (name == "reflective" || is_hit == (name == "hit"));
+}
+
+bool is_inside(const RoughnessClass& edges, const MaskInputs& in, glm::uvec2 p) {
+    const float roughness = *in.roughness.pixel(p.x, p.y);
+    return reflects(in, p) && roughness >= edges.from &&
+           (roughness < edges.below || (roughness == 1 && edges.below == 1));
+}
+
+template <class IsInside>
+std::vector<uint8_t> inside_pixels(glm::uvec2 extent, const IsInside& is_inside) {
+    std::vector<uint8_t> inside;
+    inside.reserve(size_t(extent.x) * extent.y);
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 0; x < extent.x; ++x) inside.push_back(is_inside(glm::uvec2(x, y)));
+    return inside;
 }
 
 void check(const MaskInputs& in) {
@@ -72,21 +89,55 @@ void check(const MaskInputs& in) {
     require(in.confidence, 1, "the confidence");
 }
 
+constexpr std::string_view class_prefix = "roughness_";
+
+/// The number that starts the text, which is cut off; none if it is not a plain decimal in [0, 1].
+std::optional<float> take_edge(std::string_view& text) {
+    float edge = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), edge, std::chars_format::fixed);
+    if (error != std::errc() || !(edge >= 0 && edge <= 1)) return std::nullopt;
+    text.remove_prefix(size_t(end - text.data()));
+    return edge;
+}
+
 }  // namespace
 
+std::optional<RoughnessClass> roughness_class(const std::string& name) {
+    if (!name.starts_with(class_prefix)) return std::nullopt;
+    std::string_view rest = std::string_view(name).substr(class_prefix.size());
+    if (const std::optional<float> from = take_edge(rest); from && rest.starts_with('_')) {
+        rest.remove_prefix(1);
+        if (const std::optional<float> below = take_edge(rest); below && rest.empty() && *from < *below)
+            return RoughnessClass{*from, *below};
+    }
+    fail("the mask '", name, "' is not a class of roughness: allowed are roughness_FROM_BELOW with decimals ",
+         "0 <= FROM < BELOW <= 1, such as 'roughness_0.1_0.2'");
+}
+
 const std::vector<std::string>& mask_names() {
-    static const std::vector<std::string> names = {"all", "reflective", "hit", "miss", "edge"};
+    static const std::vector<std::string> names = {"all", "reflective", "hit", "miss", "edge", "disoccluded"};
     return names;
 }
 
+void check_mask_name(const std::string& name) {
+    if (roughness_class(name) || std::ranges::find(mask_names(), name) != mask_names().end()) return;
+    std::vector<std::string> known = mask_names();
+    known.push_back("roughness_FROM_BELOW");
+    fail("no mask named '", name, "'", suggestion(name, known));
+}
+
 Mask make_mask(const std::string& name, const MaskInputs& inputs) {
-    if (std::ranges::find(mask_names(), name) == mask_names().end())
-        fail("no mask named '", name, "'", suggestion(name, mask_names()));
+    check_mask_name(name);
     check(inputs);
     const glm::uvec2 extent = inputs.view_depth.extent;
     Mask mask{.name = name, .extent = extent, .inside = {}};
-    mask.inside.reserve(size_t(extent.x) * extent.y);
-    for (unsigned y = 0; y < extent.y; ++y)
-        for (unsigned x = 0; x < extent.x; ++x) mask.inside.push_back(is_inside(name, inputs, {x, y}));
+    if (const std::optional<RoughnessClass> edges = roughness_class(name))
+        mask.inside = inside_pixels(extent, [&](glm::uvec2 p) { return is_inside(*edges, inputs, p); });
+    else if (name != "disoccluded")
+        mask.inside = inside_pixels(extent, [&](glm::uvec2 p) { return is_inside(name, inputs, p); });
+    else if (inputs.previous)
+        mask.inside = disoccluded(inputs.view_depth, inputs.normal, inputs.material_id, *inputs.previous);
+    else
+        mask.inside.assign(size_t(extent.x) * extent.y, 0);
     return mask;
 }

@@ -1,7 +1,9 @@
 #pragma once
 #include "core/host_image.h"
+#include "metrics/disocclusion.h"
 #include "metrics/plane.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +18,22 @@ struct MaskInputs {
     const HostImage& confidence;   ///< 1 channel in [0, 1]: the variant's
     float reflective_max_roughness = 0.6f;
     float reflective_min_reflectance = 0.02f;
+    const PreviousFrame* previous = nullptr;  ///< nullptr: there is no frame before, so nothing is disoccluded
 };
 
-/// "all", "reflective", "hit", "miss", "edge".
+/// Perceptual roughness in [from, below); a class that ends at 1 includes it.
+struct RoughnessClass {
+    float from, below;
+};
+
+/// What a mask name of the form roughness_FROM_BELOW says, such as "roughness_0.01_0.1" or "roughness_0_0.01"; none for
+/// names that do not start with "roughness_". Fails on malformed ones: edges are decimals with 0 <= FROM < BELOW <= 1.
+std::optional<RoughnessClass> roughness_class(const std::string& name);
+
+/// The names of roughness classes as a regular expression, for schemas; it leaves the order of the edges unchecked.
+inline constexpr const char* roughness_class_pattern = "^roughness_(0|1|0?\\.[0-9]+)_(0|1|0?\\.[0-9]+)$";
+
+/// "all", "reflective", "hit", "miss", "edge", "disoccluded"; roughness classes come on top of them.
 /// - reflective: something was hit, roughness <= reflective_max_roughness, largest channel of reflectance >= its
 /// minimum
 /// - hit, miss: reflective pixels with a confidence of at least, or below, one half
@@ -26,7 +41,13 @@ struct MaskInputs {
 /// apart,
 ///   or a jump of depth. 1/depth is affine in the screen over every plane, however slanted, so a jump is where its
 ///   second difference exceeds 2 % of the largest of the three values: free of scale, and blind to slant.
+/// - disoccluded: what the frame before did not show, see disoccluded()
 const std::vector<std::string>& mask_names();
 
-/// Fails on an unknown name, or where the extents differ.
+/// Fails on a name that is neither one of mask_names() nor a roughness class.
+void check_mask_name(const std::string& name);
+
+/// A roughness class holds the pixels where something was hit, the roughness is within it, and the largest channel of
+/// reflectance is at least its minimum, whatever reflective_max_roughness says. Fails on an unknown name, or where the
+/// extents differ.
 Mask make_mask(const std::string& name, const MaskInputs& inputs);

@@ -1,6 +1,7 @@
 #include "metrics/noise.h"
 
 #include "metrics/pooling.h"
+#include "metrics/tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,23 +45,18 @@ HostImage without_noise(const HostImage& half_a, const HostImage& half_b) {
 }
 
 double noise_half_width(const Plane& swapped, const Mask& mask) {
-    constexpr unsigned tile = 16, draws = 2000, seed = 0x5eed;
-    const unsigned columns = (swapped.extent.x + tile - 1) / tile, rows = (swapped.extent.y + tile - 1) / tile;
-    std::vector<double> tile_sums(size_t(columns) * rows);
-    for (unsigned y = 0; y < swapped.extent.y; ++y)
-        for (unsigned x = 0; x < swapped.extent.x; ++x)
-            if (mask.inside[size_t(y) * swapped.extent.x + x])
-                tile_sums[size_t(y / tile) * columns + x / tile] += swapped.row(y)[x];
-    std::erase(tile_sums, 0.0);
+    constexpr unsigned draws = 2000, seed = 0x5eed;
+    std::vector<double> sums = tile_sums(swapped, mask);
+    std::erase(sums, 0.0);
 
     std::mt19937_64 random(seed);
     std::vector<double> sizes(draws);
     for (double& size : sizes) {
         double sum = 0;
         uint64_t bits = 0;
-        for (size_t i = 0; i < tile_sums.size(); ++i) {
+        for (size_t i = 0; i < sums.size(); ++i) {
             if (i % 64 == 0) bits = random();
-            sum += bits >> (i % 64) & 1 ? tile_sums[i] : -tile_sums[i];
+            sum += bits >> (i % 64) & 1 ? sums[i] : -sums[i];
         }
         size = std::abs(sum);
     }
