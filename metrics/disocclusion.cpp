@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -187,8 +188,9 @@ std::vector<uint8_t> disoccluded(const HostImage& view_depth, const HostImage& n
     check(in);
     std::vector<uint8_t> inside(view_depth.pixel_count());
     if (previous.camera.frame.w == 0) return inside;
-    for (int y = 0; y < int(view_depth.extent.y); ++y)
-        for (int x = 0; x < int(view_depth.extent.x); ++x)
-            inside[size_t(y) * view_depth.extent.x + size_t(x)] = is_disoccluded(in, {x, y});
+    tbb::parallel_for(0u, view_depth.extent.y, [&](unsigned y) {
+        for (unsigned x = 0; x < view_depth.extent.x; ++x)
+            inside[size_t(y) * view_depth.extent.x + x] = is_disoccluded(in, glm::ivec2(x, y));
+    });
     return inside;
 }

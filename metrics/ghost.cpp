@@ -53,15 +53,9 @@ Plane squared_error(const HostImage& frame, const MetricReference& reference) {
 
 Mask finite_in_all(std::span<const HostImage> frames, const MetricReference& before, const MetricReference& after) {
     Mask finite = intersection(before.finite, after.finite);
-    const auto keep = [&](const HostImage& image) {
-        if (image.extent != finite.extent || image.channels != 3)
-            fail("ghosts need frames and references of one size and three channels");
-        for (size_t i = 0; i < image.values.size(); ++i)
-            if (!std::isfinite(image.values[i])) finite.inside[i / 3] = 0;
-    };
-    keep(before.image);
-    keep(after.image);
-    for (const HostImage& frame : frames) keep(frame);
+    keep_finite(finite, before.image);
+    keep_finite(finite, after.image);
+    for (const HostImage& frame : frames) keep_finite(finite, frame);
     return finite;
 }
 
@@ -139,21 +133,12 @@ void set_settling_length(TemporalScore& row, const MaskSums& s) {
         row.note = "the error of the first frame cannot be told from the plateau's";
 }
 
-Ghost ghost_of(const MaskSums& s, const Mask& mask, bool has_halves) {
-    const auto row = [&](const char* name) {
-        const size_t pixels = s.inside.count();
-        return TemporalScore{.metric = &temporal_metric_named(name),
-                             .mask = mask.name,
-                             .corrected = has_halves,
-                             .pixels = pixels,
-                             .left_out = mask.count() - pixels};
-    };
-    Ghost ghost{.ghost_length = row("ghost_length"), .settling_length = row("settling_length")};
+Ghost ghost_of(const MaskSums& s, const Mask& mask, const Mask& finite, bool has_halves) {
+    Ghost ghost{.ghost_length = empty_score("ghost_length", mask, finite),
+                .settling_length = empty_score("settling_length", mask, finite)};
+    ghost.ghost_length.corrected = ghost.settling_length.corrected = has_halves;
     const size_t pixels = ghost.ghost_length.pixels;
-    if (pixels == 0) {
-        ghost.ghost_length.note = ghost.settling_length.note = "no finite pixel is inside the mask";
-        return ghost;
-    }
+    if (pixels == 0) return ghost;
     for (const std::vector<double>& error : s.errors)
         ghost.error.push_back(totals(std::span(&error, 1)).front() / double(pixels));
     if (!(s.mean_energy > least_energy_in_noise * s.energy_half_width)) {
@@ -192,6 +177,6 @@ std::vector<Ghost> ghost_scores(std::span<const HostImage> frames, const MetricR
     }
     const bool has_halves = before.halves && after.halves;
     std::vector<Ghost> ghosts;
-    for (size_t m = 0; m < masks.size(); ++m) ghosts.push_back(ghost_of(sums[m], masks[m], has_halves));
+    for (size_t m = 0; m < masks.size(); ++m) ghosts.push_back(ghost_of(sums[m], masks[m], finite, has_halves));
     return ghosts;
 }

@@ -1,6 +1,9 @@
 #pragma once
 #include "metrics/temporal.h"
 
+#include <span>
+#include <vector>
+
 /// How long the old image lingers after a change, under one mask.
 struct Ghost {
     TemporalScore ghost_length, settling_length;  ///< frames

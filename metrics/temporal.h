@@ -1,11 +1,8 @@
 #pragma once
 #include "metrics/score.h"
-#include "metrics/statistics.h"
 
-#include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -19,8 +16,8 @@ struct TemporalMetric {
     std::string doc;
 };
 
-/// flicker, flicker_relative, flicker_correlation, frame_difference, frame_difference_relative (this file);
-/// ghost_length, settling_length (ghost.h).
+/// flicker, flicker_relative, flicker_correlation (flicker.h); frame_difference, frame_difference_relative
+/// (frame_difference.h); ghost_length, settling_length (ghost.h).
 const std::vector<TemporalMetric>& temporal_metrics();
 
 /// Fails on an unknown name, with the nearest known one.
@@ -39,42 +36,17 @@ struct TemporalScore {
     std::string note;                   ///< why there is no value; else empty
 };
 
-/// Frames of a shot where camera and scene stand still, after the technique has converged: all change is flicker.
-struct FlickerMoments {
-    SeedMoments frames;         ///< over time: each frame is one seed
-    std::vector<double> steps;  ///< sum over the frames of (x_t - x_(t-1))^2, per channel
-    HostImage last;
+inline constexpr const char* no_pixel = "no finite pixel is inside the mask";
 
-    /// Fails on an image of another extent than the first one's, or not of three channels.
-    void add(const HostImage& rgb);
-};
+/// A row without a value yet; its note is no_pixel if that is so. `finite` holds the pixels that are finite in all
+/// images of the sequence.
+TemporalScore empty_score(const std::string& metric, const Mask& mask, const Mask& finite);
 
-/// For each mask: flicker, flicker_relative (if there is a reference to relate to) and flicker_correlation. The
-/// variance over T frames that are correlated over a time of about 1/a frames (an exponential history of weight a)
-/// comes out too small by about 2 / (a T) of itself: take T well above 10 / a. Intervals are those of
-/// jackknife_half_width(), and say nothing of that. Fails below two frames.
-std::vector<TemporalScore> flicker_scores(const FlickerMoments& moments, const MetricReference* reference,
-                                          std::span<const Mask> masks);
+/// Takes the pixels out of `mask` where the image is NaN or Inf. Fails if it has another extent, or not three channels.
+void keep_finite(Mask& mask, const HostImage& rgb);
 
-/// Whether a technique changes from frame to frame as the truth does, summed over the steps of a sequence; also over a
-/// single one. It is blind to an error that stays: read it beside the error of single frames.
-struct FrameDifference {
-    /// The masks must have the same names in the same order at each step; pixels are those of the later frame. The
-    /// references may be one and the same: their difference is then exactly 0. Fails on different extents.
-    void add(const HostImage& test_before, const HostImage& test, const MetricReference& reference_before,
-             const MetricReference& reference, std::span<const Mask> masks);
+/// 1 / (r^2 + 0.01), the weight of relmse.
+double relative_weight(double reference);
 
-    /// For each mask: frame_difference and frame_difference_relative. Where all references have halves A, B, their
-    /// noise is taken out: with dA = A_t - A_(t-1), dB likewise, E[(dx - dA)(dx - dB)] = (dx - dtruth)^2, as the noises
-    /// of the halves are independent. Intervals are what that noise leaves, as those of score(): noise_half_width().
-    std::vector<TemporalScore> scores() const;
-
-    struct Sums {
-        std::string mask;
-        std::array<double, 2> corrected{}, uncorrected{};  ///< squared, and relative
-        std::array<Plane, 2> swapped;                      ///< see noise_half_width(); 0 outside of the mask
-        size_t pixels = 0, left_out = 0;
-    };
-    std::vector<Sums> sums;  ///< of each mask
-    bool has_halves = true;
-};
+/// The image that relative errors are weighted by: the reference, freed of its noise where it has halves.
+const HostImage& weighing_image(const MetricReference& reference);

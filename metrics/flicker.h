@@ -1,0 +1,23 @@
+#pragma once
+#include "metrics/statistics.h"
+#include "metrics/temporal.h"
+
+#include <span>
+#include <vector>
+
+/// Frames of a shot where camera and scene stand still, after the technique has converged: all change is flicker.
+struct FlickerMoments {
+    SeedMoments frames;         ///< over time: each frame is one seed
+    std::vector<double> steps;  ///< sum over the frames of (x_t - x_(t-1))^2, per channel
+    HostImage last;
+
+    /// Fails on an image of another extent than the first one's, or not of three channels.
+    void add(const HostImage& rgb);
+};
+
+/// For each mask: flicker, flicker_relative (if there is a reference to relate to) and flicker_correlation. The
+/// variance over T frames that are correlated over a time of about 1/a frames (an exponential history of weight a)
+/// comes out too small by about 2 / (a T) of itself: take T well above 10 / a. Intervals are those of
+/// jackknife_half_width(), and say nothing of that. Fails below two frames.
+std::vector<TemporalScore> flicker_scores(const FlickerMoments& moments, const MetricReference* reference,
+                                          std::span<const Mask> masks);
