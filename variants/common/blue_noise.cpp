@@ -7,8 +7,8 @@ namespace {
 
 constexpr glm::uvec2 table_extent{128, 128};
 
-/// What one frame adds to the two numbers, in units of 2^-32: the golden ratio with the digits of SSSR 1.5, and the first
-/// two powers of 1 / 1.3247179572447460, the real root of x^3 = x + 1; both modulo 1.
+/// What one frame adds to the two numbers, in units of 2^-32: the golden ratio with the digits of SSSR 1.5, and the
+/// first two powers of 1 / 1.3247179572447460, the real root of x^3 = x + 1; both modulo 1.
 glm::uvec2 shift_per_frame(NoiseShift shift) {
     switch (shift) {
         case NoiseShift::golden_diagonal:

@@ -16,10 +16,10 @@ enum class NoisePrecision { bits_8, float_32 };
 class BlueNoise {
 public:
     /// Adds the pass "common/blue_noise" and returns its image `blue_noise`, rg8 or rg32f: two numbers per texel; pixel
-    /// (x, y) takes texel (x mod 128, y mod 128). They are a function of frame index and seed in the camera block: their
-    /// period is 256 frames; a seed other than 0 moves the table by whole texels and all numbers by a rotation of the
-    /// unit square (Cranley and Patterson 1976), so that every pixel's numbers are independent between seeds. Fails with
-    /// Error if the file of the table is missing or not of its size.
+    /// (x, y) takes texel (x mod 128, y mod 128). They are a function of frame index and seed in the camera block:
+    /// their period is 256 frames; a seed other than 0 moves the table by whole texels and all numbers by a rotation of
+    /// the unit square (Cranley and Patterson 1976), so that every pixel's numbers are independent between seeds. Fails
+    /// with Error if the file of the table is missing or not of its size.
     Image render(PassGraph& graph, NoiseShift shift, NoisePrecision precision = NoisePrecision::bits_8);
 
 private:

@@ -29,19 +29,18 @@ std::array<double, 5> axis_functions(uint8_t code) {
 /// spectrum is worse than that of AMD's table: see tests/variants/blue_noise_spectrum_test.cpp.
 Values test_functions(Pair pair) {
     const std::array<double, 5> axis_weights = {1.75, 0.7, 0.7, 0.35, 0.35};
-    const double product_weight = 0.5;
     const std::array<double, 5> x = axis_functions(pair.x), y = axis_functions(pair.y);
     Values values;
     int count = 0;
     const auto add = [&](double weighted) { values[count++] = int32_t(std::lround(weighted * 4096)); };
     for (int i = 0; i < 5; ++i) add(axis_weights[i] * x[i]), add(axis_weights[i] * y[i]);
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) add(product_weight * x[i] * y[j]);
+        for (int j = 0; j < 3; ++j) add((i + j == 0 ? 0.7 : 0.5) * x[i] * y[j]);
     return values;
 }
 
-/// A Gaussian low-pass with the standard deviation of 1.5 texels of Ulichney 1993, "The void-and-cluster method for dither
-/// array generation", in units of 2^-10; 0 beyond 5 texels, where it is below 2^-8 of its peak.
+/// A Gaussian low-pass with the standard deviation of 1.5 texels of Ulichney 1993, "The void-and-cluster method for
+/// dither array generation", in units of 2^-10; 0 beyond 5 texels, where it is below 2^-8 of its peak.
 struct Kernel {
     static constexpr int radius = 5, width = 2 * radius + 1;
     std::array<int32_t, width * width> weights;
@@ -49,7 +48,8 @@ struct Kernel {
     Kernel() {
         for (int y = -radius; y <= radius; ++y)
             for (int x = -radius; x <= radius; ++x)
-                weights[(y + radius) * width + x + radius] = int32_t(std::lround(1024 * std::exp(-(x * x + y * y) / 4.5)));
+                weights[(y + radius) * width + x + radius] =
+                    int32_t(std::lround(1024 * std::exp(-(x * x + y * y) / 4.5)));
     }
     int32_t at(int x, int y) const {
         if (std::abs(x) > radius || std::abs(y) > radius) return 0;
@@ -68,8 +68,8 @@ struct Counter {
     }
 };
 
-/// The arrangement, and the low-pass filtered image of every test function, kept up to date: so a swap is rated without a
-/// look at the neighbours, which are touched only when it is made. The plane wraps around.
+/// The arrangement, and the low-pass filtered image of every test function, kept up to date: so a swap is rated without
+/// a look at the neighbours, which are touched only when it is made. The plane wraps around.
 struct Arrangement {
     Kernel kernel;
     std::vector<Pair> pairs = std::vector<Pair>(texel_count);

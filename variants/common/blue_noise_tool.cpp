@@ -6,7 +6,8 @@
 
 /// Writes the table of blue noise: blue_noise_tool FILE.png.
 int main(int argument_count, char** arguments) try {
-    if (argument_count != 2) fail("blue_noise_tool takes the name of a PNG file, not ", argument_count - 1, " arguments");
+    if (argument_count != 2)
+        fail("blue_noise_tool takes the name of a PNG file, not ", argument_count - 1, " arguments");
     const HostImage table = make_blue_noise_table();
     HostImage rgb(table.extent, 3);
     for (size_t i = 0; i < table.values.size(); ++i)
