@@ -169,8 +169,8 @@ TEST_F(BlueNoiseTime, R2CoversTheSquare) {
     EXPECT_GT(p.difference_changes, 0.49);
     // Random pairs would stay below 103.4 in 99.9 % of all cases (63 degrees of freedom), and below 37.8 in 0.5 %.
     EXPECT_LT(chi_square(p.visits_of_cells, 4), 37.8);
-    // The mean of 256 random pairs has a standard deviation of 0.5 / 16 = 0.031.
-    EXPECT_LT(p.rms_mean_disk, 0.031 / 5);
+    // Of 256 random pairs the mean has a standard deviation of 0.5 / 16 = 0.031; the diagonal's error is 0.087.
+    EXPECT_LT(p.rms_mean_disk, 0.031 / 3);
 }
 
 // Over seeds.
