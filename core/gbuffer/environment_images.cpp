@@ -21,9 +21,10 @@ EnvironmentImages::EnvironmentImages(PassGraph& graph, const Environment& enviro
     atlas_ = upload_rgb(graph, "prefiltered_environment", prefiltered_.atlas);
 }
 
-PassGraph::Pass& EnvironmentImages::bind(PassGraph::Pass& pass) const {
+PassGraph::Pass& EnvironmentImages::bind(PassGraph::Pass& pass) const { return bind_sharp(pass).read(atlas_); }
+
+PassGraph::Pass& EnvironmentImages::bind_sharp(PassGraph::Pass& pass) const {
     return pass.read(sharp_)
-        .read(atlas_)
         .set("environment_type", unsigned(environment_.type))
         .set("environment_rotation", environment_.rotation)
         .set("environment_color", glm::vec4(environment_.color, 0))
@@ -32,11 +33,10 @@ PassGraph::Pass& EnvironmentImages::bind(PassGraph::Pass& pass) const {
 }
 
 PassGraph::Pass& bind_environment(PassGraph::Pass& pass, const GBuffer& gbuffer) {
-    if (gbuffer.environment) return gbuffer.environment->bind(pass);
+    if (gbuffer.environment) return gbuffer.environment->bind_sharp(pass);
     const unsigned type_of_file = 3;
     const glm::vec4 unused(0);
     return pass.read(gbuffer.fallback.as("environment"))
-        .read(gbuffer.fallback.as("prefiltered_environment"))
         .set("environment_type", type_of_file)
         .set("environment_rotation", 0.0f)
         .set("environment_color", unused)

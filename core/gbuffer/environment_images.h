@@ -9,8 +9,9 @@ public:
     /// Without `prefilter` only its sharp radiance can be read. `environment` must outlive this.
     EnvironmentImages(PassGraph& graph, const Environment& environment, bool prefilter);
 
-    /// Binds images and constants to the pass.
+    /// Binds images and constants to the pass; `bind_sharp` for shaders that do not read the prefiltered image.
     PassGraph::Pass& bind(PassGraph::Pass& pass) const;
+    PassGraph::Pass& bind_sharp(PassGraph::Pass& pass) const;
 
     const PrefilteredEnvironment& prefiltered() const { return prefiltered_; }
 

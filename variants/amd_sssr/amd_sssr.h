@@ -4,8 +4,6 @@
 #include "variants/amd_sssr/tracing_parameters.h"
 #include "variants/common/blue_noise.h"
 
-#include <optional>
-
 /// AMD FidelityFX Stochastic Screen-Space Reflections with its reflection denoiser, as the shaders of FidelityFX SDK
 /// 1.1.4 compute them (effects SSSR 1.5 and Denoiser 1.3, MIT licence). Defaults are those of AMD's sample.
 ///
@@ -21,7 +19,6 @@ public:
 private:
     TracingParameters tracing_{params};
     DenoiserParameters denoiser_{params};
-    std::optional<BlueNoise> noise_;
-    unsigned frame_ = 0;  ///< frames rendered so far
+    BlueNoise noise_;
     bool is_left_out_ = false;
 };

@@ -13,11 +13,15 @@ bool is_on_screen(ivec2 pixel) {
     return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy)));
 }
 
+// For pixels that show a surface.
+bool has_specular(ivec2 pixel) {
+    return texelFetch(emission, pixel, 0).w > 0.0 || texelFetch(base_color, pixel, 0).w > 0.0;
+}
+
 // True for a surface with a specular term at all, and at most of that perceptual roughness.
 bool reflects(ivec2 pixel, float roughness_limit) {
-    if (is_background(texelFetch(depth, pixel, 0).r)) return false;
-    bool has_specular = texelFetch(emission, pixel, 0).w > 0.0 || texelFetch(base_color, pixel, 0).w > 0.0;
-    return has_specular && texelFetch(normal, pixel, 0).w <= roughness_limit;
+    return !is_background(texelFetch(depth, pixel, 0).r) && has_specular(pixel) &&
+           texelFetch(normal, pixel, 0).w <= roughness_limit;
 }
 
 vec3 view_position(ivec2 pixel) {

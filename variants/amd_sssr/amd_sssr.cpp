@@ -1,0 +1,36 @@
+#include "variants/amd_sssr/amd_sssr.h"
+
+#include "variants/amd_sssr/passes.h"
+
+Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
+    const Image confidence = graph.image("confidence", Format::r8);
+    const AmdHistories histories = amd_histories(graph, denoiser_.float_histories, tracing_.float_roughness);
+    if (is_left_out_) {
+        for (const Image& image : {histories.radiance.current, confidence}) graph.clear(image, {});
+        return {histories.radiance.current, confidence};
+    }
+    const Image pyramid = amd_depth_pyramid(graph, gbuffer.depth, tracing_.pyramid_mips);
+    const AmdWork work = amd_classify(graph, gbuffer, pyramid, histories, confidence);
+    const Image noise = tracing_.independent_noise_shifts
+                            ? noise_.render(graph, NoiseShift::r2, NoisePrecision::float_32)
+                            : noise_.render(graph, NoiseShift::golden_diagonal);
+    amd_prepare_arguments(graph, work);
+    amd_intersect(graph, gbuffer, pyramid, noise, work, histories);
+    if (denoiser_.denoise) amd_denoise(graph, gbuffer, work, histories, denoiser_);
+    return {histories.radiance.current, confidence};
+}
+
+std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
+    const float smoothest_alpha = facts.min_roughness * facts.min_roughness;
+    is_left_out_ = !facts.has_reflective || smoothest_alpha >= tracing_.roughness_threshold_alpha;
+    if (!is_left_out_) return {};
+    const std::string fact =
+        facts.has_reflective ? "no reflective surface below roughness_threshold_alpha" : "nothing reflective";
+    std::vector<std::string> stages = {"amd_sssr/depth_pyramid", "amd_sssr/classify", "common/blue_noise",
+                                       "amd_sssr/prepare_arguments", "amd_sssr/intersect"};
+    if (denoiser_.denoise)
+        stages.insert(stages.end(), {"amd_sssr/reproject", "amd_sssr/prefilter", "amd_sssr/resolve_temporal"});
+    std::vector<LeftOut> left_out;
+    for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
+    return left_out;
+}

@@ -1,0 +1,58 @@
+// Traces the listed rays and blends what they meet with the environment.
+#extension GL_KHR_shader_subgroup_ballot : require
+#include "amd_sssr/hit.glsl"
+#include "amd_sssr/lists.glsl"
+#include "amd_sssr/march.glsl"
+#include "amd_sssr/reflection.glsl"
+#include "core/shaders/gbuffer/environment.glsl"
+
+layout(local_size_x = 64) in;
+uniform sampler2D roughness, blue_noise, lit;
+uniform writeonly image2D radiance;
+
+struct Traced {
+    vec3 radiance;
+    float ray_length;  // m
+};
+
+vec3 lit_at(vec2 uv) {
+    ivec2 texel = ivec2(camera.extent.xy * uv);
+    return is_on_screen(texel) ? texelFetch(lit, texel, 0).rgb : vec3(0.0);  // uv may be 1
+}
+
+Traced trace(ivec2 pixel) {
+    float alpha = texelFetch(roughness, pixel, 0).r;
+    bool is_mirror = alpha < mirror_alpha;
+    int finest = is_mirror ? 0 : min(int(most_detailed_mip), textureQueryLevels(depth_pyramid) - 1);
+
+    vec2 uv = (vec2(pixel) + 0.5) * camera.extent.zw;
+    vec3 origin = vec3(uv, surface_depth(ivec2(uv * camera.extent.xy / float(1 << finest)), finest));
+    vec3 vs_origin = view_from_image(origin);
+    vec2 u = texelFetch(blue_noise, pixel & 127, 0).xy;
+    vec3 direction = sample_reflection(view_direction(vs_origin), view_normal(pixel), alpha, is_mirror, u);
+    if (above_horizon && dot(direction, view_geometric_normal(pixel)) <= 0.0) return Traced(vec3(0.0), 0.0);
+
+    MarchEnd end = march_pyramid(screen_ray(origin, vs_origin, direction), finest, is_mirror);
+    vec3 vs_ray = view_from_image(end.position) - vs_origin;
+    bool is_rejected = reject_unfinished && end.is_unfinished;
+    float confidence = is_rejected ? 0.0 : hit_confidence(origin, end.position, vs_ray, finest);
+
+    vec3 environment = ibl_factor * environment_along_ray(pixel, mat3(camera.world_from_view) * direction);
+    vec3 hit = confidence > 0.0 ? lit_at(end.position.xy) : vec3(0.0);
+    float distance = confidence > 0.0 || !far_misses ? length(vs_ray) : camera.depth.y;
+    return Traced(mix(environment, hit, confidence), isnan(distance) ? 0.0 : distance);
+}
+
+void main() {
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+    if (index >= ray_count) return;
+    uint ray = listed_ray[index];
+    ivec2 pixel = pixel_of_ray(ray);
+    Traced traced = trace(pixel);
+
+    vec4 result = vec4(traced.radiance, traced.ray_length);
+    imageStore(radiance, pixel, result);
+    if ((ray & copy_horizontal) != 0u) imageStore(radiance, pixel ^ ivec2(1, 0), result);
+    if ((ray & copy_vertical) != 0u) imageStore(radiance, pixel ^ ivec2(0, 1), result);
+    if ((ray & copy_diagonal) != 0u) imageStore(radiance, pixel ^ ivec2(1, 1), result);
+}

@@ -1,0 +1,35 @@
+// The direction of a pixel's ray, drawn from the visible normals of its GGX lobe.
+#ifndef AMD_SSSR_REFLECTION_GLSL
+#define AMD_SSSR_REFLECTION_GLSL
+#include "core/shared/brdf.h"
+
+// A visible micro-normal about +z: Heitz 2018, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), for one
+// alpha. The original's own mapping of random numbers, kept so that its noise gives its rays.
+vec3 sample_visible_normal(vec3 o, float alpha, vec2 u) {
+    vec3 v = normalize(vec3(alpha * o.xy, o.z));
+    float across = dot(v.xy, v.xy);
+    vec3 t1 = across > 0.0 ? vec3(-v.y, v.x, 0.0) * inversesqrt(across) : vec3(1.0, 0.0, 0.0);
+    vec3 t2 = cross(v, t1);
+    float r = sqrt(u.x), phi = 2.0 * pi * u.y;
+    float p1 = r * cos(phi), s = 0.5 * (1.0 + v.z);
+    float p2 = mix(sqrt(1.0 - p1 * p1), r * sin(phi), s);
+    vec3 n = p1 * t1 + p2 * t2 + sqrt(max(0.0, 1.0 - p1 * p1 - p2 * p2)) * v;
+    return normalize(vec3(alpha * n.xy, max(0.0, n.z)));
+}
+
+// Columns: two tangents and the normal. The original's choice of tangents decides which ray a random number gives.
+mat3 basis_about(vec3 n) {
+    vec3 u = abs(n.z) > 0.0 ? vec3(0.0, -n.z, n.y) / length(n.yz) : vec3(n.y, -n.x, 0.0) / length(n.xy);
+    return mat3(u, cross(n, u), n);
+}
+
+// `towards_surface`, `n` and the result: view space, unit.
+vec3 sample_reflection(vec3 towards_surface, vec3 n, float alpha, bool is_mirror, vec2 u) {
+    if (guard_mirror_normal && is_mirror) return reflect(towards_surface, n);
+    mat3 basis = basis_about(n);
+    vec3 o = -towards_surface * basis;
+    if (!above_horizon || is_mirror) return basis * reflect(-o, sample_visible_normal(o, alpha, u));
+    vec3 i = reflect(-o, sample_ggx_normal(o, alpha, u, ggx_cap_bound(o.z, alpha)));
+    return basis * vec3(i.xy, abs(i.z));
+}
+#endif
