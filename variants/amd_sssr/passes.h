@@ -49,3 +49,11 @@ void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Image& pyrami
 /// variance.previous; resolve overwrites radiance.current and variance.current, which the next frame sees as history.
 void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
                  const DenoiserParameters& parameters);
+
+// Its three passes, in their order.
+void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
+                   const DenoiserParameters& parameters);
+void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
+                   const DenoiserParameters& parameters);
+void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
+                          const DenoiserParameters& parameters);

@@ -1,0 +1,86 @@
+#include "variants/amd_sssr/passes.h"
+
+namespace {
+
+struct DenoiserPasses {
+    std::string reproject, prefilter, resolve;
+};
+
+DenoiserPasses passes_of(const DenoiserParameters&) {
+    return {"amd_sssr/reproject.comp", "amd_sssr/prefilter.comp", "amd_sssr/resolve_temporal.comp"};
+}
+
+constexpr size_t denoiser_arguments = 12;  // bytes, of AmdWork::indirect_arguments
+
+Image reprojected_image(PassGraph& graph, const AmdHistories& histories) {
+    return graph.image("reprojected_radiance", histories.radiance.current.format);
+}
+
+/// The averages that prefilter and resolve read.
+Image average_image(const AmdHistories& histories, const DenoiserParameters& parameters) {
+    const PassGraph::History& average = histories.average_radiance;
+    return (parameters.stale_average ? average.previous : average.current).as("average_radiance");
+}
+
+}  // namespace
+
+void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
+                   const DenoiserParameters& parameters) {
+    const Image reprojected = reprojected_image(graph, histories);
+    if (parameters.fresh_neighborhood)
+        for (const Image& image :
+             {histories.variance.current, histories.sample_count.current, histories.average_radiance.current})
+            graph.clear(image, {});
+    graph.compute(passes_of(parameters).reproject)
+        .use(work.tile_list.as("tile_list"))
+        .read(histories.radiance.current.as("radiance"))
+        .read(histories.roughness.current.as("roughness"))
+        .read_linear(histories.radiance.previous.as("previous_radiance"))
+        .read_linear(histories.variance.previous.as("previous_variance"))
+        .read_linear(histories.sample_count.previous.as("previous_sample_count"))
+        .read_linear(histories.roughness.previous.as("previous_roughness"))
+        .read_linear(gbuffer.previous_depth)
+        .read_linear(gbuffer.previous_normal)
+        .write(reprojected)
+        .write(histories.variance.current.as("variance"))
+        .write(histories.sample_count.current.as("sample_count"))
+        .write(histories.average_radiance.current.as("average_radiance"))
+        .dispatch(work.indirect_arguments, denoiser_arguments);
+}
+
+void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
+                   const DenoiserParameters& parameters) {
+    graph.compute(passes_of(parameters).prefilter)
+        .use(work.tile_list.as("tile_list"))
+        .read(histories.radiance.current.as("radiance"))
+        .read(histories.variance.current.as("variance"))
+        .read(histories.roughness.current.as("roughness"))
+        .read_linear(average_image(histories, parameters))
+        .write(histories.radiance.previous.as("prefiltered_radiance"))
+        .write(histories.variance.previous.as("prefiltered_variance"))
+        .dispatch(work.indirect_arguments, denoiser_arguments);
+}
+
+void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
+                          const DenoiserParameters& parameters) {
+    const PassGraph::History& samples = histories.sample_count;
+    graph.compute(passes_of(parameters).resolve)
+        .use(work.tile_list.as("tile_list"))
+        .read(histories.radiance.current.as("traced_radiance"))
+        .read(histories.radiance.previous.as("prefiltered_radiance"))
+        .read(histories.variance.previous.as("prefiltered_variance"))
+        .read(reprojected_image(graph, histories))
+        .read((parameters.current_sample_count ? samples.current : samples.previous).as("sample_count"))
+        .read(histories.roughness.current.as("roughness"))
+        .read_linear(average_image(histories, parameters))
+        .write(histories.radiance.current.as("radiance"))
+        .write(histories.variance.current.as("variance"))
+        .dispatch(work.indirect_arguments, denoiser_arguments);
+}
+
+void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
+                 const DenoiserParameters& parameters) {
+    amd_reproject(graph, gbuffer, work, histories, parameters);
+    amd_prefilter(graph, work, histories, parameters);
+    amd_resolve_temporal(graph, work, histories, parameters);
+}

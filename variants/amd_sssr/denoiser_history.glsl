@@ -1,0 +1,67 @@
+// Where a pixel's reflection was in the last frame, and whether that history can be trusted.
+#ifndef AMD_SSSR_DENOISER_HISTORY_GLSL
+#define AMD_SSSR_DENOISER_HISTORY_GLSL
+#include "amd_sssr/denoiser_moments.glsl"
+#include "amd_sssr/denoiser_tile.glsl"
+
+uniform sampler2D depth, motion, normal, roughness;
+uniform sampler2D previous_radiance, previous_variance, previous_sample_count;
+uniform sampler2D previous_depth, previous_normal, previous_roughness;
+
+// A pixel's surface, as history is compared with it.
+struct Surface {
+    vec3 ws_normal;
+    float alpha;
+    float history_depth;                // that the surface is expected to have in history (m)
+    vec2 surface_uv, reflected_uv;      // in the last frame's images: of the surface; of the point it reflects
+};
+
+// A look-up of the last frame.
+struct History {
+    vec2 uv;
+    vec3 radiance;
+    float factor;  // 1: the same surface; 0: another one
+};
+
+// Where the point at `length_of_ray` beyond the surface, on the same line of sight, was on the last frame's screen: a plane
+// mirror shows it there (Stachowiak 2015, "Stochastic Screen-Space Reflections", hit point reprojection).
+vec2 uv_of_reflected_point(vec3 vs_position, float length_of_ray) {
+    vec3 vs_point = vs_position + view_direction(vs_position) * length_of_ray;
+    vec4 clip = camera.previous_clip_from_world * (camera.world_from_view * vec4(vs_point, 1.0));
+    return clip.xy / clip.w * 0.5 + 0.5;
+}
+
+Surface surface_of(ivec2 pixel, float alpha, float length_of_ray) {
+    vec2 uv = uv_of(pixel), jitter_before = camera.jitter.zw * camera.extent.zw;
+    vec3 vs_position = view_from_screen(uv, texel(depth, pixel).r);
+    vec4 ws_position = camera.world_from_view * vec4(vs_position, 1.0);
+    float depth_before = (camera.previous_view_from_world * ws_position).z;
+    return Surface(unit_or_zero(texel(normal, pixel).xyz), alpha,
+                   abs(reproject_history_depth ? depth_before : vs_position.z),
+                   uv - texel(motion, pixel).xy - jitter_before,
+                   uv_of_reflected_point(vs_position, length_of_ray) - jitter_before);
+}
+
+float depth_in_history(vec2 uv, float device_depth) {
+    if (!reproject_history_depth) return linear_depth(uv, device_depth);
+    vec4 view = camera.previous_view_from_clip * vec4(uv * 2.0 - 1.0, device_depth, 1.0);
+    return abs(view.z / view.w);
+}
+
+vec3 normal_in_history(vec2 uv) { return unit_or_zero(textureLod(previous_normal, uv, 0.0).xyz); }
+
+// 1 - how much normal and depth have changed.
+float sameness(Surface surface, vec3 ws_normal, float depth_found) {
+    float turned = abs(1.0 - max(dot(surface.ws_normal, ws_normal), 0.0));
+    float moved = abs(depth_found - surface.history_depth) / surface.history_depth;
+    return exp(-disocclusion_normal_weight * turned) * exp(-disocclusion_depth_weight * moved);
+}
+
+float sameness_at(Surface surface, vec2 uv, vec3 ws_normal) {
+    return sameness(surface, ws_normal, depth_in_history(uv, textureLod(previous_depth, uv, 0.0).r));
+}
+
+float longest_history(float alpha) {
+    return max(min_history_samples, max_samples * (1.0 - exp(-samples_per_alpha * alpha)));
+}
+#endif
