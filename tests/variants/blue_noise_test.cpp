@@ -157,7 +157,7 @@ TEST_F(BlueNoiseTime, GoldenDiagonalNeverLeavesTheDiagonal) {
     EXPECT_LT(p.difference_changes, 1e-6);  // the rounding of float32
     // A diagonal of the square passes 8 or 16 of the 64 cells: at best 16 pairs in each of 16.
     EXPECT_GE(chi_square(p.visits_of_cells, 4), 48 * 4 + 16 * 36);
-    // |integral of sqrt(s) exp(2 pi i s) over [0, 1]| / sqrt(2), by quadrature; the mean of 256 steps is within 2 % of it.
+    // |integral of sqrt(s) exp(2 pi i s) over [0, 1]| / sqrt(2), by quadrature. The mean of 256 steps is within 2 %.
     std::complex<double> integral = 0;
     for (int i = 0; i < 10000; ++i)
         integral += std::polar(std::sqrt((i + 0.5) / 1e4), 2 * std::numbers::pi * (i + 0.5) / 1e4) / 1e4;

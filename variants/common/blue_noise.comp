@@ -1,5 +1,5 @@
-// The random numbers of one frame from the table's codes v: frac((v + 1/2) / 256 + (frame mod 256) shift + rotation), the
-// animation of AMD FidelityFX SSSR 1.5. Numbers are fixed-point in units of 2^-32, whose overflow is the frac.
+// The random numbers of one frame from the table's codes v: frac((v + 1/2) / 256 + (frame mod 256) shift + rotation),
+// the animation of AMD FidelityFX SSSR 1.5. Numbers are fixed-point in units of 2^-32, whose overflow is the frac.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Shift { uint shift_x, shift_y, is_8_bit; };
 uniform sampler2D blue_noise_table;

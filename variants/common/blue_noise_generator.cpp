@@ -25,8 +25,8 @@ std::array<double, 5> axis_functions(uint8_t code) {
             std::sqrt(2.0) * std::cos(2 * turn), std::sqrt(2.0) * std::sin(2 * turn)};
 }
 
-/// The functions of either number, and the products of the first three of each. The weights were chosen such that no
-/// spectrum is worse than that of AMD's table: see tests/variants/blue_noise_spectrum_test.cpp.
+/// The functions of either number, and the products of the first three of each. The weights were chosen such that all
+/// spectra match those of AMD's table: see tests/variants/blue_noise_spectrum_test.cpp.
 Values test_functions(Pair pair) {
     const std::array<double, 5> axis_weights = {1.75, 0.7, 0.7, 0.35, 0.35};
     const std::array<double, 5> x = axis_functions(pair.x), y = axis_functions(pair.y);
@@ -140,7 +140,7 @@ HostImage make_blue_noise_table() {
     const std::vector<Pair> net = shuffled_net(random);
     for (int texel = 0; texel < texel_count; ++texel) arrangement.place(texel, net[texel]);
 
-    const int trials = 10'000'000;  // four times as many lower the energy of low frequencies by less than a third
+    const int trials = 10'000'000;  // low frequencies then have the energy that they have in AMD's table; more lower it
     for (int trial = 0; trial < trials; ++trial) {
         const uint32_t bits = random.next();
         const int a = bits & (texel_count - 1), b = bits >> 14 & (texel_count - 1);
