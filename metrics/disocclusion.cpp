@@ -10,9 +10,8 @@
 
 namespace {
 
-constexpr float cos_normal_step = 0.9396926f;                      // of 20 degrees
 constexpr double still_tolerance = 0.02, moving_tolerance = 0.05;  // of 1 / depth
-constexpr double still_pixels = 0.05;                              // rounding of the motion stays below
+constexpr double still_pixels = 0.01;         // what stands still or moves: as the scene facts have it
 constexpr double least_weight = 0.01;         // of a sample that a bilinear fetch blends: motion is rounded, too
 constexpr double neighbour_depth_step = 0.1;  // of 1 / depth, between pixels of one surface
 

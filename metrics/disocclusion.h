@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+inline constexpr float cos_normal_step = 0.9396926f;  ///< of 20 degrees: farther apart, normals are of two surfaces
+
 /// What a G-buffer knows of the frame before. All images have its extent.
 struct PreviousFrame {
     const CameraData& camera;  ///< of the frame now: it holds the matrices of the one before

@@ -10,7 +10,6 @@
 
 namespace {
 
-constexpr float cos_normal_step = 0.9396926f;  // of 20 degrees
 constexpr float relative_depth_step = 0.02f;
 constexpr float hit_confidence = 0.5f;
 

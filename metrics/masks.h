@@ -31,7 +31,7 @@ struct RoughnessClass {
 std::optional<RoughnessClass> roughness_class(const std::string& name);
 
 /// The names of roughness classes as a regular expression, for schemas; it leaves the order of the edges unchecked.
-inline constexpr const char* roughness_class_pattern = "^roughness_(0|1|0?\\.[0-9]+)_(0|1|0?\\.[0-9]+)$";
+inline constexpr const char* roughness_class_pattern = "^roughness_(0|0?\\.[0-9]+)_(0?\\.[0-9]+|1(\\.0+)?)$";
 
 /// "all", "reflective", "hit", "miss", "edge", "disoccluded"; roughness classes come on top of them.
 /// - reflective: something was hit, roughness <= reflective_max_roughness, largest channel of reflectance >= its

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <regex>
 
 namespace {
 
@@ -72,9 +73,54 @@ TEST(Masks, EdgesLieWithinOnePixelOfMaterialsAndNormals) {
     }
 }
 
+TEST(Masks, RoughnessClassesAreHalfOpen) {
+    Images images({6, 1});
+    images.roughness.values = {0, 0.0999f, 0.1f, 0.5f, 0.7f, 1};
+    using Bytes = std::vector<uint8_t>;
+    EXPECT_EQ(images.mask("roughness_0_0.1").inside, (Bytes{1, 1, 0, 0, 0, 0}));
+    EXPECT_EQ(images.mask("roughness_0.1_.5").inside, (Bytes{0, 0, 1, 0, 0, 0}));
+    EXPECT_EQ(images.mask("roughness_0.5_1").inside, (Bytes{0, 0, 0, 1, 1, 1}));  // beyond reflective_max_roughness
+    EXPECT_EQ(images.mask("roughness_0.5_1").name, "roughness_0.5_1");
+    images.id.values[0] = 0;
+    for (int c = 0; c < 3; ++c) images.reflectance.pixel(1, 0)[c] = 0.019f;
+    EXPECT_EQ(images.mask("roughness_0_0.1").count(), 0u);
+}
+
+TEST(Masks, RoughnessClassesAreReadFromTheirNames) {
+    EXPECT_FALSE(roughness_class("reflective"));
+    const RoughnessClass edges = *roughness_class("roughness_0.01_0.447");
+    EXPECT_EQ(edges.from, 0.01f);
+    EXPECT_EQ(edges.below, 0.447f);
+    const std::regex pattern(roughness_class_pattern);
+    for (const char* name : {"roughness_0_0.05", "roughness_0.6_1", "roughness_0.60_1.0", "roughness_.2_.3"}) {
+        EXPECT_TRUE(roughness_class(name)) << name;
+        EXPECT_TRUE(std::regex_match(name, pattern)) << name;
+    }
+    for (const char* name : {"roughness_", "roughness_0.1", "roughness_0.1_", "roughness_0.1_0.2_0.3", "roughness_a_b",
+                             "roughness_0_1.5", "roughness_-0.1_0.2", "roughness_0_nan", "roughness_0_1e-1"}) {
+        EXPECT_THROW(roughness_class(name), Error) << name;
+        EXPECT_FALSE(std::regex_match(name, pattern)) << name;
+    }
+    EXPECT_THROW(roughness_class("roughness_0.2_0.1"), Error);
+    EXPECT_THROW(roughness_class("roughness_0.2_0.2"), Error);
+}
+
+TEST(Masks, WithoutAFrameBeforeNothingIsDisoccluded) { EXPECT_EQ(Images({4, 4}).mask("disoccluded").count(), 0u); }
+
 TEST(Masks, MistakesAreNamed) {
     Images images({4, 4});
-    EXPECT_THROW(images.mask("reflectiv"), Error);
+    try {
+        images.mask("reflectiv");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "no mask named 'reflectiv'; did you mean 'reflective'?");
+    }
+    try {
+        check_mask_name("x");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("roughness_FROM_BELOW"), std::string::npos);
+    }
     images.roughness = HostImage({3, 4}, 1);
     EXPECT_THROW(images.mask("all"), Error);
 }
