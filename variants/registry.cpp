@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "variants/amd_sssr/amd_sssr.h"
 #include "variants/mcguire_dda/mcguire_dda.h"
 #include "variants/none/none.h"
 
@@ -39,6 +40,31 @@ const std::vector<VariantEntry> table = {
                      "thickness as a share of the depth, for scenes of any size",
                      {{"thickness", 0.0}, {"relative_thickness", 0.02}}}},
         .create = create<McGuireDda>,
+    },
+    {
+        .name = "amd_sssr",
+        .title = "AMD FidelityFX stochastic screen-space reflections, with their denoiser",
+        .source = "FidelityFX SDK 1.1.4 (SSSR 1.5, Denoiser 1.3), MIT licence, Copyright (C) 2024 Advanced Micro "
+                  "Devices, Inc.",
+        .description =
+            "One ray per quad or pixel, drawn from the visible normals with blue noise, is marched through a depth "
+            "pyramid; rays are accumulated over frames, filtered in space and clipped to their neighbourhood.",
+        .needs = {"has_reflective", "min_roughness"},
+        .presets =
+            {{"slides", "the traversal loop as the slides of 2020 print it", {{"march", "slides"}}},
+             {"sdk_1_5", "the shaders of FidelityFX SDK 1.1.4 with the defaults of its sample",
+              nlohmann::json::object()},
+             {"corrected",
+              "every correction, and no early exit of thinly occupied subgroups",
+              {{"min_traversal_occupancy", 0},  {"thickness_at_hit_mip", true},    {"independent_noise_shifts", true},
+               {"trace_orphans", true},         {"clip_ray_to_near_plane", true},  {"guard_zero_direction", true},
+               {"guard_mirror_normal", true},   {"above_horizon", true},           {"stop_outside_screen", true},
+               {"reject_unfinished", true},     {"accept_contact_hits", true},     {"far_misses", true},
+               {"float_roughness", true},       {"barrier_before_average", true},  {"current_sample_count", true},
+               {"no_dark_exit", true},          {"running_variance", true},        {"round_up_tiles", true},
+               {"relative_depth_weight", true}, {"reproject_history_depth", true}, {"finite_neighborhood", true},
+               {"fresh_neighborhood", true},    {"float_histories", true}}}},
+        .create = create<AmdSssr>,
     },
 };
 

@@ -2,6 +2,8 @@
 
 #include "core/error.h"
 
+#include <gtest/gtest.h>
+#include <cstring>
 #include <map>
 
 HostGBuffer amd_golden_gbuffer(const std::string& set) {
@@ -42,6 +44,97 @@ HostGBuffer amd_golden_hit_gbuffer(const std::string& set) {
     return gbuffer;
 }
 
+namespace {
+
+/// The first `count` words of the buffer.
+std::vector<uint32_t> words(PassGraph& graph, const Buffer& buffer, size_t count) {
+    const std::vector<std::byte> bytes = graph.download(buffer);
+    std::vector<uint32_t> values(count);
+    std::memcpy(values.data(), bytes.data(), count * 4);
+    return values;
+}
+
+/// The passes of one frame on a graph of their own.
+struct TracedFrame {
+    PassGraph graph;
+    AmdParameters parameters;
+    GBuffer gbuffer;
+    AmdHistories histories;
+    Image pyramid, confidence;
+    AmdWork work;
+
+    TracedFrame(Device& device, const HostGBuffer& host, const nlohmann::json& overrides)
+        : graph(device, host.extent()), gbuffer(upload_gbuffer(graph, host)) {
+        parameters.params.assign(overrides);
+        graph.begin_frame(host.camera, parameters.params, gbuffer.images());
+        histories = amd_histories(graph, true, parameters.tracing.float_roughness);
+        confidence = graph.image("confidence", Format::r8);
+        pyramid = amd_depth_pyramid(graph, gbuffer.depth, parameters.tracing.pyramid_mips);
+    }
+
+    void classify() { work = amd_classify(graph, gbuffer, pyramid, histories, confidence); }
+
+    /// `counters`: where those of rays and tiles are, before or after the arguments are prepared.
+    AmdTraced result(unsigned rays, unsigned tiles) {
+        const std::vector<uint32_t> counters = words(graph, work.counters, 4);
+        return {.rays = words(graph, work.ray_list, counters[rays]),
+                .tiles = words(graph, work.tile_list, counters[tiles]),
+                .radiance = graph.download(histories.radiance.current),
+                .roughness = graph.download(histories.roughness.current),
+                .confidence = graph.download(confidence),
+                .arguments = words(graph, work.indirect_arguments, 6)};
+    }
+};
+
+}  // namespace
+
+AmdTraced amd_classify_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
+                             const HostImage* variance) {
+    TracedFrame frame(device, gbuffer, parameters);
+    if (variance) frame.graph.upload(frame.histories.variance.previous, *variance);
+    frame.classify();
+    return frame.result(0, 2);
+}
+
+AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
+                          const HostImage& noise) {
+    TracedFrame frame(device, gbuffer, parameters);
+    const Image numbers = frame.graph.image_of("blue_noise", Format::rg32f, noise.extent);
+    frame.graph.upload(numbers, noise);
+    frame.classify();
+    amd_prepare_arguments(frame.graph, frame.work);
+    amd_intersect(frame.graph, frame.gbuffer, frame.pyramid, numbers, frame.work, frame.histories);
+    return frame.result(1, 3);
+}
+
+HostImage map_of_rays(const AmdTraced& traced, glm::uvec2 extent) {
+    HostImage map(extent, 1);
+    for (const uint32_t ray : traced.rays) {
+        const unsigned x = ray & 0x7fff, y = ray >> 15 & 0x3fff;
+        if (x >= extent.x || y >= extent.y) {
+            ADD_FAILURE() << "a ray at " << x << ", " << y;
+            continue;
+        }
+        EXPECT_EQ(*map.pixel(x, y), 0) << x << ", " << y << " is listed twice";
+        *map.pixel(x, y) = float(1 + 2 * (ray >> 29));
+    }
+    return map;
+}
+
+HostImage map_of_tiles(const AmdTraced& traced, glm::uvec2 extent) {
+    HostImage map((extent + 7u) / 8u, 1);
+    for (const uint32_t tile : traced.tiles) {
+        const unsigned x = (tile & 0xffff) / 8, y = (tile >> 16) / 8;
+        if (x >= map.extent.x || y >= map.extent.y || tile % 8 || (tile >> 16) % 8) {
+            ADD_FAILURE() << "a tile at " << (tile & 0xffff) << ", " << (tile >> 16);
+            continue;
+        }
+        EXPECT_EQ(*map.pixel(x, y), 0) << x << ", " << y << " is listed twice";
+        *map.pixel(x, y) = 1;
+    }
+    return map;
+}
+
 std::vector<std::string> amd_tracer_sets() {
     std::vector<std::string> sets;
     for (const std::string& set : golden_sets("amd/"))
@@ -58,8 +151,9 @@ nlohmann::json amd_golden_parameters(const std::string& set, const std::string& 
         {"mostDetailedMip", "most_detailed_mip"},
         {"maxTraversalIntersections", "max_traversal_intersections"},
         {"roughnessThreshold (alpha)", "roughness_threshold_alpha"}};
+    const nlohmann::json recorded = golden_meta(set)["parameter_sets"][name]["parameters"];
     nlohmann::json parameters;
-    for (const auto& [key, value] : golden_meta(set)["parameter_sets"][name]["parameters"].items()) {
+    for (const auto& [key, value] : recorded.items()) {
         if (!ours.contains(key)) fail(set, "/meta.json: unknown parameter '", key, "'");
         parameters[ours.at(key)] = key == "temporalVarianceGuidedTracingEnabled" ? nlohmann::json(value != 0) : value;
     }

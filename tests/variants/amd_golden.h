@@ -1,5 +1,6 @@
 #pragma once
 #include "core/gbuffer/gbuffer_transfer.h"
+#include "core/gpu/device.h"
 #include "tests/variants/golden_vectors.h"
 #include "variants/amd_sssr/passes.h"
 #include "variants/amd_sssr/tracing_parameters.h"
@@ -17,6 +18,27 @@ HostGBuffer amd_golden_gbuffer(const std::string& set);
 
 /// The same with the colour (u, v, 1) of each pixel and a black environment, from which hits can be decoded.
 HostGBuffer amd_golden_hit_gbuffer(const std::string& set);
+
+/// What the passes up to classification, or up to intersection, leave.
+struct AmdTraced {
+    std::vector<uint32_t> rays, tiles;  ///< the lists
+    HostImage radiance;                 ///< rgb, w length of the ray (m)
+    HostImage roughness, confidence;
+    std::vector<uint32_t> arguments;  ///< after intersection
+};
+
+/// Runs one frame. `parameters` override the defaults; radiance is kept in 32 bits. `variance`: of the frame before, or
+/// nullptr for the first frame.
+AmdTraced amd_classify_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
+                             const HostImage* variance = nullptr);
+AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
+                          const HostImage& noise);
+
+/// A map of what is listed: 1 + copy flags (bits 29 to 31 as 2, 4, 8), 0 where no ray is. Fails a test if a pixel is
+/// listed twice or lies outside.
+HostImage map_of_rays(const AmdTraced& traced, glm::uvec2 extent);
+/// 1 where a tile is listed.
+HostImage map_of_tiles(const AmdTraced& traced, glm::uvec2 extent);
 
 /// Sets that hold recorded passes of the tracer: those with classify.exr.
 std::vector<std::string> amd_tracer_sets();

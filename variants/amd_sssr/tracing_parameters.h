@@ -25,7 +25,7 @@ struct TracingParameters {
          "SSSR 1.5, minTraversalOccupancy"}, Use::constant};
     Param<unsigned> most_detailed_mip{params, "most_detailed_mip", 0, {0, 5},
         {"mip", "finest level of the depth pyramid for all but mirrors, which use 0", "SSSR 1.5, mostDetailedMip"}};
-    Param<float> depth_buffer_thickness{params, "depth_buffer_thickness", 0.015f, {0.0f, 1e6f},
+    Param<float> depth_buffer_thickness{params, "depth_buffer_thickness", 0.015f, {1e-6f, 1e6f},
         {"m", "distance between ray and surface at which the confidence of a hit has fallen to 0",
          "SSSR 1.5, depthBufferThickness"}};
     Param<float> ibl_factor{params, "ibl_factor", 1.0f, {0.0f, 1e3f},
