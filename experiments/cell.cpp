@@ -4,6 +4,12 @@
 #include "core/files.h"
 #include "core/json.h"
 
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 namespace nlohmann {
 template <class T>
 struct adl_serializer<std::optional<T>> {
@@ -24,8 +30,9 @@ struct adl_serializer<std::optional<T>> {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ResultRow, shot, scene, camera, frame, width, height, variant, point, seed, target, metric, formula, mask,
                                    value, is_corrected, uncorrected, low, high, floor, pixels, non_finite, negative)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SplitRow, shot, frame, variant, point, target, mask, seeds, mse, bias_squared, variance, variance_low, variance_high, pixels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeRow, shot, variant, point, seed, stage, frame, milliseconds, clock)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cell, rows, times, images)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cell, rows, splits, times, images, timing, notes)
 
 std::optional<Cell> CellStore::load(const std::string& hash) const {
     const std::filesystem::path file = folder_ / (hash + ".json");
@@ -39,4 +46,25 @@ std::optional<Cell> CellStore::load(const std::string& hash) const {
 
 void CellStore::save(const std::string& hash, const Cell& cell) const {
     write_text(folder_ / (hash + ".json"), nlohmann::json(cell).dump(1) + "\n");
+}
+
+CellStore::Claim::~Claim() {
+    std::error_code ignored;  // another process may have removed it
+    std::filesystem::remove(file_, ignored);
+    close(descriptor_);
+}
+
+std::unique_ptr<CellStore::Claim> CellStore::claim(const std::string& hash, bool waits) const {
+    const std::filesystem::path file = folder_ / (hash + ".claim");
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0) fail_machine("cannot write into the folder ", folder_.string(), ": ", std::strerror(errno));
+    while (flock(descriptor, waits ? LOCK_EX : LOCK_EX | LOCK_NB) != 0) {
+        if (errno == EINTR) continue;
+        if (errno != EWOULDBLOCK) break;
+        close(descriptor);
+        return nullptr;
+    }
+    return std::make_unique<Claim>(file, descriptor);
 }

@@ -12,6 +12,8 @@
 namespace {
 
 constexpr int max_side = 16384;  // pixels; what Vulkan devices commonly allow for an image
+constexpr unsigned max_frames = 100000, max_seed = 100000;
+constexpr size_t min_frames_after_change = 8;  // of ghost_scores()
 
 const std::vector<std::string> all_targets = {"specular", "image", "incident"};
 
@@ -26,12 +28,21 @@ std::vector<std::string> one_or_more(JsonObject& object, const std::string& key,
 }
 
 std::vector<std::string> known_names(JsonObject& object, const std::string& key, const std::vector<std::string>& known,
-                                     const std::vector<std::string>& fallback) {
+                                     const std::vector<std::string>& fallback, bool may_be_empty = false) {
     if (!object.has(key)) return fallback;
+    if (may_be_empty && object.any(key) == nlohmann::json::array()) return {};
     const std::vector<std::string> names = one_or_more(object, key, "");
     for (const std::string& name : names)
         if (std::ranges::find(known, name) == known.end()) fail(object.where(), ": '", key, "' names \"", name, "\", which is not known", suggestion(name, known));
     return names;
+}
+
+/// Of the masks that are asked for, those that tell one frame from another.
+std::vector<std::string> default_frame_masks(const std::vector<std::string>& masks) {
+    std::vector<std::string> chosen;
+    for (const std::string& mask : masks)
+        if (mask == "all" || mask == "reflective" || mask == "disoccluded") chosen.push_back(mask);
+    return chosen.empty() ? masks : chosen;
 }
 
 /// A count n, which stands for 0 .. n-1, or an array of whole numbers.
@@ -73,16 +84,35 @@ ShotConfig read_gbuffer_shot(JsonObject& shot, const std::filesystem::path& fold
     return config;
 }
 
+/// How a shot is played.
+void read_timeline(JsonObject& shot, ShotConfig& config) {
+    config.frames = numbers(shot, "frames", max_frames, {0});
+    config.warm_up = unsigned(shot.integer("warm_up", 0, int(max_frames), 0));
+    config.repeat = unsigned(shot.integer("repeat", 1, int(max_frames), 1));
+    config.measures_last_only = shot.choice("measure", {"all", "last"}, "all") == "last";
+    if (!shot.has("change")) return;
+    config.change = unsigned(shot.integer("change", 0, int(max_frames)));
+    if (std::ranges::find(config.frames, *config.change) == config.frames.end() || config.change == config.frames.front())
+        fail(shot.where(), ": 'change' = ", *config.change, " must be one of 'frames' after the first of them, ", config.frames.front());
+    const size_t after = size_t(std::ranges::count_if(config.frames, [&](unsigned frame) { return frame >= *config.change; })) + config.repeat - 1;
+    if (after < min_frames_after_change)
+        fail(shot.where(), ": 'change' = ", *config.change, " is followed by ", after, " frames; at least ", min_frames_after_change, " must show how it fades: add 'frames', or a 'repeat' of the last");
+}
+
 /// scene x camera; frames stay together, since a history runs through them.
 void read_shot(JsonObject shot, const std::filesystem::path& folder, std::vector<ShotConfig>& shots) {
     if (shot.has("gbuffer")) return shots.push_back(read_gbuffer_shot(shot, folder));
     const std::vector<std::string> scenes = one_or_more(shot, "scene", ""), cameras = one_or_more(shot, "camera", "");
     if (!shot.has("scene")) shot.text("scene");  // says that it is missing
-    const glm::uvec2 extent = shot.has("resolution") ? read_extent(shot) : glm::uvec2(480, 270);
-    const std::vector<unsigned> frames = numbers(shot, "frames", 100000, {0});
+    ShotConfig config;
+    if (shot.has("resolution")) config.extent = read_extent(shot);
+    read_timeline(shot, config);
     shot.finish();
     for (const std::string& scene : scenes)
-        for (const std::string& camera : cameras) shots.push_back({.scene = scene, .camera = camera, .extent = extent, .frames = frames, .gbuffer = {}, .reference = {}});
+        for (const std::string& camera : cameras) {
+            config.scene = scene, config.camera = camera;
+            shots.push_back(config);
+        }
 }
 
 /// A value as it stands in a point's label: texts without their quotes.
@@ -104,17 +134,19 @@ std::vector<nlohmann::json> grid_points(const nlohmann::json& axes, const std::s
     return points;
 }
 
-void read_variant(JsonObject entry, std::vector<VariantConfig>& variants) {
+void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, std::vector<VariantConfig>& variants) {
     const std::string name = entry.text("variant");
     const std::vector<std::string> presets = one_or_more(entry, "preset", "");
     const nlohmann::json parameters = entry.has("parameters") ? entry.any("parameters") : nlohmann::json::object();
     const nlohmann::json sweep = entry.has("sweep") ? entry.any("sweep") : nlohmann::json::object();
+    const std::vector<unsigned> seeds = numbers(entry, "seeds", max_seed, study_seeds);
+    const bool is_baseline = entry.boolean("baseline", false), is_timed = entry.boolean("timing", true);
     entry.finish();
     for (const nlohmann::json* part : {&parameters, &sweep})
         if (!part->is_object()) fail(entry.where(), ": 'parameters' and 'sweep' must be objects, not ", part->dump());
     for (const std::string& preset : presets)
         for (const nlohmann::json& point : grid_points(sweep, entry.where())) {
-            VariantConfig variant{.variant = name, .preset = preset, .parameters = parameters, .point = preset};
+            VariantConfig variant{.variant = name, .preset = preset, .parameters = parameters, .point = preset, .seeds = seeds, .is_baseline = is_baseline, .is_timed = is_timed};
             variant.parameters.update(point);
             for (const auto& [key, value] : point.items()) variant.point += (variant.point.empty() ? "" : " ") + key + "=" + label(value);
             if (variant.point.empty()) variant.point = "default";
@@ -138,6 +170,14 @@ ReferenceSettings read_reference(JsonObject object) {
     return settings;
 }
 
+/// A shot that comes twice would do the same work under the same name.
+void refuse_repeated_shots(const std::vector<ShotConfig>& shots, const std::string& where) {
+    for (size_t i = 0; i < shots.size(); ++i)
+        for (size_t j = i + 1; j < shots.size(); ++j)
+            if (shots[i] == shots[j])
+                fail(where, ": shots: '", shots[i].scene.empty() ? shots[i].gbuffer.string() : shots[i].scene, "' comes twice with the same camera, resolution and frames; leave one of them out");
+}
+
 /// The pairs (variant, point) name cells and rows, so they must differ.
 void refuse_repetition(const std::vector<VariantConfig>& variants, const std::string& where) {
     for (size_t i = 0; i < variants.size(); ++i)
@@ -157,8 +197,8 @@ Config read_config(const std::filesystem::path& file) {
     if (object.has("$schema")) object.text("$schema");
 
     for (JsonObject& shot : object.objects("shots")) read_shot(shot, file.parent_path(), config.shots);
-    for (JsonObject& variant : object.objects("variants")) read_variant(variant, config.variants);
-    config.seeds = numbers(object, "seeds", 100000, {0});
+    config.seeds = numbers(object, "seeds", max_seed, {0});
+    for (JsonObject& variant : object.objects("variants")) read_variant(variant, config.seeds, config.variants);
     if (object.has("reference")) config.reference = read_reference(object.object("reference"));
     config.direct_lit = object.choice("lit", {"path_traced", "direct"}, "path_traced") == "direct";
 
@@ -177,14 +217,23 @@ Config read_config(const std::filesystem::path& file) {
             fail(file.string(), ": timing: 'frames' = ", config.timing.frames, " is too few for a median with an interval; allowed are 0 (no timing) or at least 15");
     }
     config.metrics = known_names(object, "metrics", metric_names(), {"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"});
-    config.masks = known_names(object, "masks", mask_names(), mask_names());
+    config.masks = one_or_more(object, "masks", "");
+    if (!object.has("masks")) config.masks = mask_names();
+    for (const std::string& mask : config.masks) try {
+            check_mask_name(mask);
+        } catch (const Error& e) {
+            fail(file.string(), ": 'masks': ", e.what());
+        }
     config.targets = known_names(object, "targets", all_targets, {"specular", "image", "incident"});
+    config.frame_metrics = known_names(object, "frame_metrics", metric_names(), {"mse", "relmse", "bias"}, true);
+    config.frame_masks = known_names(object, "frame_masks", config.masks, default_frame_masks(config.masks));
     config.reflective_max_roughness = object.number("reflective_max_roughness", 0.0f, 1.0f, config.reflective_max_roughness);
     config.reflective_min_reflectance = object.number("reflective_min_reflectance", 0.0f, 1.0f, config.reflective_min_reflectance);
     object.finish();
 
     if (config.shots.empty()) fail(file.string(), ": 'shots' is missing or empty: name at least one scene");
     if (config.variants.empty()) fail(file.string(), ": 'variants' is missing or empty: name at least one variant, e.g. \"none\"");
+    refuse_repeated_shots(config.shots, file.string());
     refuse_repetition(config.variants, file.string());
     return config;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,16 @@ struct ShotConfig {
     std::string scene;   ///< a scene's name, or a path to a .json/.gltf/.glb
     std::string camera;  ///< "": the scene's first
     glm::uvec2 extent{480, 270};
-    std::vector<unsigned> frames{0};  ///< ascending; variants see them in this order, so histories work
+    std::vector<unsigned> frames{0};  ///< poses, ascending: rendered in this order, so histories work
+    unsigned warm_up = 0;             ///< frames at the first pose before it is played: rendered, not measured
+    unsigned repeat = 1;              ///< how often the last pose is rendered in a row: its flicker is measured
+    std::optional<unsigned> change;   ///< the first of `frames` after the scene's step: how long it ghosts is measured
+    bool measures_last_only = false;  ///< else every one of `frames` is measured
 
     std::filesystem::path gbuffer;    ///< in place of a scene: a folder with gbuffer.exr and camera.json
     std::filesystem::path reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
+
+    bool operator==(const ShotConfig&) const = default;
 };
 
 /// A variant and one point of its parameter grid.
@@ -25,6 +32,9 @@ struct VariantConfig {
     std::string preset;         ///< "": none
     nlohmann::json parameters;  ///< values that differ from the preset's or default ones
     std::string point;          ///< its label in results: the preset and the swept values, or "default"
+    std::vector<unsigned> seeds;
+    bool is_baseline = false;   ///< all other points are compared with it, seed by seed
+    bool is_timed = true;
 };
 
 struct TimingConfig {
@@ -37,15 +47,17 @@ struct Config {
     std::string title;
     std::vector<ShotConfig> shots;
     std::vector<VariantConfig> variants;
-    std::vector<unsigned> seeds{0};
     ReferenceSettings reference;
     bool direct_lit = false;  ///< SSR reads rasterised direct light in place of the path-traced lit colour
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     TimingConfig timing;
+    std::vector<unsigned> seeds{0};  ///< of variants that name none of their own
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;
     std::vector<std::string> targets;
+    std::vector<std::string> frame_metrics;  ///< of all measured frames but the last, and of their mean; may be empty
+    std::vector<std::string> frame_masks;    ///< of each of those frames; their mean has all masks
     float reflective_max_roughness = 0.6f;   ///< the mask `reflective`: perceptual roughness at most this ...
     float reflective_min_reflectance = 0.02f;  ///< ... and F0 A + F90 B (largest channel) at least this
     nlohmann::json source;  ///< as read, for the manifest

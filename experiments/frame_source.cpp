@@ -10,8 +10,14 @@ public:
     SceneSource(Device& device, const Shot& shot, const Config& config, bool keep_all)
         : shot_(shot), config_(config), rasterizer_(device, shot.scene, {.extent = shot.config.extent, .depth_format = config.depth_format, .keep_all = keep_all}) {}
 
-    GBuffer render(unsigned frame, unsigned seed, const HostImage& lit) override {
-        const GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent, .depth_direction = config_.depth_direction, .frame = frame, .seed = seed});
+    using FrameSource::render;
+    GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
+        const GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,
+                                                                  .depth_direction = config_.depth_direction,
+                                                                  .frame = step.frame,
+                                                                  .seed = seed,
+                                                                  .index = step.index,
+                                                                  .previous_frame = step.previous_frame});
         if (config_.direct_lit)
             rasterizer_.light_directly(gbuffer);
         else
@@ -32,8 +38,10 @@ class FileSource final : public FrameSource {
 public:
     FileSource(Device& device, HostGBuffer gbuffer) : camera_(gbuffer.camera), has_lit_(!gbuffer.lit.values.empty()), graph_(device, gbuffer.extent()), gbuffer_(upload_gbuffer(graph_, gbuffer)) {}
 
-    GBuffer render(unsigned, unsigned seed, const HostImage& lit) override {
-        camera_.frame.y = seed;
+    using FrameSource::render;
+    GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
+        // Whatever the file says: what was rendered before is known here.
+        camera_.frame.x = step.index, camera_.frame.y = seed, camera_.frame.w = step.previous_frame.has_value();
         if (!has_lit_) {
             if (lit.values.empty()) fail("the G-buffer has no lit colour, and no reference provides one: give it the layer 'lit', or name a 'reference'");
             HostImage rgba(lit.extent, 4, 1.0f);
@@ -58,3 +66,35 @@ private:
 
 std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all) { return std::make_unique<SceneSource>(device, shot, config, keep_all); }
 std::unique_ptr<FrameSource> file_source(Device& device, HostGBuffer gbuffer) { return std::make_unique<FileSource>(device, std::move(gbuffer)); }
+
+struct FrameStore::Stored {
+    PassGraph graph;  ///< owns the images
+    GBuffer gbuffer;
+    CameraData camera;
+
+    Stored(Device& device, const HostGBuffer& host) : graph(device, host.extent()), gbuffer(upload_gbuffer(graph, host)), camera(host.camera) {}
+};
+
+FrameStore::FrameStore(FrameSource& source, DepthFormat depth_format, size_t max_bytes) : source_(source), depth_format_(depth_format), max_bytes_(max_bytes) {}
+FrameStore::~FrameStore() = default;
+
+FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit) {
+    constexpr size_t bytes_per_pixel = 132;  // of the formats in gbuffer.h
+    const auto key = std::pair(step.frame, step.previous_frame);
+    auto found = stored_.find(key);
+    if (found == stored_.end()) {
+        const GBuffer rendered = source_.render(step, 0, lit);
+        const glm::uvec2 extent = rendered.depth.extent;
+        bytes_ += bytes_per_pixel * extent.x * extent.y;
+        if (bytes_ > max_bytes_) {
+            bytes_ -= bytes_per_pixel * extent.x * extent.y;
+            return {rendered, source_.camera()};
+        }
+        const HostGBuffer host = download_gbuffer(source_.graph(), rendered, source_.camera(), depth_format_);
+        found = stored_.emplace(key, std::make_unique<Stored>(source_.graph().device(), host)).first;
+        found->second->gbuffer.environment = rendered.environment;
+    }
+    Frame frame{found->second->gbuffer, found->second->camera};
+    frame.camera.frame.x = step.index;
+    return frame;
+}

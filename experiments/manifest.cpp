@@ -56,13 +56,6 @@ HostImage repeated_channel(const HostImage& source) {
     return rgb;
 }
 
-HostImage first_three(const HostImage& source) {
-    HostImage rgb(source.extent, 3);
-    for (size_t i = 0; i < rgb.pixel_count(); ++i)
-        for (size_t c = 0; c < 3; ++c) rgb.values[i * 3 + c] = source.values[i * source.channels + c];
-    return rgb;
-}
-
 /// |test - reference| / (|reference| + 1 % of the mean), mean over channels; shown with magma from 0 to 1.
 HostImage relative_error_map(const HostImage& test, const HostImage& reference) {
     double mean = 0;
@@ -75,6 +68,29 @@ HostImage relative_error_map(const HostImage& test, const HostImage& reference) 
             map.values[i] += std::abs(x - r) / (std::abs(r) + 0.01 * mean) / 3.0;
         }
     return false_color(map, 1.0);
+}
+
+/// What is said of facts and of what was left out.
+nlohmann::json fact_entry(const SceneFact& fact) { return {{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}}; }
+
+nlohmann::json left_out_entry(const LeftOut& part) { return {{"what", part.what}, {"fact", part.fact}, {"why", part.why}, {"saved_ms", nullptr}}; }
+
+/// What path tracer, rasteriser and variants leave out, each once.
+nlohmann::json left_out_entries(const Shot& shot, const std::vector<LeftOut>& rasterizer, const Config& config) {
+    nlohmann::json entries = nlohmann::json::array();
+    const auto add = [&](const LeftOut& part) {
+        const nlohmann::json entry = left_out_entry(part);
+        if (std::ranges::find(entries, entry) == entries.end()) entries.push_back(entry);
+    };
+    if (shot.config.gbuffer.empty()) {
+        const ShotFrame now = shot_frame(shot, shot.config.frames.back());
+        const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
+        for (const LeftOut& part : tracer.left_out()) add(part);
+    }
+    for (const VariantConfig& v : config.variants)
+        for (const LeftOut& part : make_variant(v.variant, v.parameters, v.preset)->leave_out(shot.facts)) add(part);
+    for (const LeftOut& part : rasterizer) add(part);
+    return entries;
 }
 
 }  // namespace
@@ -98,61 +114,52 @@ nlohmann::json study_entry(const Config& config, Device& device) {
             {"images", nlohmann::json::array()}};
 }
 
-nlohmann::json fact_entry(const SceneFact& fact) { return {{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}}; }
-
-nlohmann::json left_out_entry(const LeftOut& part) { return {{"what", part.what}, {"fact", part.fact}, {"why", part.why}, {"saved_ms", nullptr}}; }
-
-nlohmann::json shot_entry(const Shot& shot, unsigned frame, const Reference& reference, const FrameTruth& truth, const Config& config) {
-    nlohmann::json needs = nlohmann::json::array(), left_out = nlohmann::json::array();
-    if (shot.config.gbuffer.empty()) {
+nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const std::vector<LeftOut>& left_out,
+                          const Config& config, bool keep_all) {
+    nlohmann::json needs = nlohmann::json::array();
+    if (shot.config.gbuffer.empty())
         for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) needs.push_back(fact_entry(fact));
-        const ShotFrame now = shot_frame(shot, frame);
-        const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
-        for (const LeftOut& part : tracer.left_out()) left_out.push_back(left_out_entry(part));
-    }
-    for (const VariantConfig& v : config.variants)
-        for (const LeftOut& part : make_variant(v.variant, v.parameters, v.preset)->leave_out(shot.facts)) {
-            nlohmann::json entry = left_out_entry(part);
-            if (std::ranges::find(left_out, entry) == left_out.end()) left_out.push_back(entry);
-        }
+    for (const SceneFact& fact : list_facts(pixels)) needs.push_back(fact_entry(fact));
+    nlohmann::json entry = {{"shot", shot.name()},
+                            {"scene", shot.scene.name},
+                            {"camera", shot.camera.name},
+                            {"width", shot.config.extent.x},
+                            {"height", shot.config.extent.y},
+                            {"frame", shot.config.frames.back()},
+                            {"frames", shot.config.frames},
+                            {"warm_up", shot.config.warm_up},
+                            {"repeat", shot.config.repeat},
+                            {"measure", shot.config.measures_last_only ? "last" : "all"},
+                            {"exposure_ev", shot.camera.exposure_ev},
+                            {"lit", config.direct_lit ? "direct" : "path_traced"},
+                            {"warnings", shot.scene.warnings},
+                            {"needs", needs},
+                            {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, left_out, config)}};
+    if (shot.config.change) entry["change"] = *shot.config.change;
+    return entry;
+}
+
+nlohmann::json reference_entry(const Reference& reference, unsigned frame, const Config& config) {
     std::vector<float> samples = reference.sample_count.values;
     std::ranges::nth_element(samples, samples.begin() + long(samples.size() / 2));
     const ErrorSummary error = relative_error_summary(reference, reference.specular);
-    return {{"shot", shot.name(frame)},
-            {"scene", shot.scene.name},
-            {"camera", shot.camera.name},
-            {"frame", frame},
-            {"width", shot.config.extent.x},
-            {"height", shot.config.extent.y},
-            {"exposure_ev", shot.camera.exposure_ev},
-            {"flip_exposures", {truth.flip_exposures.start, truth.flip_exposures.stop, truth.flip_exposures.count}},
-            {"lit", config.direct_lit ? "direct" : "path_traced"},
-            {"warnings", shot.scene.warnings},
-            {"needs", needs},
-            {"left_out", left_out},
-            {"reference",
-             {{"hash", reference.hash},
-              {"samples_median", samples[samples.size() / 2]},
-              {"passes", reference.passes},
-              {"seconds", reference.seconds},
-              {"rays", reference.rays},
-              {"max_depth", config.reference.max_depth},
-              {"target_relative_error", json_number(config.reference.target_relative_error)},
-              {"relative_error", {{"median", error.median}, {"p95", error.p95}, {"mean", error.mean}}},
-              {"reached_share", reference.reached_share},
-              {"non_finite_samples", reference.non_finite_samples},
-              {"from_cache", reference.from_cache}}}};
-}
-
-nlohmann::json gbuffer_shot_entry(const Shot& shot) {
-    return {{"shot", shot.name(0)}, {"scene", shot.scene.name}, {"camera", shot.camera.name}, {"frame", 0}, {"width", shot.config.extent.x}, {"height", shot.config.extent.y},
-            {"exposure_ev", 0.0}, {"lit", "file"}, {"warnings", {"This G-buffer came without a reference: its results are rendered and timed, not measured."}},
-            {"needs", nlohmann::json::array()}, {"left_out", nlohmann::json::array()}};
+    return {{"frame", frame},
+            {"hash", reference.hash},
+            {"samples_median", samples[samples.size() / 2]},
+            {"passes", reference.passes},
+            {"seconds", reference.seconds},
+            {"rays", reference.rays},
+            {"max_depth", config.reference.max_depth},
+            {"target_relative_error", json_number(config.reference.target_relative_error)},
+            {"relative_error", {{"median", error.median}, {"p95", error.p95}, {"mean", error.mean}}},
+            {"reached_share", reference.reached_share},
+            {"non_finite_samples", reference.non_finite_samples},
+            {"from_cache", reference.from_cache}};
 }
 
 CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite, const HostImage& reflectance) {
     const HostImage radiance = graph.download(reflections.radiance), fallback = graph.download(gbuffer.fallback);
-    CompositedImages images{.specular = first_three(graph.download(composite.specular)), .incident = HostImage(radiance.extent, 3), .confidence = graph.download(reflections.confidence)};
+    CompositedImages images{.specular = channels_of(graph.download(composite.specular), 0, 3), .incident = HostImage(radiance.extent, 3), .confidence = graph.download(reflections.confidence)};
     for (size_t i = 0; i < images.incident.pixel_count(); ++i) {
         if (!reflectance.values.empty() && reflectance.rgb(i) == glm::vec3(0.0f)) continue;
         for (size_t c = 0; c < 3; ++c) {
@@ -163,17 +170,17 @@ CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, cons
     return images;
 }
 
-std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot, const Reference& reference, float exposure_ev) {
+std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot, unsigned frame, const Reference& reference, float exposure_ev) {
     std::vector<nlohmann::json> entries;
     for (const auto& [target, output] : {std::pair("image", &reference.image), {"specular", &reference.specular}, {"incident", &reference.incident}})
-        entries.push_back(save_image(out, shot, std::string("reference.") + target, output->mean, exposure_ev,
-                                     {{"shot", shot}, {"variant", "reference"}, {"kind", "reference"}, {"target", target}}));
+        entries.push_back(save_image(out, shot, "reference." + reference.hash.substr(0, 8) + "." + target, output->mean, exposure_ev,
+                                     {{"shot", shot}, {"frame", frame}, {"variant", "reference"}, {"kind", "reference"}, {"target", target}}));
     return entries;
 }
 
-std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row, const FrameTruth& truth, const CompositedImages& images, float exposure_ev) {
-    const std::string name = row.variant + "." + row.point + ".s" + std::to_string(row.seed);
-    const nlohmann::json base = {{"shot", row.shot}, {"variant", row.variant}, {"point", row.point}, {"seed", row.seed}};
+std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix, const PoseTruth& truth, const CompositedImages& images, float exposure_ev) {
+    const std::string name = row.variant + "." + row.point + ".s" + std::to_string(row.seed) + "." + suffix;
+    const nlohmann::json base = {{"shot", row.shot}, {"frame", std::stoul(row.frame)}, {"variant", row.variant}, {"point", row.point}, {"seed", row.seed}};
     std::vector<nlohmann::json> entries;
     const auto save = [&](const char* kind, const char* target, const HostImage& rgb, float ev) {
         nlohmann::json entry = base;

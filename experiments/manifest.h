@@ -13,15 +13,17 @@
 /// What holds for the whole study; proves the clock.
 nlohmann::json study_entry(const Config& config, Device& device);
 
-nlohmann::json shot_entry(const Shot& shot, unsigned frame, const Reference& reference, const FrameTruth& truth, const Config& config);
-nlohmann::json gbuffer_shot_entry(const Shot& shot);  ///< of a G-buffer without a reference
-nlohmann::json fact_entry(const SceneFact& fact);
-nlohmann::json left_out_entry(const LeftOut& part);
+/// All that can be said of a shot before it is measured. `pixels` are those of its last frame, `left_out` what its
+/// rasteriser left out.
+nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const std::vector<LeftOut>& left_out,
+                          const Config& config, bool keep_all);
+nlohmann::json reference_entry(const Reference& reference, unsigned frame, const Config& config);
 
 /// The variant's output on the CPU. `incident` mixes fallback and radiance as the compositor does, and is
 /// 0 where `reflectance` (of the G-buffer; may be empty) is 0, as in the truth.
 CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite, const HostImage& reflectance);
 
-/// Writes images/<shot>/...; returns the manifest's entries for them.
-std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot, const Reference& reference, float exposure_ev);
-std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row, const FrameTruth& truth, const CompositedImages& images, float exposure_ev);
+/// Writes images/<shot>/...; returns the manifest's entries for them. `suffix` becomes a part of the files' names,
+/// and so does the key of the reference: other configs may fill the same folder.
+std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot, unsigned frame, const Reference& reference, float exposure_ev);
+std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix, const PoseTruth& truth, const CompositedImages& images, float exposure_ev);

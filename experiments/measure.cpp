@@ -1,8 +1,12 @@
 #include "experiments/measure.h"
 
 #include "core/error.h"
+#include "core/files.h"
+#include "core/gbuffer/composite.h"
 
 #include <cmath>
+#include <span>
+#include <tuple>
 
 namespace {
 
@@ -12,74 +16,166 @@ HostImage sum(const HostImage& a, const HostImage& b) {
     return total;
 }
 
-std::optional<double> if_finite(std::optional<double> value) { return value && std::isfinite(*value) ? value : std::nullopt; }
+std::optional<double> if_finite(std::optional<double> value) {
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
 
-const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image) {
-    return target == "specular" ? result.specular : target == "incident" ? result.incident : image;
+std::string content_hash(const Reference& reference) {
+    ContentHash hash;
+    for (const ReferenceOutput* output :
+         {&reference.image, &reference.diffuse, &reference.specular, &reference.incident})
+        for (const HostImage* image : {&output->mean, &output->half_a, &output->half_b})
+            hash.add(std::as_bytes(std::span(image->values)));
+    for (const HostImage* image : {&reference.depth, &reference.normal, &reference.material_id})
+        hash.add(std::as_bytes(std::span(image->values)));
+    return hash.hex();
+}
+
+/// More than half of a frame may be black; the exposure it is displayed with is then the only sensible one.
+FlipExposures exposures_of(const Reference& reference, const MetricSettings& settings) {
+    try {
+        return flip_exposure_range(reference.image.mean, settings.hdr_flip_tone_map);
+    } catch (const Error&) {
+        return {.start = settings.exposure_ev, .stop = settings.exposure_ev, .count = 1};
+    }
+}
+
+MetricReference target_reference(const std::string& target, const Reference& reference,
+                                 const std::vector<std::string>& metrics, const MetricSettings& settings) {
+    const ReferenceOutput& output = target == "incident" ? reference.incident : reference.specular;
+    HostImage mean = output.mean;
+    ReferenceHalves halves{output.half_a, output.half_b};
+    if (target == "image") {
+        // A result's `image` adds the truth's own diffuse light, so the noise in it is that of the specular halves alone.
+        const HostImage& diffuse = reference.diffuse.mean;
+        mean = sum(diffuse, mean), halves = {sum(diffuse, halves.a), sum(diffuse, halves.b)};
+    }
+    return metric_reference(std::move(mean), std::move(halves), metrics, settings);
+}
+
+/// One row per score. A mask that holds no pixel of this scene gives none; one whose pixels are all non-finite gives a
+/// row without a value.
+void add_rows(std::vector<ResultRow>& rows, const MetricReference& reference, const std::string& target,
+              const HostImage& test, std::span<const Mask> masks, const ResultRow& shared) {
+    PixelCounts counts;
+    const std::vector<Score> scores = score(reference, test, masks, &counts);
+    for (size_t i = 0; i < scores.size(); ++i) {
+        const Score& s = scores[i];
+        if (masks[i % masks.size()].count() == 0) continue;
+        ResultRow r = shared;
+        r.target = target, r.metric = s.metric->name, r.formula = s.metric->formula, r.mask = s.mask;
+        r.value = if_finite(s.value), r.is_corrected = s.corrected, r.uncorrected = if_finite(s.uncorrected);
+        r.low = if_finite(s.low), r.high = if_finite(s.high), r.floor = if_finite(s.floor);
+        r.pixels = s.pixels, r.non_finite = counts.non_finite(), r.negative = counts.negative;
+        rows.push_back(std::move(r));
+    }
+}
+
+bool depends_on_result(const std::string& mask) { return mask == "hit" || mask == "miss"; }
+
+float depth_step(DepthFormat format) {
+    return format == DepthFormat::d16 ? std::exp2(-16.0f) : format == DepthFormat::d24 ? std::exp2(-24.0f) : 0.0f;
+}
+
+MaskInputs mask_inputs(const FrameTruth& truth, const HostImage& confidence, const Config& config,
+                       const PreviousFrame* previous) {
+    return {.view_depth = truth.pose->view_depth,
+            .normal = truth.pose->normal,
+            .material_id = truth.pose->material_id,
+            .roughness = truth.roughness,
+            .reflectance = truth.reflectance,
+            .confidence = confidence,
+            .reflective_max_roughness = config.reflective_max_roughness,
+            .reflective_min_reflectance = config.reflective_min_reflectance,
+            .previous = previous};
 }
 
 }  // namespace
 
-FrameTruth frame_truth(const Reference& reference, HostImage roughness, HostImage reflectance, const Config& config, float exposure_ev) {
-    FrameTruth truth{.diffuse = reference.diffuse.mean,
-                     .targets = {},
-                     .view_depth = reference.depth,
-                     .normal = reference.normal,
-                     .material_id = reference.material_id,
-                     .roughness = std::move(roughness),
-                     .reflectance = std::move(reflectance),
-                     .flip_exposures = {}};
+PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use) {
+    PoseTruth truth{.diffuse = reference.diffuse.mean,
+                    .targets = {},
+                    .view_depth = reference.depth,
+                    .normal = reference.normal,
+                    .material_id = reference.material_id,
+                    .flip_exposures = {},
+                    .content_hash = content_hash(reference)};
     MetricSettings settings{.exposure_ev = exposure_ev};
-    try {
-        truth.flip_exposures = flip_exposure_range(reference.image.mean, settings.hdr_flip_tone_map);
-        truth.has_flip_exposures = true;
-    } catch (const Error&) {
-        // More than half of the frame is black; the exposure it is displayed with is then the only sensible one.
-        truth.flip_exposures = {.start = exposure_ev, .stop = exposure_ev, .count = 1};
-    }
+    truth.flip_exposures = exposures_of(reference, settings);
     settings.flip_exposures = truth.flip_exposures;
-
-    for (const std::string& target : config.targets) {
-        // A result's `image` adds the truth's own diffuse light, so the noise in it is that of the specular halves alone.
-        const ReferenceOutput& output = target == "incident" ? reference.incident : reference.specular;
-        HostImage mean = output.mean;
-        ReferenceHalves halves{output.half_a, output.half_b};
-        if (target == "image") mean = sum(truth.diffuse, mean), halves = {sum(truth.diffuse, halves.a), sum(truth.diffuse, halves.b)};
-        truth.targets.emplace(target, metric_reference(std::move(mean), std::move(halves), config.metrics, settings));
-    }
+    if (use.has_targets)
+        for (const std::string& target : config.targets)
+            truth.targets.emplace(target, target_reference(target, reference, config.metrics, settings));
+    if (use.has_frame_reference)
+        truth.frame_reference = target_reference("specular", reference, config.frame_metrics, settings);
     return truth;
 }
 
-FrameTruth frame_without_truth(HostImage lit) { return {.diffuse = std::move(lit), .targets = {}, .view_depth = {}, .normal = {}, .material_id = {}, .roughness = {}, .reflectance = {}, .flip_exposures = {}}; }
+FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer& gbuffer, const Config& config) {
+    FrameTruth truth{.pose = std::move(pose),
+                     .roughness = channels_of(gbuffer.normal, 3, 1),
+                     .reflectance = specular_reflectance(gbuffer),
+                     .masks = {}};
+    const PreviousFrame previous{.camera = gbuffer.camera,
+                                 .motion = gbuffer.motion,
+                                 .depth = gbuffer.previous_depth,
+                                 .normal = gbuffer.previous_normal,
+                                 .depth_step = depth_step(gbuffer.depth_format)};
+    const HostImage no_confidence(gbuffer.extent(), 1);
+    for (const std::string& name : config.masks)
+        truth.masks.push_back(depends_on_result(name) ? Mask{.name = name, .inside = {}}
+                                                      : make_mask(name, mask_inputs(truth, no_confidence, config, &previous)));
+    return truth;
+}
 
-HostImage composited_image(const FrameTruth& truth, const CompositedImages& result) { return sum(truth.diffuse, result.specular); }
+std::vector<Mask> masks_of(const FrameTruth& truth, const HostImage& confidence, const Config& config) {
+    std::vector<Mask> masks = truth.masks;
+    for (Mask& mask : masks)
+        if (depends_on_result(mask.name)) mask = make_mask(mask.name, mask_inputs(truth, confidence, config, nullptr));
+    return masks;
+}
 
-std::vector<ResultRow> measure_result(const FrameTruth& truth, const CompositedImages& result, const Config& config, const ResultRow& row) {
-    if (truth.targets.empty()) return {};
-    const MaskInputs inputs{.view_depth = truth.view_depth,
-                            .normal = truth.normal,
-                            .material_id = truth.material_id,
-                            .roughness = truth.roughness,
-                            .reflectance = truth.reflectance,
-                            .confidence = result.confidence,
-                            .reflective_max_roughness = config.reflective_max_roughness,
-                            .reflective_min_reflectance = config.reflective_min_reflectance};
-    std::vector<Mask> masks;
-    for (const std::string& name : config.masks) masks.push_back(make_mask(name, inputs));
+HostImage composited_image(const PoseTruth& truth, const CompositedImages& result) {
+    return sum(truth.diffuse, result.specular);
+}
 
+std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result, std::span<const Mask> masks,
+                                       const ResultRow& row) {
     const HostImage image = composited_image(truth, result);
     std::vector<ResultRow> rows;
     for (const auto& [target, reference] : truth.targets) {
-        PixelCounts counts;
-        for (const Score& s : score(reference, tested_image(target, result, image), masks, &counts)) {
-            if (s.pixels == 0) continue;  // nothing of this scene lies under the mask
-            ResultRow r = row;
-            r.target = target, r.metric = s.metric->name, r.formula = s.metric->formula, r.mask = s.mask;
-            r.value = if_finite(s.value), r.is_corrected = s.corrected, r.uncorrected = if_finite(s.uncorrected);
-            r.low = if_finite(s.low), r.high = if_finite(s.high), r.floor = if_finite(s.floor);
-            r.pixels = s.pixels, r.non_finite = counts.non_finite(), r.negative = counts.negative;
-            rows.push_back(std::move(r));
-        }
+        const HostImage& test = target == "specular" ? result.specular : target == "incident" ? result.incident : image;
+        add_rows(rows, reference, target, test, masks, row);
     }
     return rows;
+}
+
+std::vector<ResultRow> measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,
+                                     const ResultRow& row) {
+    std::vector<ResultRow> rows;
+    add_rows(rows, *truth.frame_reference, "specular", specular, masks, row);
+    return rows;
+}
+
+std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows) {
+    std::map<std::tuple<std::string, std::string, std::string>, std::vector<const ResultRow*>> groups;
+    for (const ResultRow& row : rows) groups[{row.metric, row.formula, row.mask}].push_back(&row);
+    std::vector<ResultRow> means;
+    for (const auto& [key, group] : groups) {
+        const auto mean = [&](std::optional<double> ResultRow::*member) -> std::optional<double> {
+            double total = 0;
+            for (const ResultRow* row : group) {
+                if (!(row->*member)) return {};
+                total += *(row->*member);
+            }
+            return total / double(group.size());
+        };
+        ResultRow r = *group.front();
+        r.frame = "all";
+        for (const auto member : {&ResultRow::value, &ResultRow::uncorrected, &ResultRow::low, &ResultRow::high, &ResultRow::floor}) r.*member = mean(member);
+        r.pixels = r.non_finite = r.negative = 0;
+        for (const ResultRow* row : group) r.pixels += row->pixels, r.non_finite += row->non_finite, r.negative += row->negative;
+        means.push_back(std::move(r));
+    }
+    return means;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/gbuffer/gbuffer_file.h"
 #include "experiments/cell.h"
 #include "experiments/config.h"
 #include "groundtruth/reference.h"
@@ -6,6 +7,8 @@
 #include "metrics/score.h"
 
 #include <map>
+#include <memory>
+#include <optional>
 
 /// What a variant's output is compared as.
 struct CompositedImages {
@@ -14,23 +17,44 @@ struct CompositedImages {
     HostImage confidence;  ///< one channel
 };
 
-/// What one frame's results are measured against: made once, used for every variant, point and seed.
-struct FrameTruth {
-    HostImage diffuse;                                ///< the truth's own, which `image` adds to every result; also the lit colour that variants read
-    std::map<std::string, MetricReference> targets;   ///< by target name
-    HostImage view_depth, normal, material_id, roughness, reflectance;
+/// What all frames of one pose are measured against: made once, used for every variant, point and seed.
+struct PoseTruth {
+    HostImage diffuse;  ///< the truth's own, which `image` adds to every result; also the lit colour that variants read
+    std::map<std::string, MetricReference> targets;   ///< by name, with all metrics; where everything is measured
+    std::optional<MetricReference> frame_reference;   ///< `specular` with Config::frame_metrics; in shots of several frames
+    HostImage view_depth, normal, material_id;
     FlipExposures flip_exposures;
-    bool has_flip_exposures = false;  ///< a reference that is mostly black prescribes none
+    std::string content_hash;  ///< of the reference's pixels
 };
 
-/// `roughness` one channel, `reflectance` F0 A + F90 B per pixel, both of the G-buffer.
-FrameTruth frame_truth(const Reference& reference, HostImage roughness, HostImage reflectance, const Config& config, float exposure_ev);
+/// One rendered frame: its pose, and what its G-buffer tells of it and of the frame before.
+struct FrameTruth {
+    std::shared_ptr<const PoseTruth> pose;
+    HostImage roughness, reflectance;  ///< one channel; F0 A + F90 B per pixel
+    std::vector<Mask> masks;           ///< Config::masks; those of a technique's confidence are made by masks_of()
+};
 
-/// Where there is no reference nothing is measured: the lit colour alone.
-FrameTruth frame_without_truth(HostImage lit);
+/// How much of a pose is to be measured.
+struct PoseUse {
+    bool has_targets = false, has_frame_reference = false;
+};
+PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use);
+FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer& gbuffer, const Config& config);
 
-/// All targets x metrics x masks of one result. `row` holds what all rows share: shot, variant, point, seed.
-std::vector<ResultRow> measure_result(const FrameTruth& truth, const CompositedImages& result, const Config& config, const ResultRow& row);
+/// Config::masks of one result, in their order.
+std::vector<Mask> masks_of(const FrameTruth& truth, const HostImage& confidence, const Config& config);
+
+/// All targets x metrics x masks of one result. `row` holds what all rows share: shot, frame, variant, point, seed.
+std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result, std::span<const Mask> masks,
+                                       const ResultRow& row);
+
+/// Config::frame_metrics x masks of one frame's specular.
+std::vector<ResultRow> measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,
+                                     const ResultRow& row);
+
+/// The mean over frames of rows that differ in nothing but the frame; intervals and floors are averaged too, as if the
+/// references' noises were the same in all frames. Pixels are summed. No value if one frame has none.
+std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows);
 
 /// diffuse + specular.
-HostImage composited_image(const FrameTruth& truth, const CompositedImages& result);
+HostImage composited_image(const PoseTruth& truth, const CompositedImages& result);

@@ -2,30 +2,25 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "experiments/capture.h"
+#include "experiments/effects.h"
 #include "experiments/host_info.h"
 #include "experiments/manifest.h"
-#include "experiments/measure.h"
+#include "experiments/play.h"
 #include "experiments/progress.h"
 #include "experiments/report.h"
 #include "experiments/results.h"
 #include "experiments/timing.h"
+#include "experiments/workload.h"
 #include "groundtruth/reference_cache.h"
-#include "groundtruth/reference_file.h"
 #include "variants/registry.h"
 
 #include <algorithm>
+#include <set>
 
 namespace {
-
-/// One frame of a shot, ready for every variant: the truth, and the lit colour that comes with it.
-struct PreparedFrame {
-    unsigned frame;
-    std::string shot_name, reference_hash;
-    FrameTruth truth;
-};
 
 /// All that a study needs while it runs.
 struct Study {
@@ -34,29 +29,42 @@ struct Study {
     Device& device;
     CellStore cells;
     Progress progress;
-    double work_done = 0;
+    Workload work;
     std::string code;
     nlohmann::json manifest;
     std::vector<Cell> finished;
 
-    /// Adds `share` of a step of `work` to what is done.
-    void report(double work, double share, const std::string& what) { progress.update(work_done + work * share, what); }
+    void report(double share, const std::string& what) {
+        work.update(share);
+        progress.update(work.share_done(), what);
+    }
 };
 
-// Shares of the progress bar, in about seconds of a small study.
-constexpr double reference_work = 20, timing_work = 5, cell_work = 1;
+/// A shot on its way: everything that its cells need.
+struct ShotRun {
+    const Shot& shot;
+    FrameSource& source;
+    FrameStore store;
+    ShotTruth truth = {};
+    nlohmann::json reference_entries = nlohmann::json::object();  ///< of the manifest's entry of the shot
+};
 
-double total_work(const Config& config) {
-    double work = 0;
-    for (const ShotConfig& shot : config.shots)
-        work += reference_work * double(shot.frames.size()) + timing_work + cell_work * double(config.variants.size() * config.seeds.size() * shot.frames.size());
-    return work;
-}
+// First guesses of seconds, for a small study; what is measured replaces them (workload.h).
+constexpr double reference_guess = 20, frame_guess = 0.2, timing_guess = 5;
 
-HostImage one_channel(const HostImage& source, unsigned channel) {
-    HostImage result(source.extent, 1);
-    for (size_t i = 0; i < result.values.size(); ++i) result.values[i] = source.values[i * source.channels + channel];
-    return result;
+/// Device memory for G-buffers that are kept: 32 frames of 480x270 take half of it.
+constexpr size_t max_stored_bytes = size_t(1) << 30;
+
+/// Loads each shot once before any work starts, to refuse what could not be told apart in the results.
+void plan_work(Study& study) {
+    std::set<std::string> names;
+    for (const ShotConfig& config : study.config.shots) {
+        const std::string name = config.gbuffer.empty() ? load_shot(config, study.settings.search_path).name() : capture_name(config.gbuffer);
+        if (!names.insert(name).second) fail("two shots are called '", name, "': they differ in nothing that results are named by; give them other frames, another camera or another resolution");
+        study.work.plan("reference", double(config.frames.size()), reference_guess);
+        for (const VariantConfig& variant : study.config.variants) study.work.plan("frames", double(timeline(config).size() * variant.seeds.size()), frame_guess);
+        study.work.plan("times", 1, timing_guess);
+    }
 }
 
 /// Renders the reference of one frame, or takes it from the cache.
@@ -68,157 +76,201 @@ Reference obtain_reference(Study& study, const Shot& shot, unsigned frame) {
     run.progress = [&](double fraction, double rays_per_second, double) {
         char rate[32];
         std::snprintf(rate, sizeof rate, "%.1f Mray/s", rays_per_second * 1e-6);
-        study.report(reference_work, fraction, shot.name(frame) + ": reference, " + rate);
+        study.report(fraction, shot.name() + ": reference of frame " + std::to_string(frame) + ", " + rate);
     };
     run.notice = [&](const std::string& text) { study.progress.say("note: " + text); };
+    study.work.start("reference", 1);
     Reference reference = cached_reference(shot.scene, now.scene, now.camera, shot.config.extent, settings, study.settings.cache, run);
-    study.work_done += reference_work;
+    reference.from_cache ? study.work.skip() : study.work.finish();
     return reference;
 }
 
-/// The truth of one frame, and its entry in the manifest.
-PreparedFrame prepare_frame(Study& study, const Shot& shot, FrameSource& source, unsigned frame, const Reference& reference) {
-    const GBuffer gbuffer = source.render(frame, study.config.seeds.front(), reference.diffuse.mean);
-    const HostGBuffer host = download_gbuffer(source.graph(), gbuffer, source.camera(), study.config.depth_format);
-    PreparedFrame prepared{.frame = frame, .shot_name = shot.name(frame), .reference_hash = reference.hash,
-                           .truth = frame_truth(reference, one_channel(host.normal, 3), specular_reflectance(host), study.config, shot.camera.exposure_ev)};
-    study.manifest["shots"].push_back(shot_entry(shot, frame, reference, prepared.truth, study.config));
-    for (const SceneFact& fact : list_facts(pixel_facts(host))) study.manifest["shots"].back()["needs"].push_back(fact_entry(fact));
-    for (const LeftOut& part : source.left_out()) study.manifest["shots"].back()["left_out"].push_back(left_out_entry(part));
-    for (nlohmann::json& image : save_reference_images(study.settings.out, prepared.shot_name, reference, shot.camera.exposure_ev))
-        study.manifest["images"].push_back(std::move(image));
-    return prepared;
-}
-
 /// The name of a cell: the hash of all that its numbers depend on.
-std::string cell_hash(const Study& study, const Shot& shot, const std::vector<PreparedFrame>& frames, const std::string& what, const nlohmann::json& parameters, unsigned seed) {
+std::string cell_hash(const Study& study, const ShotRun& run, const std::string& what, const nlohmann::json& parameters, const std::vector<unsigned>& seeds) {
     const Config& c = study.config;
+    const ShotConfig& shot = run.shot.config;
     ContentHash hash;
-    for (const std::string& part : {study.code, study.device.info().name + study.device.info().driver, shot.scene.content_hash, what, parameters.dump()}) hash.add(part);
-    for (const PreparedFrame& frame : frames) hash.add(frame.shot_name), hash.add(frame.reference_hash);
-    for (const auto& list : {c.metrics, c.masks, c.targets})
+    for (const std::string& part : {study.code, study.device.info().name + study.device.info().driver, run.shot.scene.content_hash, run.shot.name(), run.truth.content_hash(), what, parameters.dump()}) hash.add(part);
+    for (const auto& list : {c.metrics, c.masks, c.targets, c.frame_metrics, c.frame_masks}) {
+        hash.add(list.size());
         for (const std::string& name : list) hash.add(name);
+    }
+    for (const auto& list : {shot.frames, seeds, {shot.warm_up, shot.repeat, shot.change.value_or(0), unsigned(shot.measures_last_only)}}) {
+        hash.add(list.size());
+        for (const unsigned number : list) hash.add(number);
+    }
     hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)), hash.add(int(study.settings.keep_all));
-    hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance), hash.add(shot.camera.exposure_ev), hash.add(seed);
+    hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance), hash.add(run.shot.camera.exposure_ev);
     return hash.hex();
 }
 
-/// One variant at one point with one seed, over all frames of a shot: the heart of ssrlab.
-Cell run_cell(Study& study, const Shot& shot, FrameSource& source, const std::vector<PreparedFrame>& frames, const VariantConfig& config, unsigned seed) {
-    const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
-    if (!study.settings.keep_all) variant->leave_out(shot.facts);
-    PassGraph graph(study.device, shot.config.extent);
-    Compositor compositor(graph);
-    Cell cell;
-    for (const PreparedFrame& frame : frames) {
-        const GBuffer gbuffer = source.render(frame.frame, seed, frame.truth.diffuse);
-        graph.begin_frame(source.camera(), variant->params, gbuffer.images());
-        const Reflections reflections = variant->render(graph, gbuffer);
-        const Composite composite = compositor.render(gbuffer, reflections);
+/// A piece of work with a name of its own.
+struct CellTask {
+    std::string hash, what, kind;
+    double units;
+    std::function<Cell(const std::function<void(double)>& report)> make;
+};
 
-        const CompositedImages images = download_results(graph, gbuffer, reflections, composite, frame.truth.reflectance);
-        const ResultRow row{.shot = frame.shot_name, .scene = shot.scene.name, .camera = shot.camera.name, .frame = frame.frame, .width = shot.config.extent.x,
-                            .height = shot.config.extent.y, .variant = config.variant, .point = config.point, .seed = seed};
-        for (ResultRow& r : measure_result(frame.truth, images, study.config, row)) cell.rows.push_back(std::move(r));
-        if (seed == study.config.seeds.front())
-            for (nlohmann::json& entry : save_result_images(study.settings.out, row, frame.truth, images, shot.camera.exposure_ev)) cell.images.push_back(std::move(entry));
+/// A result while the study runs: one number that matters, over the seeds.
+void say_result(Study& study, const Cell& cell) {
+    std::map<std::string, std::vector<double>> values;  // by frame
+    for (const ResultRow& r : cell.rows)
+        if (r.target == "specular" && r.metric == "relmse" && r.mask == "reflective" && r.value) values[r.frame].push_back(*r.value);
+    if (values.empty()) return;
+    const auto& [frame, seeds] = *values.rbegin();  // "all" comes after every number
+    double sum = 0;
+    for (const double value : seeds) sum += value;
+    char line[200];
+    std::snprintf(line, sizeof line, "  %-24s %-32s relmse of reflective pixels %.4g (frame %s, %zu seed%s)", cell.rows.front().variant.c_str(), cell.rows.front().point.c_str(),
+                  sum / double(seeds.size()), frame.c_str(), seeds.size(), seeds.size() == 1 ? "" : "s");
+    study.progress.say(line);
+}
+
+/// Loads the cell if it was done before, else does it and keeps it. Nothing if another process is at it, unless `waits`.
+std::optional<Cell> do_cell(Study& study, const CellTask& task, bool waits) {
+    study.work.start(task.kind, task.units);
+    study.report(0, task.what);
+    if (std::optional<Cell> found = study.cells.load(task.hash)) {
+        study.work.skip();
+        return found;
     }
+    const auto claim = study.cells.claim(task.hash, waits);
+    if (!claim) return {};
+    if (std::optional<Cell> found = study.cells.load(task.hash)) {  // made while waiting
+        study.work.skip();
+        return found;
+    }
+    Cell cell = task.make([&](double share) { study.report(share, task.what); });
+    study.cells.save(task.hash, cell);
+    study.work.finish();
     return cell;
 }
 
-/// A result while the study runs: one number that matters, with its interval.
-void say_result(Study& study, const Cell& cell) {
-    const auto is_headline = [&](const ResultRow& r) { return r.target == "specular" && r.metric == "relmse" && r.mask == "reflective"; };
-    for (const ResultRow& r : cell.rows)
-        if (is_headline(r) && r.value) {
-            char line[160];
-            std::snprintf(line, sizeof line, "  %-24s %-24s seed %-3u relmse of reflective pixels %.4g", r.variant.c_str(), r.point.c_str(), r.seed, *r.value);
-            char interval[64] = "";
-            if (r.low && r.high) std::snprintf(interval, sizeof interval, "  [%.4g, %.4g]", *r.low, *r.high);
-            study.progress.say(std::string(line) + interval);
-        }
-}
-
-/// Loads the cell if it was done before, else does it and keeps it.
-template <class Work>
-void do_cell(Study& study, const std::string& hash, double work, const std::string& what, const Work& make) {
-    study.report(work, 0.0, what);
-    std::optional<Cell> cell = study.cells.load(hash);
-    if (!cell) {
-        cell = make();
-        study.cells.save(hash, *cell);
-    }
-    study.work_done += work;
-    say_result(study, *cell);
-    study.finished.push_back(std::move(*cell));
-}
-
-/// All variants, points and seeds of a shot, then their times.
-void run_variants(Study& study, const Shot& shot, FrameSource& source, const std::vector<PreparedFrame>& frames) {
-    const Config& config = study.config;
-    for (const VariantConfig& variant : config.variants) {
+/// All variant points of a shot.
+std::vector<CellTask> point_tasks(Study& study, ShotRun& run) {
+    std::vector<CellTask> tasks;
+    for (const VariantConfig& variant : study.config.variants) {
         const nlohmann::json parameters = make_variant(variant.variant, variant.parameters, variant.preset)->params.values();
-        for (const unsigned seed : config.seeds)
-            do_cell(study, cell_hash(study, shot, frames, variant.variant + "\n" + variant.point, parameters, seed), cell_work * double(frames.size()),
-                    frames.front().shot_name + ": " + variant.variant + " " + variant.point, [&] { return run_cell(study, shot, source, frames, variant, seed); });
+        CellTask task{.hash = cell_hash(study, run, variant.variant + "\n" + variant.point, parameters, variant.seeds),
+                      .what = run.shot.name() + ": " + variant.variant + " " + variant.point,
+                      .kind = "frames",
+                      .units = double(run.shot.steps.size() * variant.seeds.size())};
+        task.make = [&study, &run, &variant, suffix = task.hash.substr(0, 8)](const auto& report) {
+            return play_point(study.device, run.shot, run.truth, run.store, study.config, variant,
+                              {.out = study.settings.out, .image_suffix = suffix, .keep_all = study.settings.keep_all, .report = report});
+        };
+        tasks.push_back(std::move(task));
     }
-    const nlohmann::json timed = {{"variants", study.manifest["variants"]}, {"frames", config.timing.frames}, {"warm_up", config.timing.warm_up}};
-    do_cell(study, cell_hash(study, shot, frames, "times", timed, 0), timing_work, frames.front().shot_name + ": timing", [&] {
-        const ShotTimes times = time_variants(source, shot, config, frames.front().truth.diffuse, study.settings.keep_all,
-                                              [&](double share) { study.report(timing_work, share, frames.front().shot_name + ": timing"); });
-        return Cell{.rows = {}, .times = times.rows, .images = {{{"aa_floor", times.aa_floor}}}};
-    });
+    return tasks;
 }
 
-void run_scene_shot(Study& study, const ShotConfig& shot_config) {
-    const Shot shot = load_shot(shot_config, study.settings.search_path);
+CellTask timing_task(Study& study, ShotRun& run) {
+    const TimingConfig& timing = study.config.timing;
+    nlohmann::json timed = {{"variants", study.manifest["variants"]}, {"frames", timing.frames}, {"warm_up", timing.warm_up}};
+    for (const VariantConfig& variant : study.config.variants) timed["timed"].push_back(variant.is_timed);
+    return {.hash = cell_hash(study, run, "times", timed, study.config.seeds), .what = run.shot.name() + ": timing", .kind = "times", .units = 1,
+            .make = [&study, &run](const auto& report) {
+                const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
+                const ShotTimes times = time_variants(run.source, run.shot, study.config, lit, study.settings.keep_all, report);
+                return Cell{.times = times.rows, .timing = timing_entry(times, run.shot.name())};
+            }};
+}
+
+/// All variants, points and seeds of a shot, then their times. What other processes are at is left to the end.
+void run_cells(Study& study, ShotRun& run) {
+    std::vector<CellTask> tasks = point_tasks(study, run);
+    tasks.push_back(timing_task(study, run));
+    std::vector<std::optional<Cell>> cells(tasks.size());
+    for (const bool waits : {false, true})
+        for (size_t i = 0; i < tasks.size(); ++i) {
+            if (cells[i]) continue;
+            cells[i] = do_cell(study, tasks[i], waits);
+            if (cells[i]) say_result(study, *cells[i]);
+        }
+    for (std::optional<Cell>& cell : cells) study.finished.push_back(std::move(*cell));
+}
+
+/// The shot's entry in the manifest, from the G-buffer of its last frame.
+void enter_shot(Study& study, ShotRun& run, const std::vector<std::string>& notes) {
+    const FrameStep& last = run.shot.steps.back();
+    const FrameStore::Frame frame = run.store.frame(last, run.truth.lit(last));
+    const HostGBuffer host = download_gbuffer(run.source.graph(), frame.gbuffer, frame.camera, study.config.depth_format);
+    nlohmann::json entry = shot_entry(run.shot, pixel_facts(host), run.source.left_out(), study.config, study.settings.keep_all);
+    entry.update(run.reference_entries);
+    if (run.truth.is_measured()) {
+        const FlipExposures& flip = run.truth.pose(last).flip_exposures;
+        entry["flip_exposures"] = {flip.start, flip.stop, flip.count};
+    } else {
+        entry["lit"] = "file";
+        entry["warnings"].push_back("This G-buffer came without a reference: its results are rendered and timed, not measured.");
+    }
+    for (const std::string& note : notes) entry["warnings"].push_back(note);
+    study.manifest["shots"].push_back(std::move(entry));
+}
+
+/// Keeps for the manifest what is worth knowing of a reference, and writes its images if it is that of the last frame.
+void note_reference(Study& study, ShotRun& run, const Reference& reference, unsigned frame, bool is_of_last) {
+    run.reference_entries["references"].push_back(reference_entry(reference, frame, study.config));
+    if (!is_of_last) return;
+    run.reference_entries["reference"] = run.reference_entries["references"].back();
+    for (nlohmann::json& image : save_reference_images(study.settings.out, run.shot.name(), run.shot.config.frames.back(), reference, run.shot.camera.exposure_ev))
+        study.manifest["images"].push_back(std::move(image));
+}
+
+void run_scene_shot(Study& study, const ShotConfig& config) {
+    const Shot shot = load_shot(config, study.settings.search_path);
     study.progress.say(shot.scene.name + ", camera " + shot.camera.name);
     const std::unique_ptr<FrameSource> source = scene_source(study.device, shot, study.config, study.settings.keep_all);
-    std::vector<PreparedFrame> frames;
-    for (const unsigned frame : shot.config.frames) frames.push_back(prepare_frame(study, shot, *source, frame, obtain_reference(study, shot, frame)));
-    run_variants(study, shot, *source, frames);
+    ShotRun run{.shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
+    unsigned references = 0;
+    run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, bool is_of_last) {
+        Reference reference = obtain_reference(study, shot, frame);
+        note_reference(study, run, reference, frame, is_of_last);
+        ++references;
+        return reference;
+    });
+    study.work.plan("reference", double(references) - double(config.frames.size()), reference_guess);  // the others look the same
+    enter_shot(study, run, {});
+    run_cells(study, run);
 }
 
 /// A capture: measured if it comes with a reference, else only rendered and timed.
-void run_gbuffer_shot(Study& study, const ShotConfig& shot_config) {
-    LoadedGBuffer loaded = load_gbuffer(shot_config.gbuffer);
-    const Shot shot = gbuffer_shot(shot_config, loaded.gbuffer);
+void run_gbuffer_shot(Study& study, const ShotConfig& config) {
+    LoadedGBuffer loaded = load_gbuffer(config.gbuffer);
+    const Shot shot = gbuffer_shot(config, loaded.gbuffer);
     study.progress.say(shot.scene.name + ", from files");
     for (const std::string& note : loaded.notes) study.progress.say("note: " + note);
-    study.work_done += reference_work;
+    study.work.plan("reference", -1, reference_guess);  // read, not rendered
+    std::optional<Reference> reference;
+    if (!config.reference.empty()) reference = read_capture_reference(config.reference, loaded.gbuffer);
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
-    if (!shot_config.reference.empty() && !study.config.direct_lit) loaded.gbuffer.lit = {};
-    const HostImage file_lit = loaded.gbuffer.lit;
+    if (reference && !study.config.direct_lit) loaded.gbuffer.lit = {};
+    ShotTruth lit_alone = truth_of_lit(loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
     const std::unique_ptr<FrameSource> source = file_source(study.device, std::move(loaded.gbuffer));
-    std::vector<PreparedFrame> frames;
-    if (!shot_config.reference.empty()) {
-        const Reference reference = read_reference(shot_config.reference);
-        if (reference.extent != shot.config.extent)
-            fail(shot_config.reference.string(), " is ", reference.extent.x, "x", reference.extent.y, ", but the G-buffer is ", shot.config.extent.x, "x", shot.config.extent.y);
-        frames.push_back(prepare_frame(study, shot, *source, 0, reference));
-    } else {
-        HostImage lit(shot.config.extent, 3);
-        for (size_t i = 0; i < file_lit.pixel_count(); ++i) lit.set_rgb(i, file_lit.rgb(i));
-        frames.push_back({.frame = 0, .shot_name = shot.name(0), .reference_hash = "none", .truth = frame_without_truth(file_lit.values.empty() ? HostImage{} : std::move(lit))});
-        study.manifest["shots"].push_back(gbuffer_shot_entry(shot));
+    ShotRun run{.shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
+    run.truth = std::move(lit_alone);
+    if (reference) {
+        note_reference(study, run, *reference, 0, true);
+        run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned, bool) { return *reference; });
     }
-    for (const std::string& note : loaded.notes) study.manifest["shots"].back()["warnings"].push_back(note);
-    run_variants(study, shot, *source, frames);
+    enter_shot(study, run, loaded.notes);
+    run_cells(study, run);
 }
 
 /// Writes what is finished so far, so that a long study can be read while it runs.
 void write_results(Study& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
-    for (const Cell& cell : study.finished)
-        for (const nlohmann::json& entry : cell.images) {
-            if (entry.contains("aa_floor"))
-                manifest["clock"]["aa_floor"] = std::max(manifest["clock"].value("aa_floor", 0.0), entry["aa_floor"].get<double>());
-            else
-                manifest["images"].push_back(entry);
-        }
+    std::vector<ResultRow> rows;
+    for (const Cell& cell : study.finished) {
+        rows.insert(rows.end(), cell.rows.begin(), cell.rows.end());
+        for (const nlohmann::json& entry : cell.images) manifest["images"].push_back(entry);
+        for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
+        if (!cell.timing.is_null()) add_timing(manifest, cell.timing);
+    }
     if (is_last) manifest["finished"] = time_stamp();
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
     write_tables(study.settings.out, study.finished);
+    write_effects(study.settings.out, paired_effects(rows, study.config.variants));
     write_report(study.settings.out);
 }
 
@@ -226,9 +278,10 @@ void write_results(Study& study, bool is_last) {
 
 void run_study(const Config& config, const RunSettings& settings) {
     Device device(settings.device);
-    Study study{.config = config, .settings = settings, .device = device, .cells = CellStore(settings.out / "cells"), .progress = Progress(total_work(config)),
+    Study study{.config = config, .settings = settings, .device = device, .cells = CellStore(settings.out / "cells"), .progress = Progress(1.0), .work = {},
                 .code = code_hash(), .manifest = study_entry(config, device), .finished = {}};
     for (const auto& warning : study.manifest["warnings"]) study.progress.say("warning: " + warning.get<std::string>());
+    plan_work(study);
     for (const ShotConfig& shot : config.shots) {
         if (shot.gbuffer.empty())
             run_scene_shot(study, shot);

@@ -2,28 +2,49 @@
 
 #include "core/files.h"
 #include "core/scene/load_scene.h"
+#include "experiments/capture.h"
 
 #include <algorithm>
 #include <span>
 
-std::string Shot::name(unsigned frame) const {
+std::vector<FrameStep> timeline(const ShotConfig& config) {
+    std::vector<FrameStep> steps;
+    const auto render = [&](unsigned frame) -> FrameStep& {
+        FrameStep step{.index = unsigned(steps.size()), .frame = frame};
+        if (!steps.empty()) step.previous_frame = steps.back().frame;
+        return steps.emplace_back(step);
+    };
+    for (unsigned i = 0; i < config.warm_up; ++i) render(config.frames.front()).is_warm_up = true;
+    for (const unsigned frame : config.frames) {
+        const bool is_last = frame == config.frames.back();
+        for (unsigned i = 0; i < (is_last ? config.repeat : 1); ++i) render(frame).is_held = is_last && config.repeat > 1;
+        steps.back().is_measured = is_last || !config.measures_last_only;
+    }
+    return steps;
+}
+
+std::string Shot::name() const {
+    const unsigned first = config.frames.front(), last = config.frames.back();
     std::string name = scene.name + "." + camera.name + "." + std::to_string(config.extent.x) + "x" + std::to_string(config.extent.y);
-    if (config.frames != std::vector<unsigned>{0}) name += ".f" + std::to_string(frame);
+    if (last > 0) name += ".f" + std::to_string(first);
+    if (last > first) name += "-" + std::to_string(last);
+    if (config.frames.size() != last - first + 1) name += ".n" + std::to_string(config.frames.size());
+    if (config.warm_up > 0) name += ".w" + std::to_string(config.warm_up);
+    if (config.repeat > 1) name += ".r" + std::to_string(config.repeat);
     return name;
 }
 
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
-    Shot shot{.config = config, .scene = load_scene(config.scene, search_path), .camera = {}, .facts = {}};
+    Shot shot{.config = config, .scene = load_scene(config.scene, search_path), .camera = {}, .facts = {}, .steps = timeline(config)};
     shot.camera = shot.scene.camera(config.camera);
-    const unsigned first = config.frames.front(), last = config.frames.back();
-    shot.facts = derive_facts(shot.scene, shot.camera, first, last - first + 1);
+    shot.facts = derive_facts(shot.scene, shot.camera, config.frames);
     return shot;
 }
 
 Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer) {
-    Shot shot{.config = config, .scene = {}, .camera = {.name = "gbuffer"}, .facts = {}};
+    Shot shot{.config = config, .scene = {}, .camera = {.name = "gbuffer"}, .facts = {}, .steps = timeline(config)};
     shot.config.extent = gbuffer.extent();
-    shot.scene.name = std::filesystem::absolute(config.gbuffer).lexically_normal().filename().string();
+    shot.scene.name = capture_name(config.gbuffer);
     ContentHash hash;
     for (const HostImage* image : {&gbuffer.depth, &gbuffer.geometric_normal, &gbuffer.normal, &gbuffer.base_color, &gbuffer.emission, &gbuffer.motion, &gbuffer.material_id, &gbuffer.previous_depth, &gbuffer.previous_normal, &gbuffer.lit, &gbuffer.fallback}) hash.add(std::as_bytes(std::span(image->values)));
     hash.add(std::as_bytes(std::span(&gbuffer.camera, 1)));

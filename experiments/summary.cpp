@@ -56,7 +56,7 @@ void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows) {
 
 MetricSummary summary_of(const std::vector<const ResultRow*>& rows) {
     const ResultRow& first = *rows.front();
-    MetricSummary s{first.shot, first.variant, first.point, first.target, first.metric, first.formula, first.mask};
+    MetricSummary s{first.shot, first.frame, first.variant, first.point, first.target, first.metric, first.formula, first.mask};
     s.seeds = unsigned(rows.size());
     s.is_corrected = first.is_corrected;
     for (const ResultRow* row : rows) {
@@ -93,7 +93,7 @@ std::vector<ResultRow> read_result_rows(const std::filesystem::path& file) {
     for (CsvReader csv(file); csv.next();) {
         ResultRow r;
         r.shot = csv.text("shot"), r.scene = csv.text("scene"), r.camera = csv.text("camera");
-        r.frame = small_count(csv, "frame"), r.width = small_count(csv, "width"), r.height = small_count(csv, "height");
+        r.frame = csv.text("frame"), r.width = small_count(csv, "width"), r.height = small_count(csv, "height");
         r.variant = csv.text("variant"), r.point = csv.text("point"), r.seed = small_count(csv, "seed");
         r.target = csv.text("target"), r.metric = csv.text("metric"), r.formula = csv.text("formula"),
         r.mask = csv.text("mask");
@@ -104,6 +104,16 @@ std::vector<ResultRow> read_result_rows(const std::filesystem::path& file) {
         r.pixels = csv.count("pixels"), r.non_finite = csv.count("non_finite"), r.negative = csv.count("negative");
         rows.push_back(std::move(r));
     }
+    return rows;
+}
+
+std::vector<SplitRow> read_split_rows(const std::filesystem::path& file) {
+    std::vector<SplitRow> rows;
+    for (CsvReader csv(file); csv.next();)
+        rows.push_back({csv.text("shot"), csv.text("frame"), csv.text("variant"), csv.text("point"), csv.text("target"),
+                        csv.text("mask"), small_count(csv, "seeds"), csv.number("mse"), csv.number("bias_squared"),
+                        csv.number("variance"), csv.optional_number("variance_low"),
+                        csv.optional_number("variance_high"), csv.count("pixels")});
     return rows;
 }
 
@@ -118,7 +128,7 @@ std::vector<TimeRow> read_time_rows(const std::filesystem::path& file) {
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows) {
     std::vector<MetricSummary> summaries;
     const auto key = [](const ResultRow& r) {
-        return std::tie(r.shot, r.variant, r.point, r.target, r.metric, r.formula, r.mask);
+        return std::tie(r.shot, r.frame, r.variant, r.point, r.target, r.metric, r.formula, r.mask);
     };
     for (const auto& group : grouped(rows, key)) summaries.push_back(summary_of(group));
     return summaries;
@@ -143,10 +153,10 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
 void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors,
                      std::span<const TimeSummary> times) {
     std::string text =
-        "shot,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,pixels,non_"
+        "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,pixels,non_"
         "finite,negative\n";
     for (const MetricSummary& e : errors)
-        text += csv_line(e.shot, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value, e.low,
+        text += csv_line(e.shot, e.frame, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value, e.low,
                          e.high, e.seed_deviation, e.floor, e.is_corrected, e.pixels, e.non_finite, e.negative);
     write_text(folder / "summary.csv", text);
 

@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
-/// results.csv and times.csv as they were written. Every mistake in them is an Error that names file, line and column.
+/// results.csv, splits.csv and times.csv as they were written. Every mistake in them is an Error that names file, line and column.
 std::vector<ResultRow> read_result_rows(const std::filesystem::path& file);
+std::vector<SplitRow> read_split_rows(const std::filesystem::path& file);
 std::vector<TimeRow> read_time_rows(const std::filesystem::path& file);
 
 /// One metric of one variant point over all its seeds.
 struct MetricSummary {
-    std::string shot, variant, point, target, metric, formula, mask;
+    std::string shot, frame, variant, point, target, metric, formula, mask;
     unsigned seeds = 0;
     std::optional<double> value;           ///< mean over the seeds; none if one of them has none
     std::optional<double> low, high;       ///< 95 % interval, see summarise()

@@ -108,7 +108,7 @@ TEST_F(Study, ACaptureIsMeasuredAsItsScene) {
     const std::string common = "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() + "' '" SSRLAB_PROGRAM "' ";
     ASSERT_EQ(std::system((common + "gbuffer mirror_pillars --size 96 54 --out capture > log 2>&1").c_str()), 0) << read_text(folder / "log");
     ASSERT_EQ(std::system((common + "reference mirror_pillars --size 96 54 --samples 64 --out truth.exr > log 2>&1").c_str()), 0) << read_text(folder / "log");
-    write_text(folder / "capture.json", R"({"shots": [{"gbuffer": "capture", "reference": "truth.exr"}, {"gbuffer": "capture"}], "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
+    write_text(folder / "capture.json", R"({"shots": [{"gbuffer": "capture", "reference": "truth.exr"}], "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
     write_text(folder / "scene.json", R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54]}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
     const auto capture = read_result_rows(run(read_config(folder / "capture.json"), "a") / "results.csv"), scene = read_result_rows(run(read_config(folder / "scene.json"), "b") / "results.csv");
     ASSERT_EQ(capture.size(), scene.size());

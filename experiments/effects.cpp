@@ -1,0 +1,105 @@
+#include "experiments/effects.h"
+
+#include "core/files.h"
+#include "experiments/csv.h"
+#include "metrics/statistics.h"
+#include "metrics/temporal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace {
+
+bool is_error(const std::string& metric) {
+    const auto temporal = std::ranges::find(temporal_metrics(), metric, &TemporalMetric::name);
+    if (temporal != temporal_metrics().end()) return temporal->better == Better::lower;
+    return metric_named(metric).better == Better::lower;
+}
+
+using Quantity = std::tuple<std::string, std::string, std::string, std::string>;  // shot, target, metric, mask
+Quantity quantity_of(const ResultRow& r) { return {r.shot, r.target, r.metric, r.mask}; }
+
+unsigned frame_number(const ResultRow& row) { return row.frame == "all" ? 0 : unsigned(std::stoul(row.frame)); }
+
+/// The rows that speak for their shot.
+std::vector<const ResultRow*> chosen_rows(std::span<const ResultRow> rows) {
+    std::set<Quantity> over_frames;
+    std::map<std::string, unsigned> last;
+    for (const ResultRow& r : rows) {
+        if (r.frame == "all") over_frames.insert(quantity_of(r));
+        last[r.shot] = std::max(last[r.shot], frame_number(r));
+    }
+    std::vector<const ResultRow*> chosen;
+    for (const ResultRow& r : rows)
+        if (is_error(r.metric) &&
+            (r.frame == "all" || (frame_number(r) == last[r.shot] && !over_frames.contains(quantity_of(r)))))
+            chosen.push_back(&r);
+    return chosen;
+}
+
+/// One quantity of one point: its rows by seed.
+using Point = std::pair<std::string, std::string>;
+using Seeds = std::map<unsigned, const ResultRow*>;
+
+EffectRow effect(const Seeds& point, const Seeds& baseline) {
+    const ResultRow &first = *point.begin()->second, &other = *baseline.begin()->second;
+    EffectRow row{first.shot, first.frame, first.variant, first.point, other.variant, other.point, first.target, first.metric, first.formula, first.mask};
+    std::vector<double> errors, base_errors;
+    for (const auto& [seed, r] : point) {
+        const auto found = baseline.find(seed);
+        if (found == baseline.end()) continue;
+        errors.push_back(r->value.value_or(0)), base_errors.push_back(found->second->value.value_or(0));
+    }
+    row.seeds = errors.size();
+    const auto is_positive = [](double v) { return v > 0; };
+    if (errors.empty() || !std::ranges::all_of(errors, is_positive) || !std::ranges::all_of(base_errors, is_positive)) return row;
+    if (errors.size() == 1) {
+        row.ratio = errors.front() / base_errors.front();
+        return row;
+    }
+    const RatioEstimate e = paired_ratio(errors, base_errors);
+    row.ratio = e.ratio.value, row.low = e.ratio.low, row.high = e.ratio.high, row.p = e.p_value;
+    return row;
+}
+
+void adjust(std::vector<EffectRow>& effects) {
+    std::map<std::tuple<std::string, std::string, std::string>, std::vector<EffectRow*>> families;
+    for (EffectRow& e : effects)
+        if (e.p) families[{e.target, e.metric, e.mask}].push_back(&e);
+    for (auto& [name, family] : families) {
+        std::vector<double> p;
+        for (const EffectRow* e : family) p.push_back(*e->p);
+        const std::vector<double> adjusted = holm_adjusted(p);
+        for (size_t i = 0; i < family.size(); ++i) family[i]->p_holm = adjusted[i];
+    }
+}
+
+}  // namespace
+
+std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants) {
+    std::map<Quantity, std::map<Point, Seeds>> table;
+    for (const ResultRow* r : chosen_rows(rows)) table[quantity_of(*r)][{r->variant, r->point}][r->seed] = r;
+    std::vector<EffectRow> effects;
+    for (const VariantConfig& baseline : variants) {
+        if (!baseline.is_baseline) continue;
+        for (const VariantConfig& variant : variants) {
+            if (variant.variant == baseline.variant && variant.point == baseline.point) continue;
+            for (const auto& [quantity, points] : table) {
+                const auto a = points.find({variant.variant, variant.point}), b = points.find({baseline.variant, baseline.point});
+                if (a != points.end() && b != points.end()) effects.push_back(effect(a->second, b->second));
+            }
+        }
+    }
+    adjust(effects);
+    return effects;
+}
+
+void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects) {
+    std::string text = "shot,frame,variant,point,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,p,p_holm\n";
+    for (const EffectRow& e : effects)
+        text += csv_line(e.shot, e.frame, e.variant, e.point, e.against_variant, e.against_point, e.target, e.metric, e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.p, e.p_holm);
+    write_text(folder / "effects.csv", text);
+}

@@ -1,0 +1,22 @@
+#pragma once
+#include "experiments/cell.h"
+#include "experiments/config.h"
+
+#include <span>
+
+/// What a point changes about one error of its baseline.
+struct EffectRow {
+    std::string shot, frame, variant, point, against_variant, against_point, target, metric, formula, mask;
+    size_t seeds = 0;                       ///< that both were run with
+    std::optional<double> ratio;            ///< point / baseline, geometric mean over the seeds; none if an error is not above 0
+    std::optional<double> low, high, p;     ///< 95 % interval; two-sided p of "the ratio is 1"; none for a single seed
+    std::optional<double> p_holm;           ///< p adjusted for all rows of equal target, metric and mask
+};
+
+/// Every point against every point marked as a baseline, by errors for which less is better. Seeds are paired: equal
+/// ones share random numbers, camera and scene, so what they have in common cancels (paired_ratio()). Of a shot's rows
+/// those over its frames count where there are such ("all"), else those of its last frame.
+std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants);
+
+/// effects.csv. Only the header where no baseline is marked.
+void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects);
