@@ -11,6 +11,7 @@
 namespace {
 
 constexpr double still_tolerance = 0.02, moving_tolerance = 0.05;  // of 1 / depth
+constexpr double share_of_tolerance = 1.0 / 8;                     // whatever the normals are
 constexpr double still_pixels = 0.01;         // what stands still or moves: as the scene facts have it
 constexpr double least_weight = 0.01;         // of a sample that a bilinear fetch blends: motion is rounded, too
 constexpr double neighbour_depth_step = 0.1;  // of 1 / depth, between pixels of one surface
@@ -110,7 +111,8 @@ std::optional<glm::dvec2> motion_derivative(const Inputs& in, glm::ivec2 p, glm:
 }
 
 /// How far away a surface was that moves by itself; see the header.
-double inverse_of_moving(const Inputs& in, glm::ivec2 p, glm::dvec2 uv, glm::dvec2 uv_before, glm::vec3 normal_before) {
+double inverse_of_moving(const Inputs& in, glm::ivec2 p, glm::dvec2 uv, glm::dvec2 uv_before,
+                         const std::vector<Sample>& samples) {
     const double inverse = inverse_depth(in, p);
     if (in.is_orthographic()) return inverse;
     const auto along_x = motion_derivative(in, p, {1, 0}), along_y = motion_derivative(in, p, {0, 1});
@@ -125,7 +127,11 @@ double inverse_of_moving(const Inputs& in, glm::ivec2 p, glm::dvec2 uv, glm::dve
                         double(view_from_clip[1][1]));
     };
     const CameraData& c = in.camera();
-    const double now = facing(c.view_from_world, c.view_from_clip, normal_at(in.normal, p), uv);
+    const glm::vec3 normal = normal_at(in.normal, p);
+    const auto alike =
+        std::ranges::find_if(samples, [&](const Sample& s) { return glm::dot(normal, s.normal) > cos_normal_step; });
+    const glm::vec3 normal_before = alike != samples.end() ? alike->normal : normal;
+    const double now = facing(c.view_from_world, c.view_from_clip, normal, uv);
     const double before = facing(c.previous_view_from_world, c.previous_view_from_clip, normal_before, uv_before);
     const double magnified = inverse / std::sqrt(before / (now * area));
     return std::isfinite(magnified) ? magnified : inverse;
@@ -141,6 +147,14 @@ bool is_between(double expected, const std::vector<Sample>& samples, double tole
     return expected >= least && expected <= greatest;
 }
 
+/// Whether the samples show a surface of that normal at 1 / depth = expected.
+bool is_shown(double expected, glm::vec3 normal, const std::vector<Sample>& samples, double tolerance) {
+    std::vector<Sample> alike;
+    for (const Sample& s : samples)
+        if (glm::dot(normal, s.normal) > cos_normal_step) alike.push_back(s);
+    return is_between(expected, alike, tolerance) || is_between(expected, samples, tolerance * share_of_tolerance);
+}
+
 bool is_disoccluded(const Inputs& in, glm::ivec2 p) {
     const CameraData& c = in.camera();
     const glm::dvec2 uv = (glm::dvec2(p) + 0.5 + glm::dvec2(c.jitter.x, c.jitter.y)) / in.extent();
@@ -153,16 +167,15 @@ bool is_disoccluded(const Inputs& in, glm::ivec2 p) {
 
     std::vector<Sample> samples = samples_before(in, uv_before);
     if (inverse == 0) return std::ranges::none_of(samples, [](const Sample& s) { return s.inverse == 0; });
+    std::erase_if(samples, [](const Sample& s) { return s.inverse == 0; });
 
     const glm::vec3 normal = normal_at(in.normal, p);
-    std::erase_if(samples,
-                  [&](const Sample& s) { return s.inverse == 0 || glm::dot(normal, s.normal) < cos_normal_step; });
-    if (samples.empty()) return true;
     const glm::dvec4 clip = glm::dmat4(c.previous_clip_from_world) * world;
     const glm::dvec2 still_uv = glm::dvec2(clip) / clip.w * 0.5 + 0.5;
     if (glm::length((still_uv - uv_before) * in.extent()) < still_pixels)
-        return !is_between(still_before.w / -still_before.z, samples, still_tolerance);
-    return !is_between(inverse_of_moving(in, p, uv, uv_before, samples.front().normal), samples, moving_tolerance);
+        return !is_shown(still_before.w / -still_before.z, normal, samples, still_tolerance);
+    return !is_shown(inverse, normal, samples, moving_tolerance) &&
+           !is_shown(inverse_of_moving(in, p, uv, uv_before, samples), normal, samples, moving_tolerance);
 }
 
 void check(const Inputs& in) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <random>
 
 // A small ray caster draws rectangles that move: what a G-buffer would hold, exactly.
 
@@ -250,6 +251,20 @@ TEST(Disocclusion, AFloorToTheHorizonIsSeenAllAlong) {
                 EXPECT_EQ(mask[i], !was_on_screen) << x << " " << y;
             }
     }
+}
+
+TEST(Disocclusion, NormalMapsAreNotTakenForOtherSurfaces) {
+    const Rectangle box = box_moved(3, 0);
+    Frame f = draw({.scene = {wall, box},
+                    .world_from_view = shifted(0, 0.4f, 0),
+                    .previous_world_from_view = shifted(0, 0.4f, 0)});
+    const size_t expected = f.count();
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    for (HostImage* image : {&f.normal, &f.normal_before})
+        for (size_t i = 0; i < image->pixel_count(); ++i)
+            image->set_rgb(i, glm::normalize(glm::vec3(normal(random), normal(random), 2)));
+    EXPECT_EQ(f.count(), expected);
 }
 
 TEST(Disocclusion, ACameraThatPassesAPillarSeesBehindIt) {
