@@ -1,6 +1,7 @@
 #include "core/split_sum.h"
 
 #include "core/shared/brdf.h"
+#include "core/shared/split_sum_tap.h"
 
 #include <tbb/parallel_for.h>
 #include <array>
@@ -107,4 +108,15 @@ HostImage split_sum_table(unsigned size) {
         }
     });
     return table;
+}
+
+glm::vec2 read_split_sum(const HostImage& table, float mu_o, float roughness) {
+    const SplitSumTap tap = split_sum_tap(mu_o, roughness, table.extent.x);
+    const auto texel = [&](unsigned x, unsigned y) {
+        const float* p = table.pixel(x, y);
+        return glm::vec2(p[0], p[1]);
+    };
+    const glm::vec2 low = glm::mix(texel(tap.first.x, tap.first.y), texel(tap.last.x, tap.first.y), tap.fraction.x);
+    const glm::vec2 high = glm::mix(texel(tap.first.x, tap.last.y), texel(tap.last.x, tap.last.y), tap.fraction.x);
+    return glm::mix(low, high, tap.fraction.y);
 }

@@ -11,3 +11,6 @@ glm::dvec2 split_sum(double mu_o, double alpha);
 /// reading clamped at the edges: with 64 its error is below 1e-3, but for views within 6 degrees of grazing, where it
 /// reaches 6e-3.
 HostImage split_sum_table(unsigned size = 64);
+
+/// A, B from such a table. mu_o in (0, 1], perceptual roughness in [0, 1].
+glm::vec2 read_split_sum(const HostImage& table, float mu_o, float roughness);

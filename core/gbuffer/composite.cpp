@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/shared/brdf.h"
-#include "core/shared/split_sum_tap.h"
 #include "core/split_sum.h"
 
 namespace {
@@ -10,17 +9,6 @@ namespace {
 const HostImage& table() {
     static const HostImage table = split_sum_table();
     return table;
-}
-
-glm::vec2 split_sum_factors(float mu_o, float roughness) {
-    const SplitSumTap tap = split_sum_tap(mu_o, roughness, table().extent.x);
-    const auto texel = [](unsigned x, unsigned y) {
-        const float* p = table().pixel(x, y);
-        return glm::vec2(p[0], p[1]);
-    };
-    const glm::vec2 low = glm::mix(texel(tap.first.x, tap.first.y), texel(tap.last.x, tap.first.y), tap.fraction.x);
-    const glm::vec2 high = glm::mix(texel(tap.first.x, tap.last.y), texel(tap.last.x, tap.last.y), tap.fraction.x);
-    return glm::mix(low, high, tap.fraction.y);
 }
 
 /// Unit, world space, from the camera through the pixel's sample: pixel.glsl.
@@ -67,7 +55,7 @@ HostImage specular_reflectance(const HostGBuffer& g) {
             const float specular = g.emission.pixel(x, y)[3];
             const float mu_o = -glm::dot(glm::vec3(n[0], n[1], n[2]), pixel_direction(g.camera, x, y));
             if (mu_o <= 0) continue;
-            const glm::vec2 ab = split_sum_factors(mu_o, n[3]);
+            const glm::vec2 ab = read_split_sum(table(), mu_o, n[3]);
             const glm::vec3 f0 = specular_f0({c[0], c[1], c[2]}, c[3], specular);
             result.set_rgb(size_t(y) * g.extent().x + x, f0 * ab.x + specular_f90(c[3], specular) * ab.y);
         }
