@@ -39,6 +39,17 @@ double punctual_power(const PunctualLight& light, double scene_radius) {
 
 }  // namespace
 
+PunctualArrival arrival(const PunctualLight& light, glm::vec3 point) {
+    if (light.type == LightType::directional) return {-light.direction, light.intensity, true};
+    const glm::vec3 to_light = light.position - point;
+    const float distance = glm::length(to_light);
+    PunctualArrival arriving{to_light / distance, light.intensity * punctual_falloff(distance, light.range), false};
+    if (light.type == LightType::spot)
+        arriving.irradiance *= spot_attenuation(-glm::dot(arriving.direction, light.direction), light.inner_cone_cos,
+                                                light.outer_cone_cos);
+    return arriving;
+}
+
 LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry,
                            const MaterialTable& materials, bool sample_environment, bool compensate)
     : geometry_(geometry), materials_(materials), first_triangle_(scene.instances.size(), no_light) {
@@ -166,24 +177,13 @@ void LightSampler::sample_environment(uint32_t x, uint32_t y, int lane, LightLan
 
 void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
                                    LightLanes& lights) const {
-    glm::vec3 direction = -light.direction, irradiance = light.intensity;
+    const PunctualArrival arriving = arrival(light, point);
+    const bool is_apart = arriving.is_infinite || light.position != point;
     lights.is_delta[lane] = 1;
-    lights.is_infinite[lane] = light.type == LightType::directional;
-    if (light.type != LightType::directional) {
-        const glm::vec3 to_light = light.position - point;
-        const float distance = glm::length(to_light);
-        direction = to_light / distance;
-        if (distance > 0)
-            irradiance *= punctual_falloff(distance, light.range);
-        else
-            probability = 0.0f;
-        if (light.type == LightType::spot)
-            irradiance *=
-                spot_attenuation(-glm::dot(direction, light.direction), light.inner_cone_cos, light.outer_cone_cos);
-    }
-    lights.pdf[lane] = probability;
-    lights.direction.set(lane, direction);
-    lights.radiance.set(lane, irradiance);
+    lights.is_infinite[lane] = arriving.is_infinite;
+    lights.pdf[lane] = is_apart ? probability : 0.0f;
+    lights.direction.set(lane, arriving.direction);
+    lights.radiance.set(lane, arriving.irradiance);
     lights.position.set(lane, light.position);
     lights.error.set(lane, glm::vec3(0.0f));
     lights.normal.set(lane, glm::vec3(0.0f));

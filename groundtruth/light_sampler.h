@@ -17,6 +17,14 @@ struct LightLanes {
     Lanes<float> shadow_far;  ///< in units of shadow_direction
 };
 
+/// What a punctual light sends to a point, before visibility is known.
+struct PunctualArrival {
+    glm::vec3 direction;   ///< unit, towards the light; not a number if the point is the light's own
+    glm::vec3 irradiance;  ///< at normal incidence (W m^-2)
+    bool is_infinite;      ///< the light is at no place
+};
+PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
+
 /// Chooses among emissive triangles, punctual lights and the environment with probability proportional to their power.
 class LightSampler {
 public:
@@ -26,7 +34,7 @@ public:
                  bool sample_environment, bool compensate);
 
     bool empty() const { return table_.empty(); }
-    bool has_punctual_lights() const { return !lights_.empty(); }
+    const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< that shine
     bool has_emitters() const { return !triangles_.empty(); }
     bool has_environment_table() const { return environment_index_ != none; }
 

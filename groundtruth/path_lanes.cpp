@@ -12,6 +12,15 @@ void for_each_bit(uint32_t bits, const Work& work) {
     for (; bits != 0; bits &= bits - 1) work(std::countr_zero(bits));
 }
 
+/// The unit direction from a point to the camera; where that is behind the surface, to its mirror image before it, so that
+/// every surface has a lit colour on the side that was met. Branchless.
+vec3 to_camera(const CameraView& camera, vec3 position, vec3 normal) {
+    const vec3 to_eye = camera.to_eye(position);
+    const float height = dot(to_eye, normal), depth_behind = height < 0.0f ? height : 0.0f;
+    const vec3 towards = to_eye - (2.0f * depth_behind) * normal;
+    return towards * (1.0f / sqrt(dot(towards, towards)));
+}
+
 }  // namespace
 
 void PathLanes::start(const PathStart& path) {
@@ -53,7 +62,8 @@ void PathLanes::trace_rays() {
             scene_.materials.prefetch_texels(hit.instID[0], hit.primID, hit.u, hit.v);
         });
     }
-    if (scene_.has_environment) for_each_bit(busy_ & ~hits, [&](int lane) { leave(lane); });
+    if (scene_.has_environment || goal_ == PathGoal::lit_color)
+        for_each_bit(busy_ & ~hits, [&](int lane) { leave(lane); });
     continues_ = {};
     for_each_bit(hits, [&](int lane) { meet(lane, ray[lane]); });
 }
@@ -61,6 +71,8 @@ void PathLanes::trace_rays() {
 /// A path that meets nothing sees the environment.
 void PathLanes::leave(int lane) {
     const vec3 direction = direction_.get(lane);
+    if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
+        is_on_screen_[lane] = is_on_screen(scene_, direction, estimate_);
     const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(direction));
     radiance_.set(lane,
                   radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
@@ -86,6 +98,9 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
         roughness_[lane] = surface.roughness;
         specular_[lane] = surface.specular;
         continues_[lane] = depth_[lane] < scene_.settings.max_depth && !surface.is_unlit;
+        if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
+            is_on_screen_[lane] =
+                is_on_screen(scene_, surface.position, surface.error, surface.geometric_normal, estimate_);
     });
 }
 
@@ -99,18 +114,24 @@ void PathLanes::sample_lights() {
     scene_.lights.sample(continues_, position_, x, y, lights_);
 }
 
-template <bool has_lights>
+template <bool has_lights, PathGoal goal>
 void PathLanes::scatter() {
     const bool has_roulette = scene_.settings.russian_roulette;
     const ReflectionModel model = scene_.settings.model;
     const MisHeuristic mis = scene_.mis;
+    const CameraView camera = scene_.camera;
     FOR_EACH_LANE {
         const vec3 geometric_normal = geometric_normal_.get(lane), throughput = throughput_.get(lane);
         const mat3 world_from_local = basis_from_normal(unit_normal(normal_.get(lane), geometric_normal));
-        const vec3 o = -direction_.get(lane) * world_from_local;
+        const bool is_lit_color = goal == PathGoal::lit_color && depth_[lane] == 1;
+        vec3 to_viewer = -direction_.get(lane);
+        if constexpr (goal == PathGoal::lit_color)
+            to_viewer = choose(is_lit_color, to_camera(camera, position_.get(lane), geometric_normal), to_viewer);
+        const vec3 o = to_viewer * world_from_local;
         const Lobes lobes =
             make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane], o, model);
-        const float q = lobes.specular_probability;
+        const float q = is_lit_color ? 0.0f : lobes.specular_probability;
+        const float specular_share = is_lit_color ? 0.0f : 1.0f;  // the lit colour is without reflections
         const bool reflects = (continues_[lane] != 0) & (o.z > 0.0f);  // the viewer may be below the shading horizon
 
         if constexpr (has_lights) {
@@ -120,7 +141,7 @@ void PathLanes::scatter() {
             const float weight = lights_.is_delta[lane] ? 1.0f : mis.of_light(light_pdf, bsdf_pdf);
             const bool is_used = reflects & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
             const vec3 direct =
-                throughput * (f.diffuse + f.specular) * lights_.radiance.get(lane) * (weight / light_pdf);
+                throughput * (f.diffuse + f.specular * specular_share) * lights_.radiance.get(lane) * (weight / light_pdf);
             direct_.set(lane, keep_if(is_used, direct));
             aim_shadow_ray(position_.get(lane), error_.get(lane), geometric_normal, lane, lights_);
         }
@@ -134,7 +155,7 @@ void PathLanes::scatter() {
         const LobeValues f = evaluate(lobes, i);
         const float pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
         const vec3 direction = world_from_local * i;
-        const vec3 next = throughput * (f.diffuse + f.specular) * (1.0f / pdf);
+        const vec3 next = throughput * (f.diffuse + f.specular * specular_share) * (1.0f / pdf);
 
         const float greatest = max(next.x, max(next.y, next.z));
         const bool plays = has_roulette & (depth_[lane] >= 2) & (greatest < 1.0f);
@@ -164,9 +185,13 @@ void PathLanes::trace_shadow_rays() {
 /// One segment of every path: to the next vertex, light there, and a new direction.
 void PathLanes::advance() {
     trace_rays();
-    if (!scene_.lights.empty()) sample_lights();
-    scene_.lights.empty() ? scatter<false>() : scatter<true>();
-    if (!scene_.lights.empty()) trace_shadow_rays();
+    const bool has_lights = !scene_.lights.empty();
+    if (has_lights) sample_lights();
+    if (goal_ == PathGoal::lit_color)
+        has_lights ? scatter<true, PathGoal::lit_color>() : scatter<false, PathGoal::lit_color>();
+    else
+        has_lights ? scatter<true, PathGoal::reflection>() : scatter<false, PathGoal::reflection>();
+    if (has_lights) trace_shadow_rays();
     uint32_t continuing = 0;
     for (int lane = 0; lane < lane_count; ++lane) continuing |= continues_[lane] << lane;
     for_each_bit(busy_ & ~continuing, [&](int lane) { end(lane); });
@@ -177,6 +202,11 @@ void PathLanes::end(int lane) {
     const vec3 radiance = radiance_.get(lane), reflected = weight_.get(lane) * radiance;
     if (!std::isfinite(reflected.x + reflected.y + reflected.z)) {
         ++estimate_.non_finite;
+    } else if (goal_ == PathGoal::lit_color) {
+        estimate_.camera_radiance += glm::dvec3(radiance);
+        if (!is_on_screen_[lane]) return;
+        estimate_.on_screen += glm::dvec3(radiance);
+        ++estimate_.on_screen_samples;
     } else if (is_specular_[lane]) {
         estimate_.specular += glm::dvec3(reflected);
         estimate_.incident += glm::dvec3(radiance);

@@ -14,14 +14,20 @@ struct PathStart {
     glm::vec3 weight;          ///< f mu_i / pdf of its lobe
     float pdf;                 ///< sr^-1, of its lobe
     uint32_t reversed_sample;  ///< the index of the sample, bits reversed
-    bool is_specular;          ///< adds to `specular` and `incident`, else to `diffuse`
+    bool is_specular;          ///< it leaves along the specular lobe, else the diffuse one
+};
+
+/// What paths estimate.
+enum class PathGoal {
+    reflection,  ///< what they reflect at the first hit: `specular` and `incident`, or `diffuse`
+    lit_color    ///< the lit colour of what they meet first: `camera_radiance` and `on_screen`
 };
 
 /// Paths in flight. A lane whose path has ended takes the next one, so that all lanes stay busy until finish().
 class PathLanes {
 public:
-    PathLanes(const TracedScene& scene, const SobolSequence& sequence, PixelEstimate& estimate)
-        : scene_(scene), sequence_(sequence), estimate_(estimate) {}
+    PathLanes(const TracedScene& scene, const SobolSequence& sequence, PathGoal goal, PixelEstimate& estimate)
+        : scene_(scene), sequence_(sequence), goal_(goal), estimate_(estimate) {}
 
     void start(const PathStart& path);
     void finish();
@@ -32,13 +38,14 @@ private:
     void leave(int lane);
     void meet(int lane, const RTCRayHit& ray);
     void sample_lights();
-    template <bool has_lights>
+    template <bool has_lights, PathGoal goal>
     void scatter();
     void trace_shadow_rays();
     void end(int lane);
 
     const TracedScene& scene_;
     const SobolSequence& sequence_;
+    const PathGoal goal_;
     PixelEstimate& estimate_;
     uint32_t busy_ = 0;  ///< bit per lane: it holds a path
 
@@ -46,6 +53,7 @@ private:
     LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
     Lanes<float> pdf_;  ///< with which direction_ was drawn
     Lanes<uint32_t> depth_, pair_, reversed_sample_, is_specular_;
+    Lanes<uint32_t> is_on_screen_;  ///< what it met first
     // Of the vertex that it has reached:
     Lanes<uint32_t> continues_;  ///< 1 if there is one, and later if the path goes on from it, else 0
     LanesVec3 position_, error_, geometric_normal_, normal_, base_color_;

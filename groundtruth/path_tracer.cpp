@@ -1,8 +1,11 @@
 #include "groundtruth/path_tracer.h"
 
+#include "core/gbuffer/prefiltered_environment.h"
+#include "core/split_sum.h"
 #include "groundtruth/path_lanes.h"
 
 #include <pmmintrin.h>
+#include <tbb/task_arena.h>
 #include <xmmintrin.h>
 #include <cmath>
 
@@ -26,10 +29,55 @@ bool is_finite(vec3 v) { return std::isfinite(v.x + v.y + v.z); }
 /// The first hit of one pixel and the parts of it that are estimated.
 struct FirstVertex {
     const FirstHit& hit;
-    mat3 world_from_local;
-    Lobes lobes;
-    bool wants_diffuse, wants_specular;
+    mat3 world_from_local{};
+    Lobes lobes{};
+    bool wants_diffuse = false, wants_specular = false;
 };
+
+/// Of a pixel that reflects anything; else false.
+bool meets_surface(const TracedScene& scene, FirstVertex& vertex) {
+    const FirstHit& hit = vertex.hit;
+    if (!hit.is_hit || hit.is_unlit) return false;
+    vertex.world_from_local = basis_from_normal(hit.normal);
+    const vec3 o = hit.view * vertex.world_from_local;
+    if (o.z <= 0) return false;
+    vertex.lobes = make_lobes(hit.base_color, hit.metalness, hit.roughness, hit.specular, o, scene.settings.model);
+    vertex.wants_diffuse = scene.settings.diffuse && vertex.lobes.has_diffuse;
+    vertex.wants_specular = scene.settings.specular && vertex.lobes.has_specular;
+    return true;
+}
+
+/// Specularly reflected radiance of all punctual lights, in closed form but for their visibility.
+void add_highlight(const TracedScene& scene, FirstHit& hit) {
+    FirstVertex vertex{.hit = hit};
+    if (scene.lights.punctual_lights().empty() || !meets_surface(scene, vertex) || !vertex.wants_specular) return;
+    PixelEstimate cost;
+    for (const PunctualLight& light : scene.lights.punctual_lights()) {
+        const PunctualArrival arriving = arrival(light, hit.position);
+        const vec3 f = evaluate(vertex.lobes, arriving.direction * vertex.world_from_local).specular;
+        const vec3 reflected = f * arriving.irradiance;
+        if (!(dot(arriving.direction, hit.geometric_normal) > 0) || reflected == vec3(0.0f)) continue;
+        LightLanes shadow;
+        shadow.direction.set(0, arriving.direction);
+        shadow.position.set(0, light.position);
+        shadow.is_infinite[0] = arriving.is_infinite;
+        aim_shadow_ray(hit.position, hit.position_error, hit.geometric_normal, 0, shadow);
+        if (is_visible(scene, shadow, 0, cost)) hit.highlight += reflected;
+    }
+    hit.shadow_rays = unsigned(cost.rays);
+}
+
+/// A light sample's part of the lower rungs: emission is the same towards the camera.
+void add_emission(const TracedScene& scene, const LightLanes& lights, int lane, vec3 incident, PixelEstimate& estimate) {
+    if (incident == vec3(0.0f)) return;
+    const vec3 direction = lights.direction.get(lane), normal = lights.normal.get(lane);
+    const vec3 lit_side = dot(direction, normal) < 0 ? normal : -normal;
+    estimate.camera_radiance += glm::dvec3(incident);
+    const bool is_shown = lights.is_infinite[lane] ? is_on_screen(scene, direction, estimate)
+                                                   : is_on_screen(scene, lights.position.get(lane),
+                                                                  lights.error.get(lane), lit_side, estimate);
+    if (is_shown) estimate.on_screen += glm::dvec3(incident);
+}
 
 /// Light samples at the first hit, for the lanes' worth of samples that begins with `first_sample`.
 void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
@@ -61,10 +109,10 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
         const bool is_delta = lights.is_delta[lane] != 0, is_used = (pdf > 0) & (dot(to_light, geometric_normal) > 0);
         // Each output is an estimator of its own: the light shares its weight with the lobe of that output.
         const float diffuse_weight = (is_delta ? 1.0f : mis.of_light(pdf, f.diffuse_pdf)) / pdf;
-        const float specular_weight = (is_delta ? 1.0f : mis.of_light(pdf, f.specular_pdf)) / pdf;
+        const float specular_weight = mis.of_light(pdf, f.specular_pdf) / pdf;
         const vec3 radiance = lights.radiance.get(lane);
         diffuse.set(lane, keep_if(is_used, f.diffuse * radiance * diffuse_weight));
-        specular.set(lane, keep_if(is_used, f.specular * radiance * specular_weight));
+        specular.set(lane, keep_if(is_used & !is_delta, f.specular * radiance * specular_weight));
         incident.set(lane, keep_if(is_used & !is_delta, radiance * (f.specular_pdf * specular_weight)));
         aim_shadow_ray(position, error, geometric_normal, lane, lights);
     }
@@ -80,6 +128,7 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
             estimate.diffuse += glm::dvec3(parts[0]);
             estimate.specular += glm::dvec3(parts[1]);
             estimate.incident += glm::dvec3(parts[2]);
+            if (scene.settings.ladder) add_emission(scene, lights, lane, parts[2], estimate);
         }
     }
 }
@@ -117,11 +166,35 @@ void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsig
 void trace_in_vain(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
                    unsigned first_sample, unsigned count) {
     PixelEstimate unused;
-    PathLanes paths(scene, sequence, unused);
+    PathLanes paths(scene, sequence, PathGoal::reflection, unused);
     for (unsigned done = 0; done < count; done += lane_count)
         start_paths(vertex, sequence, first_sample + done, int(std::min(count - done, unsigned(lane_count))), true,
                     paths, unused);
     paths.finish();
+}
+
+/// The lower rungs of the truth ladder, along the same directions as the specular paths.
+void trace_lit_colors(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
+                      unsigned first_sample, unsigned count, PixelEstimate& estimate) {
+    PixelEstimate lit{.record = estimate.record};
+    PathLanes paths(scene, sequence, PathGoal::lit_color, lit);
+    for (unsigned done = 0; done < count; done += lane_count)
+        start_paths(vertex, sequence, first_sample + done, int(std::min(count - done, unsigned(lane_count))), true,
+                    paths, lit);
+    paths.finish();
+    estimate.camera_radiance += lit.camera_radiance;
+    estimate.on_screen += lit.on_screen;
+    // Directions below the geometric horizon meet the surface itself, which the image shows, and carry no light.
+    estimate.on_screen_samples += lit.on_screen_samples + (lit.lobe_samples - lit.paths);
+    estimate.non_finite += lit.non_finite;
+    estimate.rays += lit.rays;
+    estimate.paths += lit.paths;
+}
+
+/// Made once. Isolated, since a thread that waits for it must not begin other work that waits for it too.
+const HostImage& split_sum_factors() {
+    static const HostImage table = tbb::this_task_arena::isolate([] { return split_sum_table(); });
+    return table;
 }
 
 }  // namespace
@@ -131,11 +204,30 @@ struct PathTracer::State {
     glm::uvec2 extent;
     TracedScene scene;
     std::vector<LeftOut> left_out;
+    // For the truth ladder:
+    PrefilteredEnvironment prefiltered;
+    const HostImage* split_sum = nullptr;
+
+    void add_composite_terms(FirstHit& hit) const;
 };
+
+/// What a technique's result is composited with.
+void PathTracer::State::add_composite_terms(FirstHit& hit) const {
+    hit.fallback = mean_over_lobe(scene.scene.environment, prefiltered, reflect(-hit.view, hit.normal), hit.roughness);
+    const float mu_o = dot(hit.normal, hit.view);
+    if (mu_o <= 0 || hit.is_unlit) return;
+    const glm::vec2 ab = read_split_sum(*split_sum, mu_o, hit.roughness);
+    hit.reflectance = specular_f0(hit.base_color, hit.metalness, hit.specular) * ab.x +
+                      specular_f90(hit.metalness, hit.specular) * ab.y;
+}
 
 PathTracer::PathTracer(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                        const PathTracerSettings& settings)
-    : state_(new State{camera, extent, {scene, pose, settings}, {}}) {
+    : state_(new State{camera, extent, {scene, pose, CameraView(camera, extent), settings}, {}, {}}) {
+    if (settings.ladder) {
+        state_->prefiltered = prefilter_environment(scene.environment);
+        state_->split_sum = &split_sum_factors();
+    }
     state_->left_out = left_out_features(state_->scene);
 }
 
@@ -184,6 +276,8 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
         glm::dot(hit.position - vec3(state_->camera.world_from_view[3]), -vec3(state_->camera.world_from_view[2]));
     hit.material = scene.geometry.instance(instance).material;
     hit.instance = instance;
+    add_highlight(scene, hit);
+    if (scene.settings.ladder) state_->add_composite_terms(hit);
     return hit;
 }
 
@@ -191,17 +285,12 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
                        unsigned count, PixelEstimate& estimate) const {
     const FlushDenormals flush;
     estimate.samples += count;
-    if (!hit.is_hit || hit.is_unlit) return;
     const TracedScene& scene = state_->scene;
-    FirstVertex vertex{hit, basis_from_normal(hit.normal), {}, false, false};
-    const vec3 o = hit.view * vertex.world_from_local;
-    if (o.z <= 0) return;
-    vertex.lobes = make_lobes(hit.base_color, hit.metalness, hit.roughness, hit.specular, o, scene.settings.model);
-    vertex.wants_diffuse = scene.settings.diffuse && vertex.lobes.has_diffuse;
-    vertex.wants_specular = scene.settings.specular && vertex.lobes.has_specular;
+    FirstVertex vertex{.hit = hit};
+    if (!meets_surface(scene, vertex)) return;
 
     const SobolSequence sequence(seed ^ hash_bits_64(uint64_t(y) << 32 | x));
-    PathLanes paths(scene, sequence, estimate);
+    PathLanes paths(scene, sequence, PathGoal::reflection, estimate);
     for (unsigned done = 0; done < count; done += lane_count) {
         const int lanes = int(std::min(count - done, unsigned(lane_count)));
         if (!scene.lights.empty()) add_direct_light(scene, vertex, sequence, first_sample + done, lanes, estimate);
@@ -209,6 +298,8 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
         if (vertex.wants_diffuse) start_paths(vertex, sequence, first_sample + done, lanes, false, paths, estimate);
     }
     paths.finish();
+    if (scene.settings.ladder && vertex.wants_specular)
+        trace_lit_colors(scene, vertex, sequence, first_sample, count, estimate);
     if (scene.settings.keep_all && scene.settings.specular && !vertex.wants_specular)
         trace_in_vain(scene, vertex, sequence, first_sample, count);
 }

@@ -22,6 +22,7 @@ struct PathTracerSettings {
     bool russian_roulette = true;
     ReflectionModel model = ReflectionModel::gltf;
     bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
+    bool ladder = false;                   ///< also estimate the lower rungs of the truth ladder, see PixelEstimate: twice the rays
     bool keep_all = false;                 ///< trace and evaluate also what left_out() names: the same image, slower
 };
 
@@ -38,6 +39,11 @@ struct FirstHit {
     float metalness = 0.0f, roughness = 0.0f, specular = 0.0f;
     unsigned material = 0, instance = 0;  ///< indices into the scene
     glm::vec3 emitted{0.0f};              ///< towards the camera; where nothing is hit, the environment
+    glm::vec3 highlight{0.0f};            ///< radiance of the punctual lights that it reflects specularly, without any noise
+    unsigned shadow_rays = 0;             ///< traced for `highlight`
+    // With PathTracerSettings::ladder:
+    glm::vec3 reflectance{0.0f};  ///< F0 A + F90 B, as the compositor has it
+    glm::vec3 fallback{0.0f};     ///< the environment over the specular lobe, as the G-buffer has it
     glm::vec3 position_error{0.0f};       ///< half extent of the box that holds the exact hit (m)
     bool is_unlit = false;
 };
@@ -53,8 +59,12 @@ struct RecordedRay {
 struct PixelEstimate {
     glm::dvec3 diffuse{
         0.0};  ///< / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
-    glm::dvec3 specular{0.0};  ///< / samples: specularly reflected radiance
+    glm::dvec3 specular{0.0};  ///< / samples: specularly reflected radiance, without FirstHit::highlight
     glm::dvec3 incident{0.0};  ///< / lobe_samples: mean incident radiance over the lobe above the horizon
+    // With PathTracerSettings::ladder:
+    glm::dvec3 camera_radiance{0.0};  ///< / lobe_samples: `incident`, with the lit colour of what the lobe meets
+    glm::dvec3 on_screen{0.0};        ///< / lobe_samples: the same, with nothing for what the camera's image does not show
+    uint64_t on_screen_samples = 0;   ///< samples of the lobe that meet what the image shows
     uint64_t samples = 0;
     uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
     uint64_t non_finite =
@@ -68,8 +78,9 @@ struct PixelEstimate {
 /// for one frame of one camera. Building it builds the BVH, with all cores; afterwards all members are const and may be
 /// called from any number of threads, whose results do not depend on how the work is split.
 ///
-/// `incident` leaves out punctual lights: they are deltas, which a mean over directions cannot hold; `diffuse` and
-/// `specular` include them.
+/// `specular` and `incident` leave out what punctual lights send to the first hit itself: they are deltas, which a mean
+/// over directions cannot hold, which no ray ever meets, and which engines shade in closed form. That highlight is
+/// FirstHit::highlight. `diffuse` includes them, and all outputs do at later vertices.
 ///
 /// Surfaces are seen from both sides, normals turned to the side of the viewer; the geometric normal says which side
 /// that is. Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below

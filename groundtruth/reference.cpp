@@ -69,6 +69,7 @@ bool can_be_added_to(const ReferenceState& found, const ReferenceSettings& setti
 /// The state that the file holds of this request, or an empty one.
 ReferenceState pick_up(const ReferenceRun& run, const std::string& stream, glm::uvec2 extent, const ReferenceSettings& settings) {
     ReferenceState empty;
+    empty.settings = settings;
     clear_samples(empty, extent);
     if (!run.state_file.empty() && std::filesystem::exists(run.state_file)) try {
             ReferenceState found = read_reference_state(run.state_file);
@@ -97,7 +98,7 @@ std::string reference_stream(const Scene& scene, const ScenePose& pose, const Ca
     hash.add(scene.content_hash);
     add(hash, pose);
     add(hash, camera);
-    for (const unsigned value : {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.keep_all)}) hash.add(value);
+    for (const unsigned value : {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder), unsigned(settings.keep_all)}) hash.add(value);
     return hash.hex();
 }
 
@@ -120,7 +121,7 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
     clock.seconds_before = state.reference.seconds;
     clock.rays_before = state.reference.rays;
 
-    const PathTracer path_tracer(scene, pose, camera, extent, {.max_depth = settings.max_depth, .keep_all = settings.keep_all});
+    const PathTracer path_tracer(scene, pose, camera, extent, {.max_depth = settings.max_depth, .ladder = settings.ladder, .keep_all = settings.keep_all});
     const PixelTracer tracer{
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
         .trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,

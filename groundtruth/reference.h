@@ -17,19 +17,39 @@ struct ReferenceOutput {
     HostImage variance;        ///< of `mean`, per channel; within the halves, 14 degrees of freedom per pass
 };
 
+/// The lower rungs of the truth ladder, which tells whom a technique's error is to be blamed on: each changes one thing of
+/// the one above it. All are means over the lobe like `incident` (times `reflectance` they are specular radiances), and
+/// share its samples, so that the steps between rungs are less noisy than the rungs: see truth_ladder.h.
+///
+/// `camera_radiance` takes, at what the lobe meets first, the radiance that leaves diffusely and by emission towards the
+/// camera, lit by all light transport: what the lit colour buffer would hold of it (where the camera is behind the
+/// surface, its mirror image before it counts). What is lost is the dependence on the view, and reflections of
+/// reflections. `on_screen` takes `fallback` where the image does not show that point, on the side that was met: what is
+/// lost is what no screen-space technique can know. Visibility is that of points, not of pixels.
+struct TruthLadder {
+    ReferenceOutput camera_radiance, on_screen;
+    HostImage on_screen_share;  ///< one channel: share of the lobe that meets what the image shows; an ideal confidence
+    HostImage reflectance;      ///< RGB: F0 A + F90 B, as the compositor has it
+    HostImage fallback;         ///< RGB: the environment over the lobe, as the G-buffer has it
+
+    bool is_empty() const { return on_screen.mean.values.empty(); }
+};
+
 /// What the path tracer knows of one frame of one camera. Pixel centres and first hits are those of the G-buffer.
-/// 240 bytes per pixel, less than 64 for each of the four outputs.
+/// 248 bytes per pixel, 48 of them for each output; with the truth ladder 372.
 struct Reference {
     glm::uvec2 extent{0, 0};
-    ReferenceOutput image;     ///< full path-traced radiance
+    ReferenceOutput image;     ///< full path-traced radiance: diffuse + specular + highlights
     ReferenceOutput diffuse;   ///< the lit colour: what the first hit emits and reflects diffusely; the environment where nothing is hit
-    ReferenceOutput specular;  ///< specular reflection of the first hit; image = diffuse + specular
+    ReferenceOutput specular;  ///< specular reflection of the first hit, of all but the punctual lights
     ReferenceOutput incident;  ///< incident radiance averaged over the visible-normal lobe, weight 1: what a variant estimates
+    HostImage highlights;      ///< RGB, without noise: the punctual lights that the first hit reflects specularly. No part of `specular`: see PathTracer
     HostImage sample_count;    ///< one channel
     HostImage lobe_samples;    ///< two channels: how many samples of half A and of half B have a direction above the horizon
     HostImage depth;           ///< one channel: distance along -z (m), 0 where nothing was hit
     HostImage geometric_normal, normal;  ///< XYZ, world space, as in the G-buffer
     HostImage material_id;     ///< one channel: material index + 1, 0: background
+    TruthLadder ladder;        ///< empty unless ReferenceSettings::ladder
     double seconds = 0;        ///< wall clock, over all continued runs
     double rays = 0;           ///< of both kinds, over all runs, the pilot of an adaptive render included
     uint64_t non_finite_samples = 0;  ///< samples with NaN or Inf, whose parts count as zero: an image is valid only if 0
@@ -55,6 +75,7 @@ struct ReferenceSettings {
     float target_relative_error = 0;  ///< relative standard error of `specular` at each pixel, see relative_error(); 0: no such stop
     unsigned max_depth = 64;     ///< reflections per path
     unsigned seed = 0x5eed;
+    bool ladder = false;         ///< also the lower rungs of the truth ladder: about twice the rays
     bool keep_all = false;       ///< trace also what the scene does not need: the same image, slower
 };
 
@@ -82,8 +103,8 @@ struct ReferenceRun {
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 
-/// Hash of all that decides which samples a render draws and what they are: scene content, pose, camera, extent, seed, depth
-/// and the code of the path tracer. Fails with Error if scene.content_hash is empty.
+/// Hash of all that decides which samples a render draws and what they are: scene content, pose, camera, extent, seed, depth,
+/// ladder and the code of the path tracer. Fails with Error if scene.content_hash is empty.
 std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                              const ReferenceSettings& settings);
 

@@ -14,18 +14,27 @@ struct NamedImage {
     PixelType type = PixelType::float32;
 };
 
-std::vector<NamedImage> named_images(Reference& reference) {
+std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
     std::vector<NamedImage> images;
-    const std::pair<std::string, ReferenceOutput*> outputs[] = {{"image", &reference.image},
+    std::vector<std::pair<std::string, ReferenceOutput*>> outputs = {{"image", &reference.image},
                                                                {"diffuse", &reference.diffuse},
                                                                {"specular", &reference.specular},
                                                                {"incident", &reference.incident}};
+    TruthLadder& ladder = reference.ladder;
+    if (has_ladder) {
+        outputs.push_back({"camera_radiance", &ladder.camera_radiance});
+        outputs.push_back({"on_screen", &ladder.on_screen});
+        images.push_back({"on_screen_share", "Y", &ladder.on_screen_share});
+        images.push_back({"reflectance", "RGB", &ladder.reflectance});
+        images.push_back({"fallback", "RGB", &ladder.fallback});
+    }
     for (const auto& [name, output] : outputs) {
         images.push_back({name, "RGB", &output->mean});
         images.push_back({name + ".a", "RGB", &output->half_a});
         images.push_back({name + ".b", "RGB", &output->half_b});
         images.push_back({name + ".variance", "RGB", &output->variance});
     }
+    images.push_back({"highlights", "RGB", &reference.highlights});
     images.push_back({"sample_count", "Y", &reference.sample_count, PixelType::uint32});
     images.push_back({"lobe_samples", "XY", &reference.lobe_samples, PixelType::uint32});
     images.push_back({"depth", "Z", &reference.depth});
@@ -59,6 +68,7 @@ std::map<std::string, std::string> attributes(const Reference& reference, const 
         {"ssrlab.target_relative_error", digits(settings.target_relative_error)},
         {"ssrlab.max_depth", digits(settings.max_depth)},
         {"ssrlab.seed", digits(settings.seed)},
+        {"ssrlab.ladder", digits(unsigned(!reference.ladder.is_empty()))},
         {"ssrlab.keep_all", digits(unsigned(settings.keep_all))},
         {"ssrlab.is_pilot", digits(unsigned(is_pilot))},
         {"ssrlab.code_version", groundtruth_code_version()},
@@ -131,11 +141,11 @@ void take_layer(const std::filesystem::path& file, LayeredImage& layers, const N
 }  // namespace
 
 void write_reference(const std::filesystem::path& file, Reference& reference, const ReferenceSettings& settings) {
-    write(file, named_images(reference), attributes(reference, settings, false));
+    write(file, named_images(reference, !reference.ladder.is_empty()), attributes(reference, settings, false));
 }
 
 void write_reference_state(const std::filesystem::path& file, ReferenceState& state) {
-    std::vector<NamedImage> images = named_images(state.reference);
+    std::vector<NamedImage> images = named_images(state.reference, !state.reference.ladder.is_empty());
     for (const NamedImage& image : named_images(state))
         if (!image.image->values.empty()) images.push_back(image);
     write(file, std::move(images), attributes(state.reference, state.settings, state.is_pilot));
@@ -158,10 +168,11 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
     header.read("target_relative_error", state.settings.target_relative_error);
     header.read("max_depth", state.settings.max_depth);
     header.read("seed", state.settings.seed);
+    state.settings.ladder = header.flag("ladder");
     state.settings.keep_all = header.flag("keep_all");
     state.is_pilot = header.flag("is_pilot");
 
-    for (const NamedImage& image : named_images(reference)) take_layer(file, layers, image);
+    for (const NamedImage& image : named_images(reference, state.settings.ladder)) take_layer(file, layers, image);
     for (const NamedImage& image : named_images(state))
         if (layers.find(image.name)) take_layer(file, layers, image);
     reference.extent = reference.sample_count.extent;

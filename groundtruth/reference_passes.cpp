@@ -120,11 +120,19 @@ void clear_samples(ReferenceState& state, glm::uvec2 extent) {
     reference.extent = extent;
     reference.non_finite_samples = 0;
     reference.passes.clear();
-    for (ReferenceOutput* output : {&reference.image, &reference.diffuse, &reference.specular, &reference.incident})
-        for (HostImage* image : {&output->mean, &output->half_a, &output->half_b, &output->variance}) *image = HostImage(extent, 3);
-    for (HostImage* image : {&reference.geometric_normal, &reference.normal}) *image = HostImage(extent, 3);
+    const auto clear = [&](ReferenceOutput& output) {
+        for (HostImage* image : {&output.mean, &output.half_a, &output.half_b, &output.variance}) *image = HostImage(extent, 3);
+    };
+    for (ReferenceOutput* output : {&reference.image, &reference.diffuse, &reference.specular, &reference.incident}) clear(*output);
+    for (HostImage* image : {&reference.highlights, &reference.geometric_normal, &reference.normal}) *image = HostImage(extent, 3);
     for (HostImage* image : {&reference.sample_count, &reference.depth, &reference.material_id}) *image = HostImage(extent, 1);
     reference.lobe_samples = HostImage(extent, 2);
+    TruthLadder& ladder = reference.ladder = {};
+    if (state.settings.ladder) {
+        for (ReferenceOutput* output : {&ladder.camera_radiance, &ladder.on_screen}) clear(*output);
+        for (HostImage* image : {&ladder.reflectance, &ladder.fallback}) *image = HostImage(extent, 3);
+        ladder.on_screen_share = HostImage(extent, 1);
+    }
     state.sample_goal = {};
     state.rays_per_sample = {};
 }

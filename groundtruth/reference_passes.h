@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-/// An empty state of `extent`: no samples, no goal. Settings, stream and hash stay, and what was spent.
+/// An empty state of `extent` for its settings: no samples, no goal. Settings, stream and hash stay, and what was spent.
 void clear_samples(ReferenceState& state, glm::uvec2 extent);
 
 /// What a running render does by the clock: it reports, and it saves its state.

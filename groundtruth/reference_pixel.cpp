@@ -74,6 +74,10 @@ void write_first_hit(Reference& reference, size_t pixel, const FirstHit& hit) {
     reference.geometric_normal.set_rgb(pixel, hit.geometric_normal);
     reference.normal.set_rgb(pixel, hit.normal);
     reference.material_id.values[pixel] = float(hit.material + 1);
+    reference.highlights.set_rgb(pixel, hit.highlight);
+    if (reference.ladder.is_empty()) return;
+    reference.ladder.reflectance.set_rgb(pixel, hit.reflectance);
+    reference.ladder.fallback.set_rgb(pixel, hit.fallback);
 }
 
 }  // namespace
@@ -86,17 +90,22 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
 
     const double samples_before = reference.sample_count.values[pixel];
     const uint64_t pass_seed = mix(mix(seed) ^ mix(uint64_t(set) + 1) ^ uint64_t(samples_before));
-    PixelCost cost{.rays = 1};
-    Batches diffuse, specular, image, incident;
+    PixelCost cost{.rays = 1 + hit.shadow_rays};
+    Batches diffuse, specular, image, incident, camera_radiance, on_screen;
+    double on_screen_samples = 0;
     for (unsigned b = 0; b < batch_count; ++b) {
         PixelEstimate estimate;
         if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, mix(pass_seed + b), 0, batch_samples, estimate);
         diffuse.sums[b] = estimate.diffuse + glm::dvec3(hit.emitted) * double(batch_samples);
         specular.sums[b] = estimate.specular;
-        image.sums[b] = diffuse.sums[b] + specular.sums[b];
+        image.sums[b] = diffuse.sums[b] + specular.sums[b] + glm::dvec3(hit.highlight) * double(batch_samples);
         incident.sums[b] = estimate.incident;
         diffuse.weights[b] = specular.weights[b] = image.weights[b] = batch_samples;
-        incident.weights[b] = double(estimate.lobe_samples);
+        incident.weights[b] = camera_radiance.weights[b] = on_screen.weights[b] = double(estimate.lobe_samples);
+        camera_radiance.sums[b] = estimate.camera_radiance;
+        const double off_screen_samples = double(estimate.lobe_samples - estimate.on_screen_samples);
+        on_screen.sums[b] = estimate.on_screen + glm::dvec3(hit.fallback) * off_screen_samples;
+        on_screen_samples += double(estimate.on_screen_samples);
         cost.rays += estimate.rays;
         cost.non_finite += estimate.non_finite;
     }
@@ -110,6 +119,14 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
     const double old_lobe_weight[2] = {lobe_samples[0], lobe_samples[1]};
     const PassMeans incident_means = means(incident);
     merge(reference.incident, pixel, incident_means, old_lobe_weight);
+    if (!reference.ladder.is_empty()) {
+        merge(reference.ladder.camera_radiance, pixel, means(camera_radiance), old_lobe_weight);
+        merge(reference.ladder.on_screen, pixel, means(on_screen), old_lobe_weight);
+        const double before = old_lobe_weight[0] + old_lobe_weight[1];
+        const double total = before + incident_means.weight[0] + incident_means.weight[1];
+        float& share = reference.ladder.on_screen_share.values[pixel];
+        if (total > 0) share = float((share * before + on_screen_samples) / total);
+    }
     for (unsigned h = 0; h < 2; ++h) lobe_samples[h] += float(incident_means.weight[h]);
     reference.sample_count.values[pixel] += float(batch_samples * batch_count);
     return cost;

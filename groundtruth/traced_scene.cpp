@@ -12,8 +12,10 @@ bool samples_environment(const Scene& scene, LightStrategy strategy) {
 
 }  // namespace
 
-TracedScene::TracedScene(const Scene& scene, const ScenePose& pose, const PathTracerSettings& settings)
+TracedScene::TracedScene(const Scene& scene, const ScenePose& pose, const CameraView& camera,
+                         const PathTracerSettings& settings)
     : scene(scene),
+      camera(camera),
       settings(settings),
       mis(settings.strategy),
       geometry(scene, pose, settings.keep_all),
@@ -21,6 +23,21 @@ TracedScene::TracedScene(const Scene& scene, const ScenePose& pose, const PathTr
       lights(scene, pose, geometry, materials, samples_environment(scene, settings.strategy),
              settings.strategy != LightStrategy::light_only),
       has_environment(settings.keep_all || !scene.environment.is_black()) {}
+
+bool is_on_screen(const TracedScene& scene, glm::vec3 position, glm::vec3 error, glm::vec3 normal,
+                  PixelEstimate& estimate) {
+    const glm::vec3 to_eye = scene.camera.to_eye(position);
+    if (glm::dot(normal, to_eye) <= 0 || !scene.camera.frames(position)) return false;
+    const glm::vec3 origin = offset_origin(position, error, normal, to_eye), direction = position + to_eye - origin;
+    count_ray(estimate, origin, direction, 1.0f, true);
+    return !is_occluded(scene.geometry.handle(), origin, direction, 1.0f);
+}
+
+bool is_on_screen(const TracedScene& scene, glm::vec3 direction, PixelEstimate& estimate) {
+    if (!scene.camera.frames_direction(direction)) return false;
+    count_ray(estimate, scene.camera.eye(), direction, infinite_distance, true);
+    return !is_occluded(scene.geometry.handle(), scene.camera.eye(), direction, infinite_distance);
+}
 
 void record_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow) {
     estimate.record->push_back({origin, direction, far, is_shadow});

@@ -1,13 +1,15 @@
 #pragma once
+#include "groundtruth/camera_view.h"
 #include "groundtruth/light_sampler.h"
 #include "groundtruth/lobes.h"
 #include "groundtruth/path_tracer.h"
 
 #include <limits>
 
-/// All that paths read of one frame: geometry, materials, lights, settings.
+/// All that paths read of one frame: geometry, materials, lights, settings, and what its camera sees.
 struct TracedScene {
     const Scene& scene;
+    CameraView camera;
     PathTracerSettings settings;
     MisHeuristic mis;
     EmbreeScene geometry;
@@ -15,7 +17,7 @@ struct TracedScene {
     LightSampler lights;
     bool has_environment;  ///< that is not black
 
-    TracedScene(const Scene& scene, const ScenePose& pose, const PathTracerSettings& settings);
+    TracedScene(const Scene& scene, const ScenePose& pose, const CameraView& camera, const PathTracerSettings& settings);
 };
 
 /// What the scene does not need and is not traced or evaluated for it; nothing with PathTracerSettings::keep_all.
@@ -74,3 +76,8 @@ inline bool is_visible(const TracedScene& scene, const LightLanes& lights, int l
     count_ray(estimate, origin, direction, lights.shadow_far[lane], true);
     return !is_occluded(scene.geometry.handle(), origin, direction, lights.shadow_far[lane]);
 }
+
+/// Whether the image of the camera shows a point on the side that `normal` (unit, geometric) points to.
+bool is_on_screen(const TracedScene& scene, glm::vec3 position, glm::vec3 error, glm::vec3 normal, PixelEstimate& estimate);
+/// Whether it shows the environment in a direction (unit).
+bool is_on_screen(const TracedScene& scene, glm::vec3 direction, PixelEstimate& estimate);

@@ -69,7 +69,7 @@ TEST_F(References, AreTheMeanOfTheirHalves) {
             EXPECT_NEAR(output->mean.values[i], 0.5f * (output->half_a.values[i] + output->half_b.values[i]),
                         1e-6f + 1e-6f * std::abs(output->mean.values[i]));  // float32 rounding of three numbers
     for (size_t i = 0; i < r.image.mean.values.size(); ++i)
-        EXPECT_NEAR(r.image.mean.values[i], r.diffuse.mean.values[i] + r.specular.mean.values[i],
+        EXPECT_NEAR(r.image.mean.values[i], r.diffuse.mean.values[i] + r.specular.mean.values[i] + r.highlights.values[i],
                     1e-6f + 1e-6f * r.image.mean.values[i]);
     EXPECT_EQ(r.non_finite_samples, 0u);
 }
@@ -151,4 +151,15 @@ TEST(ReferenceOfNothing, IsTheSkyExactly) {
     for (size_t i = 0; i < r.image.mean.pixel_count(); ++i) EXPECT_EQ(r.image.mean.rgb(i), sky.environment.color);
     EXPECT_EQ(mean_of(r.specular.mean), 0.0);
     EXPECT_THROW(render_reference(sky, pose, camera, {0, 4}, samples(16)), Error);
+}
+
+TEST_F(References, KeepHighlightsApart) {
+    pose.lights.push_back({.intensity = glm::vec3(100), .position = {0, 3, 0}});
+    const Reference a = render(samples(64, 1)), b = render(samples(64, 2));
+    EXPECT_EQ(a.highlights.values, b.highlights.values);  // they have no noise
+    EXPECT_GT(mean_of(a.highlights), 0.001);
+    for (size_t i = 0; i < a.image.mean.values.size(); ++i) {
+        const double sum = double(a.diffuse.mean.values[i]) + a.specular.mean.values[i] + a.highlights.values[i];
+        EXPECT_NEAR(a.image.mean.values[i], sum, 1e-6 + 1e-6 * sum);  // float32 rounding
+    }
 }

@@ -134,7 +134,7 @@ TEST(light_sampler, densities_are_those_of_the_surfaces_that_rays_meet) {
     TestScene scene;
     scene.quad({-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}, scene.add(lambert_material(0, 3)));
     scene.sphere({3, 1, 0}, 0.5f, 8, scene.add(lambert_material(0, 8)));
-    const TracedScene traced(scene.scene, scene.pose(), {});
+    const TracedScene traced(scene.scene, scene.pose(), CameraView({}, {1, 1}), {});
     const uint32_t samples = 1 << 14;
     LanesVec3 point;
     Lanes<uint32_t> wanted, x, y;

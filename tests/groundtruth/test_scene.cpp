@@ -105,17 +105,24 @@ CameraPose looking_at_origin(glm::vec3 normal, glm::vec3 towards, float cosine) 
 PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsigned samples_per_batch, uint64_t seed) {
     PixelMoments result;
     result.hit = tracer.first_hit(x, y);
-    std::array<glm::dvec3, batch_count> means[3];
+    std::array<glm::dvec3, batch_count> means[5];
+    double on_screen = 0, lobe = 0;
     for (unsigned batch = 0; batch < batch_count; ++batch) {
         PixelEstimate estimate;
         tracer.trace(x, y, result.hit, seed * 1000 + batch, 0, samples_per_batch, estimate);
         means[0][batch] = estimate.diffuse / double(estimate.samples) + glm::dvec3(result.hit.emitted);
         means[1][batch] = estimate.specular / double(estimate.samples);
-        means[2][batch] = estimate.lobe_samples ? estimate.incident / double(estimate.lobe_samples) : glm::dvec3(0.0);
+        const double lobe_samples = double(estimate.lobe_samples), hidden = lobe_samples - double(estimate.on_screen_samples);
+        const glm::dvec3 over_lobe[] = {estimate.incident, estimate.camera_radiance,
+                                        estimate.on_screen + hidden * glm::dvec3(result.hit.fallback)};
+        for (int i = 0; i < 3; ++i) means[2 + i][batch] = lobe_samples > 0 ? over_lobe[i] / lobe_samples : glm::dvec3(0.0);
+        on_screen += double(estimate.on_screen_samples);
+        lobe += lobe_samples;
         result.non_finite += estimate.non_finite;
     }
-    Moments* moments[3] = {&result.diffuse, &result.specular, &result.incident};
-    for (int output = 0; output < 3; ++output) {
+    if (lobe > 0) result.on_screen_share = on_screen / lobe;
+    Moments* moments[5] = {&result.diffuse, &result.specular, &result.incident, &result.camera_radiance, &result.on_screen};
+    for (int output = 0; output < 5; ++output) {
         for (const glm::dvec3& mean : means[output]) moments[output]->mean += mean / double(batch_count);
         glm::dvec3 squares(0.0);
         for (const glm::dvec3& mean : means[output])

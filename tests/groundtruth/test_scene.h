@@ -41,6 +41,8 @@ struct Moments {
 struct PixelMoments {
     FirstHit hit;
     Moments diffuse, specular, incident;  ///< `diffuse` includes emission
+    Moments camera_radiance, on_screen;   ///< with PathTracerSettings::ladder
+    double on_screen_share = 0;
     uint64_t non_finite = 0;
 };
 
