@@ -72,6 +72,7 @@ int parse_and_run(int argc, char** argv) {
     reference_command_.add_option("--target", reference.settings.target_relative_error, "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")->check(CLI::Range(1e-4, 1.0));
     reference_command_.add_option("--max-depth", reference.settings.max_depth, "Longest path, in segments")->check(CLI::Range(1, 1024))->capture_default_str();
     reference_command_.add_option("--seed", reference.settings.seed, "Seed of the path tracer")->capture_default_str();
+    reference_command_.add_flag("--ladder", reference.settings.ladder, "Also the truth ladder: what factoring the BRDF, one view and bounce, and the borders of the screen cost at least; about twice the rays");
     reference_command_.add_option("--out", reference.out, "Default: <scene>_reference.exr")->type_name("FILE.exr");
     add_scene_path(reference_command_, common), add_cache(reference_command_, common);
     reference_command_.callback([&] { reference_command(reference, common); });

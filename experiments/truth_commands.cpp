@@ -9,8 +9,10 @@
 #include "groundtruth/reference_cache.h"
 #include "groundtruth/reference_error.h"
 #include "groundtruth/reference_file.h"
+#include "groundtruth/truth_ladder.h"
 #include "metrics/compare.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -20,6 +22,31 @@ namespace {
 Shot load_single_shot(const ShotOptions& options, const CommonOptions& common) {
     const ShotConfig config{.scene = options.scene, .camera = options.camera, .extent = {options.size[0], options.size[1]}, .frames = {options.frame}};
     return load_shot(config, scene_search_path(common.scene_path));
+}
+
+/// Root of a noise-free mean square with its interval, in percent of `unit`.
+std::string rms_percent(const LadderDifference& difference, double unit) {
+    const auto root = [&](double square) { return 100 * std::sqrt(std::max(square, 0.0)) / unit; };
+    char text[64];
+    std::snprintf(text, sizeof text, "%6.2f [%.2f, %.2f]", root(difference.square), root(difference.square - 1.96 * difference.square_error),
+                  root(difference.square + 1.96 * difference.square_error));
+    return text;
+}
+
+void print_ladder(const LadderSummary& ladder) {
+    if (ladder.mean_specular <= 0) {
+        std::printf("truth ladder: nothing reflects\n");
+        return;
+    }
+    std::printf("truth ladder, in %% of the mean specular light %.4g of %zu reflecting pixels; the image shows %.1f %% of what they reflect\n", ladder.mean_specular,
+                ladder.pixels, 100 * ladder.on_screen_share);
+    std::printf("  %-16s %-31s %16s  %-22s  %s\n", "rung", "what the step costs", "mean change", "RMS of the step [95 %]", "RMS from the truth [95 %]");
+    for (const LadderRung& rung : ladder.rungs) {
+        char mean[32];
+        std::snprintf(mean, sizeof mean, "%+.2f +- %.2f", 100 * rung.step.mean / ladder.mean_specular, 196 * rung.step.mean_error / ladder.mean_specular);
+        std::printf("  %-16s %-31s %16s  %-22s  %s\n", rung.name.c_str(), rung.costs.c_str(), mean, rms_percent(rung.step, ladder.mean_specular).c_str(),
+                    rms_percent(rung.from_truth, ladder.mean_specular).c_str());
+    }
 }
 
 }  // namespace
@@ -47,6 +74,7 @@ void reference_command(const ReferenceCommandOptions& options, const CommonOptio
     std::printf("passes %s samples per pixel, %s, %.3g Gray\n", reference.passes.c_str(), format_duration(reference.seconds).c_str(), reference.rays * 1e-9);
     std::printf("relative standard error of the specular light at a pixel: median %.2f %%, 95 %% of pixels below %.2f %%\n", 100 * error.median, 100 * error.p95);
     if (options.settings.target_relative_error > 0) std::printf("%.1f %% of the pixels reached the target\n", 100 * reference.reached_share);
+    if (options.settings.ladder) print_ladder(summarize_ladder(reference));
     if (reference.non_finite_samples) std::printf("warning: %llu samples were not finite and count as zero\n", (unsigned long long)reference.non_finite_samples);
 }
 
