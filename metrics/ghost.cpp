@@ -10,7 +10,6 @@
 namespace {
 
 constexpr double limit = 0.05;
-constexpr size_t least_frames = 8;           // two make the plateau
 constexpr double least_energy_in_noise = 4;  // half-widths
 constexpr const char* lost_in_noise = "the change is lost in the noise of the reference";
 
@@ -156,8 +155,9 @@ Ghost ghost_of(const MaskSums& s, const Mask& mask, const Mask& finite, bool has
 
 std::vector<Ghost> ghost_scores(std::span<const HostImage> frames, const MetricReference& before,
                                 const MetricReference& after, std::span<const Mask> masks) {
-    if (frames.size() < least_frames)
-        fail("the length of a ghost needs at least ", least_frames, " frames after the change, found ", frames.size());
+    if (frames.size() < least_ghost_frames)
+        fail("the length of a ghost needs at least ", least_ghost_frames, " frames after the change, found ",
+             frames.size());
     const Mask finite = finite_in_all(frames, before, after);
     const Change change = change_between(before, after);
     std::vector<MaskSums> sums;

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+inline constexpr size_t least_ghost_frames = 8;  ///< two make the plateau
+
 /// How long the old image lingers after a change, under one mask.
 struct Ghost {
     TemporalScore ghost_length, settling_length;  ///< frames
@@ -32,6 +34,6 @@ struct Ghost {
 /// one just within is too short by 5 %); if the change's energy is less than four times the half-width of its noise,
 /// which would make the scale of g uncertain by a quarter; or if the frames' own noise hides the decay.
 ///
-/// Fails below eight frames, or on different extents.
+/// Fails below least_ghost_frames, or on different extents.
 std::vector<Ghost> ghost_scores(std::span<const HostImage> frames, const MetricReference& before,
                                 const MetricReference& after, std::span<const Mask> masks);
