@@ -1,6 +1,7 @@
 #include "experiments/host_info.h"
 
 #include "core/files.h"
+#include "core/json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,17 +24,6 @@ std::string proc_value(const char* file, const std::string& key) {
     return "unknown";
 }
 
-std::string output_of(const std::string& command) {
-    std::string text;
-    if (FILE* pipe = popen(command.c_str(), "r")) {
-        char buffer[256];
-        while (std::fgets(buffer, sizeof buffer, pipe)) text += buffer;
-        pclose(pipe);
-    }
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    return text;
-}
-
 }  // namespace
 
 nlohmann::json host_info() {
@@ -47,10 +37,12 @@ nlohmann::json host_info() {
 }
 
 nlohmann::json build_info() {
-    const std::string git = "git -C '" SSRLAB_SOURCE_DIR "' ";
+    nlohmann::json build = {{"commit", ""}, {"dirty", false}};
+    const std::filesystem::path file = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "build_commit.json";
+    if (std::filesystem::exists(file)) build = read_json(file);
     return {{"version", SSRLAB_VERSION},
-            {"commit", output_of(git + "rev-parse HEAD 2>/dev/null")},
-            {"dirty", !output_of(git + "status --porcelain --untracked-files=no 2>/dev/null").empty()},
+            {"commit", build.at("commit")},
+            {"dirty", build.at("dirty")},
             {"compiler", SSRLAB_COMPILER},
             {"build", SSRLAB_BUILD_TYPE}};
 }

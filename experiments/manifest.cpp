@@ -96,10 +96,12 @@ nlohmann::json left_out_entries(const Shot& shot, const std::vector<LeftOut>& ra
 }  // namespace
 
 nlohmann::json study_entry(const Config& config, Device& device) {
-    const ClockProof clock = prove_clock(device);
+    const bool is_timed = config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed);
+    ClockProof clock;  // proven where times are taken
+    if (is_timed) clock = prove_clock(device);
     const DeviceInfo& d = device.info();
     nlohmann::json warnings = nlohmann::json::array();
-    if (!clock.passed()) warnings.push_back("the clock did not prove itself: passes of 1 : 10 : 100 work took other times, so no time of this run can be trusted (is the machine busy?)");
+    if (is_timed && !clock.passed()) warnings.push_back("the clock did not prove itself: passes of 1 : 10 : 100 work took other times, so no time of this run can be trusted (is the machine busy?)");
     if (config.direct_lit) warnings.push_back("SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
     return {{"ssrlab", build_info()},
             {"title", config.title},
@@ -107,7 +109,7 @@ nlohmann::json study_entry(const Config& config, Device& device) {
             {"config", config.source},
             {"device", {{"name", d.name}, {"driver", d.driver}, {"api", d.api}, {"type", d.type}, {"memory_mib", d.memory_mib}}},
             {"host", host_info()},
-            {"clock", clock_entry(clock)},
+            {"clock", is_timed ? clock_entry(clock) : nlohmann::json{{"proof", nlohmann::json::array()}}},
             {"warnings", warnings},
             {"shots", nlohmann::json::array()},
             {"variants", variant_entries(config)},

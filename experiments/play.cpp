@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace {
 
@@ -39,6 +40,7 @@ struct Play {
     const PlaySettings& settings;
     Cell cell;
     std::map<std::string, SeedSplit> splits;  ///< by target, of the last frame
+    std::map<std::pair<std::string, std::string>, std::set<std::string>> untold;  ///< masks, by temporal metric and reason
     size_t rendered = 0;
 
     const FrameStep& last_step() const { return shot.steps.back(); }
@@ -116,7 +118,7 @@ void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameSto
     play.settings.report(double(++play.rendered) / double(play.shot.steps.size() * play.variant.seeds.size()));
 }
 
-/// Rows of temporal metrics, which speak of `specular` over several frames. One that cannot be told leaves a note.
+/// Rows of temporal metrics, which speak of `specular` over several frames.
 void add_temporal_rows(Play& play, const SeedRun& run, const std::vector<TemporalScore>& scores) {
     for (const TemporalScore& s : scores) {
         if (s.pixels + s.left_out == 0) continue;  // nothing of this scene lies under the mask
@@ -126,8 +128,7 @@ void add_temporal_rows(Play& play, const SeedRun& run, const std::vector<Tempora
         r.value = if_finite(s.value), r.uncorrected = s.uncorrected ? if_finite(s.uncorrected) : r.value, r.is_corrected = s.corrected;
         r.low = if_finite(s.low), r.high = if_finite(s.high), r.pixels = s.pixels, r.non_finite = s.left_out;
         play.cell.rows.push_back(std::move(r));
-        if (!s.note.empty())
-            play.cell.notes.push_back(play.shot.name() + ": " + play.variant.variant + " " + play.variant.point + " seed " + std::to_string(run.seed) + ": no " + s.metric->name + " under the mask '" + s.mask + "': " + s.note);
+        if (!s.note.empty()) play.untold[{r.metric, s.note}].insert(r.mask);
     }
 }
 
@@ -162,6 +163,15 @@ void add_splits(Play& play) {
     }
 }
 
+/// Why some temporal metrics have no value.
+void add_notes(Play& play) {
+    for (const auto& [what, masks] : play.untold) {
+        std::string note = play.shot.name() + ": " + play.variant.variant + " " + play.variant.point + ": no " + what.first + ": " + what.second + " (";
+        for (const std::string& mask : masks) note += (note.back() == '(' ? "" : ", ") + mask;
+        play.cell.notes.push_back(note + ")");
+    }
+}
+
 }  // namespace
 
 Cell play_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameStore& store, const Config& config,
@@ -178,5 +188,6 @@ Cell play_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameS
         for (SeedRun& run : runs) finish(play, run);
     }
     add_splits(play);
+    add_notes(play);
     return std::move(play.cell);
 }

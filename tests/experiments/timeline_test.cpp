@@ -1,0 +1,91 @@
+// How a shot is played, and what a config may ask for.
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/shot.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace {
+
+struct TemporaryConfig : testing::Test {
+    std::filesystem::path file = std::filesystem::temp_directory_path() / ("ssrlab_timeline_test_" + std::to_string(getpid()) + ".json");
+
+    void TearDown() override { std::filesystem::remove(file); }
+    Config read(const std::string& shots, const std::string& more = R"(, "variants": [{"variant": "none"}])") {
+        write_text(file, "{\"shots\": [" + shots + "]" + more + "}");
+        return read_config(file);
+    }
+    std::string mistake(const std::string& shots, const std::string& more = R"(, "variants": [{"variant": "none"}])") {
+        try {
+            read(shots, more);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "no mistake";
+    }
+};
+
+void expect_contains(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << text; }
+
+}  // namespace
+
+TEST(Timeline, WarmsUpPlaysAndHolds) {
+    const std::vector<FrameStep> steps = timeline({.frames = {4, 6}, .warm_up = 2, .repeat = 3});
+    const unsigned frames[] = {4, 4, 4, 6, 6, 6};
+    ASSERT_EQ(steps.size(), 6u);
+    for (unsigned i = 0; i < 6; ++i) {
+        EXPECT_EQ(steps[i].index, i);
+        EXPECT_EQ(steps[i].frame, frames[i]);
+        EXPECT_EQ(steps[i].previous_frame, i == 0 ? std::nullopt : std::optional(frames[i - 1]));
+        EXPECT_EQ(steps[i].is_warm_up, i < 2);
+        EXPECT_EQ(steps[i].is_measured, i == 2 || i == 5);
+        EXPECT_EQ(steps[i].is_held, i >= 3);
+    }
+}
+
+TEST(Timeline, MeasuresTheLastAlone) {
+    size_t measured = 0;
+    for (const FrameStep& step : timeline({.frames = {0, 1, 2}, .measures_last_only = true})) measured += step.is_measured;
+    EXPECT_EQ(measured, 1u);
+}
+
+TEST(Timeline, NamesWhatTellsShotsApart) {
+    Shot shot{.config = {.extent = {32, 18}}, .scene = {}, .camera = {.name = "c"}, .facts = {}, .steps = {}};
+    shot.scene.name = "s";
+    EXPECT_EQ(shot.name(), "s.c.32x18");
+    shot.config.frames = {5};
+    EXPECT_EQ(shot.name(), "s.c.32x18.f5");
+    shot.config.frames = {0, 1, 2};
+    EXPECT_EQ(shot.name(), "s.c.32x18.f0-2");
+    shot.config = {.extent = {32, 18}, .frames = {5, 8, 9}, .warm_up = 4, .repeat = 2};
+    EXPECT_EQ(shot.name(), "s.c.32x18.f5-9.n3.w4.r2");
+}
+
+TEST_F(TemporaryConfig, ReadsHowAShotIsPlayed) {
+    const Config config = read(R"({"scene": "fence", "frames": [2, 3], "warm_up": 5, "repeat": 9, "change": 3, "measure": "last"})");
+    const ShotConfig& shot = config.shots.front();
+    EXPECT_EQ(shot.frames, (std::vector<unsigned>{2, 3}));
+    EXPECT_EQ(shot.warm_up, 5u);
+    EXPECT_EQ(shot.repeat, 9u);
+    EXPECT_EQ(shot.change, 3u);
+    EXPECT_TRUE(shot.measures_last_only);
+}
+
+TEST_F(TemporaryConfig, GivesVariantsTheirSeeds) {
+    const Config config = read(R"({"scene": "fence"})", R"(, "seeds": 3, "variants": [{"variant": "none", "seeds": 1}, {"variant": "mcguire_dda", "baseline": true}])");
+    EXPECT_EQ(config.variants[0].seeds, (std::vector<unsigned>{0}));
+    EXPECT_EQ(config.variants[1].seeds, (std::vector<unsigned>{0, 1, 2}));
+    EXPECT_FALSE(config.variants[0].is_baseline);
+    EXPECT_TRUE(config.variants[1].is_baseline);
+}
+
+TEST_F(TemporaryConfig, SaysWhatIsWrong) {
+    expect_contains(mistake(R"({"scene": "fence", "warmup": 3})"), "did you mean 'warm_up'?");
+    expect_contains(mistake(R"({"scene": "fence", "repeat": 0})"), "'repeat'");
+    expect_contains(mistake(R"({"scene": "fence", "frames": [3, 4], "change": 3, "repeat": 9})"), "after the first");
+    expect_contains(mistake(R"({"scene": "fence", "frames": [3, 4], "change": 4, "repeat": 7})"), "followed by 7 frames");
+    expect_contains(mistake(R"({"scene": "fence"}, {"scene": ["sky_only", "fence"]})"), "'fence' comes twice");
+    expect_contains(mistake(R"({"scene": "fence"})", R"(, "masks": ["refective"], "variants": [{"variant": "none"}])"), "did you mean 'reflective'?");
+    expect_contains(mistake(R"({"scene": "fence"})", R"(, "masks": ["all"], "frame_masks": ["hit"], "variants": [{"variant": "none"}])"), "'frame_masks'");
+}
