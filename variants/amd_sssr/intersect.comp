@@ -29,7 +29,7 @@ Traced trace(ivec2 pixel) {
     vec3 origin = vec3(uv, surface_depth(ivec2(uv * camera.extent.xy / float(1 << finest)), finest));
     vec3 vs_origin = view_from_image(origin);
     vec2 u = texelFetch(blue_noise, pixel & 127, 0).xy;
-    vec3 direction = sample_reflection(view_direction(vs_origin), view_normal(pixel), alpha, is_mirror, u);
+    vec3 direction = sample_reflection(pixel, view_direction(vs_origin), view_normal(pixel), alpha, is_mirror, u);
     if (above_horizon && dot(direction, view_geometric_normal(pixel)) <= 0.0) return Traced(vec3(0.0), 0.0);
 
     MarchEnd end = march_pyramid(screen_ray(origin, vs_origin, direction), finest, is_mirror);

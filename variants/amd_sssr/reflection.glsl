@@ -23,13 +23,35 @@ mat3 basis_about(vec3 n) {
     return mat3(u, cross(n, u), n);
 }
 
-// `towards_surface`, `n` and the result: view space, unit.
-vec3 sample_reflection(vec3 towards_surface, vec3 n, float alpha, bool is_mirror, vec2 u) {
+// Independent numbers in [0, 1) for each pixel, frame, seed and attempt: Jarzynski and Olano 2020, "Hash Functions for
+// GPU Rendering", JCGT 9(3), pcg4d.
+vec2 redraw(ivec2 pixel, uint attempt) {
+    uvec4 v = uvec4(pixel, camera.frame.x, camera.frame.y * 16u + attempt) * 1664525u + 1013904223u;
+    v += uvec4(v.y * v.w, v.z * v.x, v.x * v.y, v.y * v.z);
+    v ^= v >> 16u;
+    v += uvec4(v.y * v.w, v.z * v.x, v.x * v.y, v.y * v.z);
+    return vec2(v.xy >> 8u) / 16777216.0;
+}
+
+// About +z. Of the bounded lobe at most one in thirty directions is below the horizon, so that attempts do not run out.
+vec3 sample_above_horizon(vec3 o, float alpha, vec2 u, ivec2 pixel) {
+    float bound = ggx_cap_bound(o.z, alpha);
+    vec3 i = vec3(0.0);
+    for (uint attempt = 0u; attempt < 8u; ++attempt) {
+        i = reflect(-o, sample_ggx_normal(o, alpha, u, bound));
+        if (i.z > 0.0) break;
+        u = redraw(pixel, attempt);
+    }
+    return i;
+}
+
+// `towards_surface`, `n` and the result: view space, unit. `u`: of the blue noise.
+vec3 sample_reflection(ivec2 pixel, vec3 towards_surface, vec3 n, float alpha, bool is_mirror, vec2 u) {
     if (guard_mirror_normal && is_mirror) return reflect(towards_surface, n);
-    mat3 basis = basis_about(n);
+    bool is_bounded = above_horizon && !is_mirror;
+    mat3 basis = is_bounded ? basis_from_normal(n) : basis_about(n);
     vec3 o = -towards_surface * basis;
-    if (!above_horizon || is_mirror) return basis * reflect(-o, sample_visible_normal(o, alpha, u));
-    vec3 i = reflect(-o, sample_ggx_normal(o, alpha, u, ggx_cap_bound(o.z, alpha)));
-    return basis * vec3(i.xy, abs(i.z));
+    return basis * (is_bounded ? sample_above_horizon(o, alpha, u, pixel)
+                               : reflect(-o, sample_visible_normal(o, alpha, u)));
 }
 #endif

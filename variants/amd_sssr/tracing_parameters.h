@@ -34,8 +34,9 @@ struct TracingParameters {
         {"mips", "levels of the depth pyramid, the full resolution included; as many as the image has, at most",
          "SSSR 1.5: 7; version 1.3 builds the whole chain"}};
     Choice march{params, "march", "sdk", {"sdk", "slides"},
-        {"", "sdk: advances to the first texel border without a test, compares distances bit by bit, and looks at the "
-         "occupancy before it advances. slides: starts at the origin, compares floats, looks at the occupancy afterwards",
+        {"", "sdk: t to a plane is plane / d - origin / d, and t are compared bit by bit. slides: (plane - origin) / d, compared "
+         "as floats. Deviation: the slides' listing has no advance to the first texel border; without it every ray would end "
+         "where it starts, so both have it. That they count a subgroup's rays after a step and not before changes nothing",
          "SSSR 1.5, ffx_sssr.h; slides of 2020, 'Stochastic Screen Space Reflections', traversal loop"}};
 
     // Corrections.
@@ -43,8 +44,8 @@ struct TracingParameters {
         {"", "measures thickness and background against the level that the march ended on. The original takes the "
          "nearest of 2x2 pixels, so that confidence is lost wherever depth varies", "ssrlab; SSSR 1.5 reads mip 1"}};
     Switch independent_noise_shifts{params, "independent_noise_shifts", false,
-        {"", "shifts the two random numbers by different irrationals every frame. The original shifts both by the golden "
-         "ratio, so that a pixel's samples stay on one diagonal of the unit square and never cover the lobe", "ssrlab; "
+        {"", "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts both by the "
+         "golden ratio, so that a pixel's samples stay on one diagonal of the unit square and never cover the lobe", "ssrlab; "
          "Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"}};
     Switch trace_orphans{params, "trace_orphans", false,
         {"", "a pixel that waits for the ray of a quad neighbour which traces none traces its own. In the original it "
@@ -59,9 +60,9 @@ struct TracingParameters {
         {"", "mirrors reflect about the shading normal itself. The original samples a lobe of width 0, which is not a "
          "number where the random number rounds to 1", "ssrlab"}};
     Switch above_horizon{params, "above_horizon", false,
-        {"", "samples visible normals only where they reflect above the surface, and counts rays below the geometric "
-         "surface as misses; the original traces them", "Eto and Tokuyoshi 2023, 'Bounded VNDF Sampling for Smith-GGX "
-         "Reflections'"}};
+        {"", "draws directions until one is above the horizon of the shading normal; those below the geometric surface meet "
+         "it and bring no light. The original traces all", "Eto and Tokuyoshi 2023, 'Bounded VNDF Sampling for Smith-GGX "
+         "Reflections'; as the path-traced reference"}};
     Switch stop_outside_screen{params, "stop_outside_screen", false,
         {"", "ends a ray where it leaves the screen, and treats texels that odd-sized levels lack as to be refined. The "
          "original reads 0 there: with reversed depth whole strips at the lower and right edge are skipped", "ssrlab; "
@@ -73,7 +74,7 @@ struct TracingParameters {
         {"", "rejects a hit only in the pixel that its ray started from. The original rejects those nearer than two pixels "
          "on both axes, so that contact reflections show the environment", "ssrlab"}};
     Switch far_misses{params, "far_misses", false,
-        {"", "a ray that misses has the length of the far plane. The original stores the length to wherever it was "
+        {"", "a ray that misses is as long as the far plane is away. The original stores the length to wherever it was "
          "given up, and the denoiser reprojects the environment from there", "ssrlab"}};
     Switch float_roughness{params, "float_roughness", false,
         {"", "keeps alpha in 32 bits. In 8 bits an alpha below 0.002 is rated as glossy by one pass and as a mirror by "
