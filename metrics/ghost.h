@@ -20,7 +20,8 @@ struct Ghost {
 ///     g_t = <x_t - x_end, R_before - R_after> / <R_before - R_after, R_before - R_after>
 /// summed over the mask's pixels and channels, and x_end is the mean of the last quarter of the frames: the technique's
 /// own plateau, so that what it gets wrong for good does not count as ghost. Being linear in x_t, it averages noise
-/// away in place of counting it as error.
+/// away in place of counting it as error. It is a share of what the truth changes by: a technique that shows little of
+/// the change at all has little to linger, so read it beside the error of the state after.
 ///
 /// settling_length: the least age from which on the squared error has covered 95 % of its way from the first frame's to
 /// its plateau's, |e_t - e_end| < 0.05 |e_0 - e_end|. It also sees what is not the old image: the noise of a history
