@@ -5,52 +5,110 @@
 
 namespace {
 
-/// Where the rays of the recorded passes ended, beside ours.
+/// How many rays end as the recorded ones.
 struct Agreement {
     size_t rays = 0, same_pixel = 0, same_confidence = 0, same_length = 0;
-    size_t flips = 0, other_pixel = 0;  ///< hit against miss; hits in two pixels
+};
+
+/// Means over all pixels that got a ray's result.
+struct Rates {
+    double pixels = 0, hits = 0, confidence = 0;
 };
 
 struct AmdIntersectionOf : VariantTest, testing::WithParamInterface<std::string> {
-    const HostGBuffer hit_gbuffer = amd_golden_hit_gbuffer(GetParam());
-    const HostImage noise = golden_layer(read_golden(GetParam() + "/noise.exr"), "U");
+    const HostGBuffer gbuffer = amd_golden_gbuffer(GetParam()), hit_gbuffer = amd_golden_hit_gbuffer(GetParam());
 
-    Agreement compare(const std::string& name, float mask) {
-        const AmdTraced found = amd_trace_frame(device(), hit_gbuffer, amd_golden_parameters(GetParam(), name), noise);
-        const LayeredImage golden = read_golden(GetParam() + "/hit_" + name + ".exr");
-        Agreement a;
-        for (size_t i = 0; i < found.radiance.pixel_count(); ++i) {
-            if (golden_layer(golden, "mask").values[i] != mask) continue;
-            const float* ours = &found.radiance.values[4 * i];
-            const float confidence = golden_layer(golden, "conf").values[i],
-                        length = golden_layer(golden, "len").values[i];
-            const glm::vec2 pixel =
-                glm::floor(glm::vec2(ours[0], ours[1]) / ours[2] * glm::vec2(found.radiance.extent));
-            const float* hit = &golden_layer(golden, "hit").values[2 * i];
-            const bool is_hit = ours[2] > 0, is_golden_hit = confidence > 0;
-            const bool is_same = is_hit == is_golden_hit && (!is_hit || pixel == glm::vec2(hit[0], hit[1]));
-            ++a.rays;
-            a.same_pixel += is_same;
-            a.flips += is_hit != is_golden_hit;
-            a.other_pixel += is_hit && is_golden_hit && !is_same;
-            a.same_confidence += std::abs(ours[2] - confidence) <= 1.0f / 255;
-            a.same_length += std::abs(ours[3] - length) <= 0.01f * length;
+    std::string file(const std::string& kind, const std::string& parameters) const {
+        return GetParam() + "/" + kind + "_" + parameters + ".exr";
+    }
+
+    /// Mirrors take no notice of the random numbers, so that copies without any hold mirrors only.
+    HostImage noise() const {
+        const std::string name = GetParam() + "/noise.exr";
+        return is_golden(name) ? golden_layer(read_golden(name), "U") : HostImage({128, 128}, 2, 0.5f);
+    }
+
+    AmdTraced trace(const HostGBuffer& input, const std::string& parameters) {
+        return amd_trace_frame(device(), input, amd_golden_parameters(GetParam(), parameters), noise());
+    }
+
+    Agreement compare_hits(const std::string& parameters) {
+        const HostImage found = trace(hit_gbuffer, parameters).radiance;
+        const LayeredImage golden = read_golden(file("hit", parameters));
+        Agreement agreement;
+        for (size_t i = 0; i < found.pixel_count(); ++i) {
+            if (golden_layer(golden, "mask").values[i] != 1) continue;
+            const float confidence = golden_layer(golden, "conf").values[i];
+            const float length = golden_layer(golden, "len").values[i];
+            const glm::vec2 hit(golden_layer(golden, "hit").values[2 * i],
+                                golden_layer(golden, "hit").values[2 * i + 1]);
+            const float* ours = &found.values[4 * i];  // confidence * (u, v, 1), length
+            const glm::vec2 pixel = glm::floor(glm::vec2(ours[0], ours[1]) / ours[2] * glm::vec2(found.extent));
+            ++agreement.rays;
+            agreement.same_pixel += confidence > 0 ? ours[2] > 0 && pixel == hit : !(ours[2] > 0);
+            agreement.same_confidence += std::abs(ours[2] - confidence) <= 1.0f / 255;
+            agreement.same_length += std::abs(ours[3] - length) <= 0.01f * length;
         }
-        std::printf("%s: %zu of %zu hit pixels differ (%zu flips, %zu elsewhere), %zu confidences, %zu lengths\n",
-                    name.c_str(), a.rays - a.same_pixel, a.rays, a.flips, a.other_pixel, a.rays - a.same_confidence,
-                    a.rays - a.same_length);
-        return a;
+        return agreement;
     }
 };
 
+/// Recorded rays that do not change when depth moves by two units in the last place; of the others, too, all but 24 of
+/// 20 805 end in the same pixel. Of the 894 000 rays compared here one ends in another pixel and 30 have another
+/// confidence: rounding at borders of texels. 268 have another length, all misses whose first random number is exactly
+/// 1, where the sampled normal lies on the horizon of what can be seen and its direction is rounding. The bounds leave
+/// room for devices that round otherwise.
 TEST_P(AmdIntersectionOf, EndsRaysWhereTheOriginalDoes) {
-    for (const char* name : {"p1", "p2", "p3", "p4"}) {
-        SCOPED_TRACE(name);
-        const Agreement stable = compare(name, 1.0f);
-        compare(name, 0.5f);
-        EXPECT_GT(double(stable.same_pixel), 0.995 * double(stable.rays));
-        EXPECT_GT(double(stable.same_confidence), 0.995 * double(stable.rays));
+    for (const char* parameters : {"p1", "p2", "p3", "p4"}) {
+        if (!is_golden(file("hit", parameters))) continue;
+        SCOPED_TRACE(parameters);
+        const Agreement found = compare_hits(parameters);
+        EXPECT_GT(found.rays, 5000u);
+        EXPECT_GE(double(found.same_pixel), 0.9995 * double(found.rays));
+        EXPECT_GE(double(found.same_confidence), 0.9990 * double(found.rays));
+        EXPECT_GE(double(found.same_length), 0.9990 * double(found.rays));
     }
+}
+
+TEST_P(AmdIntersectionOf, BlendsTheOriginalsColours) {
+    for (const char* parameters : {"p1", "p2", "p3", "p4"}) {
+        if (!is_golden(file("color", parameters))) continue;
+        SCOPED_TRACE(parameters);
+        const HostImage found = trace(gbuffer, parameters).radiance;
+        const HostImage golden = golden_layer(read_golden(file("color", parameters)), "rad");
+        const HostImage mask = golden_layer(read_golden(file("hit", parameters)), "mask");
+        size_t rays = 0, differing = 0;
+        for (size_t i = 0; i < golden.pixel_count(); ++i) {
+            // Recorded in halves that were truncated: one unit in the last place is 2^-10 of the value at most.
+            const glm::vec3 difference = glm::abs(found.rgb(i) - golden.rgb(i)),
+                            allowed = golden.rgb(i) * 0x1p-10f + 1e-6f;
+            const bool differs = glm::any(glm::greaterThan(difference, allowed));
+            EXPECT_FALSE(differs && mask.values[i] == 0) << "without a ray, at " << i;
+            rays += mask.values[i] == 1;
+            differing += mask.values[i] == 1 && differs;
+        }
+        EXPECT_LT(double(differing), 0.001 * double(rays));
+    }
+}
+
+/// AMD's defaults give up thinly occupied subgroups, which depends on the order of the ray list: between runs of the
+/// original on several threads up to 2.4 % of its pixels changed between hit and miss.
+TEST_P(AmdIntersectionOf, HasTheOriginalsRatesWithItsDefaults) {
+    if (!is_golden(file("hit", "pdef"))) GTEST_SKIP() << "no recorded frame with the original's defaults";
+    const AmdTraced traced = trace(hit_gbuffer, "pdef");
+    const nlohmann::json recorded = golden_meta(GetParam())["parameter_sets"]["pdef"];
+    EXPECT_EQ(traced.rays.size(), recorded["rays_traced"]);
+    const LayeredImage golden = read_golden(file("hit", "pdef"));
+    Rates ours, theirs;
+    for (size_t i = 0; i < traced.radiance.pixel_count(); ++i) {
+        if (golden_layer(golden, "mask").values[i] == 0) continue;
+        const float found = traced.radiance.values[4 * i + 2], expected = golden_layer(golden, "conf").values[i];
+        ours = {ours.pixels + 1, ours.hits + (found > 0), ours.confidence + found};
+        theirs = {theirs.pixels + 1, theirs.hits + (expected > 0), theirs.confidence + expected};
+    }
+    EXPECT_EQ(ours.pixels, recorded["pixels_covered"]);
+    EXPECT_NEAR(ours.hits / ours.pixels, theirs.hits / theirs.pixels, 0.024);
+    EXPECT_NEAR(ours.confidence / ours.pixels, theirs.confidence / theirs.pixels, 0.024);
 }
 
 INSTANTIATE_TEST_SUITE_P(golden_amd_intersection, AmdIntersectionOf, testing::ValuesIn(amd_tracer_sets()),
