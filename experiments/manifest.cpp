@@ -39,6 +39,14 @@ nlohmann::json variant_entries(const Config& config) {
     return entries;
 }
 
+/// What the parameters of the study's variants mean: {variant: {parameter: meaning}}.
+nlohmann::json parameter_docs(const Config& config) {
+    nlohmann::json docs = nlohmann::json::object();
+    for (const VariantConfig& v : config.variants)
+        for (const auto variant = make_variant(v.variant); const Parameter& p : variant->params) docs[v.variant][p.name] = p.doc;
+    return docs;
+}
+
 /// Writes one image as EXR (half: results are looked at, and measured in float32) and PNG.
 nlohmann::json save_image(const std::filesystem::path& out, const std::string& folder, const std::string& name, const HostImage& rgb, float exposure_ev, nlohmann::json entry) {
     const std::string stem = "images/" + file_name(folder) + "/" + file_name(name);
@@ -113,6 +121,7 @@ nlohmann::json study_entry(const Config& config, Device& device) {
             {"warnings", warnings},
             {"shots", nlohmann::json::array()},
             {"variants", variant_entries(config)},
+            {"parameter_docs", parameter_docs(config)},
             {"images", nlohmann::json::array()}};
 }
 
