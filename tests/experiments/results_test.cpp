@@ -1,8 +1,11 @@
 #include "core/files.h"
 #include "experiments/results.h"
+#include "experiments/summary.h"
+#include "experiments/workload.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <thread>
 
 TEST(MedianInterval, AgreesWithTheBinomialTable) {
     std::vector<double> values;
@@ -39,4 +42,50 @@ TEST(CellStore, KeepsCellsAndIgnoresBrokenOnes) {
     write_text(folder / "abc.json", read_text(folder / "abc.json").substr(0, 20));
     EXPECT_FALSE(store.load("abc"));
     std::filesystem::remove_all(folder);
+}
+
+TEST(CellStore, GivesACellToOneAtATime) {
+    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_claims_test";
+    std::filesystem::remove_all(folder);
+    const CellStore store(folder), other(folder);
+    {
+        const auto mine = store.claim("abc", false);
+        ASSERT_TRUE(mine);
+        EXPECT_FALSE(other.claim("abc", false));
+        EXPECT_TRUE(other.claim("def", false)) << "another cell is free";
+    }
+    EXPECT_TRUE(other.claim("abc", true)) << "given back";
+    EXPECT_TRUE(std::filesystem::is_empty(folder)) << "claims leave nothing behind";
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Tables, GiveSplitsAFileOfTheirOwn) {
+    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_splits_test";
+    Cell cell;
+    cell.splits.push_back({.shot = "s", .frame = "7", .variant = "v", .point = "p", .target = "specular", .mask = "all", .seeds = 3, .mse = 0.75, .bias_squared = 0.5, .variance = 0.25, .variance_low = {}, .variance_high = {}, .pixels = 9});
+    write_tables(folder, {cell});
+    const std::vector<SplitRow> rows = read_split_rows(folder / "splits.csv");
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].frame, "7");
+    EXPECT_EQ(rows[0].variance, 0.25);
+    EXPECT_FALSE(rows[0].variance_low);
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Workload, LearnsWhatAKindOfWorkTakes) {
+    using namespace std::chrono_literals;
+    Workload work;
+    work.plan("slow", 2, 1), work.plan("done before", 98, 1);
+    EXPECT_EQ(work.share_done(), 0.0);
+    work.start("done before", 98);
+    work.skip();
+    work.start("slow", 1);
+    std::this_thread::sleep_for(20ms);
+    work.finish();
+    // One of two equal pieces is done, whatever was guessed.
+    EXPECT_NEAR(work.share_done(), 0.5, 1e-9);
+    work.start("slow", 1);
+    std::this_thread::sleep_for(20ms);
+    work.update(1.0);
+    EXPECT_NEAR(work.share_done(), 1.0, 1e-9);
 }

@@ -1,37 +1,10 @@
 // Whole studies, small ones: that a run repeats itself, continues where it stopped, and that leaving work out changes nothing.
 #include "core/error.h"
-#include "core/files.h"
 #include "core/json.h"
-#include "experiments/run.h"
-#include "experiments/summary.h"
-
-#include <filesystem>
-#include <fstream>
-#include <gtest/gtest.h>
-
-namespace fs = std::filesystem;
+#include "groundtruth/reference_file.h"
+#include "tests/experiments/study_fixture.h"
 
 namespace {
-
-struct Study : testing::Test {
-    fs::path folder = fs::temp_directory_path() / ("ssrlab_study_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-
-    void SetUp() override {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
-    Config config(const std::string& scenes, const std::string& more = "") {
-        write_text(folder / "study.json", R"({"shots": [{"scene": )" + scenes + R"(, "resolution": [96, 54]}], "reference": {"samples": 64},
-            "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2)" + more + "}");
-        return read_config(folder / "study.json");
-    }
-    fs::path run(const Config& study, const std::string& out, bool keep_all = false) {
-        run_study(study, {.out = folder / out, .device = "", .cache = folder / "cache", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}, .keep_all = keep_all});
-        return folder / out;
-    }
-};
 
 double value_of(const std::vector<ResultRow>& rows, const std::string& variant, const std::string& metric, const std::string& mask) {
     for (const ResultRow& r : rows)
@@ -89,6 +62,38 @@ TEST_F(Study, SkyIsExact) {
         if (r.metric == "mse" && r.target != "incident") EXPECT_EQ(r.value.value(), 0.0) << r.target << " " << r.mask;
 }
 
+TEST_F(Study, ProcessesShareAFolder) {
+    const Config study = config(R"(["mirror_pillars", "fence"])", R"(, "title": "shared")");
+    const std::string alone = read_text(run(study, "alone") / "results.csv");
+    const std::string command = "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() + "' '" SSRLAB_PROGRAM "' run study.json --out shared > ";
+    ASSERT_EQ(std::system((command + "log1 2>&1 & " + command + "log2 2>&1; code=$?; wait; exit $code").c_str()), 0) << read_text(folder / "log2");
+    EXPECT_EQ(read_text(folder / "shared/results.csv"), alone);
+    size_t cells = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "shared/cells")) {
+        cells += entry.path().extension() == ".json";
+        EXPECT_NE(entry.path().extension(), ".claim");
+    }
+    EXPECT_EQ(cells, 6u) << "two shots of two points, and the times of each";
+}
+
+TEST_F(Study, ANewReferenceMakesNewCells) {
+    // The same request may be answered by other pixels: where a time limit stops it, or a file was replaced.
+    const Config study = config(R"("fence")");
+    run(study, "a");
+    const auto count = [&] { return std::distance(fs::directory_iterator(folder / "a/cells"), {}); };
+    const auto before = count();
+    run(study, "a");
+    EXPECT_EQ(count(), before);
+    for (const auto& entry : fs::directory_iterator(folder / "cache"))
+        if (entry.path().extension() == ".exr") {
+            ReferenceState state = read_reference_state(entry.path());
+            state.reference.specular.mean.values[0] += 1;
+            write_reference(entry.path(), state.reference, state.settings);
+        }
+    run(study, "a");
+    EXPECT_EQ(count(), 2 * before);
+}
+
 TEST_F(Study, TimesEveryStageByTheProvenClock) {
     Config study = config(R"("fence")");
     study.timing = {.frames = 15, .warm_up = 2};
@@ -113,4 +118,10 @@ TEST_F(Study, ACaptureIsMeasuredAsItsScene) {
     const auto capture = read_result_rows(run(read_config(folder / "capture.json"), "a") / "results.csv"), scene = read_result_rows(run(read_config(folder / "scene.json"), "b") / "results.csv");
     ASSERT_EQ(capture.size(), scene.size());
     for (size_t i = 0; i < scene.size(); ++i) EXPECT_EQ(capture[i].value, scene[i].value) << scene[i].target << " " << scene[i].metric << " " << scene[i].mask;
+
+    // The truth of another scene may have the same size.
+    ASSERT_EQ(std::system((common + "reference fence --size 96 54 --samples 16 --out other.exr > log 2>&1").c_str()), 0);
+    Config mismatched = read_config(folder / "capture.json");
+    mismatched.shots.front().reference = folder / "other.exr";
+    EXPECT_THROW(run(mismatched, "c"), Error);
 }

@@ -1,0 +1,75 @@
+// Shots of several frames: what is rendered, and what each frame is measured against.
+#include "core/error.h"
+#include "tests/experiments/study_fixture.h"
+
+TEST_F(Study, AHeldPoseDoesNotFlickerAndHasOneReference) {
+    const std::string shot = R"({"scene": "passing_pillars", "resolution": [96, 54])";
+    const std::string rest = R"(], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}})";
+    write_text(folder / "held.json", "{\"shots\": [" + shot + R"(, "warm_up": 2, "repeat": 3})" + rest);
+    write_text(folder / "once.json", "{\"shots\": [" + shot + "}" + rest);
+    const auto held = read_result_rows(run(read_config(folder / "held.json"), "held") / "results.csv"), once = read_result_rows(run(read_config(folder / "once.json"), "once") / "results.csv");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "cache"), {}), 2) << "one reference and its lock";
+    size_t flickers = 0, equal = 0;
+    for (const ResultRow& r : held) {
+        if (r.metric == "flicker" || r.metric == "flicker_relative") {
+            EXPECT_EQ(r.value, 0.0) << r.mask;
+            EXPECT_EQ(r.frame, "all");
+            ++flickers;
+        }
+        for (const ResultRow& o : once) {
+            if (o.target != r.target || o.metric != r.metric || o.mask != r.mask) continue;
+            EXPECT_EQ(o.value, r.value) << r.metric << " " << r.mask;
+            EXPECT_EQ(r.frame, "0");
+            ++equal;
+        }
+    }
+    EXPECT_GE(flickers, 4u);
+    EXPECT_EQ(equal, once.size()) << "a technique without a history measures the same after a warm-up";
+}
+
+TEST_F(Study, EachFrameIsMeasuredAgainstItsOwnTruth) {
+    const std::string shot = R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": )";
+    const std::string rest = R"(}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": "mse", "timing": {"frames": 0}})";
+    write_text(folder / "three.json", shot + R"([4, 5, 6], "warm_up": 1)" + rest);
+    write_text(folder / "one.json", shot + "[5]" + rest);
+    const auto three = read_result_rows(run(read_config(folder / "three.json"), "three") / "results.csv"), one = read_result_rows(run(read_config(folder / "one.json"), "one") / "results.csv");
+    const auto value = [](const std::vector<ResultRow>& rows, const std::string& frame, const std::string& metric, const std::string& mask) {
+        for (const ResultRow& r : rows)
+            if (r.frame == frame && r.metric == metric && r.mask == mask && r.target == "specular") return r.value.value();
+        ADD_FAILURE() << "no row of frame " << frame << ": " << metric << " " << mask;
+        return 0.0;
+    };
+    const auto mse = [&](const char* frame) { return value(three, frame, "mse", "reflective"); };
+    EXPECT_EQ(mse("5"), value(one, "5", "mse", "reflective")) << "without a history it is the same alone and in a row";
+    EXPECT_NE(mse("4"), mse("5"));
+    EXPECT_DOUBLE_EQ(mse("all"), (mse("4") + mse("5") + mse("6")) / 3);
+    value(three, "6", "flip", "all");
+    EXPECT_GT(value(three, "all", "frame_difference", "reflective"), 0.0);
+    for (const ResultRow& r : three) {
+        if (r.metric == "flip") {
+            EXPECT_EQ(r.frame, "6") << "only the last frame is measured in full";
+        }
+        if (r.metric == "frame_difference" && r.mask == "all") {
+            EXPECT_EQ(r.pixels, 2u * 96 * 54) << "two steps of the whole screen";
+        }
+    }
+}
+
+TEST_F(Study, AStepGhostsOnlyWhereSomethingRemembers) {
+    const std::string shot = R"({"shots": [{"scene": "stepping_emitter", "resolution": [96, 54], "frames": )";
+    const std::string rest = R"("change": 30, "repeat": 12}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "timing": {"frames": 0}})";
+    write_text(folder / "step.json", shot + "[29, 30], " + rest);
+    size_t ghosts = 0;
+    for (const ResultRow& r : read_result_rows(run(read_config(folder / "step.json"), "step") / "results.csv"))
+        if (r.metric == "ghost_length" && (r.mask == "all" || r.mask == "reflective")) {
+            EXPECT_EQ(r.value, 0.0) << r.mask;
+            ++ghosts;
+        }
+    EXPECT_EQ(ghosts, 2u);
+
+    // The other emitter's lamps never rest: there is no state after a change to compare with.
+    Config moves = read_config(folder / "step.json");
+    moves.shots.front().scene = "moving_emitter";
+    moves.shots.front().frames = {29, 30, 31};
+    EXPECT_THROW(run(moves, "moves"), Error);
+}
