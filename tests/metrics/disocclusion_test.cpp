@@ -189,6 +189,26 @@ TEST(Disocclusion, AMovingBoxUncoversWhatWasBehindIt) {
 
 TEST(Disocclusion, ABoxBeforeTheSkyUncoversSky) { EXPECT_EQ(draw({.scene = {box_moved(3, 0)}}).count(), 3u * 10); }
 
+TEST(Disocclusion, ASurfaceAtNearlyTheSameDepthIsToldByItsNormal) {
+    const float p = pixel_at(5.93f);
+    const glm::mat4 there = shifted(p / 2, 0, -5.93f);
+    const Rectangle post{shifted(3 * p, 0, 0) * there, there, {p / 2, 5 * p}};  // one pixel wide, 10 high
+    // 1.3 % behind where it was, and turned away.
+    const Rectangle slanted = still(shifted(p / 2, 0, -6.01f) * turned_y(25), {1000, 1000});
+    EXPECT_EQ(draw({.scene = {slanted, post}}).count(), 10u);
+}
+
+TEST(Disocclusion, JitteredSamplesAreLookedUpWhereTheyLie) {
+    // The box ends 0.3 into column 40. Its neighbour at the centre of that column lay between the samples of two
+    // columns, of which the first showed the box.
+    Rectangle box = box_moved(0.3f, 0);
+    box.previous_world_from_object = box.world_from_object;
+    const Frame f = draw({.scene = {wall, box}, .previous_jitter = {-0.45f, 0}});
+    EXPECT_EQ(f.id.values[24 * extent.x + 40], 1);
+    EXPECT_EQ(f.id_before.values[24 * extent.x + 40], 2);
+    EXPECT_EQ(f.count(), 0u);
+}
+
 TEST(Disocclusion, ABoxThatComesOutFromBehindAnotherIsNew) {
     const float p = pixel_at(3);
     const Rectangle curtain = still(shifted(-16 * p, 0, -3), {16 * p, 1000});  // the left half of the screen
