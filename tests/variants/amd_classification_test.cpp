@@ -115,7 +115,7 @@ TEST_F(AmdClassification, ListsNothingWhereNothingIsGlossy) {
     for (size_t i = 3; i < gbuffer.normal.values.size(); i += 4) gbuffer.normal.values[i] = 0.5f;
     const AmdTraced found =
         amd_trace_frame(device(), gbuffer, nlohmann::json::object(), HostImage({128, 128}, 2, 0.5f));
-    EXPECT_EQ(found.arguments, (std::vector<uint32_t>{0, 0, 1, 0, 1, 1}));
+    EXPECT_EQ(found.arguments, (std::vector<uint32_t>{0, 0, 1, 0, 0, 1}));
     EXPECT_TRUE(found.rays.empty() && found.tiles.empty());
 }
 

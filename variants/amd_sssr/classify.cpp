@@ -6,7 +6,7 @@ AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& pyra
     const AmdWork work{.ray_list = graph.buffer("ray_list", size_t(extent.x) * extent.y * 4),
                        .tile_list = graph.buffer("tile_list", size_t(tiles.x) * tiles.y * 4),
                        .counters = graph.buffer("counters", 16),
-                       .indirect_arguments = graph.buffer("indirect_arguments", 24)};
+                       .indirect_arguments = graph.buffer("indirect_arguments", 36)};
     graph.compute("amd_sssr/classify.comp")
         .read(pyramid)
         .read(gbuffer.fallback)

@@ -33,6 +33,7 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
             graph.clear(image, {});
     graph.compute(passes_of(parameters).reproject)
         .use(work.tile_list.as("tile_list"))
+        .use(work.counters.as("counters"))
         .read(histories.radiance.current.as("radiance"))
         .read(histories.roughness.current.as("roughness"))
         .read_linear(histories.radiance.previous.as("previous_radiance"))
@@ -52,6 +53,7 @@ void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& hi
                    const DenoiserParameters& parameters) {
     graph.compute(passes_of(parameters).prefilter)
         .use(work.tile_list.as("tile_list"))
+        .use(work.counters.as("counters"))
         .read(histories.radiance.current.as("radiance"))
         .read(histories.variance.current.as("variance"))
         .read(histories.roughness.current.as("roughness"))
@@ -66,6 +68,7 @@ void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistor
     const PassGraph::History& samples = histories.sample_count;
     graph.compute(passes_of(parameters).resolve)
         .use(work.tile_list.as("tile_list"))
+        .use(work.counters.as("counters"))
         .read(histories.radiance.current.as("traced_radiance"))
         .read(histories.radiance.previous.as("prefiltered_radiance"))
         .read(histories.variance.previous.as("prefiltered_variance"))

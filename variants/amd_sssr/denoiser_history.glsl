@@ -23,6 +23,8 @@ struct History {
     float factor;  // 1: the same surface; 0: another one
 };
 
+const float history_rejected = -1.0;  // a factor
+
 // Where the point at `length_of_ray` beyond the surface, on the same line of sight, was on the last frame's screen: a plane
 // mirror shows it there (Stachowiak 2015, "Stochastic Screen-Space Reflections", hit point reprojection).
 vec2 uv_of_reflected_point(vec3 vs_position, float length_of_ray) {
@@ -59,6 +61,73 @@ float sameness(Surface surface, vec3 ws_normal, float depth_found) {
 
 float sameness_at(Surface surface, vec2 uv, vec3 ws_normal) {
     return sameness(surface, ws_normal, depth_in_history(uv, textureLod(previous_depth, uv, 0.0).r));
+}
+
+// A place where history may be found.
+struct Candidate {
+    vec2 uv;
+    vec3 ws_normal;
+    float similarity;    // cosine of its normal and the surface's
+    float alpha_change;
+};
+
+Candidate candidate_at(Surface surface, vec2 uv) {
+    vec3 ws_normal = normal_in_history(uv);
+    return Candidate(uv, ws_normal, dot(ws_normal, surface.ws_normal),
+                     abs(textureLod(previous_roughness, uv, 0.0).r - surface.alpha));
+}
+
+bool is_better(Candidate reflected, Candidate on_surface) {
+    return reflected.similarity > normal_similarity_threshold && reflected.similarity + 1e-3 > on_surface.similarity &&
+           reflected.alpha_change < on_surface.alpha_change + 1e-3;
+}
+
+// History along the surface's motion must resemble the colours around. A squared distance is held against the length of
+// a vector of variances: as in the original.
+bool is_plausible(vec3 found, Neighborhood around) {
+    vec3 difference = found - around.mean;
+    return dot(difference, difference) < surface_discard_variance_weight * length(around.variance);
+}
+
+// Step 0 to 8 of a search through 3x3 places, each starting from the best so far.
+void look_nearby(Surface surface, int step_index, inout History history) {
+    vec2 uv = history.uv + vec2(step_index % 3 - 1, step_index / 3 - 1) * camera.extent.zw;
+    float factor = sameness_at(surface, uv, normal_in_history(uv));
+    if (factor > history.factor) {
+        history.factor = factor;
+        history.uv = uv;
+    }
+}
+
+// Bilinear filtering without the texels that show something else.
+struct SameTexels {
+    vec3 radiance, normal;
+    float depth, weight;
+};
+
+// Corner 0 to 3 of the four texels around `uv`.
+void add_texel(Surface surface, vec2 uv, int corner_index, inout SameTexels sum) {
+    vec2 position = camera.extent.xy * uv - 0.5, share = fract(position + 1.0);
+    ivec2 corner = ivec2(corner_index & 1, corner_index >> 1), at = ivec2(position) + corner;
+    vec3 ws_normal = unit_or_zero(texel(previous_normal, at).xyz);
+    float depth_here = depth_in_history(uv, texel(previous_depth, at).r);
+    vec2 weights = mix(1.0 - share, share, vec2(corner));
+    bool is_same = sameness(surface, ws_normal, depth_here) > 0.5 * disocclusion_threshold;
+    float weight = is_same ? weights.x * weights.y : 0.0;
+    sum.radiance += weight * texel(previous_radiance, at).rgb;
+    sum.normal += weight * ws_normal;
+    sum.depth += weight * depth_here;
+    sum.weight += weight;
+}
+
+History history_of(SameTexels sum, Surface surface, vec2 uv) {
+    float scale = 1.0 / max(sum.weight, 1e-3);
+    return History(uv, sum.radiance * scale, sameness(surface, sum.normal * scale, sum.depth * scale));
+}
+
+bool is_usable(History history) {
+    return all(greaterThan(history.uv, vec2(0.0))) && all(lessThan(history.uv, vec2(1.0))) &&
+           history.factor >= disocclusion_threshold;
 }
 
 float longest_history(float alpha) {

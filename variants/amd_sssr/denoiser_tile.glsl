@@ -1,16 +1,20 @@
-// The tile of 8x8 pixels that a group denoises, and what all passes ask of a pixel.
+// The tile of 8x8 pixels that is denoised at once, and what all passes ask of a pixel.
 #ifndef AMD_SSSR_DENOISER_TILE_GLSL
 #define AMD_SSSR_DENOISER_TILE_GLSL
+#include "amd_sssr/lists.glsl"
 #include "core/shaders/view.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430) readonly buffer tile_list { uint listed_tiles[]; };
+buffer tile_list { uint listed_tile[]; };
 
 const int reach = 4;  // pixels around the tile that its filters see
 const float largest_half = 65504.0;
 
-ivec2 tile_start() {
-    uint word = listed_tiles[gl_WorkGroupID.x];
+uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+// First pixel of a listed tile; behind the end of the list a place outside of the image, where nothing is stored.
+ivec2 tile_start(uint index) {
+    if (index >= tile_count) return ivec2(camera.extent.xy);
+    uint word = listed_tile[index];
     return ivec2(word & 0xffffu, word >> 16);
 }
 
@@ -22,7 +26,7 @@ bool is_in_image(ivec2 pixel) {
 vec4 texel(sampler2D image, ivec2 pixel) { return is_in_image(pixel) ? texelFetch(image, pixel, 0) : vec4(0.0); }
 
 bool is_glossy(float alpha) { return alpha < roughness_threshold_alpha; }
-bool is_mirror(float alpha) { return alpha < 1e-4; }  // Denoiser 1.3, is_mirror_reflection
+bool is_mirror(float alpha) { return alpha < mirror_alpha; }
 
 bool is_finite(vec3 color) { return !any(isnan(color)) && !any(isinf(color)); }
 

@@ -25,7 +25,7 @@ struct AmdWork {
     Buffer ray_list;            ///< bits 0-14 x, 15-28 y, 29 copy to the horizontal neighbour in the quad, 30 vertical, 31 diagonal
     Buffer tile_list;           ///< of 8x8 pixels to denoise: y << 16 | x of the first pixel
     Buffer counters;            ///< rays being listed, rays, tiles being listed, tiles
-    Buffer indirect_arguments;  ///< groups to intersect (3 words), groups to denoise (3 words, at byte 12)
+    Buffer indirect_arguments;  ///< groups to intersect (3 words); to denoise a tile each (at byte 12), eight tiles each (24)
 };
 
 /// Mip 0 is `depth`, each following texel the nearest of 2x2: min, or max for reversed depth. `mips` at least 2, capped by

@@ -4,6 +4,7 @@
 #include "amd_sssr/denoiser_prefilter_weights.glsl"
 #include "amd_sssr/denoiser_shared_halves.glsl"
 
+layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D radiance, variance, depth, normal, roughness;
 uniform writeonly image2D prefiltered_radiance, prefiltered_variance;
 
@@ -23,7 +24,7 @@ Neighbor neighbor_at(ivec2 at) {
 }
 
 void main() {
-    ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = tile_start() + local;
+    ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = tile_start(group_index()) + local;
     for (int i = 0; i < 4; ++i) {
         ivec2 block = ivec2(i & 1, i >> 1) * 8;
         share_neighbor(pixel - reach + block, local + block);

@@ -2,14 +2,16 @@
 #include "amd_sssr/lists.glsl"
 
 layout(local_size_x = 1) in;
-buffer indirect_arguments { uint ray_groups[3], tile_groups[3]; };
+buffer indirect_arguments { uint ray_groups[3], tile_groups[3], tile_octet_groups[3]; };
+
+// Every device takes 65535 groups along an axis; beyond, they are spread over two.
+uint[3] spread(uint groups) { return uint[](min(groups, 65535u), (groups + 65534u) / 65535u, 1u); }
 
 void main() {
     ray_count = rays_being_listed;
     tile_count = tiles_being_listed;
     rays_being_listed = tiles_being_listed = 0u;
-    // Every device takes 65535 groups along an axis; beyond, they are spread over two.
-    uint groups = (ray_count + 63u) / 64u;
-    ray_groups = uint[](min(groups, 65535u), (groups + 65534u) / 65535u, 1u);
-    tile_groups = uint[](tile_count, 1u, 1u);
+    ray_groups = spread((ray_count + 63u) / 64u);
+    tile_groups = spread(tile_count);
+    tile_octet_groups = spread((tile_count + 7u) / 8u);
 }

@@ -5,10 +5,11 @@
 #include "amd_sssr/denoiser_resolve_inputs.glsl"
 #include "amd_sssr/denoiser_shared_halves.glsl"
 
+layout(local_size_x = 8, local_size_y = 8) in;
 uniform writeonly image2D radiance, variance;
 
 void main() {
-    ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = tile_start() + local;
+    ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = tile_start(group_index()) + local;
     for (int i = 0; i < 4; ++i) {
         ivec2 block = ivec2(i & 1, i >> 1) * 8;
         share_color(local + block, neighbor_color(filtered_color(pixel - reach + block)));
