@@ -310,6 +310,10 @@ TEST(Disocclusion, ATurningCameraSeesNewSkyAtTheBorder) {
     EXPECT_GT(f.count(), 5u * extent.y);
 }
 
+TEST(Disocclusion, WhatWasBehindTheCameraIsNew) {
+    EXPECT_EQ(draw({.scene = {}, .world_from_view = turned_y(180)}).count(), size_t(extent.x) * extent.y);
+}
+
 TEST(Disocclusion, OrthographicViews) {
     const float p = 10.0f / float(extent.y);
     const Rectangle box{shifted(3 * p, 0, -6), shifted(0, 0, -6), {8 * p, 5 * p}};

@@ -72,6 +72,19 @@ TEST(Ghost, AnErrorThatStaysIsNoGhost) {
     EXPECT_EQ(none.settling_length.value, 0);
 }
 
+TEST(Ghost, WithoutAFirstStepThereIsNothingToSettle) {
+    Random random(4);
+    const std::vector<double> at_once(16, 0.0);
+    const MetricReference before = exact_reference(old_state), after = exact_reference(new_state);
+    // Means over 6912 values of noise: the first frame's error differs from the plateau's, by far less than 5 % of
+    // 0.49.
+    EXPECT_EQ(ghost_of(played(at_once, 0.7f, 0.1f, random), before, after).settling_length.value, 0);
+    // With errors of 4 sqrt(2 / 6912) = 0.07, 14 % of the change, that cannot be told any more.
+    const TemporalScore row = ghost_of(played(at_once, 0, 2, random), before, after).settling_length;
+    EXPECT_TRUE(std::isnan(row.value));
+    EXPECT_EQ(row.note, "the error of the first frame cannot be told from the plateau's");
+}
+
 TEST(Ghost, LengthsInTheFirstHalfAreRightToFivePercent) {
     int given = 0, withheld = 0;
     for (double a = 0.04; a < 0.5; a *= 1.1) {
