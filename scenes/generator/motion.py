@@ -119,9 +119,9 @@ def moving_emitter():
 def stepping_emitter():
     model = Model()
     for x, node in add_emitters(model):
-        # Frame 30 is the first after the step.
+        # Frame 30 is the first after the step; twice the longest history of usual techniques follows.
         model.animate(node, "translation", (0, 1), [(x - 0.6, 0.7, -4), (x + 0.6, 0.7, -4)], interpolation="STEP")
-    return model, scene_json([EMITTER_CAMERA | {"frames": 60}], frame_count=60, frame_rate=30)
+    return model, scene_json([EMITTER_CAMERA | {"frames": 94}], frame_count=94, frame_rate=30)
 
 
 def rotating_mirror():
