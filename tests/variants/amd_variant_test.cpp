@@ -1,0 +1,188 @@
+#include "tests/variants/amd_scenes.h"
+#include "tests/variants/variant_fixture.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace {
+
+constexpr glm::uvec2 extent{160, 120};
+
+struct Frame {
+    HostImage radiance, confidence;
+};
+
+struct AmdSssrVariant : VariantTest {
+    /// Rolled a little, so that rows of pixels do not meet rows of what they reflect.
+    CameraPose pose{.world_from_view = glm::rotate(glm::mat4(1), 0.07f, glm::vec3(0.3f, 0, 1)),
+                    .vertical_fov = 1.2f,
+                    .near = 0.1f,
+                    .far = 100.0f};
+    FrameView view{.extent = extent};
+    std::vector<PassTime> times;
+
+    /// The last of `count` frames of a held camera. `environment`: where rays meet nothing.
+    Frame render(Variant& variant, const SyntheticScene& scene, unsigned count = 1, float environment = 0) {
+        PassGraph graph(device(), view.extent);
+        Reflections reflections;
+        for (view.frame = 0; view.frame < count; ++view.frame) {
+            const CameraData camera = camera_data(pose, view.frame > 0 ? &pose : nullptr, view);
+            const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
+            graph.upload(gbuffer.fallback, HostImage(view.extent, 4, environment));
+            graph.begin_frame(camera, variant.params, gbuffer.images());
+            reflections = variant.render(graph, gbuffer);
+            times = graph.times();
+        }
+        return {graph.download(reflections.radiance), graph.download(reflections.confidence)};
+    }
+    Frame render(const nlohmann::json& parameters, const std::string& preset, const SyntheticScene& scene,
+                 unsigned count = 1, float environment = 0) {
+        return render(*make_variant("amd_sssr", parameters, preset), scene, count, environment);
+    }
+};
+
+// Where mirror rays end.
+
+/// mirror_floor whose wall radiates its own coordinates: (x, y, 1).
+SyntheticHit floor_before_coordinates(const CameraRay& ray) {
+    SyntheticHit hit = mirror_floor(ray);
+    const glm::vec3 p = ray.origin + hit.distance * ray.direction;
+    if (hit.metalness == 0) hit.lit = {p.x, p.y, 1};
+    return hit;
+}
+
+glm::vec2 pixel_from_world(const CameraData& camera, glm::vec3 p) {
+    const glm::vec4 clip = camera.clip_from_world * glm::vec4(p, 1);
+    return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(camera.extent);
+}
+
+struct AmdMirrorFloor : AmdSssrVariant {
+    /// Compares what each floor pixel reflects with the point of the wall that its exact mirror ray meets, in pixels:
+    /// at most `farthest` away along each axis, `mean_distance` as a mean vector.
+    void expect_true_hits(const std::string& preset, float farthest, double mean_distance) {
+        const Frame frame = render({{"denoise", false}, {"float_histories", true}, {"depth_buffer_thickness", 0.5}},
+                                   preset, floor_before_coordinates);
+        const CameraData camera = camera_data(pose, nullptr, view);
+        unsigned count = 0, missed = 0, wrong = 0;
+        glm::dvec2 mean(0);
+        for (unsigned y = 0; y < extent.y; ++y)
+            for (unsigned x = 0; x < extent.x; ++x) {
+                const CameraRay ray = camera_ray(pose, extent, glm::vec2(x, y) + 0.5f + view.jitter);
+                const SyntheticHit first = mirror_floor(ray);
+                EXPECT_EQ(*frame.confidence.pixel(x, y), first.metalness);
+                if (first.metalness == 0) continue;
+                const glm::vec3 p = ray.origin + first.distance * ray.direction,
+                                d = ray.direction * glm::vec3(1, -1, 1);
+                const glm::vec2 expected = pixel_from_world(camera, p + (-6 - p.z) / d.z * d);
+                const glm::vec2 border = 0.06f * glm::vec2(extent.y);  // beyond 5 % of the height hits do not fade
+                if (glm::any(glm::lessThan(expected, border)) ||
+                    glm::any(glm::greaterThan(expected, glm::vec2(extent) - border)) || p.z < -5.5f)
+                    continue;
+                ++count;
+                const float* found = frame.radiance.pixel(x, y);
+                if (found[2] < 0.9f) {
+                    ++missed;
+                    continue;
+                }
+                const glm::vec2 error =
+                    pixel_from_world(camera, {found[0] / found[2], found[1] / found[2], -6}) - expected;
+                wrong += std::abs(error.x) > farthest || std::abs(error.y) > farthest;
+                mean += error;
+            }
+        EXPECT_GT(count, 1000u);
+        EXPECT_LE(missed, count / 200);
+        EXPECT_LE(wrong, count / 200);
+        EXPECT_LT(glm::length(mean / double(count)), mean_distance);
+    }
+};
+
+/// The nearest texel is half a pixel away at most; the mean is 0 unless samples are taken to lie elsewhere than they
+/// do: the jitters would show as 0.5.
+TEST_F(AmdMirrorFloor, ShowsWhatItsRaysMeet) {
+    for (const DepthDirection direction : {DepthDirection::standard, DepthDirection::reversed})
+        for (const glm::vec2 jitter : {glm::vec2(0), glm::vec2(0.4f, -0.35f)})
+            for (const char* preset : {"sdk_1_5", "slides", "corrected"}) {
+                SCOPED_TRACE(testing::Message() << preset << ", reversed " << (direction == DepthDirection::reversed)
+                                                << ", jitter " << jitter.x);
+                view.depth_direction = direction;
+                view.jitter = jitter;
+                expect_true_hits(preset, 0.55f, 0.05);
+            }
+}
+
+/// Seen at a slant the wall is a stair of texels, whose steps rays meet up to a pixel early.
+TEST_F(AmdMirrorFloor, ShowsItToAnOrthographicCamera) {
+    pose.is_orthographic = true;
+    pose.orthographic_height = 5;
+    pose.world_from_view = glm::rotate(glm::translate(glm::mat4(1), {0, 2.5f, 3}), -0.5f, glm::vec3(1, 0.1f, 0.2f));
+    for (const char* preset : {"sdk_1_5", "corrected"}) expect_true_hits(preset, 1.05f, 0.4);
+}
+
+// Energy.
+
+/// All that is seen radiates 1.
+SyntheticHit furnace_floor(const CameraRay& ray) {
+    SyntheticHit hit = glossy_floor(ray);
+    hit.lit = glm::vec3(1);
+    return hit;
+}
+
+/// With everything radiating 1, each average and each blend of radiance is 1, up to rounding. The original's own losses
+/// are switched off: black orphans, and averages of 0 beside tiles without a glossy pixel.
+TEST_F(AmdSssrVariant, KeepsAFurnaceAtOne) {
+    const nlohmann::json no_losses = {{"trace_orphans", true}, {"fresh_neighborhood", true}};
+    for (const std::string preset : {"corrected", "sdk_1_5"})
+        for (const unsigned frames : {1u, 12u}) {
+            SCOPED_TRACE(testing::Message() << preset << ", " << frames << " frames");
+            const Frame frame = render(preset == "corrected" ? nlohmann::json::object() : no_losses, preset,
+                                       furnace_floor, frames, 1.0f);
+            const float lost = preset == "corrected" ? 1e-5f : 0x1p-10f;  // halves may be truncated
+            float low = 1e9f, high = 0;
+            for (size_t i = 0; i < frame.radiance.pixel_count(); ++i)
+                if (frame.confidence.values[i] > 0) {
+                    low = std::min(low, frame.radiance.values[4 * i]);
+                    high = std::max(high, frame.radiance.values[4 * i]);
+                }
+            EXPECT_GT(low, 1 - lost);
+            EXPECT_LT(high, 1 + 1e-5f);
+        }
+}
+
+// Work that no pixel needs.
+
+SyntheticHit rough_floor(const CameraRay& ray) {
+    SyntheticHit hit = glossy_floor(ray);
+    hit.roughness = 0.6f;
+    return hit;
+}
+
+TEST_F(AmdSssrVariant, LeavesEverythingOutWhereNothingIsGlossy) {
+    SceneFacts facts{.has_geometry = true, .has_reflective = true, .min_roughness = 0.6f, .max_roughness = 0.6f};
+    const auto whole = make_variant("amd_sssr"), less = make_variant("amd_sssr");
+    const std::vector<LeftOut> left_out = less->leave_out(facts);
+    const Frame all = render(*whole, rough_floor, 2, 0.5f);
+    std::vector<std::string> stages;
+    for (const PassTime& time : times)
+        if (time.stage != "clear") stages.push_back(time.stage);
+    const Frame some = render(*less, rough_floor, 2, 0.5f);
+    EXPECT_EQ(times.size(), 1u);
+    EXPECT_EQ(times.front().stage, "clear");
+    ASSERT_EQ(left_out.size(), stages.size());
+    for (size_t i = 0; i < stages.size(); ++i) EXPECT_EQ(left_out[i].what, stages[i]);
+    // With confidence 0 the composite is the fallback, whatever the radiance.
+    EXPECT_EQ(all.confidence.values, HostImage(extent, 1).values);
+    EXPECT_EQ(some.confidence.values, all.confidence.values);
+
+    facts.min_roughness = 0.44f;  // alpha 0.194
+    EXPECT_TRUE(make_variant("amd_sssr")->leave_out(facts).empty());
+}
+
+/// The first frame's noise, and with it its rays, are a function of seed and frame alone.
+TEST_F(AmdSssrVariant, RepeatsItselfUnlessTheSeedDiffers) {
+    const nlohmann::json parameters = {{"min_traversal_occupancy", 0}, {"denoise", false}};
+    const Frame first = render(parameters, "", glossy_floor), again = render(parameters, "", glossy_floor);
+    EXPECT_TRUE(first.radiance.values == again.radiance.values);
+    view.seed = 1;
+    EXPECT_FALSE(first.radiance.values == render(parameters, "", glossy_floor).radiance.values);
+}
+
+}  // namespace
