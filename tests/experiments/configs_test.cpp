@@ -1,0 +1,65 @@
+// The studies that come with ssrlab: each can be read, and finds its scenes and cameras.
+#include "experiments/config.h"
+#include "experiments/shot.h"
+#include "variants/registry.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path source = SSRLAB_SOURCE_DIR;
+
+std::set<std::string> own_scenes() {
+    std::set<std::string> names;
+    for (const auto& folder : fs::directory_iterator(source / "scenes"))
+        if (fs::exists(folder.path() / "scene.glb")) names.insert(folder.path().filename());
+    return names;
+}
+
+}  // namespace
+
+TEST(Configs, AreReadAndFindTheirShots) {
+    const std::set<std::string> own = own_scenes();
+    unsigned files = 0;
+    for (const auto& file : fs::directory_iterator(source / "experiments/configs")) {
+        SCOPED_TRACE(file.path());
+        ++files;
+        for (const ShotConfig& config : read_config(file.path()).shots) {
+            if (!own.contains(config.scene)) continue;  // third-party
+            EXPECT_FALSE(load_shot(config, {source / "scenes"}).steps.empty());
+        }
+    }
+    EXPECT_GE(files, 5u);
+}
+
+TEST(Configs, OfAmdMeasureEachCorrectionAlone) {
+    const Config config = read_config(source / "experiments/configs/amd_sssr.json");
+    std::set<std::string> scenes, points;
+    for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
+    for (const VariantConfig& variant : config.variants) points.insert(variant.point);
+    EXPECT_GE(scenes.size(), 6u);
+
+    const nlohmann::json plain = make_variant("amd_sssr", {}, "sdk_1_5")->params.values();
+    const nlohmann::json corrected = make_variant("amd_sssr", {}, "corrected")->params.values();
+    unsigned corrections = 0;
+    for (const auto& [name, value] : corrected.items()) {
+        if (!value.is_boolean() || value == plain[name]) continue;
+        ++corrections;
+        EXPECT_TRUE(points.contains("sdk_1_5 " + name + "=" + value.dump())) << name;
+    }
+    EXPECT_GT(corrections, 0u);
+}
+
+TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
+    const Config config = read_config(source / "experiments/configs/amd_sssr.json");
+    for (const VariantConfig& variant : config.variants) {
+        const bool is_alone = variant.point.find('=') != std::string::npos;
+        EXPECT_EQ(variant.is_baseline, variant.point == "sdk_1_5");
+        EXPECT_EQ(variant.is_timed, !is_alone) << variant.point;
+        EXPECT_EQ(variant.seeds.size(), variant.variant == "none" ? 1u : is_alone ? 4u : 16u) << variant.point;
+        EXPECT_EQ(variant.seeds.front(), 0u);
+    }
+}
