@@ -27,10 +27,12 @@ std::string capture_name(const std::filesystem::path& gbuffer) {
 Reference read_capture_reference(const std::filesystem::path& file, const HostGBuffer& gbuffer) {
     Reference reference = read_reference(file);
     if (reference.extent != gbuffer.extent())
-        fail(file.string(), " is ", reference.extent.x, "x", reference.extent.y, ", but the G-buffer is ", gbuffer.extent().x, "x", gbuffer.extent().y);
+        fail(file.string(), " is ", reference.extent.x, "x", reference.extent.y, ", but the G-buffer is ",
+             gbuffer.extent().x, "x", gbuffer.extent().y);
     // A rasteriser and a ray tracer disagree in some pixels of edges and foliage; another camera changes nearly all.
     const double share = share_that_differs(reference, gbuffer);
     if (share > 0.25)
-        fail(file.string(), " does not belong to the G-buffer: the depths of ", std::lround(100 * share), " % of their pixels differ by more than 1 %, so it was made with another camera, frame or scene");
+        fail(file.string(), " does not belong to the G-buffer: the depths of ", std::lround(100 * share),
+             " % of their pixels differ by more than 1 %, so it was made with another camera, frame or scene");
     return reference;
 }

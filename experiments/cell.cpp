@@ -4,11 +4,11 @@
 #include "core/files.h"
 #include "core/json.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
 
 namespace nlohmann {
 template <class T>
@@ -28,9 +28,11 @@ struct adl_serializer<std::optional<T>> {
 };
 }  // namespace nlohmann
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ResultRow, shot, scene, camera, frame, width, height, variant, point, seed, target, metric, formula, mask,
-                                   value, is_corrected, uncorrected, low, high, floor, pixels, non_finite, negative)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SplitRow, shot, frame, variant, point, target, mask, seeds, mse, bias_squared, variance, variance_low, variance_high, pixels)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ResultRow, shot, scene, camera, frame, width, height, variant, point, seed, target,
+                                   metric, formula, mask, value, is_corrected, uncorrected, low, high, floor, pixels,
+                                   non_finite, negative)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SplitRow, shot, frame, variant, point, target, mask, seeds, mse, bias_squared,
+                                   variance, variance_low, variance_high, pixels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeRow, shot, variant, point, seed, stage, frame, milliseconds, clock)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cell, rows, splits, times, images, timing, notes)
 

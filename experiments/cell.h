@@ -39,19 +39,19 @@ struct TimeRow {
     std::string clock;
 };
 
-/// What a run makes of one shot and variant point with all its seeds: the unit of work that is done once, kept, and never
-/// done again.
+/// What a run makes of one shot and variant point with all its seeds: the unit of work that is done once, kept, and
+/// never done again.
 struct Cell {
     std::vector<ResultRow> rows;
     std::vector<SplitRow> splits;
     std::vector<TimeRow> times;
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
-    std::vector<std::string> notes;  ///< sentences for the manifest: what could not be told, and why
+    std::vector<std::string> notes;                   ///< sentences for the manifest: what could not be told, and why
 };
 
-/// The finished cells of a results folder: cells/<hash>.json. The name is the hash of all that the cell's numbers depend
-/// on, so any number of processes can fill one folder, and a killed run continues where it stopped.
+/// The finished cells of a results folder: cells/<hash>.json. The name is the hash of all that the cell's numbers
+/// depend on, so any number of processes can fill one folder, and a killed run continues where it stopped.
 class CellStore {
 public:
     explicit CellStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -60,8 +60,9 @@ public:
     std::optional<Cell> load(const std::string& hash) const;
     void save(const std::string& hash, const Cell& cell) const;
 
-    /// The right to do a cell while others fill the same folder. The system takes it back when the process ends, however
-    /// it ends. Where the file system knows no locks, everyone has it: then work may be done twice, with the same result.
+    /// The right to do a cell while others fill the same folder. The system takes it back when the process ends,
+    /// however it ends. Where the file system knows no locks, everyone has it: then work may be done twice, with the
+    /// same result.
     class Claim {
     public:
         Claim(std::filesystem::path file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {}

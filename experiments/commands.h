@@ -9,8 +9,8 @@
 
 struct CommonOptions {
     std::vector<std::filesystem::path> scene_path;
-    std::string device;            ///< "": the default one
-    std::filesystem::path cache;   ///< "": the default folder
+    std::string device;           ///< "": the default one
+    std::filesystem::path cache;  ///< "": the default folder
 };
 
 /// One frame of one camera.

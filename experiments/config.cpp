@@ -22,7 +22,8 @@ std::vector<std::string> one_or_more(JsonObject& object, const std::string& key,
     if (!object.has(key)) return {fallback};
     const nlohmann::json& value = object.any(key);
     if (value.is_string()) return {value.get<std::string>()};
-    const bool fits = value.is_array() && !value.empty() && std::ranges::all_of(value, [](const auto& v) { return v.is_string(); });
+    const bool fits =
+        value.is_array() && !value.empty() && std::ranges::all_of(value, [](const auto& v) { return v.is_string(); });
     if (!fits) fail(object.where(), ": '", key, "' must be a text or an array of texts, not ", value.dump());
     return value.get<std::vector<std::string>>();
 }
@@ -33,7 +34,8 @@ std::vector<std::string> known_names(JsonObject& object, const std::string& key,
     if (may_be_empty && object.any(key) == nlohmann::json::array()) return {};
     const std::vector<std::string> names = one_or_more(object, key, "");
     for (const std::string& name : names)
-        if (std::ranges::find(known, name) == known.end()) fail(object.where(), ": '", key, "' names \"", name, "\", which is not known", suggestion(name, known));
+        if (std::ranges::find(known, name) == known.end())
+            fail(object.where(), ": '", key, "' names \"", name, "\", which is not known", suggestion(name, known));
     return names;
 }
 
@@ -46,7 +48,8 @@ std::vector<std::string> default_frame_masks(const std::vector<std::string>& mas
 }
 
 /// A count n, which stands for 0 .. n-1, or an array of whole numbers.
-std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsigned max, const std::vector<unsigned>& fallback) {
+std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsigned max,
+                              const std::vector<unsigned>& fallback) {
     if (!object.has(key)) return fallback;
     const nlohmann::json& value = object.any(key);
     std::vector<unsigned> list;
@@ -68,7 +71,8 @@ std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsign
 
 glm::uvec2 read_extent(JsonObject& shot) {
     const nlohmann::json& value = shot.any("resolution");
-    const bool fits = value.is_array() && value.size() == 2 && value[0].is_number_integer() && value[1].is_number_integer();
+    const bool fits =
+        value.is_array() && value.size() == 2 && value[0].is_number_integer() && value[1].is_number_integer();
     if (!fits) fail(shot.where(), ": 'resolution' must be [width, height] in pixels, not ", value.dump());
     const long long width = value[0], height = value[1];
     if (width < 1 || height < 1 || width > max_side || height > max_side)
@@ -92,11 +96,16 @@ void read_timeline(JsonObject& shot, ShotConfig& config) {
     config.measures_last_only = shot.choice("measure", {"all", "last"}, "all") == "last";
     if (!shot.has("change")) return;
     config.change = unsigned(shot.integer("change", 0, int(max_frames)));
-    if (std::ranges::find(config.frames, *config.change) == config.frames.end() || config.change == config.frames.front())
-        fail(shot.where(), ": 'change' = ", *config.change, " must be one of 'frames' after the first of them, ", config.frames.front());
-    const size_t after = size_t(std::ranges::count_if(config.frames, [&](unsigned frame) { return frame >= *config.change; })) + config.repeat - 1;
+    if (std::ranges::find(config.frames, *config.change) == config.frames.end() ||
+        config.change == config.frames.front())
+        fail(shot.where(), ": 'change' = ", *config.change, " must be one of 'frames' after the first of them, ",
+             config.frames.front());
+    const size_t after =
+        size_t(std::ranges::count_if(config.frames, [&](unsigned frame) { return frame >= *config.change; })) +
+        config.repeat - 1;
     if (after < min_frames_after_change)
-        fail(shot.where(), ": 'change' = ", *config.change, " is followed by ", after, " frames; at least ", min_frames_after_change, " must show how it fades: add 'frames', or a 'repeat' of the last");
+        fail(shot.where(), ": 'change' = ", *config.change, " is followed by ", after, " frames; at least ",
+             min_frames_after_change, " must show how it fades: add 'frames', or a 'repeat' of the last");
 }
 
 /// scene x camera; frames stay together, since a history runs through them.
@@ -122,7 +131,8 @@ std::string label(const nlohmann::json& value) { return value.is_string() ? valu
 std::vector<nlohmann::json> grid_points(const nlohmann::json& axes, const std::string& where) {
     std::vector<nlohmann::json> points = {nlohmann::json::object()};
     for (const auto& [name, values] : axes.items()) {
-        if (!values.is_array() || values.empty()) fail(where, ": sweep: '", name, "' must be an array of values, not ", values.dump());
+        if (!values.is_array() || values.empty())
+            fail(where, ": sweep: '", name, "' must be an array of values, not ", values.dump());
         std::vector<nlohmann::json> longer;
         for (const nlohmann::json& point : points)
             for (const nlohmann::json& value : values) {
@@ -146,9 +156,16 @@ void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, st
         if (!part->is_object()) fail(entry.where(), ": 'parameters' and 'sweep' must be objects, not ", part->dump());
     for (const std::string& preset : presets)
         for (const nlohmann::json& point : grid_points(sweep, entry.where())) {
-            VariantConfig variant{.variant = name, .preset = preset, .parameters = parameters, .point = preset, .seeds = seeds, .is_baseline = is_baseline, .is_timed = is_timed};
+            VariantConfig variant{.variant = name,
+                                  .preset = preset,
+                                  .parameters = parameters,
+                                  .point = preset,
+                                  .seeds = seeds,
+                                  .is_baseline = is_baseline,
+                                  .is_timed = is_timed};
             variant.parameters.update(point);
-            for (const auto& [key, value] : point.items()) variant.point += (variant.point.empty() ? "" : " ") + key + "=" + label(value);
+            for (const auto& [key, value] : point.items())
+                variant.point += (variant.point.empty() ? "" : " ") + key + "=" + label(value);
             if (variant.point.empty()) variant.point = "default";
             try {
                 make_variant(variant.variant, variant.parameters, variant.preset);
@@ -175,7 +192,8 @@ void refuse_repeated_shots(const std::vector<ShotConfig>& shots, const std::stri
     for (size_t i = 0; i < shots.size(); ++i)
         for (size_t j = i + 1; j < shots.size(); ++j)
             if (shots[i] == shots[j])
-                fail(where, ": shots: '", shots[i].scene.empty() ? shots[i].gbuffer.string() : shots[i].scene, "' comes twice with the same camera, resolution and frames; leave one of them out");
+                fail(where, ": shots: '", shots[i].scene.empty() ? shots[i].gbuffer.string() : shots[i].scene,
+                     "' comes twice with the same camera, resolution and frames; leave one of them out");
 }
 
 /// The pairs (variant, point) name cells and rows, so they must differ.
@@ -214,9 +232,11 @@ Config read_config(const std::filesystem::path& file) {
         config.timing.warm_up = unsigned(timing.integer("warm_up", 1, 1000, int(config.timing.warm_up)));
         timing.finish();
         if (config.timing.frames > 0 && config.timing.frames < 15)
-            fail(file.string(), ": timing: 'frames' = ", config.timing.frames, " is too few for a median with an interval; allowed are 0 (no timing) or at least 15");
+            fail(file.string(), ": timing: 'frames' = ", config.timing.frames,
+                 " is too few for a median with an interval; allowed are 0 (no timing) or at least 15");
     }
-    config.metrics = known_names(object, "metrics", metric_names(), {"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"});
+    config.metrics = known_names(object, "metrics", metric_names(),
+                                 {"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"});
     config.masks = one_or_more(object, "masks", "");
     if (!object.has("masks")) config.masks = mask_names();
     for (const std::string& mask : config.masks) try {
@@ -227,12 +247,15 @@ Config read_config(const std::filesystem::path& file) {
     config.targets = known_names(object, "targets", all_targets, {"specular", "image", "incident"});
     config.frame_metrics = known_names(object, "frame_metrics", metric_names(), {"mse", "relmse", "bias"}, true);
     config.frame_masks = known_names(object, "frame_masks", config.masks, default_frame_masks(config.masks));
-    config.reflective_max_roughness = object.number("reflective_max_roughness", 0.0f, 1.0f, config.reflective_max_roughness);
-    config.reflective_min_reflectance = object.number("reflective_min_reflectance", 0.0f, 1.0f, config.reflective_min_reflectance);
+    config.reflective_max_roughness =
+        object.number("reflective_max_roughness", 0.0f, 1.0f, config.reflective_max_roughness);
+    config.reflective_min_reflectance =
+        object.number("reflective_min_reflectance", 0.0f, 1.0f, config.reflective_min_reflectance);
     object.finish();
 
     if (config.shots.empty()) fail(file.string(), ": 'shots' is missing or empty: name at least one scene");
-    if (config.variants.empty()) fail(file.string(), ": 'variants' is missing or empty: name at least one variant, e.g. \"none\"");
+    if (config.variants.empty())
+        fail(file.string(), ": 'variants' is missing or empty: name at least one variant, e.g. \"none\"");
     refuse_repeated_shots(config.shots, file.string());
     refuse_repetition(config.variants, file.string());
     return config;

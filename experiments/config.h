@@ -16,12 +16,13 @@ struct ShotConfig {
     glm::uvec2 extent{480, 270};
     std::vector<unsigned> frames{0};  ///< poses, ascending: rendered in this order, so histories work
     unsigned warm_up = 0;             ///< frames at the first pose before it is played: rendered, not measured
-    unsigned repeat = 1;              ///< how often the last pose is rendered in a row: its flicker is measured
+    unsigned repeat = 1;  ///< how often the last pose is rendered in a row; a shot of one pose has its flicker measured
     std::optional<unsigned> change;   ///< the first of `frames` after the scene's step: how long it ghosts is measured
     bool measures_last_only = false;  ///< else every one of `frames` is measured
 
-    std::filesystem::path gbuffer;    ///< in place of a scene: a folder with gbuffer.exr and camera.json
-    std::filesystem::path reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
+    std::filesystem::path gbuffer;  ///< in place of a scene: a folder with gbuffer.exr and camera.json
+    std::filesystem::path
+        reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
 
     bool operator==(const ShotConfig&) const = default;
 };
@@ -33,12 +34,12 @@ struct VariantConfig {
     nlohmann::json parameters;  ///< values that differ from the preset's or default ones
     std::string point;          ///< its label in results: the preset and the swept values, or "default"
     std::vector<unsigned> seeds;
-    bool is_baseline = false;   ///< all other points are compared with it, seed by seed
+    bool is_baseline = false;  ///< all other points are compared with it, seed by seed
     bool is_timed = true;
 };
 
 struct TimingConfig {
-    unsigned frames = 15;   ///< measured per variant, after the warm-up; 0: no timing
+    unsigned frames = 15;  ///< measured per variant, after the warm-up; 0: no timing
     unsigned warm_up = 3;
 };
 
@@ -52,15 +53,15 @@ struct Config {
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     TimingConfig timing;
-    std::vector<unsigned> seeds{0};  ///< of variants that name none of their own
+    std::vector<unsigned> seeds{0};    ///< of variants that name none of their own
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;
     std::vector<std::string> targets;
-    std::vector<std::string> frame_metrics;  ///< of all measured frames but the last, and of their mean; may be empty
-    std::vector<std::string> frame_masks;    ///< of each of those frames; their mean has all masks
-    float reflective_max_roughness = 0.6f;   ///< the mask `reflective`: perceptual roughness at most this ...
+    std::vector<std::string> frame_metrics;    ///< of all measured frames but the last, and of their mean; may be empty
+    std::vector<std::string> frame_masks;      ///< of each of those frames; their mean has all masks
+    float reflective_max_roughness = 0.6f;     ///< the mask `reflective`: perceptual roughness at most this ...
     float reflective_min_reflectance = 0.02f;  ///< ... and F0 A + F90 B (largest channel) at least this
-    nlohmann::json source;  ///< as read, for the manifest
+    nlohmann::json source;                     ///< as read, for the manifest
 };
 
 /// Reads and checks a config; its keys are in experiments/README.md. Every mistake is an Error that names file and key.

@@ -8,8 +8,13 @@ namespace {
 
 using nlohmann::json;
 
-json one_or_more(const json& item) { return {{"anyOf", {item, {{"type", "array"}, {"items", item}, {"minItems", 1}}}}}; }
-json masks() { return one_or_more({{"anyOf", {{{"enum", mask_names()}}, {{"type", "string"}, {"pattern", roughness_class_pattern}}}}}); }
+json one_or_more(const json& item) {
+    return {{"anyOf", {item, {{"type", "array"}, {"items", item}, {"minItems", 1}}}}};
+}
+json masks() {
+    return one_or_more(
+        {{"anyOf", {{{"enum", mask_names()}}, {{"type", "string"}, {"pattern", roughness_class_pattern}}}}});
+}
 json list_of(const std::vector<std::string>& names) { return one_or_more({{"enum", names}}); }
 json object(const json& members, const std::vector<std::string>& required = {}) {
     return {{"type", "object"}, {"properties", members}, {"required", required}, {"additionalProperties", false}};
@@ -17,15 +22,25 @@ json object(const json& members, const std::vector<std::string>& required = {}) 
 json number(double min, double max) { return {{"type", "number"}, {"minimum", min}, {"maximum", max}}; }
 json integer(int min, int max) { return {{"type", "integer"}, {"minimum", min}, {"maximum", max}}; }
 
-json counts(unsigned max) { return {{"anyOf", {integer(1, int(max)), {{"type", "array"}, {"items", integer(0, int(max))}}}}}; }
+json counts(unsigned max) {
+    return {{"anyOf", {integer(1, int(max)), {{"type", "array"}, {"items", integer(0, int(max))}}}}};
+}
 
 json variant_schema(const VariantEntry& entry) {
     const json parameters = make_variant(entry.name)->params.schema();
     json axes = parameters;
-    for (auto& [name, schema] : axes["properties"].items()) schema = {{"description", schema["description"]}, {"type", "array"}, {"items", schema}, {"minItems", 1}};
+    for (auto& [name, schema] : axes["properties"].items())
+        schema = {{"description", schema["description"]}, {"type", "array"}, {"items", schema}, {"minItems", 1}};
     std::vector<std::string> presets = {""};
     for (const Preset& preset : entry.presets) presets.push_back(preset.name);
-    return object({{"variant", {{"const", entry.name}, {"description", entry.title + " (" + entry.source + ")"}}}, {"preset", list_of(presets)}, {"parameters", parameters}, {"sweep", axes}, {"seeds", counts(100000)}, {"baseline", {{"type", "boolean"}}}, {"timing", {{"type", "boolean"}}}}, {"variant"});
+    return object({{"variant", {{"const", entry.name}, {"description", entry.title + " (" + entry.source + ")"}}},
+                   {"preset", list_of(presets)},
+                   {"parameters", parameters},
+                   {"sweep", axes},
+                   {"seeds", counts(100000)},
+                   {"baseline", {{"type", "boolean"}}},
+                   {"timing", {{"type", "boolean"}}}},
+                  {"variant"});
 }
 
 }  // namespace
@@ -42,27 +57,41 @@ nlohmann::json config_schema(const std::string& variant) {
     json variants = json::array();
     for (const VariantEntry& entry : variant_table()) variants.push_back(variant_schema(entry));
     const json text = {{"type", "string"}};
-    const json shot = object({{"scene", one_or_more(text)}, {"camera", one_or_more(text)}, {"resolution", {{"type", "array"}, {"items", integer(1, 16384)}, {"minItems", 2}, {"maxItems", 2}}}, {"frames", counts(100000)}, {"warm_up", integer(0, 100000)}, {"repeat", integer(1, 100000)}, {"change", integer(1, 100000)}, {"measure", {{"enum", {"all", "last"}}}}}, {"scene"});
+    const json shot =
+        object({{"scene", one_or_more(text)},
+                {"camera", one_or_more(text)},
+                {"resolution", {{"type", "array"}, {"items", integer(1, 16384)}, {"minItems", 2}, {"maxItems", 2}}},
+                {"frames", counts(100000)},
+                {"warm_up", integer(0, 100000)},
+                {"repeat", integer(1, 100000)},
+                {"change", integer(1, 100000)},
+                {"measure", {{"enum", {"all", "last"}}}}},
+               {"scene"});
     const json capture = object({{"gbuffer", text}, {"reference", text}}, {"gbuffer"});
-    const json reference = object({{"samples", integer(16, 1 << 24)}, {"seconds", number(0, 1e7)}, {"target_relative_error", number(0, 1)}, {"max_depth", integer(1, 1024)}, {"seed", integer(0, 1 << 30)}});
-    json schema = object({{"$schema", text},
-                          {"title", text},
-                          {"shots", {{"type", "array"}, {"items", {{"anyOf", {shot, capture}}}}, {"minItems", 1}}},
-                          {"variants", {{"type", "array"}, {"items", {{"anyOf", variants}}}, {"minItems", 1}}},
-                          {"seeds", counts(100000)},
-                          {"reference", reference},
-                          {"lit", {{"enum", {"path_traced", "direct"}}}},
-                          {"depth_format", {{"enum", {"d32f", "d24", "d16"}}}},
-                          {"depth_direction", {{"enum", {"standard", "reversed"}}}},
-                          {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}})},
-                          {"metrics", list_of(metric_names())},
-                          {"masks", masks()},
-                          {"frame_metrics", {{"anyOf", {list_of(metric_names()), {{"type", "array"}, {"maxItems", 0}}}}}},
-                          {"frame_masks", masks()},
-                          {"targets", list_of({"specular", "image", "incident"})},
-                          {"reflective_max_roughness", number(0, 1)},
-                          {"reflective_min_reflectance", number(0, 1)}},
-                         {"shots", "variants"});
+    const json reference = object({{"samples", integer(16, 1 << 24)},
+                                   {"seconds", number(0, 1e7)},
+                                   {"target_relative_error", number(0, 1)},
+                                   {"max_depth", integer(1, 1024)},
+                                   {"seed", integer(0, 1 << 30)}});
+    json schema =
+        object({{"$schema", text},
+                {"title", text},
+                {"shots", {{"type", "array"}, {"items", {{"anyOf", {shot, capture}}}}, {"minItems", 1}}},
+                {"variants", {{"type", "array"}, {"items", {{"anyOf", variants}}}, {"minItems", 1}}},
+                {"seeds", counts(100000)},
+                {"reference", reference},
+                {"lit", {{"enum", {"path_traced", "direct"}}}},
+                {"depth_format", {{"enum", {"d32f", "d24", "d16"}}}},
+                {"depth_direction", {{"enum", {"standard", "reversed"}}}},
+                {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}})},
+                {"metrics", list_of(metric_names())},
+                {"masks", masks()},
+                {"frame_metrics", {{"anyOf", {list_of(metric_names()), {{"type", "array"}, {"maxItems", 0}}}}}},
+                {"frame_masks", masks()},
+                {"targets", list_of({"specular", "image", "incident"})},
+                {"reflective_max_roughness", number(0, 1)},
+                {"reflective_min_reflectance", number(0, 1)}},
+               {"shots", "variants"});
     schema["$schema"] = dialect;
     schema["title"] = "ssrlab study";
     return schema;

@@ -46,7 +46,8 @@ using Seeds = std::map<unsigned, const ResultRow*>;
 
 EffectRow effect(const Seeds& point, const Seeds& baseline) {
     const ResultRow &first = *point.begin()->second, &other = *baseline.begin()->second;
-    EffectRow row{first.shot, first.frame, first.variant, first.point, other.variant, other.point, first.target, first.metric, first.formula, first.mask};
+    EffectRow row{first.shot,  first.frame,  first.variant, first.point,   other.variant,
+                  other.point, first.target, first.metric,  first.formula, first.mask};
     std::vector<double> errors, base_errors;
     for (const auto& [seed, r] : point) {
         const auto found = baseline.find(seed);
@@ -55,7 +56,8 @@ EffectRow effect(const Seeds& point, const Seeds& baseline) {
     }
     row.seeds = errors.size();
     const auto is_positive = [](double v) { return v > 0; };
-    if (errors.empty() || !std::ranges::all_of(errors, is_positive) || !std::ranges::all_of(base_errors, is_positive)) return row;
+    if (errors.empty() || !std::ranges::all_of(errors, is_positive) || !std::ranges::all_of(base_errors, is_positive))
+        return row;
     if (errors.size() == 1) {
         row.ratio = errors.front() / base_errors.front();
         return row;
@@ -88,7 +90,8 @@ std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std
         for (const VariantConfig& variant : variants) {
             if (variant.variant == baseline.variant && variant.point == baseline.point) continue;
             for (const auto& [quantity, points] : table) {
-                const auto a = points.find({variant.variant, variant.point}), b = points.find({baseline.variant, baseline.point});
+                const auto a = points.find({variant.variant, variant.point}),
+                           b = points.find({baseline.variant, baseline.point});
                 if (a != points.end() && b != points.end()) effects.push_back(effect(a->second, b->second));
             }
         }
@@ -98,8 +101,11 @@ std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std
 }
 
 void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects) {
-    std::string text = "shot,frame,variant,point,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,p,p_holm\n";
+    std::string text =
+        "shot,frame,variant,point,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,p,p_"
+        "holm\n";
     for (const EffectRow& e : effects)
-        text += csv_line(e.shot, e.frame, e.variant, e.point, e.against_variant, e.against_point, e.target, e.metric, e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.p, e.p_holm);
+        text += csv_line(e.shot, e.frame, e.variant, e.point, e.against_variant, e.against_point, e.target, e.metric,
+                         e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.p, e.p_holm);
     write_text(folder / "effects.csv", text);
 }

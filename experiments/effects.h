@@ -7,10 +7,10 @@
 /// What a point changes about one error of its baseline.
 struct EffectRow {
     std::string shot, frame, variant, point, against_variant, against_point, target, metric, formula, mask;
-    size_t seeds = 0;                       ///< that both were run with
-    std::optional<double> ratio;            ///< point / baseline, geometric mean over the seeds; none if an error is not above 0
-    std::optional<double> low, high, p;     ///< 95 % interval; two-sided p of "the ratio is 1"; none for a single seed
-    std::optional<double> p_holm;           ///< p adjusted for all rows of equal target, metric and mask
+    size_t seeds = 0;             ///< that both were run with
+    std::optional<double> ratio;  ///< point / baseline, geometric mean over the seeds; none if an error is not above 0
+    std::optional<double> low, high, p;  ///< 95 % interval; two-sided p of "the ratio is 1"; none for a single seed
+    std::optional<double> p_holm;        ///< p adjusted for all rows of equal target, metric and mask
 };
 
 /// Every point against every point marked as a baseline, by errors for which less is better. Seeds are paired: equal

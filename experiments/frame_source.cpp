@@ -8,7 +8,10 @@ namespace {
 class SceneSource final : public FrameSource {
 public:
     SceneSource(Device& device, const Shot& shot, const Config& config, bool keep_all)
-        : shot_(shot), config_(config), rasterizer_(device, shot.scene, {.extent = shot.config.extent, .depth_format = config.depth_format, .keep_all = keep_all}) {}
+        : shot_(shot),
+          config_(config),
+          rasterizer_(device, shot.scene,
+                      {.extent = shot.config.extent, .depth_format = config.depth_format, .keep_all = keep_all}) {}
 
     using FrameSource::render;
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
@@ -36,14 +39,21 @@ private:
 
 class FileSource final : public FrameSource {
 public:
-    FileSource(Device& device, HostGBuffer gbuffer) : camera_(gbuffer.camera), has_lit_(!gbuffer.lit.values.empty()), graph_(device, gbuffer.extent()), gbuffer_(upload_gbuffer(graph_, gbuffer)) {}
+    FileSource(Device& device, HostGBuffer gbuffer)
+        : camera_(gbuffer.camera),
+          has_lit_(!gbuffer.lit.values.empty()),
+          graph_(device, gbuffer.extent()),
+          gbuffer_(upload_gbuffer(graph_, gbuffer)) {}
 
     using FrameSource::render;
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
         // Whatever the file says: what was rendered before is known here.
         camera_.frame.x = step.index, camera_.frame.y = seed, camera_.frame.w = step.previous_frame.has_value();
         if (!has_lit_) {
-            if (lit.values.empty()) fail("the G-buffer has no lit colour, and no reference provides one: give it the layer 'lit', or name a 'reference'");
+            if (lit.values.empty())
+                fail(
+                    "the G-buffer has no lit colour, and no reference provides one: give it the layer 'lit', or name a "
+                    "'reference'");
             HostImage rgba(lit.extent, 4, 1.0f);
             for (size_t i = 0; i < lit.pixel_count(); ++i) rgba.set_rgb(i, lit.rgb(i));
             graph_.upload(gbuffer_.lit, rgba);
@@ -64,18 +74,24 @@ private:
 
 }  // namespace
 
-std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all) { return std::make_unique<SceneSource>(device, shot, config, keep_all); }
-std::unique_ptr<FrameSource> file_source(Device& device, HostGBuffer gbuffer) { return std::make_unique<FileSource>(device, std::move(gbuffer)); }
+std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all) {
+    return std::make_unique<SceneSource>(device, shot, config, keep_all);
+}
+std::unique_ptr<FrameSource> file_source(Device& device, HostGBuffer gbuffer) {
+    return std::make_unique<FileSource>(device, std::move(gbuffer));
+}
 
 struct FrameStore::Stored {
     PassGraph graph;  ///< owns the images
     GBuffer gbuffer;
     CameraData camera;
 
-    Stored(Device& device, const HostGBuffer& host) : graph(device, host.extent()), gbuffer(upload_gbuffer(graph, host)), camera(host.camera) {}
+    Stored(Device& device, const HostGBuffer& host)
+        : graph(device, host.extent()), gbuffer(upload_gbuffer(graph, host)), camera(host.camera) {}
 };
 
-FrameStore::FrameStore(FrameSource& source, DepthFormat depth_format, size_t max_bytes) : source_(source), depth_format_(depth_format), max_bytes_(max_bytes) {}
+FrameStore::FrameStore(FrameSource& source, DepthFormat depth_format, size_t max_bytes)
+    : source_(source), depth_format_(depth_format), max_bytes_(max_bytes) {}
 FrameStore::~FrameStore() = default;
 
 FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit) {

@@ -17,7 +17,9 @@ public:
     /// its images are valid until the next one is rendered.
     virtual GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) = 0;
     /// The first and only frame of a run.
-    GBuffer render(unsigned frame, unsigned seed, const HostImage& lit) { return render(FrameStep{.frame = frame}, seed, lit); }
+    GBuffer render(unsigned frame, unsigned seed, const HostImage& lit) {
+        return render(FrameStep{.frame = frame}, seed, lit);
+    }
     virtual const CameraData& camera() const = 0;
     virtual PassGraph& graph() = 0;
     virtual const std::vector<LeftOut>& left_out() const = 0;

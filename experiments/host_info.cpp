@@ -3,14 +3,14 @@
 #include "core/files.h"
 #include "core/json.h"
 
+#include <sys/utsname.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <sys/utsname.h>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 namespace {
@@ -20,7 +20,8 @@ std::string proc_value(const char* file, const std::string& key) {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);)
         if (line.starts_with(key))
-            if (const size_t colon = line.find(':'); colon != std::string::npos) return line.substr(line.find_first_not_of(" \t", colon + 1));
+            if (const size_t colon = line.find(':'); colon != std::string::npos)
+                return line.substr(line.find_first_not_of(" \t", colon + 1));
     return "unknown";
 }
 
@@ -38,7 +39,8 @@ nlohmann::json host_info() {
 
 nlohmann::json build_info() {
     nlohmann::json build = {{"commit", ""}, {"dirty", false}};
-    const std::filesystem::path file = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "build_commit.json";
+    const std::filesystem::path file =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "build_commit.json";
     if (std::filesystem::exists(file)) build = read_json(file);
     return {{"version", SSRLAB_VERSION},
             {"commit", build.at("commit")},
@@ -55,7 +57,9 @@ std::string code_hash() {
     for (const char* folder : {"core", "variants"})
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(SSRLAB_SOURCE_DIR) / folder)) {
             const std::string extension = entry.path().extension();
-            const bool is_shader = std::ranges::any_of(std::vector<std::string>{".comp", ".frag", ".vert", ".glsl", ".h"}, [&](const std::string& e) { return e == extension; });
+            const bool is_shader =
+                std::ranges::any_of(std::vector<std::string>{".comp", ".frag", ".vert", ".glsl", ".h"},
+                                    [&](const std::string& e) { return e == extension; });
             if (is_shader) shaders.push_back(entry.path());
         }
     std::ranges::sort(shaders);

@@ -10,28 +10,47 @@ namespace {
 
 /// Options that most commands share.
 void add_scene_path(CLI::App& command, CommonOptions& common) {
-    command.add_option("--scene-path", common.scene_path, "Folder with scenes, searched before SSRLAB_SCENE_PATH and ssrlab's own; may be repeated")->type_name("DIR");
+    command
+        .add_option("--scene-path", common.scene_path,
+                    "Folder with scenes, searched before SSRLAB_SCENE_PATH and ssrlab's own; may be repeated")
+        ->type_name("DIR");
 }
 
 void add_device(CLI::App& command, CommonOptions& common) {
-    command.add_option("--device", common.device, "Vulkan device: its index or a part of its name (see: ssrlab list devices); default: a discrete GPU, else lavapipe")->type_name("NAME");
+    command
+        .add_option("--device", common.device,
+                    "Vulkan device: its index or a part of its name (see: ssrlab list devices); default: a discrete "
+                    "GPU, else lavapipe")
+        ->type_name("NAME");
 }
 
 void add_cache(CLI::App& command, CommonOptions& common) {
-    command.add_option("--cache", common.cache, "Folder of cached references; default: SSRLAB_CACHE, else ssrlab in the user's cache folder")->type_name("DIR");
+    command
+        .add_option("--cache", common.cache,
+                    "Folder of cached references; default: SSRLAB_CACHE, else ssrlab in the user's cache folder")
+        ->type_name("DIR");
 }
 
 void add_shot(CLI::App& command, ShotOptions& shot) {
-    command.add_option("scene", shot.scene, "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")->required()->type_name("SCENE");
+    command
+        .add_option("scene", shot.scene,
+                    "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
+        ->required()
+        ->type_name("SCENE");
     command.add_option("--camera", shot.camera, "Default: the scene's first")->type_name("NAME");
-    command.add_option("--size", shot.size, "Width and height in pixels; default: 480 270")->expected(2)->type_name("W H")->check(CLI::Range(1, 16384));
-    command.add_option("--frame", shot.frame, "Frame of the camera's path and of the animation; default: 0")->type_name("N");
+    command.add_option("--size", shot.size, "Width and height in pixels; default: 480 270")
+        ->expected(2)
+        ->type_name("W H")
+        ->check(CLI::Range(1, 16384));
+    command.add_option("--frame", shot.frame, "Frame of the camera's path and of the animation; default: 0")
+        ->type_name("N");
 }
 
 /// CLI11 reports its own mistakes; they exit with 2 as all mistakes of the user do.
 int parse_and_run(int argc, char** argv) {
-    CLI::App app{"ssrlab compares screen-space reflection techniques with path-traced truth.\n"
-                 "Exit codes: 0 done, 2 a mistake in what was asked for, 3 a fault of this machine."};
+    CLI::App app{
+        "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
+        "Exit codes: 0 done, 2 a mistake in what was asked for, 3 a fault of this machine."};
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     CommonOptions common;
@@ -39,15 +58,25 @@ int parse_and_run(int argc, char** argv) {
 
     RunOptions run;
     CLI::App& run_command_ = *app.add_subcommand("run", "Run a study: shots x variants x parameter points x seeds");
-    run_command_.add_option("config", run.config, "The study (experiments/README.md explains its keys)")->required()->type_name("CONFIG.json");
-    run_command_.add_option("--out", run.out, "Results folder; default: results/<name of the config>. A study that was stopped continues there")->type_name("DIR");
-    run_command_.add_flag("--keep-all", run.keep_all, "Also do the work which the scenes do not need (to prove that leaving it out changes nothing)");
+    run_command_.add_option("config", run.config, "The study (experiments/README.md explains its keys)")
+        ->required()
+        ->type_name("CONFIG.json");
+    run_command_
+        .add_option("--out", run.out,
+                    "Results folder; default: results/<name of the config>. A study that was stopped continues there")
+        ->type_name("DIR");
+    run_command_.add_flag(
+        "--keep-all", run.keep_all,
+        "Also do the work which the scenes do not need (to prove that leaving it out changes nothing)");
     add_device(run_command_, common), add_scene_path(run_command_, common), add_cache(run_command_, common);
     run_command_.callback([&] { run_study_command(run, common); });
 
     FiguresOptions figures;
-    CLI::App& figures_command_ = *app.add_subcommand("figures", "Make paper figures (PDF, SVG, PNG) from a results folder");
-    figures_command_.add_option("results", figures.results, "A folder that `ssrlab run` filled")->required()->type_name("DIR");
+    CLI::App& figures_command_ =
+        *app.add_subcommand("figures", "Make paper figures (PDF, SVG, PNG) from a results folder");
+    figures_command_.add_option("results", figures.results, "A folder that `ssrlab run` filled")
+        ->required()
+        ->type_name("DIR");
     figures_command_.add_option("--out", figures.out, "Default: figures in the results folder")->type_name("DIR");
     figures_command_.callback([&] { status = figures_command(figures); });
 
@@ -55,33 +84,62 @@ int parse_and_run(int argc, char** argv) {
     CLI::App& compare_command_ = *app.add_subcommand("compare", "Compare two images (EXR or PNG): one number per line");
     compare_command_.add_option("reference", compare.reference)->required()->type_name("REFERENCE");
     compare_command_.add_option("test", compare.test)->required()->type_name("TEST");
-    compare_command_.add_option("--metric", compare.metrics, "May be repeated; see: ssrlab list metrics")->type_name("NAME");
-    compare_command_.add_option("--map", compare.map, "Write the error map: .exr (a layer per metric) or .png (one metric, in false colour)")->type_name("FILE");
-    compare_command_.add_option("--map-max", compare.map_max, "The error that a .png map shows as its brightest colour")->check(CLI::PositiveNumber)->capture_default_str();
-    compare_command_.add_option("--exposure", compare.exposure_ev, "Display metrics look at radiance times 2^EV")->type_name("EV")->check(CLI::Range(-100.0, 100.0))->capture_default_str();
-    compare_command_.add_option("--tone-map", compare.tone_map, "Of display metrics")->check(CLI::IsMember(tone_map_names))->capture_default_str();
-    compare_command_.add_flag("--fail-on-non-finite", compare.fail_on_non_finite, "Exit with 2 if a pixel is NaN or Inf; else such pixels are left out and counted in a warning");
+    compare_command_.add_option("--metric", compare.metrics, "May be repeated; see: ssrlab list metrics")
+        ->type_name("NAME");
+    compare_command_
+        .add_option("--map", compare.map,
+                    "Write the error map: .exr (a layer per metric) or .png (one metric, in false colour)")
+        ->type_name("FILE");
+    compare_command_
+        .add_option("--map-max", compare.map_max, "The error that a .png map shows as its brightest colour")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    compare_command_.add_option("--exposure", compare.exposure_ev, "Display metrics look at radiance times 2^EV")
+        ->type_name("EV")
+        ->check(CLI::Range(-100.0, 100.0))
+        ->capture_default_str();
+    compare_command_.add_option("--tone-map", compare.tone_map, "Of display metrics")
+        ->check(CLI::IsMember(tone_map_names))
+        ->capture_default_str();
+    compare_command_.add_flag(
+        "--fail-on-non-finite", compare.fail_on_non_finite,
+        "Exit with 2 if a pixel is NaN or Inf; else such pixels are left out and counted in a warning");
     compare_command_.add_flag("--json", compare.as_json, "Print one JSON object");
     compare_command_.callback([&] { compare_images_command(compare); });
 
     ReferenceCommandOptions reference;
-    CLI::App& reference_command_ = *app.add_subcommand("reference", "Path-trace a scene; continues a render that was stopped");
+    CLI::App& reference_command_ =
+        *app.add_subcommand("reference", "Path-trace a scene; continues a render that was stopped");
     add_shot(reference_command_, reference.shot);
-    reference_command_.add_option("--samples", reference.settings.max_samples, "Per pixel, at most; rounded up to 16 x 2^k")->check(CLI::Range(16, 1 << 24))->capture_default_str();
-    reference_command_.add_option("--seconds", reference.settings.max_seconds, "Time limit; default: none")->check(CLI::PositiveNumber);
-    reference_command_.add_option("--target", reference.settings.target_relative_error, "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")->check(CLI::Range(1e-4, 1.0));
-    reference_command_.add_option("--max-depth", reference.settings.max_depth, "Longest path, in segments")->check(CLI::Range(1, 1024))->capture_default_str();
+    reference_command_
+        .add_option("--samples", reference.settings.max_samples, "Per pixel, at most; rounded up to 16 x 2^k")
+        ->check(CLI::Range(16, 1 << 24))
+        ->capture_default_str();
+    reference_command_.add_option("--seconds", reference.settings.max_seconds, "Time limit; default: none")
+        ->check(CLI::PositiveNumber);
+    reference_command_
+        .add_option("--target", reference.settings.target_relative_error,
+                    "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")
+        ->check(CLI::Range(1e-4, 1.0));
+    reference_command_.add_option("--max-depth", reference.settings.max_depth, "Longest path, in segments")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
     reference_command_.add_option("--seed", reference.settings.seed, "Seed of the path tracer")->capture_default_str();
-    reference_command_.add_flag("--ladder", reference.settings.ladder, "Also the truth ladder: what factoring the BRDF, one view and bounce, and the borders of the screen cost at least; about twice the rays");
+    reference_command_.add_flag("--ladder", reference.settings.ladder,
+                                "Also the truth ladder: what factoring the BRDF, one view and bounce, and the borders "
+                                "of the screen cost at least; about twice the rays");
     reference_command_.add_option("--out", reference.out, "Default: <scene>_reference.exr")->type_name("FILE.exr");
     add_scene_path(reference_command_, common), add_cache(reference_command_, common);
     reference_command_.callback([&] { reference_command(reference, common); });
 
     GBufferCommandOptions gbuffer;
-    CLI::App& gbuffer_command_ = *app.add_subcommand("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
+    CLI::App& gbuffer_command_ =
+        *app.add_subcommand("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
     add_shot(gbuffer_command_, gbuffer.shot);
     gbuffer_command_.add_option("--out", gbuffer.out, "Folder; default: <scene>_gbuffer")->type_name("DIR");
-    gbuffer_command_.add_option("--depth-format", gbuffer.depth_format)->check(CLI::IsMember({"d32f", "d24", "d16"}))->capture_default_str();
+    gbuffer_command_.add_option("--depth-format", gbuffer.depth_format)
+        ->check(CLI::IsMember({"d32f", "d24", "d16"}))
+        ->capture_default_str();
     gbuffer_command_.add_flag("--reversed-depth", gbuffer.is_reversed, "1 at the near plane, 0 at the far plane");
     add_device(gbuffer_command_, common), add_scene_path(gbuffer_command_, common);
     gbuffer_command_.callback([&] { gbuffer_command(gbuffer, common); });
@@ -93,14 +151,19 @@ int parse_and_run(int argc, char** argv) {
     needs_command_.callback([&] { needs_command(needs, common); });
 
     DescribeOptions describe;
-    CLI::App& describe_command_ = *app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
+    CLI::App& describe_command_ =
+        *app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
     describe_command_.add_option("variant", describe.variant, "Default: all")->type_name("VARIANT");
-    describe_command_.add_flag("--schema", describe.as_schema, "Print a JSON Schema for configs, so that editors complete them");
+    describe_command_.add_flag("--schema", describe.as_schema,
+                               "Print a JSON Schema for configs, so that editors complete them");
     describe_command_.callback([&] { describe_command(describe); });
 
     std::string what;
     CLI::App& list_command_ = *app.add_subcommand("list", "List scenes, variants, metrics or devices");
-    list_command_.add_option("what", what)->required()->check(CLI::IsMember({"scenes", "variants", "metrics", "devices"}))->type_name("scenes|variants|metrics|devices");
+    list_command_.add_option("what", what)
+        ->required()
+        ->check(CLI::IsMember({"scenes", "variants", "metrics", "devices"}))
+        ->type_name("scenes|variants|metrics|devices");
     add_scene_path(list_command_, common);
     list_command_.callback([&] { list_command(what, common); });
 

@@ -25,7 +25,11 @@ std::string file_name(std::string text) {
 nlohmann::json clock_entry(const ClockProof& proof) {
     nlohmann::json checks = nlohmann::json::array();
     for (const ClockCheck& c : proof.checks)
-        checks.push_back({{"stage_kind", c.stage_kind}, {"expected", c.expected}, {"measured_ms", c.measured_ms}, {"ratio", c.ratio}, {"passed", c.passed}});
+        checks.push_back({{"stage_kind", c.stage_kind},
+                          {"expected", c.expected},
+                          {"measured_ms", c.measured_ms},
+                          {"ratio", c.ratio},
+                          {"passed", c.passed}});
     return {{"method", proof.method}, {"empty_submit_ms", proof.empty_submit_ms}, {"proof", checks}};
 }
 
@@ -33,7 +37,10 @@ nlohmann::json variant_entries(const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
     for (const VariantConfig& v : config.variants) {
         const VariantEntry& entry = find_variant(v.variant);
-        entries.push_back({{"variant", v.variant}, {"point", v.point}, {"title", entry.title}, {"source", entry.source},
+        entries.push_back({{"variant", v.variant},
+                           {"point", v.point},
+                           {"title", entry.title},
+                           {"source", entry.source},
                            {"parameters", make_variant(v.variant, v.parameters, v.preset)->params.values()}});
     }
     return entries;
@@ -43,12 +50,14 @@ nlohmann::json variant_entries(const Config& config) {
 nlohmann::json parameter_docs(const Config& config) {
     nlohmann::json docs = nlohmann::json::object();
     for (const VariantConfig& v : config.variants)
-        for (const auto variant = make_variant(v.variant); const Parameter& p : variant->params) docs[v.variant][p.name] = p.doc;
+        for (const auto variant = make_variant(v.variant); const Parameter& p : variant->params)
+            docs[v.variant][p.name] = p.doc;
     return docs;
 }
 
 /// Writes one image as EXR (half: results are looked at, and measured in float32) and PNG.
-nlohmann::json save_image(const std::filesystem::path& out, const std::string& folder, const std::string& name, const HostImage& rgb, float exposure_ev, nlohmann::json entry) {
+nlohmann::json save_image(const std::filesystem::path& out, const std::string& folder, const std::string& name,
+                          const HostImage& rgb, float exposure_ev, nlohmann::json entry) {
     const std::string stem = "images/" + file_name(folder) + "/" + file_name(name);
     write_exr(out / (stem + ".exr"), rgb, PixelType::half);
     write_png(out / (stem + ".png"), rgb, exposure_ev);
@@ -79,9 +88,13 @@ HostImage relative_error_map(const HostImage& test, const HostImage& reference) 
 }
 
 /// What is said of facts and of what was left out.
-nlohmann::json fact_entry(const SceneFact& fact) { return {{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}}; }
+nlohmann::json fact_entry(const SceneFact& fact) {
+    return {{"fact", fact.name}, {"value", fact.value}, {"why", fact.why}};
+}
 
-nlohmann::json left_out_entry(const LeftOut& part) { return {{"what", part.what}, {"fact", part.fact}, {"why", part.why}, {"saved_ms", nullptr}}; }
+nlohmann::json left_out_entry(const LeftOut& part) {
+    return {{"what", part.what}, {"fact", part.fact}, {"why", part.why}, {"saved_ms", nullptr}};
+}
 
 /// What path tracer, rasteriser and variants leave out, each once.
 nlohmann::json left_out_entries(const Shot& shot, const std::vector<LeftOut>& rasterizer, const Config& config) {
@@ -109,13 +122,19 @@ nlohmann::json study_entry(const Config& config, Device& device) {
     if (is_timed) clock = prove_clock(device);
     const DeviceInfo& d = device.info();
     nlohmann::json warnings = nlohmann::json::array();
-    if (is_timed && !clock.passed()) warnings.push_back("the clock did not prove itself: passes of 1 : 10 : 100 work took other times, so no time of this run can be trusted (is the machine busy?)");
-    if (config.direct_lit) warnings.push_back("SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
+    if (is_timed && !clock.passed())
+        warnings.push_back(
+            "the clock did not prove itself: passes of 1 : 10 : 100 work took other times, so no time of this run can "
+            "be trusted (is the machine busy?)");
+    if (config.direct_lit)
+        warnings.push_back(
+            "SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
     return {{"ssrlab", build_info()},
             {"title", config.title},
             {"started", time_stamp()},
             {"config", config.source},
-            {"device", {{"name", d.name}, {"driver", d.driver}, {"api", d.api}, {"type", d.type}, {"memory_mib", d.memory_mib}}},
+            {"device",
+             {{"name", d.name}, {"driver", d.driver}, {"api", d.api}, {"type", d.type}, {"memory_mib", d.memory_mib}}},
             {"host", host_info()},
             {"clock", is_timed ? clock_entry(clock) : nlohmann::json{{"proof", nlohmann::json::array()}}},
             {"warnings", warnings},
@@ -131,21 +150,22 @@ nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const std:
     if (shot.config.gbuffer.empty())
         for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) needs.push_back(fact_entry(fact));
     for (const SceneFact& fact : list_facts(pixels)) needs.push_back(fact_entry(fact));
-    nlohmann::json entry = {{"shot", shot.name()},
-                            {"scene", shot.scene.name},
-                            {"camera", shot.camera.name},
-                            {"width", shot.config.extent.x},
-                            {"height", shot.config.extent.y},
-                            {"frame", shot.config.frames.back()},
-                            {"frames", shot.config.frames},
-                            {"warm_up", shot.config.warm_up},
-                            {"repeat", shot.config.repeat},
-                            {"measure", shot.config.measures_last_only ? "last" : "all"},
-                            {"exposure_ev", shot.camera.exposure_ev},
-                            {"lit", config.direct_lit ? "direct" : "path_traced"},
-                            {"warnings", shot.scene.warnings},
-                            {"needs", needs},
-                            {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, left_out, config)}};
+    nlohmann::json entry = {
+        {"shot", shot.name()},
+        {"scene", shot.scene.name},
+        {"camera", shot.camera.name},
+        {"width", shot.config.extent.x},
+        {"height", shot.config.extent.y},
+        {"frame", shot.config.frames.back()},
+        {"frames", shot.config.frames},
+        {"warm_up", shot.config.warm_up},
+        {"repeat", shot.config.repeat},
+        {"measure", shot.config.measures_last_only ? "last" : "all"},
+        {"exposure_ev", shot.camera.exposure_ev},
+        {"lit", config.direct_lit ? "direct" : "path_traced"},
+        {"warnings", shot.scene.warnings},
+        {"needs", needs},
+        {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, left_out, config)}};
     if (shot.config.change) entry["change"] = *shot.config.change;
     return entry;
 }
@@ -168,30 +188,43 @@ nlohmann::json reference_entry(const Reference& reference, unsigned frame, const
             {"from_cache", reference.from_cache}};
 }
 
-CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite, const HostImage& reflectance) {
+CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections,
+                                  const Composite& composite, const HostImage& reflectance) {
     const HostImage radiance = graph.download(reflections.radiance), fallback = graph.download(gbuffer.fallback);
-    CompositedImages images{.specular = channels_of(graph.download(composite.specular), 0, 3), .incident = HostImage(radiance.extent, 3), .confidence = graph.download(reflections.confidence)};
+    CompositedImages images{.specular = channels_of(graph.download(composite.specular), 0, 3),
+                            .incident = HostImage(radiance.extent, 3),
+                            .confidence = graph.download(reflections.confidence)};
     for (size_t i = 0; i < images.incident.pixel_count(); ++i) {
         if (!reflectance.values.empty() && reflectance.rgb(i) == glm::vec3(0.0f)) continue;
         for (size_t c = 0; c < 3; ++c) {
-            const float a = images.confidence.values[i], from = fallback.values[i * fallback.channels + c], to = radiance.values[i * radiance.channels + c];
+            const float a = images.confidence.values[i], from = fallback.values[i * fallback.channels + c],
+                        to = radiance.values[i * radiance.channels + c];
             images.incident.values[i * 3 + c] = a == 0.0f ? from : from * (1.0f - a) + to * a;
         }
     }
     return images;
 }
 
-std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot, unsigned frame, const Reference& reference, float exposure_ev) {
+std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot,
+                                                  unsigned frame, const Reference& reference, float exposure_ev) {
     std::vector<nlohmann::json> entries;
-    for (const auto& [target, output] : {std::pair("image", &reference.image), {"specular", &reference.specular}, {"incident", &reference.incident}})
-        entries.push_back(save_image(out, shot, "reference." + reference.hash.substr(0, 8) + "." + target, output->mean, exposure_ev,
-                                     {{"shot", shot}, {"frame", frame}, {"variant", "reference"}, {"kind", "reference"}, {"target", target}}));
+    for (const auto& [target, output] :
+         {std::pair("image", &reference.image), {"specular", &reference.specular}, {"incident", &reference.incident}})
+        entries.push_back(save_image(
+            out, shot, "reference." + reference.hash.substr(0, 8) + "." + target, output->mean, exposure_ev,
+            {{"shot", shot}, {"frame", frame}, {"variant", "reference"}, {"kind", "reference"}, {"target", target}}));
     return entries;
 }
 
-std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix, const PoseTruth& truth, const CompositedImages& images, float exposure_ev) {
+std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row,
+                                               const std::string& suffix, const PoseTruth& truth,
+                                               const CompositedImages& images, float exposure_ev) {
     const std::string name = row.variant + "." + row.point + ".s" + std::to_string(row.seed) + "." + suffix;
-    const nlohmann::json base = {{"shot", row.shot}, {"frame", std::stoul(row.frame)}, {"variant", row.variant}, {"point", row.point}, {"seed", row.seed}};
+    const nlohmann::json base = {{"shot", row.shot},
+                                 {"frame", std::stoul(row.frame)},
+                                 {"variant", row.variant},
+                                 {"point", row.point},
+                                 {"seed", row.seed}};
     std::vector<nlohmann::json> entries;
     const auto save = [&](const char* kind, const char* target, const HostImage& rgb, float ev) {
         nlohmann::json entry = base;
@@ -203,6 +236,12 @@ std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out,
     save("result", "specular", images.specular, exposure_ev);
     save("result", "incident", images.incident, exposure_ev);
     save("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
-    for (const auto& [target, reference] : truth.targets) save("error", target.c_str(), relative_error_map(target == "image" ? image : target == "incident" ? images.incident : images.specular, reference.image), 0.0f);
+    for (const auto& [target, reference] : truth.targets)
+        save("error", target.c_str(),
+             relative_error_map(target == "image"      ? image
+                                : target == "incident" ? images.incident
+                                                       : images.specular,
+                                reference.image),
+             0.0f);
     return entries;
 }

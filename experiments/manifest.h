@@ -1,6 +1,6 @@
 #pragma once
-#include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/composite.h"
+#include "core/gbuffer/gbuffer.h"
 #include "core/left_out.h"
 #include "core/variant.h"
 #include "experiments/measure.h"
@@ -21,9 +21,13 @@ nlohmann::json reference_entry(const Reference& reference, unsigned frame, const
 
 /// The variant's output on the CPU. `incident` mixes fallback and radiance as the compositor does, and is
 /// 0 where `reflectance` (of the G-buffer; may be empty) is 0, as in the truth.
-CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections, const Composite& composite, const HostImage& reflectance);
+CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections,
+                                  const Composite& composite, const HostImage& reflectance);
 
 /// Writes images/<shot>/...; returns the manifest's entries for them. `suffix` becomes a part of the files' names,
 /// and so does the key of the reference: other configs may fill the same folder.
-std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot, unsigned frame, const Reference& reference, float exposure_ev);
-std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix, const PoseTruth& truth, const CompositedImages& images, float exposure_ev);
+std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot,
+                                                  unsigned frame, const Reference& reference, float exposure_ev);
+std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row,
+                                               const std::string& suffix, const PoseTruth& truth,
+                                               const CompositedImages& images, float exposure_ev);

@@ -46,7 +46,8 @@ MetricReference target_reference(const std::string& target, const Reference& ref
     HostImage mean = output.mean;
     ReferenceHalves halves{output.half_a, output.half_b};
     if (target == "image") {
-        // A result's `image` adds the truth's own diffuse light, so the noise in it is that of the specular halves alone.
+        // A result's `image` adds the truth's own diffuse light, so the noise in it is that of the specular halves
+        // alone.
         const HostImage& diffuse = reference.diffuse.mean;
         mean = sum(diffuse, mean), halves = {sum(diffuse, halves.a), sum(diffuse, halves.b)};
     }
@@ -123,8 +124,9 @@ FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer&
                                  .depth_step = depth_step(gbuffer.depth_format)};
     const HostImage no_confidence(gbuffer.extent(), 1);
     for (const std::string& name : config.masks)
-        truth.masks.push_back(depends_on_result(name) ? Mask{.name = name, .inside = {}}
-                                                      : make_mask(name, mask_inputs(truth, no_confidence, config, &previous)));
+        truth.masks.push_back(depends_on_result(name)
+                                  ? Mask{.name = name, .inside = {}}
+                                  : make_mask(name, mask_inputs(truth, no_confidence, config, &previous)));
     return truth;
 }
 
@@ -139,8 +141,8 @@ HostImage composited_image(const PoseTruth& truth, const CompositedImages& resul
     return sum(truth.diffuse, result.specular);
 }
 
-std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result, std::span<const Mask> masks,
-                                       const ResultRow& row) {
+std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result,
+                                       std::span<const Mask> masks, const ResultRow& row) {
     const HostImage image = composited_image(truth, result);
     std::vector<ResultRow> rows;
     for (const auto& [target, reference] : truth.targets) {
@@ -172,9 +174,12 @@ std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows) {
         };
         ResultRow r = *group.front();
         r.frame = "all";
-        for (const auto member : {&ResultRow::value, &ResultRow::uncorrected, &ResultRow::low, &ResultRow::high, &ResultRow::floor}) r.*member = mean(member);
+        for (const auto member :
+             {&ResultRow::value, &ResultRow::uncorrected, &ResultRow::low, &ResultRow::high, &ResultRow::floor})
+            r.*member = mean(member);
         r.pixels = r.non_finite = r.negative = 0;
-        for (const ResultRow* row : group) r.pixels += row->pixels, r.non_finite += row->non_finite, r.negative += row->negative;
+        for (const ResultRow* row : group)
+            r.pixels += row->pixels, r.non_finite += row->non_finite, r.negative += row->negative;
         means.push_back(std::move(r));
     }
     return means;

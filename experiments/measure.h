@@ -20,8 +20,9 @@ struct CompositedImages {
 /// What all frames of one pose are measured against: made once, used for every variant, point and seed.
 struct PoseTruth {
     HostImage diffuse;  ///< the truth's own, which `image` adds to every result; also the lit colour that variants read
-    std::map<std::string, MetricReference> targets;   ///< by name, with all metrics; where everything is measured
-    std::optional<MetricReference> frame_reference;   ///< `specular` with Config::frame_metrics; in shots of several frames
+    std::map<std::string, MetricReference> targets;  ///< by name, with all metrics; where everything is measured
+    std::optional<MetricReference>
+        frame_reference;  ///< `specular` with Config::frame_metrics; in shots of several frames
     HostImage view_depth, normal, material_id;
     FlipExposures flip_exposures;
     std::string content_hash;  ///< of the reference's pixels
@@ -45,8 +46,8 @@ FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer&
 std::vector<Mask> masks_of(const FrameTruth& truth, const HostImage& confidence, const Config& config);
 
 /// All targets x metrics x masks of one result. `row` holds what all rows share: shot, frame, variant, point, seed.
-std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result, std::span<const Mask> masks,
-                                       const ResultRow& row);
+std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result,
+                                       std::span<const Mask> masks, const ResultRow& row);
 
 /// Config::frame_metrics x masks of one frame's specular.
 std::vector<ResultRow> measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,

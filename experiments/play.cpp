@@ -40,27 +40,36 @@ struct Play {
     const PlaySettings& settings;
     Cell cell;
     std::map<std::string, SeedSplit> splits;  ///< by target, of the last frame
-    std::map<std::pair<std::string, std::string>, std::set<std::string>> untold;  ///< masks, by temporal metric and reason
+    std::map<std::pair<std::string, std::string>, std::set<std::string>>
+        untold;  ///< masks, by temporal metric and reason
     size_t rendered = 0;
 
     const FrameStep& last_step() const { return shot.steps.back(); }
     ResultRow row(const std::string& frame, unsigned seed) const {
-        return {.shot = shot.name(), .scene = shot.scene.name, .camera = shot.camera.name, .frame = frame,
-                .width = shot.config.extent.x, .height = shot.config.extent.y, .variant = variant.variant,
-                .point = variant.point, .seed = seed};
+        return {.shot = shot.name(),
+                .scene = shot.scene.name,
+                .camera = shot.camera.name,
+                .frame = frame,
+                .width = shot.config.extent.x,
+                .height = shot.config.extent.y,
+                .variant = variant.variant,
+                .point = variant.point,
+                .seed = seed};
     }
 };
 
 SeedRun start(Play& play, unsigned seed) {
     const VariantConfig& v = play.variant;
-    SeedRun run{.seed = seed, .variant = make_variant(v.variant, v.parameters, v.preset),
+    SeedRun run{.seed = seed,
+                .variant = make_variant(v.variant, v.parameters, v.preset),
                 .graph = std::make_unique<PassGraph>(play.device, play.shot.config.extent)};
     if (!play.settings.keep_all) run.variant->leave_out(play.shot.facts);
     run.compositor = std::make_unique<Compositor>(*run.graph);
     return run;
 }
 
-/// How many seeds' images are held at once: those of a technique take some 400 bytes per pixel, so this is about 1.6 GB.
+/// How many seeds' images are held at once: those of a technique take some 400 bytes per pixel, so this is about 1.6
+/// GB.
 size_t seeds_at_once(glm::uvec2 extent) {
     constexpr size_t pixels = 4'000'000;
     return std::max<size_t>(1, pixels / (size_t(extent.x) * extent.y));
@@ -71,15 +80,18 @@ const HostImage& image_of(const std::string& target, const CompositedImages& ima
 }
 
 /// The full measure of the shot's last frame, its images, and its part in the split over seeds.
-void measure_last(Play& play, const FrameTruth& truth, const CompositedImages& images, const ResultRow& row, std::span<const Mask> masks) {
+void measure_last(Play& play, const FrameTruth& truth, const CompositedImages& images, const ResultRow& row,
+                  std::span<const Mask> masks) {
     for (ResultRow& r : measure_targets(*truth.pose, images, masks, row)) play.cell.rows.push_back(std::move(r));
     const HostImage image = composited_image(*truth.pose, images);
-    for (const auto& [target, reference] : truth.pose->targets) play.splits[target].add(image_of(target, images, image));
+    for (const auto& [target, reference] : truth.pose->targets)
+        play.splits[target].add(image_of(target, images, image));
 }
 
 /// Whether the full measure of the last frame holds this row already.
 bool is_in_full_measure(const Play& play, const ResultRow& row) {
-    return row.frame == std::to_string(play.last_step().frame) && std::ranges::count(play.config.targets, "specular") > 0 &&
+    return row.frame == std::to_string(play.last_step().frame) &&
+           std::ranges::count(play.config.targets, "specular") > 0 &&
            std::ranges::count(play.config.metrics, row.metric) > 0;
 }
 
@@ -96,7 +108,8 @@ void measure_step(Play& play, SeedRun& run, const FrameStep& step, const Composi
     if (!step.is_measured) return;
     const ResultRow row = play.row(std::to_string(step.frame), run.seed);
     if (truth->pose->frame_reference && play.shot.config.frames.size() > 1)
-        for (ResultRow& r : measure_frame(*truth->pose, images.specular, masks, row)) run.frame_rows.push_back(std::move(r));
+        for (ResultRow& r : measure_frame(*truth->pose, images.specular, masks, row))
+            run.frame_rows.push_back(std::move(r));
     if (&step == &play.last_step()) measure_last(play, *truth, images, row, masks);
 }
 
@@ -108,10 +121,13 @@ void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameSto
     if (!step.is_warm_up) {
         const Composite composite = run.compositor->render(frame.gbuffer, reflections);
         const FrameTruth* truth = play.truth.frame(step);
-        const CompositedImages images = download_results(*run.graph, frame.gbuffer, reflections, composite, truth ? truth->reflectance : HostImage{});
+        const CompositedImages images = download_results(*run.graph, frame.gbuffer, reflections, composite,
+                                                         truth ? truth->reflectance : HostImage{});
         measure_step(play, run, step, images);
         if (&step == &play.last_step() && run.seed == play.variant.seeds.front())
-            for (nlohmann::json& entry : save_result_images(play.settings.out, play.row(std::to_string(step.frame), run.seed), play.settings.image_suffix, play.truth.pose(step), images, play.shot.camera.exposure_ev))
+            for (nlohmann::json& entry : save_result_images(
+                     play.settings.out, play.row(std::to_string(step.frame), run.seed), play.settings.image_suffix,
+                     play.truth.pose(step), images, play.shot.camera.exposure_ev))
                 play.cell.images.push_back(std::move(entry));
         run.before = images.specular;
     }
@@ -125,17 +141,20 @@ void add_temporal_rows(Play& play, const SeedRun& run, const std::vector<Tempora
         ResultRow r = play.row("all", run.seed);
         r.target = "specular", r.metric = s.metric->name, r.formula = s.metric->formula, r.mask = s.mask;
         const auto if_finite = [](std::optional<double> v) { return v && std::isfinite(*v) ? v : std::nullopt; };
-        r.value = if_finite(s.value), r.uncorrected = s.uncorrected ? if_finite(s.uncorrected) : r.value, r.is_corrected = s.corrected;
+        r.value = if_finite(s.value), r.uncorrected = s.uncorrected ? if_finite(s.uncorrected) : r.value,
+        r.is_corrected = s.corrected;
         r.low = if_finite(s.low), r.high = if_finite(s.high), r.pixels = s.pixels, r.non_finite = s.left_out;
         play.cell.rows.push_back(std::move(r));
-        if (!s.note.empty()) play.untold[{r.metric, s.note}].insert(r.mask);
+        if (!s.note.empty()) play.untold[{s.metric->name, s.note}].insert(s.mask);
     }
 }
 
 void finish(Play& play, SeedRun& run) {
     for (const ResultRow& r : run.frame_rows)
-        if (std::ranges::count(play.config.frame_masks, r.mask) > 0 && !is_in_full_measure(play, r)) play.cell.rows.push_back(r);
-    const std::vector<ResultRow> means = play.shot.config.measures_last_only ? std::vector<ResultRow>{} : mean_over_frames(run.frame_rows);
+        if (std::ranges::count(play.config.frame_masks, r.mask) > 0 && !is_in_full_measure(play, r))
+            play.cell.rows.push_back(r);
+    const std::vector<ResultRow> means =
+        play.shot.config.measures_last_only ? std::vector<ResultRow>{} : mean_over_frames(run.frame_rows);
     play.cell.rows.insert(play.cell.rows.end(), means.begin(), means.end());
 
     const FrameTruth* last = play.truth.frame(play.last_step());
@@ -143,11 +162,14 @@ void finish(Play& play, SeedRun& run) {
     std::vector<Mask> masks;  // those of a single frame's confidence mean nothing over several frames
     for (const Mask& mask : last->masks)
         if (!mask.inside.empty()) masks.push_back(mask);
-    if (run.held.frames.count >= 2) add_temporal_rows(play, run, flicker_scores(run.held, &*last->pose->frame_reference, masks));
+    if (play.shot.config.frames.size() == 1 && run.held.frames.count >= 2)
+        add_temporal_rows(play, run, flicker_scores(run.held, &*last->pose->frame_reference, masks));
     if (!run.difference.sums.empty()) add_temporal_rows(play, run, run.difference.scores());
     if (!play.shot.config.change) return;
-    const PoseTruth& before = *play.truth.poses.at(*std::ranges::find(play.shot.steps, *play.shot.config.change, &FrameStep::frame)->previous_frame);
-    for (const Ghost& ghost : ghost_scores(run.after_change, *before.frame_reference, *last->pose->frame_reference, masks))
+    const PoseTruth& before = *play.truth.poses.at(
+        *std::ranges::find(play.shot.steps, *play.shot.config.change, &FrameStep::frame)->previous_frame);
+    for (const Ghost& ghost :
+         ghost_scores(run.after_change, *before.frame_reference, *last->pose->frame_reference, masks))
         add_temporal_rows(play, run, {ghost.ghost_length, ghost.settling_length});
 }
 
@@ -158,15 +180,22 @@ void add_splits(Play& play) {
     for (const Mask& mask : last->masks)
         if (!mask.inside.empty()) masks.push_back(mask);
     for (const auto& [target, split] : play.splits) {
-        const SplitRow shared{.shot = play.shot.name(), .frame = std::to_string(play.last_step().frame), .variant = play.variant.variant, .point = play.variant.point, .target = target, .mask = {}};
-        for (SplitRow& row : split_rows(split, last->pose->targets.at(target), masks, shared)) play.cell.splits.push_back(std::move(row));
+        const SplitRow shared{.shot = play.shot.name(),
+                              .frame = std::to_string(play.last_step().frame),
+                              .variant = play.variant.variant,
+                              .point = play.variant.point,
+                              .target = target,
+                              .mask = {}};
+        for (SplitRow& row : split_rows(split, last->pose->targets.at(target), masks, shared))
+            play.cell.splits.push_back(std::move(row));
     }
 }
 
 /// Why some temporal metrics have no value.
 void add_notes(Play& play) {
     for (const auto& [what, masks] : play.untold) {
-        std::string note = play.shot.name() + ": " + play.variant.variant + " " + play.variant.point + ": no " + what.first + ": " + what.second + " (";
+        std::string note = play.shot.name() + ": " + play.variant.variant + " " + play.variant.point + ": no " +
+                           what.first + ": " + what.second + " (";
         for (const std::string& mask : masks) note += (note.back() == '(' ? "" : ", ") + mask;
         play.cell.notes.push_back(note + ")");
     }
@@ -176,11 +205,18 @@ void add_notes(Play& play) {
 
 Cell play_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameStore& store, const Config& config,
                 const VariantConfig& variant, const PlaySettings& settings) {
-    Play play{.device = device, .shot = shot, .truth = truth, .store = store, .config = config, .variant = variant, .settings = settings};
+    Play play{.device = device,
+              .shot = shot,
+              .truth = truth,
+              .store = store,
+              .config = config,
+              .variant = variant,
+              .settings = settings};
     const size_t batch = seeds_at_once(shot.config.extent);
     for (size_t first = 0; first < variant.seeds.size(); first += batch) {
         std::vector<SeedRun> runs;
-        for (size_t i = first; i < std::min(first + batch, variant.seeds.size()); ++i) runs.push_back(start(play, variant.seeds[i]));
+        for (size_t i = first; i < std::min(first + batch, variant.seeds.size()); ++i)
+            runs.push_back(start(play, variant.seeds[i]));
         for (const FrameStep& step : shot.steps) {
             const FrameStore::Frame frame = store.frame(step, truth.lit(step));
             for (SeedRun& run : runs) render_step(play, run, step, frame);

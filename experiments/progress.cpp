@@ -1,9 +1,9 @@
 #include "experiments/progress.h"
 
+#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <unistd.h>
 
 namespace {
 
@@ -24,7 +24,10 @@ std::string format_duration(double seconds) {
 }
 
 Progress::Progress(double total_work)
-    : total_(std::max(total_work, 1e-9)), is_terminal_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()), last_(start_ - std::chrono::hours(1)) {}
+    : total_(std::max(total_work, 1e-9)),
+      is_terminal_(isatty(STDERR_FILENO)),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_ - std::chrono::hours(1)) {}
 
 Progress::~Progress() { clear(); }
 
@@ -39,7 +42,8 @@ void Progress::update(double done_work, const std::string& what) {
     last_ = now;
     const double fraction = std::clamp(done_work / total_, 0.0, 1.0), elapsed = seconds(now - start_);
     // Before two per cent are done an estimate would only mislead.
-    const std::string left = fraction < 0.02 ? "" : ", " + format_duration(elapsed * (1.0 - fraction) / fraction) + " left";
+    const std::string left =
+        fraction < 0.02 ? "" : ", " + format_duration(elapsed * (1.0 - fraction) / fraction) + " left";
     char head[64];
     std::snprintf(head, sizeof head, "[%3.0f %%, %s", 100.0 * fraction, format_duration(elapsed).c_str());
     const std::string line = head + left + "] " + what;

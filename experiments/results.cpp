@@ -8,16 +8,22 @@
 #include <cmath>
 
 void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& cells) {
-    std::string rows = "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,pixels,non_finite,negative\n";
-    std::string splits = "shot,frame,variant,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels\n";
+    std::string rows =
+        "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,"
+        "uncorrected,low,high,floor,pixels,non_finite,negative\n";
+    std::string splits =
+        "shot,frame,variant,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels\n";
     std::string times = "shot,variant,point,seed,stage,frame,milliseconds,clock\n";
     for (const Cell& cell : cells) {
         for (const ResultRow& r : cell.rows)
-            rows += csv_line(r.shot, r.scene, r.camera, r.frame, r.width, r.height, r.variant, r.point, r.seed, r.target, r.metric, r.formula, r.mask,
-                             r.value, r.is_corrected, r.uncorrected, r.low, r.high, r.floor, r.pixels, r.non_finite, r.negative);
+            rows += csv_line(r.shot, r.scene, r.camera, r.frame, r.width, r.height, r.variant, r.point, r.seed,
+                             r.target, r.metric, r.formula, r.mask, r.value, r.is_corrected, r.uncorrected, r.low,
+                             r.high, r.floor, r.pixels, r.non_finite, r.negative);
         for (const SplitRow& s : cell.splits)
-            splits += csv_line(s.shot, s.frame, s.variant, s.point, s.target, s.mask, s.seeds, s.mse, s.bias_squared, s.variance, s.variance_low, s.variance_high, s.pixels);
-        for (const TimeRow& t : cell.times) times += csv_line(t.shot, t.variant, t.point, t.seed, t.stage, t.frame, t.milliseconds, t.clock);
+            splits += csv_line(s.shot, s.frame, s.variant, s.point, s.target, s.mask, s.seeds, s.mse, s.bias_squared,
+                               s.variance, s.variance_low, s.variance_high, s.pixels);
+        for (const TimeRow& t : cell.times)
+            times += csv_line(t.shot, t.variant, t.point, t.seed, t.stage, t.frame, t.milliseconds, t.clock);
     }
     write_text(folder / "results.csv", rows);
     write_text(folder / "splits.csv", splits);
@@ -29,7 +35,8 @@ MedianInterval median_interval(std::vector<double> values) {
     std::ranges::sort(values);
     const size_t n = values.size();
     const double median = n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-    // The largest r for which P(Binomial(n, 1/2) < r) <= 2.5 %: then [x_r, x_(n+1-r)] covers the median with at least 95 %.
+    // The largest r for which P(Binomial(n, 1/2) < r) <= 2.5 %: then [x_r, x_(n+1-r)] covers the median with at least
+    // 95 %.
     double probability = std::pow(0.5, double(n)), cumulative = 0.0;
     size_t r = 0;
     while (cumulative + probability <= 0.025) {

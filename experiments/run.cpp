@@ -3,51 +3,19 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "core/gpu/device.h"
 #include "experiments/capture.h"
 #include "experiments/effects.h"
 #include "experiments/host_info.h"
 #include "experiments/manifest.h"
-#include "experiments/play.h"
-#include "experiments/progress.h"
 #include "experiments/report.h"
 #include "experiments/results.h"
+#include "experiments/study.h"
 #include "experiments/timing.h"
-#include "experiments/workload.h"
 #include "groundtruth/reference_cache.h"
-#include "variants/registry.h"
 
-#include <algorithm>
 #include <set>
 
 namespace {
-
-/// All that a study needs while it runs.
-struct Study {
-    const Config& config;
-    const RunSettings& settings;
-    Device& device;
-    CellStore cells;
-    Progress progress;
-    Workload work;
-    std::string code;
-    nlohmann::json manifest;
-    std::vector<Cell> finished;
-
-    void report(double share, const std::string& what) {
-        work.update(share);
-        progress.update(work.share_done(), what);
-    }
-};
-
-/// A shot on its way: everything that its cells need.
-struct ShotRun {
-    const Shot& shot;
-    FrameSource& source;
-    FrameStore store;
-    ShotTruth truth = {};
-    nlohmann::json reference_entries = nlohmann::json::object();  ///< of the manifest's entry of the shot
-};
 
 // First guesses of seconds, for a small study; what is measured replaces them (workload.h).
 constexpr double reference_guess = 20, frame_guess = 0.2, timing_guess = 5;
@@ -59,10 +27,15 @@ constexpr size_t max_stored_bytes = size_t(1) << 30;
 void plan_work(Study& study) {
     std::set<std::string> names;
     for (const ShotConfig& config : study.config.shots) {
-        const std::string name = config.gbuffer.empty() ? load_shot(config, study.settings.search_path).name() : capture_name(config.gbuffer);
-        if (!names.insert(name).second) fail("two shots are called '", name, "': they differ in nothing that results are named by; give them other frames, another camera or another resolution");
+        const std::string name = config.gbuffer.empty() ? load_shot(config, study.settings.search_path).name()
+                                                        : capture_name(config.gbuffer);
+        if (!names.insert(name).second)
+            fail("two shots are called '", name,
+                 "': they differ in nothing that results are named by; give them other frames, another camera or "
+                 "another resolution");
         study.work.plan("reference", double(config.frames.size()), reference_guess);
-        for (const VariantConfig& variant : study.config.variants) study.work.plan("frames", double(timeline(config).size() * variant.seeds.size()), frame_guess);
+        for (const VariantConfig& variant : study.config.variants)
+            study.work.plan("frames", double(timeline(config).size() * variant.seeds.size()), frame_guess);
         study.work.plan("times", 1, timing_guess);
     }
 }
@@ -80,129 +53,28 @@ Reference obtain_reference(Study& study, const Shot& shot, unsigned frame) {
     };
     run.notice = [&](const std::string& text) { study.progress.say("note: " + text); };
     study.work.start("reference", 1);
-    Reference reference = cached_reference(shot.scene, now.scene, now.camera, shot.config.extent, settings, study.settings.cache, run);
+    Reference reference =
+        cached_reference(shot.scene, now.scene, now.camera, shot.config.extent, settings, study.settings.cache, run);
     reference.from_cache ? study.work.skip() : study.work.finish();
     return reference;
-}
-
-/// The name of a cell: the hash of all that its numbers depend on.
-std::string cell_hash(const Study& study, const ShotRun& run, const std::string& what, const nlohmann::json& parameters, const std::vector<unsigned>& seeds) {
-    const Config& c = study.config;
-    const ShotConfig& shot = run.shot.config;
-    ContentHash hash;
-    for (const std::string& part : {study.code, study.device.info().name + study.device.info().driver, run.shot.scene.content_hash, run.shot.name(), run.truth.content_hash(), what, parameters.dump()}) hash.add(part);
-    for (const auto& list : {c.metrics, c.masks, c.targets, c.frame_metrics, c.frame_masks}) {
-        hash.add(list.size());
-        for (const std::string& name : list) hash.add(name);
-    }
-    for (const auto& list : {shot.frames, seeds, {shot.warm_up, shot.repeat, shot.change.value_or(0), unsigned(shot.measures_last_only)}}) {
-        hash.add(list.size());
-        for (const unsigned number : list) hash.add(number);
-    }
-    hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)), hash.add(int(study.settings.keep_all));
-    hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance), hash.add(run.shot.camera.exposure_ev);
-    return hash.hex();
-}
-
-/// A piece of work with a name of its own.
-struct CellTask {
-    std::string hash, what, kind;
-    double units;
-    std::function<Cell(const std::function<void(double)>& report)> make;
-};
-
-/// A result while the study runs: one number that matters, over the seeds.
-void say_result(Study& study, const Cell& cell) {
-    std::map<std::string, std::vector<double>> values;  // by frame
-    for (const ResultRow& r : cell.rows)
-        if (r.target == "specular" && r.metric == "relmse" && r.mask == "reflective" && r.value) values[r.frame].push_back(*r.value);
-    if (values.empty()) return;
-    const auto& [frame, seeds] = *values.rbegin();  // "all" comes after every number
-    double sum = 0;
-    for (const double value : seeds) sum += value;
-    char line[200];
-    std::snprintf(line, sizeof line, "  %-24s %-32s relmse of reflective pixels %.4g (frame %s, %zu seed%s)", cell.rows.front().variant.c_str(), cell.rows.front().point.c_str(),
-                  sum / double(seeds.size()), frame.c_str(), seeds.size(), seeds.size() == 1 ? "" : "s");
-    study.progress.say(line);
-}
-
-/// Loads the cell if it was done before, else does it and keeps it. Nothing if another process is at it, unless `waits`.
-std::optional<Cell> do_cell(Study& study, const CellTask& task, bool waits) {
-    study.work.start(task.kind, task.units);
-    study.report(0, task.what);
-    if (std::optional<Cell> found = study.cells.load(task.hash)) {
-        study.work.skip();
-        return found;
-    }
-    const auto claim = study.cells.claim(task.hash, waits);
-    if (!claim) return {};
-    if (std::optional<Cell> found = study.cells.load(task.hash)) {  // made while waiting
-        study.work.skip();
-        return found;
-    }
-    Cell cell = task.make([&](double share) { study.report(share, task.what); });
-    study.cells.save(task.hash, cell);
-    study.work.finish();
-    return cell;
-}
-
-/// All variant points of a shot.
-std::vector<CellTask> point_tasks(Study& study, ShotRun& run) {
-    std::vector<CellTask> tasks;
-    for (const VariantConfig& variant : study.config.variants) {
-        const nlohmann::json parameters = make_variant(variant.variant, variant.parameters, variant.preset)->params.values();
-        CellTask task{.hash = cell_hash(study, run, variant.variant + "\n" + variant.point, parameters, variant.seeds),
-                      .what = run.shot.name() + ": " + variant.variant + " " + variant.point,
-                      .kind = "frames",
-                      .units = double(run.shot.steps.size() * variant.seeds.size())};
-        task.make = [&study, &run, &variant, suffix = task.hash.substr(0, 8)](const auto& report) {
-            return play_point(study.device, run.shot, run.truth, run.store, study.config, variant,
-                              {.out = study.settings.out, .image_suffix = suffix, .keep_all = study.settings.keep_all, .report = report});
-        };
-        tasks.push_back(std::move(task));
-    }
-    return tasks;
-}
-
-CellTask timing_task(Study& study, ShotRun& run) {
-    const TimingConfig& timing = study.config.timing;
-    nlohmann::json timed = {{"variants", study.manifest["variants"]}, {"frames", timing.frames}, {"warm_up", timing.warm_up}};
-    for (const VariantConfig& variant : study.config.variants) timed["timed"].push_back(variant.is_timed);
-    return {.hash = cell_hash(study, run, "times", timed, study.config.seeds), .what = run.shot.name() + ": timing", .kind = "times", .units = 1,
-            .make = [&study, &run](const auto& report) {
-                const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
-                const ShotTimes times = time_variants(run.source, run.shot, study.config, lit, study.settings.keep_all, report);
-                return Cell{.times = times.rows, .timing = timing_entry(times, run.shot.name())};
-            }};
-}
-
-/// All variants, points and seeds of a shot, then their times. What other processes are at is left to the end.
-void run_cells(Study& study, ShotRun& run) {
-    std::vector<CellTask> tasks = point_tasks(study, run);
-    tasks.push_back(timing_task(study, run));
-    std::vector<std::optional<Cell>> cells(tasks.size());
-    for (const bool waits : {false, true})
-        for (size_t i = 0; i < tasks.size(); ++i) {
-            if (cells[i]) continue;
-            cells[i] = do_cell(study, tasks[i], waits);
-            if (cells[i]) say_result(study, *cells[i]);
-        }
-    for (std::optional<Cell>& cell : cells) study.finished.push_back(std::move(*cell));
 }
 
 /// The shot's entry in the manifest, from the G-buffer of its last frame.
 void enter_shot(Study& study, ShotRun& run, const std::vector<std::string>& notes) {
     const FrameStep& last = run.shot.steps.back();
     const FrameStore::Frame frame = run.store.frame(last, run.truth.lit(last));
-    const HostGBuffer host = download_gbuffer(run.source.graph(), frame.gbuffer, frame.camera, study.config.depth_format);
-    nlohmann::json entry = shot_entry(run.shot, pixel_facts(host), run.source.left_out(), study.config, study.settings.keep_all);
+    const HostGBuffer host =
+        download_gbuffer(run.source.graph(), frame.gbuffer, frame.camera, study.config.depth_format);
+    nlohmann::json entry =
+        shot_entry(run.shot, pixel_facts(host), run.source.left_out(), study.config, study.settings.keep_all);
     entry.update(run.reference_entries);
     if (run.truth.is_measured()) {
         const FlipExposures& flip = run.truth.pose(last).flip_exposures;
         entry["flip_exposures"] = {flip.start, flip.stop, flip.count};
     } else {
         entry["lit"] = "file";
-        entry["warnings"].push_back("This G-buffer came without a reference: its results are rendered and timed, not measured.");
+        entry["warnings"].push_back(
+            "This G-buffer came without a reference: its results are rendered and timed, not measured.");
     }
     for (const std::string& note : notes) entry["warnings"].push_back(note);
     study.manifest["shots"].push_back(std::move(entry));
@@ -213,7 +85,9 @@ void note_reference(Study& study, ShotRun& run, const Reference& reference, unsi
     run.reference_entries["references"].push_back(reference_entry(reference, frame, study.config));
     if (!is_of_last) return;
     run.reference_entries["reference"] = run.reference_entries["references"].back();
-    for (nlohmann::json& image : save_reference_images(study.settings.out, run.shot.name(), run.shot.config.frames.back(), reference, run.shot.camera.exposure_ev))
+    for (nlohmann::json& image :
+         save_reference_images(study.settings.out, run.shot.name(), run.shot.config.frames.back(), reference,
+                               run.shot.camera.exposure_ev))
         study.manifest["images"].push_back(std::move(image));
 }
 
@@ -221,7 +95,8 @@ void run_scene_shot(Study& study, const ShotConfig& config) {
     const Shot shot = load_shot(config, study.settings.search_path);
     study.progress.say(shot.scene.name + ", camera " + shot.camera.name);
     const std::unique_ptr<FrameSource> source = scene_source(study.device, shot, study.config, study.settings.keep_all);
-    ShotRun run{.shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
+    ShotRun run{
+        .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
     unsigned references = 0;
     run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, bool is_of_last) {
         Reference reference = obtain_reference(study, shot, frame);
@@ -229,7 +104,8 @@ void run_scene_shot(Study& study, const ShotConfig& config) {
         ++references;
         return reference;
     });
-    study.work.plan("reference", double(references) - double(config.frames.size()), reference_guess);  // the others look the same
+    study.work.plan("reference", double(references) - double(config.frames.size()),
+                    reference_guess);  // the others look the same
     enter_shot(study, run, {});
     run_cells(study, run);
 }
@@ -245,13 +121,16 @@ void run_gbuffer_shot(Study& study, const ShotConfig& config) {
     if (!config.reference.empty()) reference = read_capture_reference(config.reference, loaded.gbuffer);
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
     if (reference && !study.config.direct_lit) loaded.gbuffer.lit = {};
-    ShotTruth lit_alone = truth_of_lit(loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
+    ShotTruth lit_alone =
+        truth_of_lit(loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
     const std::unique_ptr<FrameSource> source = file_source(study.device, std::move(loaded.gbuffer));
-    ShotRun run{.shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
+    ShotRun run{
+        .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
     run.truth = std::move(lit_alone);
     if (reference) {
         note_reference(study, run, *reference, 0, true);
-        run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned, bool) { return *reference; });
+        run.truth =
+            shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned, bool) { return *reference; });
     }
     enter_shot(study, run, loaded.notes);
     run_cells(study, run);
@@ -278,8 +157,15 @@ void write_results(Study& study, bool is_last) {
 
 void run_study(const Config& config, const RunSettings& settings) {
     Device device(settings.device);
-    Study study{.config = config, .settings = settings, .device = device, .cells = CellStore(settings.out / "cells"), .progress = Progress(1.0), .work = {},
-                .code = code_hash(), .manifest = study_entry(config, device), .finished = {}};
+    Study study{.config = config,
+                .settings = settings,
+                .device = device,
+                .cells = CellStore(settings.out / "cells"),
+                .progress = Progress(1.0),
+                .work = {},
+                .code = code_hash(),
+                .manifest = study_entry(config, device),
+                .finished = {}};
     for (const auto& warning : study.manifest["warnings"]) study.progress.say("warning: " + warning.get<std::string>());
     plan_work(study);
     for (const ShotConfig& shot : config.shots) {
@@ -289,5 +175,6 @@ void run_study(const Config& config, const RunSettings& settings) {
             run_gbuffer_shot(study, shot);
         write_results(study, &shot == &config.shots.back());
     }
-    study.progress.say("\nReport: " + std::filesystem::absolute(settings.out / "report.html").lexically_normal().string());
+    study.progress.say("\nReport: " +
+                       std::filesystem::absolute(settings.out / "report.html").lexically_normal().string());
 }

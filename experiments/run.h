@@ -6,10 +6,10 @@
 #include <vector>
 
 struct RunSettings {
-    std::filesystem::path out;                         ///< results folder; a study that was stopped continues in it
-    std::string device;                                ///< as Device takes it
-    std::filesystem::path cache;                       ///< of references
-    std::vector<std::filesystem::path> search_path;    ///< of scenes
+    std::filesystem::path out;                       ///< results folder; a study that was stopped continues in it
+    std::string device;                              ///< as Device takes it
+    std::filesystem::path cache;                     ///< of references
+    std::vector<std::filesystem::path> search_path;  ///< of scenes
     bool keep_all = false;
 };
 

@@ -17,7 +17,8 @@ std::vector<FrameStep> timeline(const ShotConfig& config) {
     for (unsigned i = 0; i < config.warm_up; ++i) render(config.frames.front()).is_warm_up = true;
     for (const unsigned frame : config.frames) {
         const bool is_last = frame == config.frames.back();
-        for (unsigned i = 0; i < (is_last ? config.repeat : 1); ++i) render(frame).is_held = is_last && config.repeat > 1;
+        for (unsigned i = 0; i < (is_last ? config.repeat : 1); ++i)
+            render(frame).is_held = is_last && config.repeat > 1;
         steps.back().is_measured = is_last || !config.measures_last_only;
     }
     return steps;
@@ -25,7 +26,8 @@ std::vector<FrameStep> timeline(const ShotConfig& config) {
 
 std::string Shot::name() const {
     const unsigned first = config.frames.front(), last = config.frames.back();
-    std::string name = scene.name + "." + camera.name + "." + std::to_string(config.extent.x) + "x" + std::to_string(config.extent.y);
+    std::string name =
+        scene.name + "." + camera.name + "." + std::to_string(config.extent.x) + "x" + std::to_string(config.extent.y);
     if (last > 0) name += ".f" + std::to_string(first);
     if (last > first) name += "-" + std::to_string(last);
     if (config.frames.size() != last - first + 1) name += ".n" + std::to_string(config.frames.size());
@@ -35,7 +37,11 @@ std::string Shot::name() const {
 }
 
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
-    Shot shot{.config = config, .scene = load_scene(config.scene, search_path), .camera = {}, .facts = {}, .steps = timeline(config)};
+    Shot shot{.config = config,
+              .scene = load_scene(config.scene, search_path),
+              .camera = {},
+              .facts = {},
+              .steps = timeline(config)};
     shot.camera = shot.scene.camera(config.camera);
     shot.facts = derive_facts(shot.scene, shot.camera, config.frames);
     return shot;
@@ -46,7 +52,10 @@ Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer) {
     shot.config.extent = gbuffer.extent();
     shot.scene.name = capture_name(config.gbuffer);
     ContentHash hash;
-    for (const HostImage* image : {&gbuffer.depth, &gbuffer.geometric_normal, &gbuffer.normal, &gbuffer.base_color, &gbuffer.emission, &gbuffer.motion, &gbuffer.material_id, &gbuffer.previous_depth, &gbuffer.previous_normal, &gbuffer.lit, &gbuffer.fallback}) hash.add(std::as_bytes(std::span(image->values)));
+    for (const HostImage* image : {&gbuffer.depth, &gbuffer.geometric_normal, &gbuffer.normal, &gbuffer.base_color,
+                                   &gbuffer.emission, &gbuffer.motion, &gbuffer.material_id, &gbuffer.previous_depth,
+                                   &gbuffer.previous_normal, &gbuffer.lit, &gbuffer.fallback})
+        hash.add(std::as_bytes(std::span(image->values)));
     hash.add(std::as_bytes(std::span(&gbuffer.camera, 1)));
     shot.scene.content_hash = hash.hex();
     SceneFacts& facts = shot.facts;
@@ -57,7 +66,8 @@ Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer) {
         const float roughness = gbuffer.normal.values[i * 4 + 3];
         if (gbuffer.base_color.values[i * 4 + 3] <= 0.0f && gbuffer.emission.values[i * 4 + 3] <= 0.0f) continue;
         facts.has_reflective = true;
-        facts.min_roughness = std::min(facts.min_roughness, roughness), facts.max_roughness = std::max(facts.max_roughness, roughness);
+        facts.min_roughness = std::min(facts.min_roughness, roughness),
+        facts.max_roughness = std::max(facts.max_roughness, roughness);
     }
     return shot;
 }

@@ -16,8 +16,8 @@ struct FrameStep {
     unsigned frame = 0;                      ///< its pose
     std::optional<unsigned> previous_frame;  ///< pose of the one rendered before; none: it is the first
     bool is_warm_up = false;
-    bool is_held = false;                    ///< one of the last pose's repetitions, its first rendering included
-    bool is_measured = false;                ///< the last rendering of a frame that is to be measured
+    bool is_held = false;      ///< one of the last pose's repetitions, its first rendering included
+    bool is_measured = false;  ///< the last rendering of a frame that is to be measured
 };
 
 /// The frames that are rendered, in order: warm-up, each of the shot's frames, repetitions of the last.
@@ -31,7 +31,8 @@ struct Shot {
     SceneFacts facts;
     std::vector<FrameStep> steps;
 
-    /// `<scene>.<camera>.<width>x<height>`, then, where they are not the default: `.f<frame>` or `.f<first>-<last>` (and
+    /// `<scene>.<camera>.<width>x<height>`, then, where they are not the default: `.f<frame>` or `.f<first>-<last>`
+    /// (and
     /// `.n<count>` where some between are left out), `.w<warm-up>`, `.r<repetitions>`.
     std::string name() const;
 };

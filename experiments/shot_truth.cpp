@@ -72,22 +72,30 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
         std::shared_ptr<const PoseTruth>& pose = by_look[looks[step.frame]];
         const bool is_of_last = looks[step.frame] == looks[shot.config.frames.back()];
         if (!pose)
-            pose = std::make_shared<PoseTruth>(pose_truth(obtain(step.frame, is_of_last), config, shot.camera.exposure_ev,
-                                                          {.has_targets = is_of_last, .has_frame_reference = has_several}));
+            pose = std::make_shared<PoseTruth>(
+                pose_truth(obtain(step.frame, is_of_last), config, shot.camera.exposure_ev,
+                           {.has_targets = is_of_last, .has_frame_reference = has_several}));
         truth.poses[step.frame] = pose;
     }
     for (const FrameStep& step : shot.steps) {
         if (!step.is_measured && !measures_difference(shot, step)) continue;
         const FrameStore::Frame frame = store.frame(step, truth.lit(step));
         const HostGBuffer gbuffer = download_gbuffer(graph, frame.gbuffer, frame.camera, config.depth_format);
-        truth.frames.emplace(std::pair(step.frame, step.previous_frame), frame_truth(truth.poses.at(step.frame), gbuffer, config));
+        truth.frames.emplace(std::pair(step.frame, step.previous_frame),
+                             frame_truth(truth.poses.at(step.frame), gbuffer, config));
     }
     return truth;
 }
 
 ShotTruth truth_of_lit(HostImage lit) {
     ShotTruth truth;
-    PoseTruth pose{.diffuse = std::move(lit), .targets = {}, .view_depth = {}, .normal = {}, .material_id = {}, .flip_exposures = {}, .content_hash = "none"};
+    PoseTruth pose{.diffuse = std::move(lit),
+                   .targets = {},
+                   .view_depth = {},
+                   .normal = {},
+                   .material_id = {},
+                   .flip_exposures = {},
+                   .content_hash = "none"};
     truth.poses[0] = std::make_shared<PoseTruth>(std::move(pose));
     return truth;
 }

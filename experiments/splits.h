@@ -11,9 +11,9 @@ struct SeedSplit {
     void add(const HostImage& rgb);
 };
 
-/// split_error() under each mask that holds finite pixels; nothing below two seeds. Each pair of seeds is an estimate of
-/// the variance by itself, and independent of the other pairs: the interval is Student's over them (two pairs or more),
-/// around their mean, moved to the variance over all seeds, which wastes nothing and is hence a little more certain than
-/// it says. `shared` holds shot, frame, variant, point and target.
+/// split_error() under each mask that holds finite pixels; nothing below two seeds. Each pair of seeds is an estimate
+/// of the variance by itself, and independent of the other pairs: the interval is Student's over them (two pairs or
+/// more), around their mean, moved to the variance over all seeds, which wastes nothing and is hence a little more
+/// certain than it says. `shared` holds shot, frame, variant, point and target.
 std::vector<SplitRow> split_rows(const SeedSplit& split, const MetricReference& reference, std::span<const Mask> masks,
                                  const SplitRow& shared);

@@ -17,26 +17,34 @@
 
 void run_study_command(const RunOptions& options, const CommonOptions& common) {
     const Config config = read_config(options.config);
-    run_study(config, {.out = options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out,
-                       .device = common.device,
-                       .cache = common.cache.empty() ? default_cache_folder() : common.cache,
-                       .search_path = scene_search_path(common.scene_path),
-                       .keep_all = options.keep_all});
+    run_study(config,
+              {.out = options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out,
+               .device = common.device,
+               .cache = common.cache.empty() ? default_cache_folder() : common.cache,
+               .search_path = scene_search_path(common.scene_path),
+               .keep_all = options.keep_all});
 }
 
 void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common) {
-    const ShotConfig config{.scene = options.shot.scene, .camera = options.shot.camera, .extent = {options.shot.size[0], options.shot.size[1]}, .frames = {options.shot.frame}};
+    const ShotConfig config{.scene = options.shot.scene,
+                            .camera = options.shot.camera,
+                            .extent = {options.shot.size[0], options.shot.size[1]},
+                            .frames = {options.shot.frame}};
     const Shot shot = load_shot(config, scene_search_path(common.scene_path));
     for (const std::string& warning : shot.scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    const DepthFormat format = options.depth_format == "d16" ? DepthFormat::d16 : options.depth_format == "d24" ? DepthFormat::d24 : DepthFormat::d32f;
+    const DepthFormat format = options.depth_format == "d16"   ? DepthFormat::d16
+                               : options.depth_format == "d24" ? DepthFormat::d24
+                                                               : DepthFormat::d32f;
 
     Device device(common.device);
     Rasterizer rasterizer(device, shot.scene, {.extent = config.extent, .depth_format = format});
-    const GBuffer gbuffer = rasterizer.render(shot.camera, {.extent = config.extent,
-                                                            .depth_direction = options.is_reversed ? DepthDirection::reversed : DepthDirection::standard,
-                                                            .frame = options.shot.frame});
+    const GBuffer gbuffer = rasterizer.render(
+        shot.camera, {.extent = config.extent,
+                      .depth_direction = options.is_reversed ? DepthDirection::reversed : DepthDirection::standard,
+                      .frame = options.shot.frame});
     rasterizer.light_directly(gbuffer);
-    const std::filesystem::path out = options.out.empty() ? std::filesystem::path(shot.scene.name + "_gbuffer") : options.out;
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path(shot.scene.name + "_gbuffer") : options.out;
     save_gbuffer(out, download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), format));
     std::printf("%s\n%s\n", (out / "gbuffer.exr").c_str(), (out / "camera.json").c_str());
 }
@@ -49,24 +57,31 @@ void describe_command(const DescribeOptions& options) {
     if (!options.variant.empty()) find_variant(options.variant);
     for (const VariantEntry& entry : variant_table()) {
         if (!options.variant.empty() && entry.name != options.variant) continue;
-        std::cout << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source << "\n";
+        std::cout << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source
+                  << "\n";
         const std::string parameters = make_variant(entry.name)->params.help();
         std::cout << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
         if (!entry.presets.empty()) std::cout << "\nPresets:\n";
-        for (const Preset& preset : entry.presets) std::cout << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
+        for (const Preset& preset : entry.presets)
+            std::cout << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
         std::cout << '\n';
     }
 }
 
 void list_command(const std::string& what, const CommonOptions& common) {
     if (what == "scenes")
-        for (const std::string& name : list_scenes(scene_search_path(common.scene_path))) std::printf("%s\n", name.c_str());
+        for (const std::string& name : list_scenes(scene_search_path(common.scene_path)))
+            std::printf("%s\n", name.c_str());
     if (what == "variants")
-        for (const VariantEntry& entry : variant_table()) std::printf("%-16s %s (%s)\n", entry.name.c_str(), entry.title.c_str(), entry.source.c_str());
+        for (const VariantEntry& entry : variant_table())
+            std::printf("%-16s %s (%s)\n", entry.name.c_str(), entry.title.c_str(), entry.source.c_str());
     if (what == "metrics")
-        for (const Metric& metric : all_metrics()) std::printf("%-16s %-14s %s\n", metric.name.c_str(), metric.formula.c_str(), metric.doc.c_str());
+        for (const Metric& metric : all_metrics())
+            std::printf("%-16s %-14s %s\n", metric.name.c_str(), metric.formula.c_str(), metric.doc.c_str());
     if (what == "devices") {
         const std::vector<DeviceInfo> devices = list_devices();
-        for (size_t i = 0; i < devices.size(); ++i) std::printf("%zu  %s (%s, %s, Vulkan %s)\n", i, devices[i].name.c_str(), devices[i].type.c_str(), devices[i].driver.c_str(), devices[i].api.c_str());
+        for (size_t i = 0; i < devices.size(); ++i)
+            std::printf("%zu  %s (%s, %s, Vulkan %s)\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
+                        devices[i].driver.c_str(), devices[i].api.c_str());
     }
 }

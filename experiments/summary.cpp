@@ -2,9 +2,9 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "metrics/quantiles.h"
 #include "experiments/csv.h"
 #include "experiments/results.h"
+#include "metrics/quantiles.h"
 
 #include <algorithm>
 #include <array>
@@ -48,15 +48,17 @@ void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows) {
     const bool has_interval = lows && highs;
     const bool reference_is_exact = !has_interval && s.floor.value_or(0.0) == 0.0;
     if (!has_interval && !(reference_is_exact && s.seed_deviation)) return;
-    const double from_seeds =
-        s.seed_deviation ? student_t_quantile(0.975, double(s.seeds - 1)) * *s.seed_deviation / std::sqrt(double(s.seeds)) : 0.0;
+    const double from_seeds = s.seed_deviation ? student_t_quantile(0.975, double(s.seeds - 1)) * *s.seed_deviation /
+                                                     std::sqrt(double(s.seeds))
+                                               : 0.0;
     s.low = *s.value - std::hypot(from_seeds, has_interval ? *s.value - mean(*lows) : 0.0);
     s.high = *s.value + std::hypot(from_seeds, has_interval ? mean(*highs) - *s.value : 0.0);
 }
 
 MetricSummary summary_of(const std::vector<const ResultRow*>& rows) {
     const ResultRow& first = *rows.front();
-    MetricSummary s{first.shot, first.frame, first.variant, first.point, first.target, first.metric, first.formula, first.mask};
+    MetricSummary s{first.shot,   first.frame,  first.variant, first.point,
+                    first.target, first.metric, first.formula, first.mask};
     s.seeds = unsigned(rows.size());
     s.is_corrected = first.is_corrected;
     for (const ResultRow* row : rows) {
@@ -117,6 +119,17 @@ std::vector<SplitRow> read_split_rows(const std::filesystem::path& file) {
     return rows;
 }
 
+std::vector<EffectRow> read_effect_rows(const std::filesystem::path& file) {
+    std::vector<EffectRow> rows;
+    for (CsvReader csv(file); csv.next();)
+        rows.push_back({csv.text("shot"), csv.text("frame"), csv.text("variant"), csv.text("point"),
+                        csv.text("against_variant"), csv.text("against_point"), csv.text("target"), csv.text("metric"),
+                        csv.text("formula"), csv.text("mask"), csv.count("seeds"), csv.optional_number("ratio"),
+                        csv.optional_number("low"), csv.optional_number("high"), csv.optional_number("p"),
+                        csv.optional_number("p_holm")});
+    return rows;
+}
+
 std::vector<TimeRow> read_time_rows(const std::filesystem::path& file) {
     std::vector<TimeRow> rows;
     for (CsvReader csv(file); csv.next();)
@@ -153,11 +166,12 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
 void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors,
                      std::span<const TimeSummary> times) {
     std::string text =
-        "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,pixels,non_"
+        "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,"
+        "pixels,non_"
         "finite,negative\n";
     for (const MetricSummary& e : errors)
-        text += csv_line(e.shot, e.frame, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value, e.low,
-                         e.high, e.seed_deviation, e.floor, e.is_corrected, e.pixels, e.non_finite, e.negative);
+        text += csv_line(e.shot, e.frame, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value,
+                         e.low, e.high, e.seed_deviation, e.floor, e.is_corrected, e.pixels, e.non_finite, e.negative);
     write_text(folder / "summary.csv", text);
 
     text = "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms\n";

@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/cell.h"
+#include "experiments/effects.h"
 
 #include <filesystem>
 #include <optional>
@@ -7,9 +8,11 @@
 #include <string>
 #include <vector>
 
-/// results.csv, splits.csv and times.csv as they were written. Every mistake in them is an Error that names file, line and column.
+/// results.csv, splits.csv, effects.csv and times.csv as they were written. Every mistake in them is an Error that
+/// names file, line and column.
 std::vector<ResultRow> read_result_rows(const std::filesystem::path& file);
 std::vector<SplitRow> read_split_rows(const std::filesystem::path& file);
+std::vector<EffectRow> read_effect_rows(const std::filesystem::path& file);
 std::vector<TimeRow> read_time_rows(const std::filesystem::path& file);
 
 /// One metric of one variant point over all its seeds.

@@ -3,19 +3,29 @@
 #include "experiments/measure.h"
 #include "experiments/splits.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <random>
 
 namespace {
 
-ResultRow row(const std::string& frame, const std::string& point, unsigned seed, const std::string& metric, double value) {
-    ResultRow r{.shot = "s", .frame = frame, .variant = "v", .point = point, .seed = seed, .target = "specular", .metric = metric, .formula = metric, .mask = "all"};
+ResultRow row(const std::string& frame, const std::string& point, unsigned seed, const std::string& metric,
+              double value) {
+    ResultRow r{.shot = "s",
+                .frame = frame,
+                .variant = "v",
+                .point = point,
+                .seed = seed,
+                .target = "specular",
+                .metric = metric,
+                .formula = metric,
+                .mask = "all"};
     r.value = value;
     return r;
 }
 
-const std::vector<VariantConfig> two_points = {{.variant = "v", .point = "base", .is_baseline = true}, {.variant = "v", .point = "better"}};
+const std::vector<VariantConfig> two_points = {{.variant = "v", .point = "base", .is_baseline = true},
+                                               {.variant = "v", .point = "better"}};
 
 }  // namespace
 
@@ -25,7 +35,11 @@ TEST(Effects, AreRatiosPairedBySeed) {
     const double of_seed[] = {1, 10, 100, 1000};
     for (unsigned seed = 0; seed < 4; ++seed) {
         rows.push_back(row("0", "base", seed, "mse", of_seed[seed]));
-        if (seed < 3) rows.push_back(row("0", "better", seed, "mse", of_seed[seed] * (seed == 0 ? 0.5 : seed == 1 ? 0.45 : 0.55)));
+        if (seed < 3)
+            rows.push_back(row("0", "better", seed, "mse",
+                               of_seed[seed] * (seed == 0   ? 0.5
+                                                : seed == 1 ? 0.45
+                                                            : 0.55)));
         rows.push_back(row("0", "base", seed, "bias", -1)), rows.push_back(row("0", "better", seed, "bias", -1));
     }
     const std::vector<EffectRow> effects = paired_effects(rows, two_points);
@@ -60,10 +74,12 @@ TEST(Effects, OfRowsOverFramesComeBeforeThoseOfOneFrame) {
 
 TEST(Effects, AreNotMadeUp) {
     // An error that the correction for noise brought to or below 0 has no ratio, and a single seed no interval.
-    std::vector<EffectRow> effects = paired_effects(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", -1e-9)}, two_points);
+    std::vector<EffectRow> effects =
+        paired_effects(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", -1e-9)}, two_points);
     ASSERT_EQ(effects.size(), 1u);
     EXPECT_FALSE(effects[0].ratio);
-    effects = paired_effects(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", 0.25)}, two_points);
+    effects =
+        paired_effects(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", 0.25)}, two_points);
     EXPECT_EQ(effects[0].ratio, 0.25);
     EXPECT_FALSE(effects[0].low || effects[0].high || effects[0].p || effects[0].p_holm);
     EXPECT_TRUE(paired_effects(std::vector{row("0", "other", 0, "mse", 1)}, two_points).empty());
@@ -80,7 +96,8 @@ TEST(Splits, FindTheBiasAndTheVariance) {
         split.add(image);
     }
     const MetricReference reference = metric_reference(HostImage({64, 64}, 3, 1.0f), {}, {"mse"}, {});
-    const std::vector<Mask> masks = {full_mask({64, 64}), {.name = "none", .extent = {64, 64}, .inside = std::vector<uint8_t>(64 * 64)}};
+    const std::vector<Mask> masks = {full_mask({64, 64}),
+                                     {.name = "none", .extent = {64, 64}, .inside = std::vector<uint8_t>(64 * 64)}};
     const std::vector<SplitRow> rows = split_rows(split, reference, masks, {.shot = "s"});
     ASSERT_EQ(rows.size(), 1u) << "an empty mask has no row";
     // 12288 x 15 samples: the variance is known to 0.3 %, the bias to 0.2 %; five times that.
@@ -103,7 +120,9 @@ TEST(Measure, ReportsAResultWithoutAnyFinitePixel) {
     PoseTruth truth;
     truth.diffuse = HostImage({16, 16}, 3);
     truth.targets.emplace("specular", metric_reference(HostImage({16, 16}, 3, 1.0f), {}, {"mse", "relmse"}, {}));
-    CompositedImages images{.specular = HostImage({16, 16}, 3, NAN), .incident = HostImage({16, 16}, 3), .confidence = HostImage({16, 16}, 1)};
+    CompositedImages images{.specular = HostImage({16, 16}, 3, NAN),
+                            .incident = HostImage({16, 16}, 3),
+                            .confidence = HostImage({16, 16}, 1)};
     Mask empty{.name = "empty", .extent = {16, 16}, .inside = std::vector<uint8_t>(256)};
     const auto rows = measure_targets(truth, images, std::vector{full_mask({16, 16}), empty}, {});
     ASSERT_EQ(rows.size(), 2u) << "one for each metric of the full mask, none of the empty one";
@@ -115,7 +134,8 @@ TEST(Measure, ReportsAResultWithoutAnyFinitePixel) {
 }
 
 TEST(Measure, AveragesOverFrames) {
-    std::vector<ResultRow> rows = {row("0", "p", 0, "mse", 1), row("1", "p", 0, "mse", 4), row("0", "p", 0, "bias", 2), row("1", "p", 0, "bias", 2)};
+    std::vector<ResultRow> rows = {row("0", "p", 0, "mse", 1), row("1", "p", 0, "mse", 4), row("0", "p", 0, "bias", 2),
+                                   row("1", "p", 0, "bias", 2)};
     rows[0].low = 0.5, rows[0].high = 1.5, rows[0].pixels = 10;
     rows[1].low = 3.0, rows[1].high = 5.0, rows[1].pixels = 20;
     rows[3].value.reset();

@@ -4,10 +4,12 @@
 
 TEST_F(Study, AHeldPoseDoesNotFlickerAndHasOneReference) {
     const std::string shot = R"({"scene": "passing_pillars", "resolution": [96, 54])";
-    const std::string rest = R"(], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}})";
+    const std::string rest =
+        R"(], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}})";
     write_text(folder / "held.json", "{\"shots\": [" + shot + R"(, "warm_up": 2, "repeat": 3})" + rest);
     write_text(folder / "once.json", "{\"shots\": [" + shot + "}" + rest);
-    const auto held = read_result_rows(run(read_config(folder / "held.json"), "held") / "results.csv"), once = read_result_rows(run(read_config(folder / "once.json"), "once") / "results.csv");
+    const auto held = read_result_rows(run(read_config(folder / "held.json"), "held") / "results.csv"),
+               once = read_result_rows(run(read_config(folder / "once.json"), "once") / "results.csv");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "cache"), {}), 2) << "one reference and its lock";
     size_t flickers = 0, equal = 0;
     for (const ResultRow& r : held) {
@@ -29,13 +31,17 @@ TEST_F(Study, AHeldPoseDoesNotFlickerAndHasOneReference) {
 
 TEST_F(Study, EachFrameIsMeasuredAgainstItsOwnTruth) {
     const std::string shot = R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": )";
-    const std::string rest = R"(}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": "mse", "timing": {"frames": 0}})";
+    const std::string rest =
+        R"(}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": "mse", "timing": {"frames": 0}})";
     write_text(folder / "three.json", shot + R"([4, 5, 6], "warm_up": 1)" + rest);
     write_text(folder / "one.json", shot + "[5]" + rest);
-    const auto three = read_result_rows(run(read_config(folder / "three.json"), "three") / "results.csv"), one = read_result_rows(run(read_config(folder / "one.json"), "one") / "results.csv");
-    const auto value = [](const std::vector<ResultRow>& rows, const std::string& frame, const std::string& metric, const std::string& mask) {
+    const auto three = read_result_rows(run(read_config(folder / "three.json"), "three") / "results.csv"),
+               one = read_result_rows(run(read_config(folder / "one.json"), "one") / "results.csv");
+    const auto value = [](const std::vector<ResultRow>& rows, const std::string& frame, const std::string& metric,
+                          const std::string& mask) {
         for (const ResultRow& r : rows)
-            if (r.frame == frame && r.metric == metric && r.mask == mask && r.target == "specular") return r.value.value();
+            if (r.frame == frame && r.metric == metric && r.mask == mask && r.target == "specular")
+                return r.value.value();
         ADD_FAILURE() << "no row of frame " << frame << ": " << metric << " " << mask;
         return 0.0;
     };
@@ -57,7 +63,8 @@ TEST_F(Study, EachFrameIsMeasuredAgainstItsOwnTruth) {
 
 TEST_F(Study, AStepGhostsOnlyWhereSomethingRemembers) {
     const std::string shot = R"({"shots": [{"scene": "stepping_emitter", "resolution": [96, 54], "frames": )";
-    const std::string rest = R"("change": 30, "repeat": 12}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "timing": {"frames": 0}})";
+    const std::string rest =
+        R"("change": 30, "repeat": 12}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "timing": {"frames": 0}})";
     write_text(folder / "step.json", shot + "[29, 30], " + rest);
     size_t ghosts = 0;
     for (const ResultRow& r : read_result_rows(run(read_config(folder / "step.json"), "step") / "results.csv"))

@@ -1,10 +1,10 @@
-#include "core/files.h"
 #include "experiments/results.h"
+#include "core/files.h"
 #include "experiments/summary.h"
 #include "experiments/workload.h"
 
-#include <filesystem>
 #include <gtest/gtest.h>
+#include <filesystem>
 #include <thread>
 
 TEST(MedianInterval, AgreesWithTheBinomialTable) {
@@ -21,9 +21,18 @@ TEST(MedianInterval, AgreesWithTheBinomialTable) {
 TEST(Tables, QuoteWhatNeedsIt) {
     const auto folder = std::filesystem::temp_directory_path() / "ssrlab_tables_test";
     Cell cell;
-    cell.times.push_back({.shot = "a.b.1x1", .variant = "v", .point = "x=\"1,2\"", .seed = 3, .stage = "s", .frame = 4, .milliseconds = 0.5, .clock = "host_fence"});
+    cell.times.push_back({.shot = "a.b.1x1",
+                          .variant = "v",
+                          .point = "x=\"1,2\"",
+                          .seed = 3,
+                          .stage = "s",
+                          .frame = 4,
+                          .milliseconds = 0.5,
+                          .clock = "host_fence"});
     write_tables(folder, {cell});
-    EXPECT_EQ(read_text(folder / "times.csv"), "shot,variant,point,seed,stage,frame,milliseconds,clock\na.b.1x1,v,\"x=\"\"1,2\"\"\",3,s,4,0.5,host_fence\n");
+    EXPECT_EQ(
+        read_text(folder / "times.csv"),
+        "shot,variant,point,seed,stage,frame,milliseconds,clock\na.b.1x1,v,\"x=\"\"1,2\"\"\",3,s,4,0.5,host_fence\n");
     std::filesystem::remove_all(folder);
 }
 
@@ -62,7 +71,19 @@ TEST(CellStore, GivesACellToOneAtATime) {
 TEST(Tables, GiveSplitsAFileOfTheirOwn) {
     const auto folder = std::filesystem::temp_directory_path() / "ssrlab_splits_test";
     Cell cell;
-    cell.splits.push_back({.shot = "s", .frame = "7", .variant = "v", .point = "p", .target = "specular", .mask = "all", .seeds = 3, .mse = 0.75, .bias_squared = 0.5, .variance = 0.25, .variance_low = {}, .variance_high = {}, .pixels = 9});
+    cell.splits.push_back({.shot = "s",
+                           .frame = "7",
+                           .variant = "v",
+                           .point = "p",
+                           .target = "specular",
+                           .mask = "all",
+                           .seeds = 3,
+                           .mse = 0.75,
+                           .bias_squared = 0.5,
+                           .variance = 0.25,
+                           .variance_low = {},
+                           .variance_high = {},
+                           .pixels = 9});
     write_tables(folder, {cell});
     const std::vector<SplitRow> rows = read_split_rows(folder / "splits.csv");
     ASSERT_EQ(rows.size(), 1u);

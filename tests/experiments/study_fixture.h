@@ -3,14 +3,16 @@
 #include "experiments/run.h"
 #include "experiments/summary.h"
 
-#include <filesystem>
 #include <gtest/gtest.h>
+#include <filesystem>
 
 namespace fs = std::filesystem;
 
 /// A temporary folder with a cache, in which small studies run.
 struct Study : testing::Test {
-    fs::path folder = fs::temp_directory_path() / ("ssrlab_study_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder =
+        fs::temp_directory_path() /
+        ("ssrlab_study_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 
     void SetUp() override {
         fs::remove_all(folder);
@@ -19,12 +21,18 @@ struct Study : testing::Test {
     void TearDown() override { fs::remove_all(folder); }
 
     Config config(const std::string& scenes, const std::string& more = "") {
-        write_text(folder / "study.json", R"({"shots": [{"scene": )" + scenes + R"(, "resolution": [96, 54]}], "reference": {"samples": 64},
-            "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2)" + more + "}");
+        write_text(folder / "study.json", R"({"shots": [{"scene": )" + scenes +
+                                              R"(, "resolution": [96, 54]}], "reference": {"samples": 64},
+            "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2)" +
+                                              more + "}");
         return read_config(folder / "study.json");
     }
     fs::path run(const Config& study, const std::string& out, bool keep_all = false) {
-        run_study(study, {.out = folder / out, .device = "", .cache = folder / "cache", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}, .keep_all = keep_all});
+        run_study(study, {.out = folder / out,
+                          .device = "",
+                          .cache = folder / "cache",
+                          .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"},
+                          .keep_all = keep_all});
         return folder / out;
     }
 };

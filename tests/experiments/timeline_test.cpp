@@ -3,13 +3,14 @@
 #include "core/files.h"
 #include "experiments/shot.h"
 
-#include <filesystem>
 #include <gtest/gtest.h>
+#include <filesystem>
 
 namespace {
 
 struct TemporaryConfig : testing::Test {
-    std::filesystem::path file = std::filesystem::temp_directory_path() / ("ssrlab_timeline_test_" + std::to_string(getpid()) + ".json");
+    std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("ssrlab_timeline_test_" + std::to_string(getpid()) + ".json");
 
     void TearDown() override { std::filesystem::remove(file); }
     Config read(const std::string& shots, const std::string& more = R"(, "variants": [{"variant": "none"}])") {
@@ -26,7 +27,9 @@ struct TemporaryConfig : testing::Test {
     }
 };
 
-void expect_contains(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << text; }
+void expect_contains(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+}
 
 }  // namespace
 
@@ -46,7 +49,8 @@ TEST(Timeline, WarmsUpPlaysAndHolds) {
 
 TEST(Timeline, MeasuresTheLastAlone) {
     size_t measured = 0;
-    for (const FrameStep& step : timeline({.frames = {0, 1, 2}, .measures_last_only = true})) measured += step.is_measured;
+    for (const FrameStep& step : timeline({.frames = {0, 1, 2}, .measures_last_only = true}))
+        measured += step.is_measured;
     EXPECT_EQ(measured, 1u);
 }
 
@@ -63,7 +67,8 @@ TEST(Timeline, NamesWhatTellsShotsApart) {
 }
 
 TEST_F(TemporaryConfig, ReadsHowAShotIsPlayed) {
-    const Config config = read(R"({"scene": "fence", "frames": [2, 3], "warm_up": 5, "repeat": 9, "change": 3, "measure": "last"})");
+    const Config config =
+        read(R"({"scene": "fence", "frames": [2, 3], "warm_up": 5, "repeat": 9, "change": 3, "measure": "last"})");
     const ShotConfig& shot = config.shots.front();
     EXPECT_EQ(shot.frames, (std::vector<unsigned>{2, 3}));
     EXPECT_EQ(shot.warm_up, 5u);
@@ -73,7 +78,9 @@ TEST_F(TemporaryConfig, ReadsHowAShotIsPlayed) {
 }
 
 TEST_F(TemporaryConfig, GivesVariantsTheirSeeds) {
-    const Config config = read(R"({"scene": "fence"})", R"(, "seeds": 3, "variants": [{"variant": "none", "seeds": 1}, {"variant": "mcguire_dda", "baseline": true}])");
+    const Config config = read(
+        R"({"scene": "fence"})",
+        R"(, "seeds": 3, "variants": [{"variant": "none", "seeds": 1}, {"variant": "mcguire_dda", "baseline": true}])");
     EXPECT_EQ(config.variants[0].seeds, (std::vector<unsigned>{0}));
     EXPECT_EQ(config.variants[1].seeds, (std::vector<unsigned>{0, 1, 2}));
     EXPECT_FALSE(config.variants[0].is_baseline);
@@ -84,8 +91,12 @@ TEST_F(TemporaryConfig, SaysWhatIsWrong) {
     expect_contains(mistake(R"({"scene": "fence", "warmup": 3})"), "did you mean 'warm_up'?");
     expect_contains(mistake(R"({"scene": "fence", "repeat": 0})"), "'repeat'");
     expect_contains(mistake(R"({"scene": "fence", "frames": [3, 4], "change": 3, "repeat": 9})"), "after the first");
-    expect_contains(mistake(R"({"scene": "fence", "frames": [3, 4], "change": 4, "repeat": 7})"), "followed by 7 frames");
+    expect_contains(mistake(R"({"scene": "fence", "frames": [3, 4], "change": 4, "repeat": 7})"),
+                    "followed by 7 frames");
     expect_contains(mistake(R"({"scene": "fence"}, {"scene": ["sky_only", "fence"]})"), "'fence' comes twice");
-    expect_contains(mistake(R"({"scene": "fence"})", R"(, "masks": ["refective"], "variants": [{"variant": "none"}])"), "did you mean 'reflective'?");
-    expect_contains(mistake(R"({"scene": "fence"})", R"(, "masks": ["all"], "frame_masks": ["hit"], "variants": [{"variant": "none"}])"), "'frame_masks'");
+    expect_contains(mistake(R"({"scene": "fence"})", R"(, "masks": ["refective"], "variants": [{"variant": "none"}])"),
+                    "did you mean 'reflective'?");
+    expect_contains(mistake(R"({"scene": "fence"})",
+                            R"(, "masks": ["all"], "frame_masks": ["hit"], "variants": [{"variant": "none"}])"),
+                    "'frame_masks'");
 }

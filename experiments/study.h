@@ -1,0 +1,37 @@
+#pragma once
+#include "core/gpu/device.h"
+#include "experiments/progress.h"
+#include "experiments/run.h"
+#include "experiments/shot_truth.h"
+#include "experiments/workload.h"
+
+/// All that a study needs while it runs.
+struct Study {
+    const Config& config;
+    const RunSettings& settings;
+    Device& device;
+    CellStore cells;
+    Progress progress;
+    Workload work;
+    std::string code;
+    nlohmann::json manifest;
+    std::vector<Cell> finished;
+
+    void report(double share, const std::string& what) {
+        work.update(share);
+        progress.update(work.share_done(), what);
+    }
+};
+
+/// A shot on its way: everything that its cells need.
+struct ShotRun {
+    const Shot& shot;
+    FrameSource& source;
+    FrameStore store;
+    ShotTruth truth = {};
+    nlohmann::json reference_entries = nlohmann::json::object();  ///< of the manifest's entry of the shot
+};
+
+/// All variants, points and seeds of a shot, then their times, into study.finished. What was done before is loaded;
+/// what other processes are at is left to the end, and taken over from them.
+void run_cells(Study& study, ShotRun& run);

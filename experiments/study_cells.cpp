@@ -1,0 +1,134 @@
+#include "core/files.h"
+#include "experiments/play.h"
+#include "experiments/study.h"
+#include "experiments/timing.h"
+#include "variants/registry.h"
+
+#include <map>
+
+namespace {
+
+/// The name of a cell: the hash of all that its numbers depend on.
+std::string cell_hash(const Study& study, const ShotRun& run, const std::string& what, const nlohmann::json& parameters,
+                      const std::vector<unsigned>& seeds) {
+    const Config& c = study.config;
+    const ShotConfig& shot = run.shot.config;
+    ContentHash hash;
+    for (const std::string& part :
+         {study.code, study.device.info().name + study.device.info().driver, run.shot.scene.content_hash,
+          run.shot.name(), run.truth.content_hash(), what, parameters.dump()})
+        hash.add(part);
+    for (const auto& list : {c.metrics, c.masks, c.targets, c.frame_metrics, c.frame_masks}) {
+        hash.add(list.size());
+        for (const std::string& name : list) hash.add(name);
+    }
+    for (const auto& list : {shot.frames,
+                             seeds,
+                             {shot.warm_up, shot.repeat, shot.change.value_or(0), unsigned(shot.measures_last_only)}}) {
+        hash.add(list.size());
+        for (const unsigned number : list) hash.add(number);
+    }
+    hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)),
+        hash.add(int(study.settings.keep_all));
+    hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance), hash.add(run.shot.camera.exposure_ev);
+    return hash.hex();
+}
+
+/// A piece of work with a name of its own.
+struct CellTask {
+    std::string hash, what, kind;
+    double units;
+    std::function<Cell(const std::function<void(double)>& report)> make;
+};
+
+/// A result while the study runs: one number that matters, over the seeds.
+void say_result(Study& study, const Cell& cell) {
+    std::map<std::string, std::vector<double>> values;  // by frame
+    for (const ResultRow& r : cell.rows)
+        if (r.target == "specular" && r.metric == "relmse" && r.mask == "reflective" && r.value)
+            values[r.frame].push_back(*r.value);
+    if (values.empty()) return;
+    const auto& [frame, seeds] = *values.rbegin();  // "all" comes after every number
+    double sum = 0;
+    for (const double value : seeds) sum += value;
+    char line[200];
+    std::snprintf(line, sizeof line, "  %-24s %-32s relmse of reflective pixels %.4g (frame %s, %zu seed%s)",
+                  cell.rows.front().variant.c_str(), cell.rows.front().point.c_str(), sum / double(seeds.size()),
+                  frame.c_str(), seeds.size(), seeds.size() == 1 ? "" : "s");
+    study.progress.say(line);
+}
+
+/// Loads the cell if it was done before, else does it and keeps it. Nothing if another process is at it, unless
+/// `waits`.
+std::optional<Cell> do_cell(Study& study, const CellTask& task, bool waits) {
+    study.work.start(task.kind, task.units);
+    study.report(0, task.what);
+    if (std::optional<Cell> found = study.cells.load(task.hash)) {
+        study.work.skip();
+        return found;
+    }
+    const auto claim = study.cells.claim(task.hash, waits);
+    if (!claim) return {};
+    if (std::optional<Cell> found = study.cells.load(task.hash)) {  // made while waiting
+        study.work.skip();
+        return found;
+    }
+    Cell cell = task.make([&](double share) { study.report(share, task.what); });
+    study.cells.save(task.hash, cell);
+    study.work.finish();
+    return cell;
+}
+
+/// All variant points of a shot.
+std::vector<CellTask> point_tasks(Study& study, ShotRun& run) {
+    std::vector<CellTask> tasks;
+    for (const VariantConfig& variant : study.config.variants) {
+        const nlohmann::json parameters =
+            make_variant(variant.variant, variant.parameters, variant.preset)->params.values();
+        CellTask task{.hash = cell_hash(study, run, variant.variant + "\n" + variant.point, parameters, variant.seeds),
+                      .what = run.shot.name() + ": " + variant.variant + " " + variant.point,
+                      .kind = "frames",
+                      .units = double(run.shot.steps.size() * variant.seeds.size())};
+        task.make = [&study, &run, &variant, suffix = task.hash.substr(0, 8)](const auto& report) {
+            return play_point(study.device, run.shot, run.truth, run.store, study.config, variant,
+                              {.out = study.settings.out,
+                               .image_suffix = suffix,
+                               .keep_all = study.settings.keep_all,
+                               .report = report});
+        };
+        tasks.push_back(std::move(task));
+    }
+    return tasks;
+}
+
+CellTask timing_task(Study& study, ShotRun& run) {
+    const TimingConfig& timing = study.config.timing;
+    nlohmann::json timed = {
+        {"variants", study.manifest["variants"]}, {"frames", timing.frames}, {"warm_up", timing.warm_up}};
+    for (const VariantConfig& variant : study.config.variants) timed["timed"].push_back(variant.is_timed);
+    return {.hash = cell_hash(study, run, "times", timed, study.config.seeds),
+            .what = run.shot.name() + ": timing",
+            .kind = "times",
+            .units = 1,
+            .make = [&study, &run](const auto& report) {
+                const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
+                const ShotTimes times =
+                    time_variants(run.source, run.shot, study.config, lit, study.settings.keep_all, report);
+                return Cell{.times = times.rows, .timing = timing_entry(times, run.shot.name())};
+            }};
+}
+
+}  // namespace
+
+void run_cells(Study& study, ShotRun& run) {
+    std::vector<CellTask> tasks = point_tasks(study, run);
+    tasks.push_back(timing_task(study, run));
+    std::vector<std::optional<Cell>> cells(tasks.size());
+    for (const bool waits : {false, true})
+        for (size_t i = 0; i < tasks.size(); ++i) {
+            if (cells[i]) continue;
+            cells[i] = do_cell(study, tasks[i], waits);
+            if (cells[i]) say_result(study, *cells[i]);
+        }
+    for (std::optional<Cell>& cell : cells) study.finished.push_back(std::move(*cell));
+}
