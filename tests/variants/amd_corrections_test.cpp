@@ -1,0 +1,171 @@
+// Each correction of the tracer, on a G-buffer that shows what it mends.
+#include "tests/variants/amd_golden.h"
+#include "tests/variants/amd_scenes.h"
+#include "tests/variants/variant_fixture.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace {
+
+struct AmdCorrections : VariantTest {
+    CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
+    FrameView view{.extent = {96, 120}};
+    HostImage noise{{128, 128}, 2, 0.5f};
+
+    HostGBuffer gbuffer_of(const SyntheticScene& scene) {
+        PassGraph graph(device(), view.extent);
+        const CameraData camera = camera_data(pose, nullptr, view);
+        return download_gbuffer(graph, upload_gbuffer(graph, pose, camera, scene), camera, DepthFormat::d32f);
+    }
+
+    /// rgb: (lit at the hit, blended by its confidence with a black environment); w: length (m).
+    HostImage trace(const HostGBuffer& gbuffer, nlohmann::json parameters) {
+        parameters["min_traversal_occupancy"] = 0;
+        parameters["samples_per_quad"] = 4;
+        return amd_trace_frame(device(), gbuffer, parameters, noise).radiance;
+    }
+    HostImage trace(const SyntheticScene& scene, const nlohmann::json& parameters) {
+        return trace(gbuffer_of(scene), parameters);
+    }
+};
+
+/// Sum of the confidences where all that is lit radiates 1.
+double sum_of(const HostImage& radiance) {
+    double sum = 0;
+    for (size_t i = 0; i < radiance.pixel_count(); ++i) sum += radiance.values[4 * i];
+    return sum;
+}
+
+SyntheticHit floor_before_white(const CameraRay& ray) {
+    SyntheticHit hit = mirror_floor(ray);
+    hit.lit = glm::vec3(hit.metalness == 0);
+    return hit;
+}
+
+SyntheticHit ceiling_before_white(const CameraRay& ray) {
+    SyntheticHit hit = floor_before_white({ray.origin * glm::vec3(1, -1, 1), ray.direction * glm::vec3(1, -1, 1)});
+    hit.normal.y = -hit.normal.y;
+    return hit;
+}
+
+SyntheticHit floor_below_nothing(const CameraRay& ray) {
+    const SyntheticHit hit = mirror_floor(ray);
+    return hit.metalness > 0 ? hit : SyntheticHit{};
+}
+
+/// 120 rows are 7.5 texels of the pyramid's fourth level, as 1080 are 67.5: it has no texels for the last 8 rows, to
+/// which the ceiling's rays go.
+TEST_F(AmdCorrections, StopOutsideScreenFindsWhatOddLevelsLackWithReversedDepth) {
+    pose.world_from_view = glm::translate(glm::mat4(1), {0, 0.8f, 0});
+    const double standard = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
+    view.depth_direction = DepthDirection::reversed;
+    const double reversed = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
+    const double mended = sum_of(trace(ceiling_before_white, {{"stop_outside_screen", true}}));
+    EXPECT_LT(reversed, 0.9 * standard);
+    EXPECT_NEAR(mended, standard, 0.01 * standard);
+}
+
+/// A mirror half a metre before the camera, and a wall beside it that reaches from the mirror to the camera. Steps of
+/// one metre along the mirrored rays end behind the camera.
+SyntheticHit mirror_beside_wall(const CameraRay& ray) {
+    const float to_mirror = -0.5f / ray.direction.z;
+    const float to_wall = ray.direction.x > 0 ? 0.3f / ray.direction.x : std::numeric_limits<float>::infinity();
+    if (to_wall < to_mirror) return {.distance = to_wall, .normal = {-1, 0, 0}, .lit = glm::vec3(1)};
+    return {.distance = to_mirror, .normal = {0, 0, 1}, .roughness = 0, .metalness = 1, .specular = 1};
+}
+
+TEST_F(AmdCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {
+    pose.vertical_fov = 1.9f;
+    view.extent = {120, 120};
+    const nlohmann::json thick = {{"depth_buffer_thickness", 0.1}};
+    nlohmann::json clipped = thick;
+    clipped["clip_ray_to_near_plane"] = true;
+    const double original = sum_of(trace(mirror_beside_wall, thick)),
+                 mended = sum_of(trace(mirror_beside_wall, clipped));
+    EXPECT_GT(mended, 2 * original + 100);
+}
+
+TEST_F(AmdCorrections, AcceptContactHitsShowsTheWallInTheFirstRowsOfTheFloor) {
+    const double original = sum_of(trace(floor_before_white, nlohmann::json::object()));
+    const double mended = sum_of(trace(floor_before_white, {{"accept_contact_hits", true}}));
+    // One row of 96 pixels at least: the two nearest the wall reflect the two above them.
+    EXPECT_GT(mended, original + 0.9 * view.extent.x);
+}
+
+TEST_F(AmdCorrections, RejectUnfinishedIgnoresWhereRaysAreGivenUp) {
+    const nlohmann::json few_steps = {{"max_traversal_intersections", 3}, {"depth_buffer_thickness", 100.0}};
+    nlohmann::json rejected = few_steps;
+    rejected["reject_unfinished"] = true;
+    HostGBuffer gbuffer = gbuffer_of(floor_before_white);
+    gbuffer.lit = HostImage(gbuffer.extent(), 4, 1.0f);
+    const double original = sum_of(trace(gbuffer, few_steps)), mended = sum_of(trace(gbuffer, rejected));
+    EXPECT_GT(original, 100);
+    EXPECT_EQ(mended, 0);
+}
+
+TEST_F(AmdCorrections, FarMissesAreAsLongAsTheFarPlaneIsAway) {
+    const HostGBuffer gbuffer = gbuffer_of(floor_below_nothing);
+    const HostImage original = trace(gbuffer, nlohmann::json::object()),
+                    mended = trace(gbuffer, {{"far_misses", true}});
+    for (size_t i = 0; i < original.pixel_count(); ++i) {
+        if (gbuffer.depth.values[i] == 1) continue;
+        ASSERT_EQ(original.values[4 * i], 0);
+        EXPECT_NE(original.values[4 * i + 3], 100);
+        EXPECT_EQ(mended.values[4 * i + 3], 100);
+    }
+}
+
+TEST_F(AmdCorrections, GuardMirrorNormalHoldsForEveryRandomNumber) {
+    const HostGBuffer gbuffer = gbuffer_of(floor_before_white);
+    const HostImage expected = trace(gbuffer, {{"guard_mirror_normal", true}});
+    EXPECT_GT(sum_of(expected), 1000);
+    noise = HostImage({128, 128}, 2, 1.0f);
+    EXPECT_EQ(trace(gbuffer, {{"guard_mirror_normal", true}}).values, expected.values);
+}
+
+/// In the middle of 97 columns rays stay in their column exactly.
+TEST_F(AmdCorrections, GuardZeroDirectionTracesAlongColumns) {
+    view.extent = {97, 120};
+    const HostImage found = trace(floor_before_white, {{"guard_zero_direction", true}});
+    double column = 0, beside = 0;
+    for (unsigned y = 0; y < 120; ++y) {
+        column += found.pixel(48, y)[0];
+        beside += found.pixel(47, y)[0];
+    }
+    EXPECT_GT(column, 20);
+    EXPECT_NEAR(column, beside, 1);
+}
+
+/// A geometric normal that the shading normal turns rays below of.
+TEST_F(AmdCorrections, AboveHorizonBringsNoLightFromBelowTheGeometricSurface) {
+    HostGBuffer gbuffer = gbuffer_of(floor_before_white);
+    gbuffer.fallback = HostImage(gbuffer.extent(), 4, 1.0f);
+    for (size_t i = 0; i < gbuffer.normal.pixel_count(); ++i)
+        gbuffer.geometric_normal.set_rgb(i, glm::normalize(glm::vec3(0, 0.05f, 1)));
+    const HostImage original = trace(gbuffer, nlohmann::json::object()),
+                    mended = trace(gbuffer, {{"above_horizon", true}});
+    for (unsigned x = 0; x < view.extent.x; ++x) {
+        EXPECT_EQ(original.pixel(x, 90)[0], 1);
+        EXPECT_EQ(mended.pixel(x, 90)[0], 0);
+    }
+}
+
+/// The camera looks down on the wall, so that depth varies between its rows.
+TEST_F(AmdCorrections, ThicknessAtHitMipKeepsTheConfidenceOfSlantedSurfaces) {
+    pose.world_from_view = glm::rotate(glm::mat4(1), -0.4f, glm::vec3(1, 0, 0));
+    const double original = sum_of(trace(floor_before_white, nlohmann::json::object()));
+    const double mended = sum_of(trace(floor_before_white, {{"thickness_at_hit_mip", true}}));
+    EXPECT_GT(mended, 1.2 * original);
+}
+
+TEST_F(AmdCorrections, FloatRoughnessKeepsSmallWidths) {
+    HostGBuffer gbuffer = gbuffer_of(floor_before_white);
+    for (size_t i = 3; i < gbuffer.normal.values.size(); i += 4) gbuffer.normal.values[i] = 0.03125f;
+    const auto alpha = [&](const nlohmann::json& parameters) {
+        return *amd_classify_frame(device(), gbuffer, parameters).roughness.pixel(48, 100);
+    };
+    EXPECT_EQ(alpha(nlohmann::json::object()), 0);
+    EXPECT_EQ(alpha({{"float_roughness", true}}), 0x1p-10f);
+}
+
+}  // namespace
