@@ -15,7 +15,8 @@ CameraView::CameraView(const CameraPose& pose, glm::uvec2 extent)
       view_from_world_(glm::inverse(glm::dmat4(pose.world_from_view))),
       eye_(pose.world_from_view[3]),
       backward_(glm::normalize(glm::vec3(pose.world_from_view[2]))) {
-    const float half_height = pose.is_orthographic ? 0.5f * pose.orthographic_height : std::tan(0.5f * pose.vertical_fov);
+    const float half_height =
+        pose.is_orthographic ? 0.5f * pose.orthographic_height : std::tan(0.5f * pose.vertical_fov);
     half_extent_ = half_height * glm::vec2(float(extent.x) / float(extent.y), 1.0f);
 }
 

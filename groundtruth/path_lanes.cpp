@@ -12,8 +12,8 @@ void for_each_bit(uint32_t bits, const Work& work) {
     for (; bits != 0; bits &= bits - 1) work(std::countr_zero(bits));
 }
 
-/// The unit direction from a point to the camera; where that is behind the surface, to its mirror image before it, so that
-/// every surface has a lit colour on the side that was met. Branchless.
+/// The unit direction from a point to the camera; where that is behind the surface, to its mirror image before it, so
+/// that every surface has a lit colour on the side that was met. Branchless.
 vec3 to_camera(const CameraView& camera, vec3 position, vec3 normal) {
     const vec3 to_eye = camera.to_eye(position);
     const float height = dot(to_eye, normal), depth_behind = height < 0.0f ? height : 0.0f;
@@ -131,7 +131,7 @@ void PathLanes::scatter() {
         const Lobes lobes =
             make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane], o, model);
         const float q = is_lit_color ? 0.0f : lobes.specular_probability;
-        const float specular_share = is_lit_color ? 0.0f : 1.0f;  // the lit colour is without reflections
+        const float specular_share = is_lit_color ? 0.0f : 1.0f;       // the lit colour is without reflections
         const bool reflects = (continues_[lane] != 0) & (o.z > 0.0f);  // the viewer may be below the shading horizon
 
         if constexpr (has_lights) {
@@ -140,8 +140,8 @@ void PathLanes::scatter() {
             const float light_pdf = lights_.pdf[lane], bsdf_pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
             const float weight = lights_.is_delta[lane] ? 1.0f : mis.of_light(light_pdf, bsdf_pdf);
             const bool is_used = reflects & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
-            const vec3 direct =
-                throughput * (f.diffuse + f.specular * specular_share) * lights_.radiance.get(lane) * (weight / light_pdf);
+            const vec3 direct = throughput * (f.diffuse + f.specular * specular_share) * lights_.radiance.get(lane) *
+                                (weight / light_pdf);
             direct_.set(lane, keep_if(is_used, direct));
             aim_shadow_ray(position_.get(lane), error_.get(lane), geometric_normal, lane, lights_);
         }

@@ -34,8 +34,9 @@ struct FirstVertex {
     bool wants_diffuse = false, wants_specular = false;
 };
 
-/// Of a pixel that reflects anything; else false.
-bool meets_surface(const TracedScene& scene, FirstVertex& vertex) {
+/// Fills in all but the hit; false if the surface reflects nothing: the background, unlit materials, and where the
+/// viewer is below the horizon of the shading normal.
+bool prepare(const TracedScene& scene, FirstVertex& vertex) {
     const FirstHit& hit = vertex.hit;
     if (!hit.is_hit || hit.is_unlit) return false;
     vertex.world_from_local = basis_from_normal(hit.normal);
@@ -50,7 +51,7 @@ bool meets_surface(const TracedScene& scene, FirstVertex& vertex) {
 /// Specularly reflected radiance of all punctual lights, in closed form but for their visibility.
 void add_highlight(const TracedScene& scene, FirstHit& hit) {
     FirstVertex vertex{.hit = hit};
-    if (scene.lights.punctual_lights().empty() || !meets_surface(scene, vertex) || !vertex.wants_specular) return;
+    if (scene.lights.punctual_lights().empty() || !prepare(scene, vertex) || !vertex.wants_specular) return;
     PixelEstimate cost;
     for (const PunctualLight& light : scene.lights.punctual_lights()) {
         const PunctualArrival arriving = arrival(light, hit.position);
@@ -65,10 +66,13 @@ void add_highlight(const TracedScene& scene, FirstHit& hit) {
         if (is_visible(scene, shadow, 0, cost)) hit.highlight += reflected;
     }
     hit.shadow_rays = unsigned(cost.rays);
+    hit.is_highlight_finite = is_finite(hit.highlight);
+    if (!hit.is_highlight_finite) hit.highlight = vec3(0.0f);
 }
 
 /// A light sample's part of the lower rungs: emission is the same towards the camera.
-void add_emission(const TracedScene& scene, const LightLanes& lights, int lane, vec3 incident, PixelEstimate& estimate) {
+void add_emission(const TracedScene& scene, const LightLanes& lights, int lane, vec3 incident,
+                  PixelEstimate& estimate) {
     if (incident == vec3(0.0f)) return;
     const vec3 direction = lights.direction.get(lane), normal = lights.normal.get(lane);
     const vec3 lit_side = dot(direction, normal) < 0 ? normal : -normal;
@@ -287,7 +291,7 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
     estimate.samples += count;
     const TracedScene& scene = state_->scene;
     FirstVertex vertex{.hit = hit};
-    if (!meets_surface(scene, vertex)) return;
+    if (!prepare(scene, vertex)) return;
 
     const SobolSequence sequence(seed ^ hash_bits_64(uint64_t(y) << 32 | x));
     PathLanes paths(scene, sequence, PathGoal::reflection, estimate);

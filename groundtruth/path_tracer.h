@@ -22,8 +22,8 @@ struct PathTracerSettings {
     bool russian_roulette = true;
     ReflectionModel model = ReflectionModel::gltf;
     bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
-    bool ladder = false;                   ///< also estimate the lower rungs of the truth ladder, see PixelEstimate: twice the rays
-    bool keep_all = false;                 ///< trace and evaluate also what left_out() names: the same image, slower
+    bool ladder = false;    ///< also estimate the lower rungs of the truth ladder, see PixelEstimate: twice the rays
+    bool keep_all = false;  ///< trace and evaluate also what left_out() names: the same image, slower
 };
 
 /// The surface that a camera ray through a pixel centre meets: what the G-buffer holds of it.
@@ -39,13 +39,14 @@ struct FirstHit {
     float metalness = 0.0f, roughness = 0.0f, specular = 0.0f;
     unsigned material = 0, instance = 0;  ///< indices into the scene
     glm::vec3 emitted{0.0f};              ///< towards the camera; where nothing is hit, the environment
-    glm::vec3 highlight{0.0f};            ///< radiance of the punctual lights that it reflects specularly, without any noise
-    unsigned shadow_rays = 0;             ///< traced for `highlight`
+    glm::vec3 position_error{0.0f};       ///< half extent of the box that holds the exact hit (m)
+    bool is_unlit = false;
+    glm::vec3 highlight{0.0f};  ///< radiance of the punctual lights that it reflects specularly, without any noise
+    unsigned shadow_rays = 0;   ///< traced for `highlight`
+    bool is_highlight_finite = true;  ///< else it counts as zero
     // With PathTracerSettings::ladder:
     glm::vec3 reflectance{0.0f};  ///< F0 A + F90 B, as the compositor has it
     glm::vec3 fallback{0.0f};     ///< the environment over the specular lobe, as the G-buffer has it
-    glm::vec3 position_error{0.0f};       ///< half extent of the box that holds the exact hit (m)
-    bool is_unlit = false;
 };
 
 /// A ray as it was traced, for comparing the path tracer with Embree's bare speed.
@@ -57,18 +58,18 @@ struct RecordedRay {
 
 /// Sums over the samples of one pixel, to be divided as written here.
 struct PixelEstimate {
-    glm::dvec3 diffuse{
-        0.0};  ///< / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
+    /// / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
+    glm::dvec3 diffuse{0.0};
     glm::dvec3 specular{0.0};  ///< / samples: specularly reflected radiance, without FirstHit::highlight
     glm::dvec3 incident{0.0};  ///< / lobe_samples: mean incident radiance over the lobe above the horizon
     // With PathTracerSettings::ladder:
     glm::dvec3 camera_radiance{0.0};  ///< / lobe_samples: `incident`, with the lit colour of what the lobe meets
-    glm::dvec3 on_screen{0.0};        ///< / lobe_samples: the same, with nothing for what the camera's image does not show
-    uint64_t on_screen_samples = 0;   ///< samples of the lobe that meet what the image shows
+    glm::dvec3 on_screen{0.0};  ///< / lobe_samples: the same, with nothing for what the camera's image does not show
+    uint64_t on_screen_samples = 0;  ///< samples of the lobe that meet what the image shows
     uint64_t samples = 0;
     uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
-    uint64_t non_finite =
-        0;  ///< samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0
+    /// Samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0.
+    uint64_t non_finite = 0;
     uint64_t rays = 0;                           ///< traced, of both kinds
     uint64_t paths = 0;                          ///< rays that left the first hit along a lobe
     std::vector<RecordedRay>* record = nullptr;  ///< takes down each ray, if given

@@ -46,28 +46,35 @@ void add(ContentHash& hash, const CameraPose& camera) {
 void check(glm::uvec2 extent, const ReferenceSettings& settings) {
     constexpr unsigned max_size = 32768;
     if (extent.x == 0 || extent.y == 0 || extent.x > max_size || extent.y > max_size)
-        fail("a reference of ", extent.x, " x ", extent.y, " pixels cannot be rendered: width and height must be 1 to ", max_size);
+        fail("a reference of ", extent.x, " x ", extent.y, " pixels cannot be rendered: width and height must be 1 to ",
+             max_size);
     if (settings.max_samples == 0 && settings.max_seconds == 0 && settings.target_relative_error == 0)
         fail("a reference without any limit never ends: set max_samples, max_seconds or target_relative_error");
-    if (!(settings.max_seconds >= 0)) fail("max_seconds of a reference is ", settings.max_seconds, ", but must not be negative");
+    if (!(settings.max_seconds >= 0))
+        fail("max_seconds of a reference is ", settings.max_seconds, ", but must not be negative");
     if (!(settings.target_relative_error >= 0 && settings.target_relative_error <= 1))
-        fail("target_relative_error of a reference is ", settings.target_relative_error, ", but must be within 0 and 1");
+        fail("target_relative_error of a reference is ", settings.target_relative_error,
+             ", but must be within 0 and 1");
     if (settings.max_samples > max_sample_limit)
         fail("max_samples of a reference is ", settings.max_samples, ", but can be ", max_sample_limit, " at most");
     if (settings.max_depth == 0) fail("max_depth of a reference is 0, but must be at least 1");
 }
 
-/// Only what yields the bits that a render of its own would: whole doublings without a clock. With a clock there are no such bits.
+/// Only what yields the bits that a render of its own would: whole doublings without a clock. With a clock there are no
+/// such bits.
 bool can_be_added_to(const ReferenceState& found, const ReferenceSettings& settings) {
     const bool was_timed = found.settings.max_seconds > 0, is_timed = settings.max_seconds > 0;
-    if (found.settings.target_relative_error > 0 || settings.target_relative_error > 0 || was_timed != is_timed) return false;
+    if (found.settings.target_relative_error > 0 || settings.target_relative_error > 0 || was_timed != is_timed)
+        return false;
     const double held = found.reference.sample_count.values.front();
-    const double limit = settings.max_samples ? double(rounded_samples(settings.max_samples)) : double(max_sample_limit);
+    const double limit =
+        settings.max_samples ? double(rounded_samples(settings.max_samples)) : double(max_sample_limit);
     return is_timed ? held <= limit : held <= limit && (held == limit || held >= double(first_untimed_pass));
 }
 
 /// The state that the file holds of this request, or an empty one.
-ReferenceState pick_up(const ReferenceRun& run, const std::string& stream, glm::uvec2 extent, const ReferenceSettings& settings) {
+ReferenceState pick_up(const ReferenceRun& run, const std::string& stream, glm::uvec2 extent,
+                       const ReferenceSettings& settings) {
     ReferenceState empty;
     empty.settings = settings;
     clear_samples(empty, extent);
@@ -92,18 +99,22 @@ std::string groundtruth_code_version() { return std::string(code_version); }
 
 std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                              const ReferenceSettings& settings) {
-    if (scene.content_hash.empty()) fail("the scene '", scene.name, "' has no content hash, so its reference cannot be told from others");
+    if (scene.content_hash.empty())
+        fail("the scene '", scene.name, "' has no content hash, so its reference cannot be told from others");
     ContentHash hash;
     hash.add(code_version);
     hash.add(scene.content_hash);
     add(hash, pose);
     add(hash, camera);
-    for (const unsigned value : {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder), unsigned(settings.keep_all)}) hash.add(value);
+    for (const unsigned value : {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder),
+                                 unsigned(settings.keep_all)})
+        hash.add(value);
     return hash.hex();
 }
 
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings) {
-    std::string key = stream + "-n" + digits(settings.max_samples ? rounded_samples(settings.max_samples) : max_sample_limit);
+    std::string key =
+        stream + "-n" + digits(settings.max_samples ? rounded_samples(settings.max_samples) : max_sample_limit);
     if (settings.target_relative_error > 0) key += "-e" + digits(settings.target_relative_error);
     if (settings.max_seconds > 0) key += "-t" + digits(settings.max_seconds);
     return key;
@@ -121,7 +132,9 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
     clock.seconds_before = state.reference.seconds;
     clock.rays_before = state.reference.rays;
 
-    const PathTracer path_tracer(scene, pose, camera, extent, {.max_depth = settings.max_depth, .ladder = settings.ladder, .keep_all = settings.keep_all});
+    const PathTracer path_tracer(
+        scene, pose, camera, extent,
+        {.max_depth = settings.max_depth, .ladder = settings.ladder, .keep_all = settings.keep_all});
     const PixelTracer tracer{
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
         .trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,

@@ -7,25 +7,25 @@
 #include <functional>
 #include <string>
 
-/// One quantity of every pixel, from two independent halves of the samples. Each half is the mean of 8 batches, and each
-/// batch has an Owen scramble of its own, so that the spread of the batches measures the error: samples of one scramble are
-/// not independent, and their own variance overstates it by up to orders of magnitude.
-/// Combining passes of different length weighs each by its samples.
+/// One quantity of every pixel, from two independent halves of the samples. Each half is the mean of 8 batches, and
+/// each batch has an Owen scramble of its own, so that the spread of the batches measures the error: samples of one
+/// scramble are not independent, and their own variance overstates it by up to orders of magnitude. Combining passes of
+/// different length weighs each by its samples.
 struct ReferenceOutput {
     HostImage mean;            ///< RGB: (half_a + half_b) / 2
     HostImage half_a, half_b;  ///< RGB, independent of each other
     HostImage variance;        ///< of `mean`, per channel; within the halves, 14 degrees of freedom per pass
 };
 
-/// The lower rungs of the truth ladder, which tells whom a technique's error is to be blamed on: each changes one thing of
-/// the one above it. All are means over the lobe like `incident` (times `reflectance` they are specular radiances), and
-/// share its samples, so that the steps between rungs are less noisy than the rungs: see truth_ladder.h.
+/// The lower rungs of the truth ladder, which tells whom a technique's error is to be blamed on: each changes one thing
+/// of the one above it. All are means over the lobe like `incident` (times `reflectance` they are specular radiances),
+/// and share its samples, so that the steps between rungs are less noisy than the rungs: see truth_ladder.h.
 ///
-/// `camera_radiance` takes, at what the lobe meets first, the radiance that leaves diffusely and by emission towards the
-/// camera, lit by all light transport: what the lit colour buffer would hold of it (where the camera is behind the
+/// `camera_radiance` takes, at what the lobe meets first, the radiance that leaves diffusely and by emission towards
+/// the camera, lit by all light transport: what the lit colour buffer would hold of it (where the camera is behind the
 /// surface, its mirror image before it counts). What is lost is the dependence on the view, and reflections of
-/// reflections. `on_screen` takes `fallback` where the image does not show that point, on the side that was met: what is
-/// lost is what no screen-space technique can know. Visibility is that of points, not of pixels.
+/// reflections. `on_screen` takes `fallback` where the image does not show that point, on the side that was met: what
+/// is lost is what no screen-space technique can know. Visibility is that of points, not of pixels.
 struct TruthLadder {
     ReferenceOutput camera_radiance, on_screen;
     HostImage on_screen_share;  ///< one channel: share of the lobe that meets what the image shows; an ideal confidence
@@ -40,47 +40,56 @@ struct TruthLadder {
 struct Reference {
     glm::uvec2 extent{0, 0};
     ReferenceOutput image;     ///< full path-traced radiance: diffuse + specular + highlights
-    ReferenceOutput diffuse;   ///< the lit colour: what the first hit emits and reflects diffusely; the environment where nothing is hit
+    ReferenceOutput diffuse;   ///< the lit colour: what the first hit emits and reflects diffusely; the environment
+                               ///< where nothing is hit
     ReferenceOutput specular;  ///< specular reflection of the first hit, of all but the punctual lights
-    ReferenceOutput incident;  ///< incident radiance averaged over the visible-normal lobe, weight 1: what a variant estimates
-    HostImage highlights;      ///< RGB, without noise: the punctual lights that the first hit reflects specularly. No part of `specular`: see PathTracer
-    HostImage sample_count;    ///< one channel
-    HostImage lobe_samples;    ///< two channels: how many samples of half A and of half B have a direction above the horizon
-    HostImage depth;           ///< one channel: distance along -z (m), 0 where nothing was hit
+    /// Incident radiance averaged over the visible-normal lobe, weight 1: what a variant estimates.
+    ReferenceOutput incident;
+    /// RGB, without noise: the punctual lights that the first hit reflects specularly. No part of `specular`, since no
+    /// ray meets them and engines shade them in closed form.
+    HostImage highlights;
+    HostImage sample_count;  ///< one channel
+    HostImage lobe_samples;  ///< two channels: how many samples of half A and of half B are above the horizon
+    HostImage depth;         ///< one channel: distance along -z (m), 0 where nothing was hit
     HostImage geometric_normal, normal;  ///< XYZ, world space, as in the G-buffer
-    HostImage material_id;     ///< one channel: material index + 1, 0: background
-    TruthLadder ladder;        ///< empty unless ReferenceSettings::ladder
-    double seconds = 0;        ///< wall clock, over all continued runs
-    double rays = 0;           ///< of both kinds, over all runs, the pilot of an adaptive render included
-    uint64_t non_finite_samples = 0;  ///< samples with NaN or Inf, whose parts count as zero: an image is valid only if 0
-    float reached_share = 1.0f;       ///< share of the pixels that reached target_relative_error
-    std::string passes;        ///< samples per pixel of each pass, "256+256+512"; "adaptive" for a render with a target
-    std::string stream;        ///< hash of all that decides which samples are drawn, and their values
-    std::string hash;          ///< the key of the cache: stream and stop rule
-    bool from_cache = false;   ///< it was not rendered now
+    HostImage material_id;               ///< one channel: material index + 1, 0: background
+    TruthLadder ladder;                  ///< empty unless ReferenceSettings::ladder
+    double seconds = 0;                  ///< wall clock, over all continued runs
+    double rays = 0;                     ///< of both kinds, over all runs, the pilot of an adaptive render included
+    /// Samples with NaN or Inf, whose parts count as zero: an image is valid only if 0.
+    uint64_t non_finite_samples = 0;
+    float reached_share = 1.0f;  ///< share of the pixels that reached target_relative_error
+    std::string passes;       ///< samples per pixel of each pass, "256+256+512"; "adaptive" for a render with a target
+    std::string stream;       ///< hash of all that decides which samples are drawn, and their values
+    std::string hash;         ///< the key of the cache: stream and stop rule
+    bool from_cache = false;  ///< it was not rendered now
 };
 
 /// A render stops at whichever limit comes first.
 ///
-/// Samples come in passes over the whole image, a time limit ends after a whole one, and their sizes depend on the clock
-/// but not on what was found: no stop adds bias. Without a time limit the passes are 256 and then double, whatever was
-/// rendered before, so that the result is the same bits whether it was interrupted, or continued from fewer samples.
+/// Samples come in passes over the whole image, a time limit ends after a whole one, and their sizes depend on the
+/// clock but not on what was found: no stop adds bias. Without a time limit the passes are 256 and then double,
+/// whatever was rendered before, so that the result is the same bits whether it was interrupted, or continued from
+/// fewer samples.
 ///
-/// A target is met in two phases, since stopping when the error *looks* small favours pixels that have not yet met their
-/// rare bright paths (up to -33 % with p = 1e-4 a path). A pilot decides the number of samples of each pixel and is then
-/// thrown away; the final pass is independent of it.
+/// A target is met in two phases, since stopping when the error *looks* small favours pixels that have not yet met
+/// their rare bright paths (up to -33 % with p = 1e-4 a path). A pilot decides the number of samples of each pixel and
+/// is then thrown away; the final pass is independent of it.
 struct ReferenceSettings {
-    unsigned max_samples = 256;  ///< per pixel, at most; rounded up to 16 * 2^k <= 2^24; 0: no such limit, if there is another
-    double max_seconds = 0;      ///< wall clock, over all continued runs; 0: unlimited. At least one pass of 16 is made
-    float target_relative_error = 0;  ///< relative standard error of `specular` at each pixel, see relative_error(); 0: no such stop
-    unsigned max_depth = 64;     ///< reflections per path
+    unsigned max_samples =
+        256;  ///< per pixel, at most; rounded up to 16 * 2^k <= 2^24; 0: no such limit, if there is another
+    double max_seconds = 0;  ///< wall clock, over all continued runs; 0: unlimited. At least one pass of 16 is made
+    float target_relative_error =
+        0;  ///< relative standard error of `specular` at each pixel, see relative_error(); 0: no such stop
+    unsigned max_depth = 64;  ///< reflections per path
     unsigned seed = 0x5eed;
-    bool ladder = false;         ///< also the lower rungs of the truth ladder: about twice the rays
-    bool keep_all = false;       ///< trace also what the scene does not need: the same image, slower
+    bool ladder = false;    ///< also the lower rungs of the truth ladder: about twice the rays
+    bool keep_all = false;  ///< trace also what the scene does not need: the same image, slower
 };
 
-/// Called now and then, from one thread at a time: fraction done in [0, 1], rays per second, seconds left. With a target the
-/// pilot and the final pass count from 0 to 1 each. If it throws, the state is saved and the exception goes on to the caller.
+/// Called now and then, from one thread at a time: fraction done in [0, 1], rays per second, seconds left. With a
+/// target the pilot and the final pass count from 0 to 1 each. If it throws, the state is saved and the exception goes
+/// on to the caller.
 using ReferenceProgress = std::function<void(double fraction, double rays_per_second, double seconds_left)>;
 
 /// How a render is run; nothing here changes its result.
@@ -95,21 +104,22 @@ struct ReferenceRun {
 /// Renders on all cores (those of the caller's TBB arena); the result is the same bits for any number of them.
 ///
 /// run.state_file is written every seconds_between_saves (or less often, if writing takes more than a twentieth of the
-/// time), and when run.progress throws. A render that finds the state of the same request continues it; one that finds a
-/// finished reference of the same samples with less of them adds to it, where ReferenceSettings says that it can; any other
-/// file there is replaced. The finished reference is not written: see write_reference().
+/// time), and when run.progress throws. A render that finds the state of the same request continues it; one that finds
+/// a finished reference of the same samples with less of them adds to it, where ReferenceSettings says that it can; any
+/// other file there is replaced. The finished reference is not written: see write_reference().
 ///
 /// Fails with Error if the extent is zero or too large, or no limit is set; with MachineError if the disk is full.
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 
-/// Hash of all that decides which samples a render draws and what they are: scene content, pose, camera, extent, seed, depth,
-/// ladder and the code of the path tracer. Fails with Error if scene.content_hash is empty.
+/// Hash of all that decides which samples a render draws and what they are: scene content, pose, camera, extent, seed,
+/// depth, ladder and the code of the path tracer. Fails with Error if scene.content_hash is empty.
 std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                              const ReferenceSettings& settings);
 
 /// `stream` and the stop rule: "<32 hex digits>-n1024", "...-n65536-e0.03-t600".
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings);
 
-/// The hash of the sources of the path tracer, of the scene code and of the shared BRDF that this program was built from.
+/// The hash of the sources of the path tracer, of the scene code and of the shared BRDF that this program was built
+/// from.
 std::string groundtruth_code_version();

@@ -3,13 +3,13 @@
 #include "core/error.h"
 #include "groundtruth/reference_file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <optional>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace {
 
@@ -18,8 +18,11 @@ namespace fs = std::filesystem;
 /// Held by the process that renders a reference. The system frees it when the process ends, however it ends.
 class Lock {
 public:
-    Lock(const fs::path& file, const ReferenceRun& run) : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-        if (descriptor_ < 0) fail_machine("cannot write into the cache folder ", file.parent_path().string(), ": ", std::strerror(errno));
+    Lock(const fs::path& file, const ReferenceRun& run)
+        : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+        if (descriptor_ < 0)
+            fail_machine("cannot write into the cache folder ", file.parent_path().string(), ": ",
+                         std::strerror(errno));
         if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
         if (run.notice) run.notice("another process renders the same reference; waiting for it");
         while (flock(descriptor_, LOCK_EX) != 0)
@@ -50,7 +53,8 @@ std::optional<Reference> load(const fs::path& file, const std::string& key, cons
     return {};
 }
 
-/// A finished reference of the same samples that render_reference() may add to: the one with most samples, as far as names tell.
+/// A finished reference of the same samples that render_reference() may add to: the one with most samples, as far as
+/// names tell.
 fs::path smaller_reference(const fs::path& folder, const std::string& stream, const ReferenceSettings& settings) {
     if (settings.target_relative_error > 0) return {};
     ReferenceSettings smaller = settings;

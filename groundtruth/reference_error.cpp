@@ -32,7 +32,8 @@ PixelZ half_z(const ReferenceOutput& output, size_t pixel) {
     for (int c = 0; c < 3; ++c) {
         const size_t i = pixel * 3 + size_t(c);
         if (output.variance.values[i] == 0) continue;
-        result.z[c] = (double(output.half_a.values[i]) - output.half_b.values[i]) / (2 * std::sqrt(double(output.variance.values[i])));
+        result.z[c] = (double(output.half_a.values[i]) - output.half_b.values[i]) /
+                      (2 * std::sqrt(double(output.variance.values[i])));
         ++result.channels;
     }
     return result;
@@ -69,7 +70,8 @@ float reached_share(const Reference& reference, float target) {
     return pixels ? float(double(reached) / double(pixels)) : 1.0f;
 }
 
-ErrorSummary relative_error_summary(const Reference& reference, const ReferenceOutput& output, std::span<const uint8_t> inside) {
+ErrorSummary relative_error_summary(const Reference& reference, const ReferenceOutput& output,
+                                    std::span<const uint8_t> inside) {
     const HostImage error = relative_error(reference, output);
     if (!inside.empty() && inside.size() != error.values.size())
         fail("the mask has ", inside.size(), " pixels, but the reference has ", error.values.size());
@@ -103,8 +105,9 @@ HalfAudit audit_halves(const ReferenceOutput& output) {
     if (audit.pixels == 0) return audit;
     audit.mean_z_squared = sum / double(audit.pixels);
     if (left_squares * right_squares > 0) audit.correlation = products / std::sqrt(left_squares * right_squares);
-    // F(1, n) has mean n / (n - 2) and variance 2 n^2 (n - 1) / ((n - 2)^2 (n - 4)); here n = 14, and down to mean 1 for many
-    // passes. The channels of a pixel share their paths, so only pixels count. Three standard deviations: 1 in 370.
+    // F(1, n) has mean n / (n - 2) and variance 2 n^2 (n - 1) / ((n - 2)^2 (n - 4)); here n = 14, and down to mean 1
+    // for many passes. The channels of a pixel share their paths, so only pixels count. Three standard deviations: 1 in
+    // 370.
     const double deviation = std::sqrt(2.0 * 14 * 14 * 13 / (12 * 12 * 10) / double(audit.pixels));
     audit.low = 1 - 3 * deviation;
     audit.high = 14.0 / 12 + 3 * deviation;

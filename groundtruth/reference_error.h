@@ -11,12 +11,12 @@ inline constexpr double relative_error_floor = 0.01;
 /// relative_error_floor times the mean of `output` over RGB and over the pixels that are not background.
 double radiance_floor(const Reference& reference, const ReferenceOutput& output);
 
-/// Standard error of each pixel relative to its radiance: sqrt(mean over RGB of variance) / max(mean over RGB of `mean`,
-/// radiance_floor()). One channel; 0 where the variance is 0.
+/// Standard error of each pixel relative to its radiance: sqrt(mean over RGB of variance) / max(mean over RGB of
+/// `mean`, radiance_floor()). One channel; 0 where the variance is 0.
 HostImage relative_error(const Reference& reference, const ReferenceOutput& output);
 
-/// Share of the pixels, without the background, whose relative_error() of `specular` is at most `target`; 1 if there are none.
-/// A pixel that is above it is not truth to that precision: weigh it by its variance, or mask it.
+/// Share of the pixels, without the background, whose relative_error() of `specular` is at most `target`; 1 if there
+/// are none. A pixel that is above it is not truth to that precision: weigh it by its variance, or mask it.
 float reached_share(const Reference& reference, float target);
 
 struct ErrorSummary {
@@ -24,15 +24,17 @@ struct ErrorSummary {
     size_t pixels = 0;
 };
 
-/// relative_error() over the pixels where `inside` is nonzero (empty: all that are not background). All 0 if there is none.
-ErrorSummary relative_error_summary(const Reference& reference, const ReferenceOutput& output, std::span<const uint8_t> inside = {});
+/// relative_error() over the pixels where `inside` is nonzero (empty: all that are not background). All 0 if there is
+/// none.
+ErrorSummary relative_error_summary(const Reference& reference, const ReferenceOutput& output,
+                                    std::span<const uint8_t> inside = {});
 
-/// What the two halves say of the stated variance. If batch means are normal, z^2 = (A - B)^2 / (4 variance) is F(1, 14)
-/// distributed for one pass, with mean 14/12, and nearer to 1 for more passes. Rare bright paths make it smaller.
+/// What the two halves say of the stated variance. If batch means are normal, z^2 = (A - B)^2 / (4 variance) is F(1,
+/// 14) distributed for one pass, with mean 14/12, and nearer to 1 for more passes. Rare bright paths make it smaller.
 struct HalfAudit {
-    double mean_z_squared = 0;   ///< over pixels and channels that have any variance
-    double low = 0, high = 0;    ///< where a sound render of normal batches has it, but for one in about 400
-    double correlation = 0;      ///< of z between horizontal neighbours: 0 but for noise of 1 / sqrt(pixels)
+    double mean_z_squared = 0;  ///< over pixels and channels that have any variance
+    double low = 0, high = 0;   ///< where a sound render of normal batches has it, but for one in about 400
+    double correlation = 0;     ///< of z between horizontal neighbours: 0 but for noise of 1 / sqrt(pixels)
     size_t pixels = 0;
 };
 HalfAudit audit_halves(const ReferenceOutput& output);

@@ -17,9 +17,9 @@ struct NamedImage {
 std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
     std::vector<NamedImage> images;
     std::vector<std::pair<std::string, ReferenceOutput*>> outputs = {{"image", &reference.image},
-                                                               {"diffuse", &reference.diffuse},
-                                                               {"specular", &reference.specular},
-                                                               {"incident", &reference.incident}};
+                                                                     {"diffuse", &reference.diffuse},
+                                                                     {"specular", &reference.specular},
+                                                                     {"incident", &reference.incident}};
     TruthLadder& ladder = reference.ladder;
     if (has_ladder) {
         outputs.push_back({"camera_radiance", &ladder.camera_radiance});
@@ -45,7 +45,8 @@ std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
 }
 
 std::vector<NamedImage> named_images(ReferenceState& state) {
-    return {{"sample_goal", "Y", &state.sample_goal, PixelType::uint32}, {"rays_per_sample", "Y", &state.rays_per_sample}};
+    return {{"sample_goal", "Y", &state.sample_goal, PixelType::uint32},
+            {"rays_per_sample", "Y", &state.rays_per_sample}};
 }
 
 /// Shortest digits that read back exactly.
@@ -54,7 +55,8 @@ std::string digits(auto value) {
     return {text, std::to_chars(text, text + sizeof(text), value).ptr};
 }
 
-std::map<std::string, std::string> attributes(const Reference& reference, const ReferenceSettings& settings, bool is_pilot) {
+std::map<std::string, std::string> attributes(const Reference& reference, const ReferenceSettings& settings,
+                                              bool is_pilot) {
     return {
         {"ssrlab.stream", reference.stream},
         {"ssrlab.hash", reference.hash},
@@ -72,6 +74,8 @@ std::map<std::string, std::string> attributes(const Reference& reference, const 
         {"ssrlab.keep_all", digits(unsigned(settings.keep_all))},
         {"ssrlab.is_pilot", digits(unsigned(is_pilot))},
         {"ssrlab.code_version", groundtruth_code_version()},
+        {"ssrlab.highlight_policy",
+         "image = diffuse + specular + highlights; highlights: punctual lights reflected by the first hit"},
         {"ssrlab.alpha_policy", "ggx alpha = max(roughness^2, 0.001)"},
     };
 }
@@ -107,7 +111,10 @@ class BorrowedLayers {
 public:
     explicit BorrowedLayers(std::vector<NamedImage> images) : images_(std::move(images)) {
         for (NamedImage& image : images_)
-            file.layers.push_back({.name = image.name, .channel_names = image.channels, .image = std::move(*image.image), .type = image.type});
+            file.layers.push_back({.name = image.name,
+                                   .channel_names = image.channels,
+                                   .image = std::move(*image.image),
+                                   .type = image.type});
     }
     ~BorrowedLayers() {
         for (size_t i = 0; i < images_.size(); ++i) *images_[i].image = std::move(file.layers[i].image);
@@ -121,7 +128,8 @@ private:
     std::vector<NamedImage> images_;
 };
 
-void write(const std::filesystem::path& file, std::vector<NamedImage> images, std::map<std::string, std::string> header) {
+void write(const std::filesystem::path& file, std::vector<NamedImage> images,
+           std::map<std::string, std::string> header) {
     BorrowedLayers borrowed(std::move(images));
     borrowed.file.attributes = std::move(header);
     write_exr(file, borrowed.file);
@@ -131,7 +139,8 @@ void take_layer(const std::filesystem::path& file, LayeredImage& layers, const N
     for (Layer& layer : layers.layers) {
         if (layer.name != into.name) continue;
         if (layer.channel_names != into.channels)
-            fail(file.string(), ": layer '", into.name, "' has the channels ", layer.channel_names, ", but should have ", into.channels);
+            fail(file.string(), ": layer '", into.name, "' has the channels ", layer.channel_names,
+                 ", but should have ", into.channels);
         *into.image = std::move(layer.image);
         return;
     }
@@ -181,6 +190,7 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
 
 Reference read_reference(const std::filesystem::path& file) {
     ReferenceState state = read_reference_state(file);
-    if (!state.sample_goal.values.empty()) fail(file.string(), " holds an unfinished render: continue it to get a reference");
+    if (!state.sample_goal.values.empty())
+        fail(file.string(), " holds an unfinished render: continue it to get a reference");
     return std::move(state.reference);
 }

@@ -1,18 +1,19 @@
 #include "groundtruth/reference_passes.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <xmmintrin.h>
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <numeric>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#include <xmmintrin.h>
 
 namespace {
 
 constexpr unsigned tile_size = 8;  ///< pixels; neighbours meet the same nodes of the BVH
 
-/// Denormals count as zero while it lives: Embree asks for it, and arithmetic on them is slow. The mode belongs to a thread.
+/// Denormals count as zero while it lives: Embree asks for it, and arithmetic on them is slow. The mode belongs to a
+/// thread.
 struct FlushDenormals {
     const unsigned before = _mm_getcsr();
     FlushDenormals() { _mm_setcsr(before | 0x8040); }  // FTZ and DAZ
@@ -79,7 +80,8 @@ void look_at_clock(PassCounts& counts, RenderClock& clock, const Reference& refe
     report(counts, clock, reference);
 }
 
-void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& tile, PassCounts& counts, RenderClock& clock) {
+void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& tile, PassCounts& counts,
+                 RenderClock& clock) {
     Reference& reference = state.reference;
     const SampleSet set = state.is_pilot ? SampleSet::pilot : SampleSet::final;
     for (unsigned y = tile.y; y < std::min(tile.y + tile_size, reference.extent.y); ++y)
@@ -88,7 +90,8 @@ void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& t
             const size_t pixel = size_t(y) * reference.extent.x + x;
             const unsigned samples = unsigned(state.sample_goal.values[pixel] - reference.sample_count.values[pixel]);
             if (samples == 0) continue;
-            const PixelCost cost = add_samples(reference, tracer, x, y, state.settings.seed, set, samples / batch_count);
+            const PixelCost cost =
+                add_samples(reference, tracer, x, y, state.settings.seed, set, samples / batch_count);
             if (state.is_pilot) state.rays_per_sample.values[pixel] = float(double(cost.rays) / samples);
             counts.rays += cost.rays;
             counts.non_finite += cost.non_finite;
@@ -121,11 +124,15 @@ void clear_samples(ReferenceState& state, glm::uvec2 extent) {
     reference.non_finite_samples = 0;
     reference.passes.clear();
     const auto clear = [&](ReferenceOutput& output) {
-        for (HostImage* image : {&output.mean, &output.half_a, &output.half_b, &output.variance}) *image = HostImage(extent, 3);
+        for (HostImage* image : {&output.mean, &output.half_a, &output.half_b, &output.variance})
+            *image = HostImage(extent, 3);
     };
-    for (ReferenceOutput* output : {&reference.image, &reference.diffuse, &reference.specular, &reference.incident}) clear(*output);
-    for (HostImage* image : {&reference.highlights, &reference.geometric_normal, &reference.normal}) *image = HostImage(extent, 3);
-    for (HostImage* image : {&reference.sample_count, &reference.depth, &reference.material_id}) *image = HostImage(extent, 1);
+    for (ReferenceOutput* output : {&reference.image, &reference.diffuse, &reference.specular, &reference.incident})
+        clear(*output);
+    for (HostImage* image : {&reference.highlights, &reference.geometric_normal, &reference.normal})
+        *image = HostImage(extent, 3);
+    for (HostImage* image : {&reference.sample_count, &reference.depth, &reference.material_id})
+        *image = HostImage(extent, 1);
     reference.lobe_samples = HostImage(extent, 2);
     TruthLadder& ladder = reference.ladder = {};
     if (state.settings.ladder) {

@@ -17,9 +17,9 @@ struct PassMeans {
     glm::dvec3 variance{0.0};  ///< of the mean of the halves
 };
 
-/// The variance of a half is that of a ratio of sums, linearised (Cochran, "Sampling Techniques", 6.4); where all weights are
-/// equal it is the variance of the batch means over their number. Deviations are taken within a half: so the difference of
-/// the halves is independent of the stated variance, and audits it.
+/// The variance of a half is that of a ratio of sums, linearised (Cochran, "Sampling Techniques", 6.4); where all
+/// weights are equal it is the variance of the batch means over their number. Deviations are taken within a half: so
+/// the difference of the halves is independent of the stated variance, and audits it.
 PassMeans means(const Batches& batches) {
     constexpr double batches_per_half = batch_count / 2;
     PassMeans pass;
@@ -82,15 +82,15 @@ void write_first_hit(Reference& reference, size_t pixel, const FirstHit& hit) {
 
 }  // namespace
 
-PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed, SampleSet set,
-                      unsigned batch_samples) {
+PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed,
+                      SampleSet set, unsigned batch_samples) {
     const size_t pixel = size_t(y) * reference.extent.x + x;
     const FirstHit hit = tracer.first_hit(x, y);
     write_first_hit(reference, pixel, hit);
 
     const double samples_before = reference.sample_count.values[pixel];
     const uint64_t pass_seed = mix(mix(seed) ^ mix(uint64_t(set) + 1) ^ uint64_t(samples_before));
-    PixelCost cost{.rays = 1 + hit.shadow_rays};
+    PixelCost cost{.rays = 1 + hit.shadow_rays, .non_finite = !hit.is_highlight_finite};
     Batches diffuse, specular, image, incident, camera_radiance, on_screen;
     double on_screen_samples = 0;
     for (unsigned b = 0; b < batch_count; ++b) {

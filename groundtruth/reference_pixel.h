@@ -2,12 +2,12 @@
 #include "groundtruth/path_tracer.h"
 #include "groundtruth/reference.h"
 
-/// What a pass needs of the path tracer, so that the statistics can also be proved on integrands with known moments. Both
-/// are called from any thread; `trace` is PathTracer::trace().
+/// What a pass needs of the path tracer, so that the statistics can also be proved on integrands with known moments.
+/// Both are called from any thread; `trace` is PathTracer::trace().
 struct PixelTracer {
     std::function<FirstHit(unsigned x, unsigned y)> first_hit;
-    std::function<void(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
-                       PixelEstimate& estimate)>
+    std::function<void(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample,
+                       unsigned count, PixelEstimate& estimate)>
         trace;
 };
 
@@ -20,7 +20,8 @@ struct PixelCost {
 /// Which of the independent sets of samples a pass draws from.
 enum class SampleSet : uint64_t { final, pilot };
 
-/// Adds batch_count batches of `batch_samples` samples to the outputs of one pixel, and writes its first-hit layers. The
-/// scrambles depend on seed, set, and the samples that the pixel has already, and so on nothing that threads or time decide.
-PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed, SampleSet set,
-                      unsigned batch_samples);
+/// Adds batch_count batches of `batch_samples` samples to the outputs of one pixel, and writes its first-hit layers.
+/// The scrambles depend on seed, set, and the samples that the pixel has already, and so on nothing that threads or
+/// time decide.
+PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed,
+                      SampleSet set, unsigned batch_samples);

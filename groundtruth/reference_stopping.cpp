@@ -8,11 +8,11 @@
 
 namespace {
 
-constexpr uint64_t first_timed_pass = 16;   ///< short, since nothing is known yet of the speed
-constexpr uint64_t pilot_samples = 1024;    ///< at most; 16 batches of 64
-constexpr double pilot_share = 0.25;        ///< of samples and of time that the pilot may take, at most
-constexpr double used_share_of_time = 0.9;  ///< of what is left for the final pass: its cost is only estimated
-constexpr uint64_t min_final_samples = 256; ///< where the pilot asks for less: the other outputs need some
+constexpr uint64_t first_timed_pass = 16;    ///< short, since nothing is known yet of the speed
+constexpr uint64_t pilot_samples = 1024;     ///< at most; 16 batches of 64
+constexpr double pilot_share = 0.25;         ///< of samples and of time that the pilot may take, at most
+constexpr double used_share_of_time = 0.9;   ///< of what is left for the final pass: its cost is only estimated
+constexpr uint64_t min_final_samples = 256;  ///< where the pilot asks for less: the other outputs need some
 
 struct Limits {
     uint64_t samples;  ///< per pixel
@@ -26,10 +26,11 @@ Limits limits(const ReferenceSettings& settings) {
 /// Samples per pixel of the next pass of a uniform render that has `held`, or 0 if it is done.
 uint64_t next_pass(uint64_t held, Limits limit, double seconds) {
     if (held >= limit.samples) return 0;
-    if (limit.seconds == 0) return held == 0 ? std::min(first_untimed_pass, limit.samples) : std::min(held, limit.samples - held);
+    if (limit.seconds == 0)
+        return held == 0 ? std::min(first_untimed_pass, limit.samples) : std::min(held, limit.samples - held);
     if (held == 0) return std::min(first_timed_pass, limit.samples);
-    // Four times what is there at most, so that a speed misjudged at first is corrected; not less than a 32nd, which would
-    // change little.
+    // Four times what is there at most, so that a speed misjudged at first is corrected; not less than a 32nd, which
+    // would change little.
     const double affordable = (limit.seconds - seconds) * double(held) / seconds;
     const double most = std::min({affordable, 4.0 * double(held), double(limit.samples - held)});
     if (most < batch_count || most < double(held) / 32) return 0;
@@ -53,8 +54,8 @@ void render_uniform(ReferenceState& state, const PixelTracer& tracer, RenderCloc
     state.sample_goal = {};
 }
 
-/// The largest variance of one sample of `specular` within the 3x3 pixels of the same material, as a mean over RGB: a pixel
-/// whose own samples have missed a rare bright path borrows the doubt of a neighbour that met one.
+/// The largest variance of one sample of `specular` within the 3x3 pixels of the same material, as a mean over RGB: a
+/// pixel whose own samples have missed a rare bright path borrows the doubt of a neighbour that met one.
 double neighbourhood_variance(const Reference& reference, unsigned x, unsigned y) {
     const glm::uvec2 extent = reference.extent;
     const float material = *reference.material_id.pixel(x, y);
@@ -80,7 +81,8 @@ HostImage needed_samples(const ReferenceState& state) {
             const double radiance = std::max((double(mean[0]) + mean[1] + mean[2]) / 3, floor);
             const double error = state.settings.target_relative_error * radiance;
             const double variance = neighbourhood_variance(reference, x, y);
-            *needed.pixel(x, y) = variance > 0 ? float(std::min(variance / (error * error), double(max_sample_limit))) : 0.0f;
+            *needed.pixel(x, y) =
+                variance > 0 ? float(std::min(variance / (error * error), double(max_sample_limit))) : 0.0f;
         }
     return needed;
 }
@@ -94,7 +96,8 @@ uint64_t final_samples(double needed, double shrink, uint64_t cap) {
 double shrink_to_time(const ReferenceState& state, const HostImage& needed, Limits limit, const RenderClock& clock) {
     if (limit.seconds == 0) return 1;
     const double seconds_per_ray = clock.seconds() / std::max(state.reference.rays, 1.0);
-    const double affordable_rays = used_share_of_time * std::max(limit.seconds - clock.seconds(), 0.0) / seconds_per_ray;
+    const double affordable_rays =
+        used_share_of_time * std::max(limit.seconds - clock.seconds(), 0.0) / seconds_per_ray;
     const auto rays = [&](double shrink) {
         double sum = 0;
         for (size_t i = 0; i < needed.values.size(); ++i)
@@ -117,7 +120,8 @@ void render_adaptive(ReferenceState& state, const PixelTracer& tracer, RenderClo
         state.rays_per_sample = HostImage(reference.extent, 1);
     }
     if (state.is_pilot) {
-        const uint64_t samples = std::min(pilot_samples, std::max<uint64_t>(uint64_t(limit.samples * pilot_share), batch_count));
+        const uint64_t samples =
+            std::min(pilot_samples, std::max<uint64_t>(uint64_t(limit.samples * pilot_share), batch_count));
         render_uniform(state, tracer, clock, {samples, limit.seconds * pilot_share});
         const HostImage needed = needed_samples(state);
         const double shrink = shrink_to_time(state, needed, limit, clock);

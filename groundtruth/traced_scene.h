@@ -17,7 +17,8 @@ struct TracedScene {
     LightSampler lights;
     bool has_environment;  ///< that is not black
 
-    TracedScene(const Scene& scene, const ScenePose& pose, const CameraView& camera, const PathTracerSettings& settings);
+    TracedScene(const Scene& scene, const ScenePose& pose, const CameraView& camera,
+                const PathTracerSettings& settings);
 };
 
 /// What the scene does not need and is not traced or evaluated for it; nothing with PathTracerSettings::keep_all.
@@ -78,6 +79,7 @@ inline bool is_visible(const TracedScene& scene, const LightLanes& lights, int l
 }
 
 /// Whether the image of the camera shows a point on the side that `normal` (unit, geometric) points to.
-bool is_on_screen(const TracedScene& scene, glm::vec3 position, glm::vec3 error, glm::vec3 normal, PixelEstimate& estimate);
+bool is_on_screen(const TracedScene& scene, glm::vec3 position, glm::vec3 error, glm::vec3 normal,
+                  PixelEstimate& estimate);
 /// Whether it shows the environment in a direction (unit).
 bool is_on_screen(const TracedScene& scene, glm::vec3 direction, PixelEstimate& estimate);

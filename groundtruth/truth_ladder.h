@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
-/// `incident`, `camera_radiance` or `on_screen` as specular radiance: times `reflectance`. The reference must have a ladder.
+/// `incident`, `camera_radiance` or `on_screen` as specular radiance: times `reflectance`. The reference must have a
+/// ladder.
 ReferenceOutput reflected(const Reference& reference, const ReferenceOutput& incident);
 
-/// How far one image is from another, both of the same samples. Half A of one is compared with half A of the other, and so
-/// for B: the noise that both share cancels, and the product of both halves' differences has none on average.
+/// How far one image is from another, both of the same samples. Half A of one is compared with half A of the other, and
+/// so for B: the noise that both share cancels, and the product of both halves' differences has none on average.
 struct LadderDifference {
     double mean = 0;          ///< mean of (lower - upper), over RGB and pixels: signed, so that steps add up
     double mean_error = 0;    ///< its standard error
@@ -18,13 +19,14 @@ struct LadderDifference {
 };
 
 /// Over the pixels where `inside` is nonzero. All 0 if there is none.
-LadderDifference ladder_difference(const ReferenceOutput& upper, const ReferenceOutput& lower, std::span<const uint8_t> inside);
+LadderDifference ladder_difference(const ReferenceOutput& upper, const ReferenceOutput& lower,
+                                   std::span<const uint8_t> inside);
 
 /// A rung of the truth ladder below `specular`.
 struct LadderRung {
-    std::string name;            ///< "split_sum", "camera_radiance", "on_screen"
-    std::string costs;           ///< what the step to it costs, in words
-    LadderDifference step;       ///< from the rung above
+    std::string name;       ///< "split_sum", "camera_radiance", "on_screen"
+    std::string costs;      ///< what the step to it costs, in words
+    LadderDifference step;  ///< from the rung above
     LadderDifference from_truth;
 };
 
@@ -35,6 +37,6 @@ struct LadderSummary {
     std::vector<LadderRung> rungs;
 };
 
-/// The rungs over the pixels whose reflectance is not zero and where `inside` is not (empty: everywhere). The reference must
-/// have a ladder.
+/// The rungs over the pixels whose reflectance is not zero and where `inside` is not (empty: everywhere). The reference
+/// must have a ladder.
 LadderSummary summarize_ladder(const Reference& reference, std::span<const uint8_t> inside = {});

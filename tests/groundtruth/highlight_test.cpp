@@ -2,8 +2,8 @@
 #include "core/shared/brdf.h"
 #include "tests/groundtruth/test_scene.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 namespace {
 
@@ -40,7 +40,12 @@ TEST(highlight, is_the_closed_form_of_every_light_that_arrives) {
         {.type = LightType::point, .intensity = {3, 6, 0}, .position = point},
         {.type = LightType::point, .intensity = glm::vec3(50), .position = {-4, 2, 0}},  // behind the cover
         {.type = LightType::point, .intensity = glm::vec3(50), .position = {0, -2, 0}},  // below the floor
-        {.type = LightType::spot, .intensity = glm::vec3(2), .inner_cone_cos = 0.9f, .outer_cone_cos = 0.8f, .position = spot, .direction = {0, -1, 0}},
+        {.type = LightType::spot,
+         .intensity = glm::vec3(2),
+         .inner_cone_cos = 0.9f,
+         .outer_cone_cos = 0.8f,
+         .position = spot,
+         .direction = {0, -1, 0}},
         {.type = LightType::directional, .intensity = glm::vec3(0.5f), .direction = sun},
     };
     const auto from_point = [&](glm::dvec3 light) {
@@ -61,13 +66,17 @@ TEST(highlight, of_what_is_reflected_is_part_of_the_reflection) {
     const double f0 = 0.7, roughness = 0.5;
     TestScene scene;
     add_floor(scene, metal_material(1, 0));
-    scene.quad({-9, 0, -2}, {9, 0, -2}, {9, 9, -2}, {-9, 9, -2}, scene.add(metal_material(float(f0), float(roughness))));
+    scene.quad({-9, 0, -2}, {9, 0, -2}, {9, 9, -2}, {-9, 9, -2},
+               scene.add(metal_material(float(f0), float(roughness))));
     const glm::dvec3 view = glm::normalize(glm::dvec3(0, 1, 1)), met(0, 2, -2), light(1, 3, 1);
     scene.scene.lights = {{.intensity = glm::vec3(10), .position = light}};
     const PixelMoments pixel = render(scene, camera_at(view), 256, {.ladder = true});
-    const double from_wall = 10 * metal_reflection({0, 0, 1}, glm::normalize(-met), glm::normalize(light - met), f0, roughness) / glm::dot(light - met, light - met);
+    const double from_wall =
+        10 * metal_reflection({0, 0, 1}, glm::normalize(-met), glm::normalize(light - met), f0, roughness) /
+        glm::dot(light - met, light - met);
     ASSERT_GT(from_wall, 0.05);
-    // What the wall mirrors on is the floor's highlight, 1e-6 of the light; the lobe's tails widen what is seen of the wall.
+    // What the wall mirrors on is the floor's highlight, 1e-6 of the light; the lobe's tails widen what is seen of the
+    // wall.
     EXPECT_NEAR(pixel.incident.mean.x, from_wall, 2e-3 * from_wall);
     EXPECT_NEAR(pixel.specular.mean.x, from_wall, 2e-3 * from_wall);
     EXPECT_LT(pixel.hit.highlight.x, 1e-4);

@@ -1,14 +1,14 @@
 // The lower rungs of the truth ladder, pixel by pixel, in scenes where they are known.
 #include "tests/groundtruth/test_scene.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <functional>
-#include <gtest/gtest.h>
 
 namespace {
 
-// Without light samples a mirror's image of a lamp has no noise but for the far tails of its lobe (alpha = 0.001): a sample
-// in 1e4 leaves by more than 0.2 rad.
+// Without light samples a mirror's image of a lamp has no noise but for the far tails of its lobe (alpha = 0.001): a
+// sample in 1e4 leaves by more than 0.2 rad.
 const PathTracerSettings with_ladder{.strategy = LightStrategy::bsdf_only, .ladder = true};
 const glm::vec3 eye(0, 2, 4);
 
@@ -34,14 +34,16 @@ void add_underside(TestScene& scene, const Material& material, float height) {
     scene.quad({-9, height, -9}, {9, height, -9}, {9, height, 0}, {-9, height, 0}, scene.add(material));
 }
 
-PixelMoments render_origin(const TestScene& scene, unsigned samples, PathTracerSettings settings = with_ladder, float fov = 2.0f) {
+PixelMoments render_origin(const TestScene& scene, unsigned samples, PathTracerSettings settings = with_ladder,
+                           float fov = 2.0f) {
     return render(scene, looking_at({0, 0, 0}, fov), samples, settings);
 }
 
 /// 6 standard errors of 16 batches each are Student's t with some 30 degrees of freedom: p = 1.4e-6.
 void expect_same(const Moments& a, const Moments& b, double tolerance) {
     for (int channel = 0; channel < 3; ++channel)
-        EXPECT_NEAR(a.mean[channel], b.mean[channel], 6 * std::hypot(a.standard_error[channel], b.standard_error[channel]) + tolerance);
+        EXPECT_NEAR(a.mean[channel], b.mean[channel],
+                    6 * std::hypot(a.standard_error[channel], b.standard_error[channel]) + tolerance);
 }
 
 }  // namespace
@@ -89,7 +91,8 @@ TEST(ladder, all_on_screen_is_the_truth) {
     const PixelMoments pixel = render_origin(scene, 512);
     EXPECT_EQ(pixel.on_screen_share, 1.0);
     EXPECT_GT(pixel.incident.mean.x, 0.3);
-    // Nothing on the wall depends on the view, and both kinds of paths draw the same numbers: only float32 rounds differently.
+    // Nothing on the wall depends on the view, and both kinds of paths draw the same numbers: only float32 rounds
+    // differently.
     EXPECT_NEAR(pixel.camera_radiance.mean.x, pixel.incident.mean.x, 1e-7);
     EXPECT_NEAR(pixel.on_screen.mean.x, pixel.incident.mean.x, 1e-7);
 }
@@ -126,7 +129,8 @@ TEST(ladder, reflections_of_reflections_are_lost) {
     const PixelMoments pixel = render_origin(scene, 256);
     EXPECT_GT(pixel.incident.mean.x, 0.9);
     for (int channel = 0; channel < 3; ++channel)
-        EXPECT_NEAR(pixel.camera_radiance.mean[channel], mirror.emission[channel], 1e-6);  // a metal has no lit colour of its own
+        EXPECT_NEAR(pixel.camera_radiance.mean[channel], mirror.emission[channel],
+                    1e-6);  // a metal has no lit colour of its own
 }
 
 TEST(ladder, what_the_screen_does_not_show_is_the_fallback) {
@@ -143,7 +147,8 @@ TEST(ladder, what_the_screen_does_not_show_is_the_fallback) {
     const Case cases[] = {
         {"a wall before the camera", 5, true, [&](TestScene& s) { add_wall(s, bright); }},
         {"an underside", 5, false, [&](TestScene& s) { add_underside(s, bright, 1); }},
-        {"both sides shine, but the image shows the other one", 5, false, [&](TestScene& s) { add_underside(s, two_sided, 1); }},
+        {"both sides shine, but the image shows the other one", 5, false,
+         [&](TestScene& s) { add_underside(s, two_sided, 1); }},
         {"beyond the upper border", 5, false, [&](TestScene& s) { add_wall(s, bright); }, 0.3f},
         {"behind an obstacle", 5, false,
          [&](TestScene& s) {
@@ -215,7 +220,8 @@ TEST(ladder, an_image_of_the_sky_is_on_screen_where_the_screen_shows_it) {
     EXPECT_NEAR(seen.on_screen.mean.x, sky_there.x, 2e-3);  // the lobe spreads over a tenth of a texel
     EXPECT_EQ(unseen.on_screen_share, 0.0);
     EXPECT_NEAR(unseen.on_screen.mean.x, unseen.hit.fallback.x, 1e-6);
-    EXPECT_NEAR(unseen.hit.fallback.x, sky_there.x, 0.02);  // at roughness 0 the fallback is the sky in the mirror direction
+    EXPECT_NEAR(unseen.hit.fallback.x, sky_there.x,
+                0.02);  // at roughness 0 the fallback is the sky in the mirror direction
 }
 
 TEST(ladder, asking_for_it_changes_no_bit_of_the_truth) {

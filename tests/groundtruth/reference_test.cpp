@@ -5,9 +5,9 @@
 #include "groundtruth/reference_error.h"
 #include "groundtruth/reference_file.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
+#include <cmath>
 
 namespace fs = std::filesystem;
 
@@ -69,14 +69,16 @@ TEST_F(References, AreTheMeanOfTheirHalves) {
             EXPECT_NEAR(output->mean.values[i], 0.5f * (output->half_a.values[i] + output->half_b.values[i]),
                         1e-6f + 1e-6f * std::abs(output->mean.values[i]));  // float32 rounding of three numbers
     for (size_t i = 0; i < r.image.mean.values.size(); ++i)
-        EXPECT_NEAR(r.image.mean.values[i], r.diffuse.mean.values[i] + r.specular.mean.values[i] + r.highlights.values[i],
+        EXPECT_NEAR(r.image.mean.values[i],
+                    r.diffuse.mean.values[i] + r.specular.mean.values[i] + r.highlights.values[i],
                     1e-6f + 1e-6f * r.image.mean.values[i]);
     EXPECT_EQ(r.non_finite_samples, 0u);
 }
 
 TEST_F(References, OfOtherSeedsDifferByTheirStatedVariance) {
-    // z^2 of two renders with about 30 degrees of freedom has mean 30/28 if batch means are normal. Rare bright paths make it
-    // smaller. Over some 700 noisy values its own standard error is sqrt(2 / 700) = 5 %: the bounds are 6 of them.
+    // z^2 of two renders with about 30 degrees of freedom has mean 30/28 if batch means are normal. Rare bright paths
+    // make it smaller. Over some 700 noisy values its own standard error is sqrt(2 / 700) = 5 %: the bounds are 6 of
+    // them.
     const double z = mean_z_squared(render(samples(256, 1)).specular, render(samples(256, 2)).specular);
     EXPECT_GT(z, 0.7);
     EXPECT_LT(z, 1.4);
@@ -114,7 +116,9 @@ TEST_F(References, ContinueWhereTheyWereStopped) {
 }
 
 TEST_F(References, AreCachedByContent) {
-    const auto cached = [&](const ReferenceSettings& settings) { return cached_reference(scene, pose, camera, extent, settings, folder); };
+    const auto cached = [&](const ReferenceSettings& settings) {
+        return cached_reference(scene, pose, camera, extent, settings, folder);
+    };
     const Reference first = cached(samples(64));
     EXPECT_FALSE(first.from_cache);
     const Reference again = cached(samples(64));

@@ -112,16 +112,19 @@ PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsi
         tracer.trace(x, y, result.hit, seed * 1000 + batch, 0, samples_per_batch, estimate);
         means[0][batch] = estimate.diffuse / double(estimate.samples) + glm::dvec3(result.hit.emitted);
         means[1][batch] = estimate.specular / double(estimate.samples);
-        const double lobe_samples = double(estimate.lobe_samples), hidden = lobe_samples - double(estimate.on_screen_samples);
+        const double lobe_samples = double(estimate.lobe_samples),
+                     hidden = lobe_samples - double(estimate.on_screen_samples);
         const glm::dvec3 over_lobe[] = {estimate.incident, estimate.camera_radiance,
                                         estimate.on_screen + hidden * glm::dvec3(result.hit.fallback)};
-        for (int i = 0; i < 3; ++i) means[2 + i][batch] = lobe_samples > 0 ? over_lobe[i] / lobe_samples : glm::dvec3(0.0);
+        for (int i = 0; i < 3; ++i)
+            means[2 + i][batch] = lobe_samples > 0 ? over_lobe[i] / lobe_samples : glm::dvec3(0.0);
         on_screen += double(estimate.on_screen_samples);
         lobe += lobe_samples;
         result.non_finite += estimate.non_finite;
     }
     if (lobe > 0) result.on_screen_share = on_screen / lobe;
-    Moments* moments[5] = {&result.diffuse, &result.specular, &result.incident, &result.camera_radiance, &result.on_screen};
+    Moments* moments[5] = {&result.diffuse, &result.specular, &result.incident, &result.camera_radiance,
+                           &result.on_screen};
     for (int output = 0; output < 5; ++output) {
         for (const glm::dvec3& mean : means[output]) moments[output]->mean += mean / double(batch_count);
         glm::dvec3 squares(0.0);

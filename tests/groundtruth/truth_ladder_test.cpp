@@ -1,14 +1,14 @@
 // The truth ladder of whole references: its file, its bits, its errors, and the summary that is printed.
+#include "groundtruth/truth_ladder.h"
 #include "core/error.h"
 #include "core/scene/load_scene.h"
 #include "groundtruth/camera_view.h"
 #include "groundtruth/reference_error.h"
 #include "groundtruth/reference_file.h"
-#include "groundtruth/truth_ladder.h"
 #include "tests/groundtruth/test_scene.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <random>
 
 namespace fs = std::filesystem;
@@ -22,7 +22,9 @@ struct Shot {
     ScenePose pose;
     CameraPose camera;
 
-    Reference render(const ReferenceSettings& settings) const { return render_reference(scene, pose, camera, extent, settings); }
+    Reference render(const ReferenceSettings& settings) const {
+        return render_reference(scene, pose, camera, extent, settings);
+    }
 };
 
 Shot load(const std::string& name) {
@@ -47,7 +49,8 @@ Shot hidden_sheet() {
 
 ReferenceOutput output(size_t pixels) {
     ReferenceOutput result;
-    for (HostImage* image : {&result.mean, &result.half_a, &result.half_b, &result.variance}) *image = HostImage({unsigned(pixels), 1}, 3);
+    for (HostImage* image : {&result.mean, &result.half_a, &result.half_b, &result.variance})
+        *image = HostImage({unsigned(pixels), 1}, 3);
     return result;
 }
 
@@ -71,7 +74,8 @@ TEST(truth_ladder, survives_its_file) {
     Reference reference = load("offscreen_mirror").render(settings);
     write_reference(file, reference, settings);
     const Reference back = read_reference(file);
-    for (const auto& [a, b] : {std::pair(&reference.ladder.camera_radiance, &back.ladder.camera_radiance), {&reference.ladder.on_screen, &back.ladder.on_screen}}) {
+    for (const auto& [a, b] : {std::pair(&reference.ladder.camera_radiance, &back.ladder.camera_radiance),
+                               {&reference.ladder.on_screen, &back.ladder.on_screen}}) {
         EXPECT_EQ(a->mean.values, b->mean.values);
         EXPECT_EQ(a->half_b.values, b->half_b.values);
         EXPECT_EQ(a->variance.values, b->variance.values);
@@ -85,8 +89,10 @@ TEST(truth_ladder, survives_its_file) {
 
 TEST(truth_ladder, rungs_of_other_seeds_differ_by_their_stated_variance) {
     const Shot shot = load("roughness_gradient");
-    const Reference a = shot.render({.max_samples = 256, .seed = 1, .ladder = true}), b = shot.render({.max_samples = 256, .seed = 2, .ladder = true});
-    for (const auto& [x, y] : {std::pair(&a.ladder.camera_radiance, &b.ladder.camera_radiance), {&a.ladder.on_screen, &b.ladder.on_screen}}) {
+    const Reference a = shot.render({.max_samples = 256, .seed = 1, .ladder = true}),
+                    b = shot.render({.max_samples = 256, .seed = 2, .ladder = true});
+    for (const auto& [x, y] : {std::pair(&a.ladder.camera_radiance, &b.ladder.camera_radiance),
+                               {&a.ladder.on_screen, &b.ladder.on_screen}}) {
         double sum = 0;
         size_t count = 0;
         for (size_t i = 0; i < x->mean.values.size(); ++i) {
@@ -95,8 +101,9 @@ TEST(truth_ladder, rungs_of_other_seeds_differ_by_their_stated_variance) {
             sum += std::pow(double(x->mean.values[i]) - y->mean.values[i], 2) / variance;
             ++count;
         }
-        // z^2 with about 28 degrees of freedom has mean 28/26; channels share paths, so that some 100 pixels count: a standard
-        // error of 15 %. The bounds are 4 of them (6e-5) on either side, and rare bright paths make it smaller.
+        // z^2 with about 28 degrees of freedom has mean 28/26; channels share paths, so that some 100 pixels count: a
+        // standard error of 15 %. The bounds are 4 of them (6e-5) on either side, and rare bright paths make it
+        // smaller.
         ASSERT_GT(count, 300u);
         EXPECT_GT(sum / double(count), 0.5);
         EXPECT_LT(sum / double(count), 1.7);
@@ -114,7 +121,8 @@ TEST(truth_ladder, summary_of_what_is_hidden) {
     EXPECT_NEAR(summary.rungs[1].step.mean, 0, 1e-6);
     EXPECT_NEAR(summary.rungs[2].step.mean, 0.3 - 5, 1e-2);
     EXPECT_NEAR(summary.rungs[2].step.square, 4.7 * 4.7, 0.1);
-    EXPECT_NEAR(summary.rungs[2].from_truth.mean, summary.rungs[0].step.mean + summary.rungs[1].step.mean + summary.rungs[2].step.mean, 1e-9);
+    EXPECT_NEAR(summary.rungs[2].from_truth.mean,
+                summary.rungs[0].step.mean + summary.rungs[1].step.mean + summary.rungs[2].step.mean, 1e-9);
 }
 
 TEST(truth_ladder, differences_come_without_noise_and_with_its_size) {
@@ -165,7 +173,8 @@ TEST(camera_view, frames_what_projects_into_the_image) {
             const glm::vec4 clip = data.clip_from_world * glm::vec4(point, 1);
             const glm::vec3 ndc = glm::vec3(clip) / clip.w;
             const bool is_before = clip.w > 0 && ndc.z > 0;
-            if (std::abs(std::max(std::abs(ndc.x), std::abs(ndc.y)) - 1) < 1e-4f) continue;  // at the border float32 decides
+            if (std::abs(std::max(std::abs(ndc.x), std::abs(ndc.y)) - 1) < 1e-4f)
+                continue;  // at the border float32 decides
             const bool expected = is_before && std::abs(ndc.x) < 1 && std::abs(ndc.y) < 1;
             EXPECT_EQ(view.frames(point), expected);
             framed += expected;
