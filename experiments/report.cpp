@@ -3,10 +3,10 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "experiments/report_data.h"
 #include "experiments/report_images.h"
 #include "experiments/report_warnings.h"
 #include "experiments/summary.h"
-#include "metrics/metric.h"
 
 #include <algorithm>
 #include <map>
@@ -15,11 +15,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t page_bytes = 30'000'000;  ///< a page is mailed and opened on slow machines: larger ones are not
+constexpr size_t page_bytes = 15'000'000;  ///< a page is mailed and opened on slow machines: larger ones are not
 
 /// The page's scripts, in the order in which they build on each other.
-constexpr const char* scripts[] = {"page.js",       "sections.js", "summary.js", "axes.js",         "charts.js",
-                                   "image_data.js", "panes.js",    "viewer.js",  "viewer_input.js", "start.js"};
+constexpr const char* scripts[] = {"data.js",      "page.js",     "sections.js", "points.js",       "axes.js",
+                                   "line_chart.js", "strips.js",  "summary.js",  "overview.js",     "charts.js",
+                                   "roughness.js",  "splits.js",  "effects.js",  "temporal.js",     "image_data.js",
+                                   "panes.js",      "viewer.js",  "viewer_input.js", "start.js"};
 
 std::string part(const std::string& name) {
     return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report" / name);
@@ -40,69 +42,38 @@ std::string script_text(const json& value) {
     return escaped;
 }
 
-json optional_json(const std::optional<double>& value) { return value ? json(*value) : json(); }
-
-const char* name_of(Better better) {
-    switch (better) {
-        case Better::lower:
-            return "lower";
-        case Better::higher:
-            return "higher";
-        case Better::near_zero:
-            return "near_zero";
-        case Better::near_one:
-            return "near_one";
-    }
-    return "";
-}
-
-json metric_descriptions() {
-    json all = json::object();
-    for (const Metric& m : all_metrics())
-        all[m.name] = {{"formula", m.formula}, {"unit", m.unit}, {"better", name_of(m.better)}, {"doc", m.doc}};
-    return all;
-}
-
-/// The summaries as arrays, texts as indices into `texts`: a large sweep repeats few texts many times.
-json table_data(std::span<const MetricSummary> errors, std::span<const TimeSummary> times) {
-    std::map<std::string, size_t> index;
-    json texts = json::array();
-    const auto code = [&](const std::string& text) {
-        const auto [at, is_new] = index.emplace(text, index.size());
-        if (is_new) texts.push_back(text);
-        return at->second;
+/// The rows of one metric, `headline` of what is reflected where there is such.
+std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> errors, const PointSet& singles) {
+    std::vector<const MetricSummary*> rows = rows_for_shots(errors);
+    std::erase_if(rows, [&](const MetricSummary* e) { return singles.contains({e->variant, e->point}); });
+    const auto narrow = [&](const std::string MetricSummary::*column, const std::string& wanted) {
+        const bool has_wanted = std::ranges::any_of(rows, [&](const MetricSummary* e) { return e->*column == wanted; });
+        const std::string chosen = has_wanted || rows.empty() ? wanted : rows.front()->*column;
+        std::erase_if(rows, [&](const MetricSummary* e) { return e->*column != chosen; });
     };
-    json error_rows = json::array(), time_rows = json::array();
-    for (const MetricSummary& e : errors)
-        error_rows.push_back({code(e.shot), code(e.variant), code(e.point), code(e.target), code(e.metric),
-                              code(e.formula), code(e.mask), optional_json(e.value), optional_json(e.low),
-                              optional_json(e.high), optional_json(e.floor), optional_json(e.seed_deviation), e.seeds,
-                              e.is_corrected ? 1 : 0, e.pixels, e.non_finite, e.negative});
-    for (const TimeSummary& t : times)
-        time_rows.push_back({code(t.shot), code(t.variant), code(t.point), code(t.stage), code(t.clock), t.frames,
-                             t.median, t.low, t.high});
-    return {{"texts", std::move(texts)}, {"errors", std::move(error_rows)}, {"times", std::move(time_rows)}};
+    narrow(&MetricSummary::target, "specular");
+    narrow(&MetricSummary::metric, "relmse");
+    narrow(&MetricSummary::mask, "reflective");
+    return rows;
 }
 
-/// What a reader without scripts gets: the warnings, and each shot's first metric on its reflective pixels.
-std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
+/// What a reader without scripts gets: the warnings, and the headline error of each shot.
+std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors,
+                        const PointSet& singles) {
     std::string html =
-        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in summary.csv and time_summary.csv.</p>\n";
+        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in the CSV files beside this page.</p>\n";
     for (const std::string& warning : warnings) html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
-    if (errors.empty()) return html;
-    const auto is_reflective = [](const MetricSummary& e) { return e.mask == "reflective"; };
-    const bool has_reflective = std::ranges::any_of(errors, is_reflective);
-    const MetricSummary& chosen = has_reflective ? *std::ranges::find_if(errors, is_reflective) : errors.front();
+    const std::vector<const MetricSummary*> rows = headline_rows(errors, singles);
+    if (rows.empty()) return html;
+    const MetricSummary& chosen = *rows.front();
     html += "<table><caption>" + html_text(chosen.metric + " of target " + chosen.target + " on mask " + chosen.mask) +
             "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>Low<th>High<th>Floor</tr></thead><tbody>\n";
     const auto cell = [](const std::optional<double>& value) {
         return "<td>" + (value ? json(*value).dump() : "&ndash;");
     };
-    for (const MetricSummary& e : errors)
-        if (e.metric == chosen.metric && e.formula == chosen.formula && e.target == chosen.target &&
-            e.mask == chosen.mask)
-            html += "<tr><td>" + html_text(e.shot) + "<td>" + html_text(e.variant) + "<td>" + html_text(e.point) +
-                    cell(e.value) + cell(e.low) + cell(e.high) + cell(e.floor) + "</tr>\n";
+    for (const MetricSummary* e : rows)
+        html += "<tr><td>" + html_text(e->shot) + "<td>" + html_text(e->variant) + "<td>" + html_text(e->point) +
+                cell(e->value) + cell(e->low) + cell(e->high) + cell(e->floor) + "</tr>\n";
     return html + "</tbody></table>\n";
 }
 
@@ -128,24 +99,24 @@ json image_description(const ReportImage& image) {
 void write_report(const std::filesystem::path& folder) {
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
-    const std::vector<MetricSummary> errors = summarise(read_result_rows(folder / "results.csv"));
-    std::vector<TimeSummary> times;
-    if (std::filesystem::exists(folder / "times.csv")) times = summarise(read_time_rows(folder / "times.csv"));
-    write_summaries(folder, errors, times);
+    const ReportTables tables = read_report_tables(folder);
+    write_summaries(folder, tables.errors, tables.times);
 
-    const std::vector<std::string> warnings = report_warnings(manifest, errors, times);
-    json data = table_data(errors, times);
+    const std::vector<SingleChange> changes = single_changes(manifest, tables.effects);
+    const PointSet singles = points_of(changes);
+    const std::vector<std::string> warnings = report_warnings(manifest, tables.errors, tables.times);
+    json data = report_data(tables, changes);
     data["manifest"] = manifest;
-    data["metrics"] = metric_descriptions();
+    data["manifest"].erase("images");  // the page has its own list
     data["warnings"] = warnings;
     std::string script;
     for (const char* name : scripts) script += part(name);
     std::map<std::string, std::string> values = {
-        {"style", part("style.css")}, {"script", script}, {"static", static_part(warnings, errors)}};
+        {"style", part("style.css")}, {"script", script}, {"static", static_part(warnings, tables.errors, singles)}};
 
     size_t used = script_text(data).size() + 100'000;  // the template, descriptions and notes
     for (const auto& [name, text] : values) used += text.size();
-    const ReportImages images = report_images(folder, manifest, used < page_bytes ? page_bytes - used : 0);
+    const ReportImages images = report_images(folder, manifest, singles, used < page_bytes ? page_bytes - used : 0);
     data["notes"] = images.notes;
     data["images"] = json::array();
     for (const ReportImage& image : images.images) {

@@ -128,16 +128,21 @@ void check_extents(const std::vector<ReportImage>& images) {
 
 }  // namespace
 
-ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest, size_t budget) {
+ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest,
+                           const PointSet& left_out, size_t budget) {
     std::map<int, std::vector<Entry>> by_rank;
     const auto rank = [](const std::string& target) {
         return target == "image" ? 0 : target == "specular" ? 1 : target == "incident" ? 2 : 3;
     };
-    for (Entry& e : first_seeds(read_entries(folder, manifest))) {
+    std::vector<Entry> entries = first_seeds(read_entries(folder, manifest));
+    const bool has_left_out = std::erase_if(entries, [&](const Entry& e) { return left_out.contains({e.variant, e.point}); }) > 0;
+    for (Entry& e : entries) {
         const int r = rank(e.target);
         by_rank[r].push_back(std::move(e));
     }
     ReportImages report;
+    if (has_left_out)
+        report.notes.push_back("The images of points that change one parameter of a baseline are not in this page; the results folder has them.");
     if (by_rank.empty()) return report;
 
     const std::vector<Entry>& foremost = by_rank.begin()->second;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/host_image.h"
+#include "experiments/report_points.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -22,10 +23,11 @@ struct ReportImages {
 };
 
 /// The images that fit into `budget` bytes of text, from manifest.json's `images`: for each shot the references and the
-/// first seed of each variant point; of target `image` first, `specular` and `incident` if there is room. If not even
+/// first seed of each variant point but those in `left_out`; of target `image` first, `specular` and `incident` if there is room. If not even
 /// the first fits, all are reduced to a half, a quarter, an eighth; if that is still too much, the last variant points
 /// are left out. Fails with Error if a file that the manifest lists is missing or broken.
-ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest, size_t budget);
+ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest,
+                           const PointSet& left_out, size_t budget);
 
 /// IEEE half floats, planar R G B: the low bytes of all values, then the high bytes, each byte minus the one before it
 /// (modulo 256, as neighbours are alike), in a zlib stream. Finite values beyond +-65504 are clamped and their pixels

@@ -38,20 +38,21 @@ function linearScale(values, from, to, mustShowZero = false) {
 }
 
 /// A mark about 8 wide at (x, y): each series has a shape of its own beside its colour.
-function mark(series, x, y) {
-    const style = {fill: seriesColor(series), stroke: "var(--card)", "stroke-width": 1};
+function mark(series, x, y, size = 1, isHollow = false) {
+    const style = isHollow ? {fill: "var(--card)", stroke: seriesColor(series), "stroke-width": 1.5} :
+                             {fill: seriesColor(series), stroke: "var(--card)", "stroke-width": 1};
     const polygon = (n, turn, r) =>
         Array
             .from(
                 {length: n},
                 (_, i) => {
                     const a = turn + 2 * Math.PI * i / n;
-                    return `${(x + r * Math.sin(a)).toFixed(2)},${(y - r * Math.cos(a)).toFixed(2)}`;
+                    return `${(x + size * r * Math.sin(a)).toFixed(2)},${(y - size * r * Math.cos(a)).toFixed(2)}`;
                 })
             .join(" ");
     switch (series % 5) {
         case 0:
-            return svg("circle", {cx: x, cy: y, r: 4, ...style});
+            return svg("circle", {cx: x, cy: y, r: 4 * size, ...style});
         case 1:
             return svg("polygon", {points: polygon(4, Math.PI / 4, 5), ...style});
         case 2:

@@ -1,7 +1,5 @@
 // Error against time, and stacked bars of stage times.
 
-const variants = unique(report.errors.map(r => r.variant));
-const seriesOf = variant => variants.indexOf(variant);
 const chartSize = {
     width: 460,
     height: 320,
@@ -20,13 +18,35 @@ function showScatter() {
         "No times were measured for these variants." :
         `${metric} of ${choice.target} on ${choice.mask} pixels against the total time of the variant's stages${
             isLog ? ", both logarithmic" : ""}. Lines are 95 % intervals; the dashed line is none. ` +
-            (isLog ? "An arrow marks a value whose noise-corrected error is not above zero. " : "") +
+            (isLog ? "An arrow marks a value whose noise-corrected error is not above zero; the grey steps join the points that none other beats in both, whatever the intervals say. " : "") +
             "Point at a mark, or tab to it, for its numbers.";
-    at("legend").replaceChildren(...variants.map(
-        (v, i) => h("span", {}, svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true"}, mark(i, 7, 7)), v)));
+    at("legend").replaceChildren(timed.length ? scatterLegend() : "");
     at("scatter").replaceChildren(
         ...unique(timed.map(r => r.shot))
             .map(shot => scatterChart(shot, rows.filter(r => r.shot === shot), metric, isLog)));
+}
+
+// Colours stand for points while there are few enough of them, else for variants.
+const isByPoint = comparedPoints.length <= mostSeries;
+const variants = unique(report.errors.map(r => r.variant));
+const scatterSeries = row => isByPoint && !isSingleChange(row) ? chartedIndex(row) : variants.indexOf(row.variant);
+
+function scatterLegend() {
+    if (isByPoint) return pointLegend();
+    const entry = (v, i) => h("span", {}, svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true"}, mark(i, 7, 7)), v);
+    return h("div", {class: "legend"}, variants.map(entry));
+}
+
+/// Those that none other beats in both: a hint, by medians and means alone.
+function paretoFront(timed) {
+    const isBeaten = p => timed.some(q => q !== p && q.time.value <= p.time.value && q.row.value <= p.row.value &&
+        (q.time.value < p.time.value || q.row.value < p.row.value));
+    return timed.filter(p => !isBeaten(p)).sort((a, b) => a.time.value - b.time.value);
+}
+
+function frontLine(front, x, y) {
+    const steps = front.map((p, i) => i ? `H${x.toPixel(p.time.value)}V${y.toPixel(p.row.value)}` : `M${x.toPixel(p.time.value)} ${y.toPixel(p.row.value)}`);
+    return svg("path", {class: "front", d: steps.join(""), fill: "none"});
 }
 
 function scatterChart(shot, rows, metric, isLog) {
@@ -46,21 +66,22 @@ function scatterChart(shot, rows, metric, isLog) {
             x2: right,
             y1: y.toPixel(none.value),
             y2: y.toPixel(none.value),
-            stroke: seriesColor(seriesOf("none")),
+            stroke: seriesColor(scatterSeries(none)),
             "stroke-dasharray": "5 4"
         }));
+    if (isLog) picture.append(frontLine(paretoFront(timed), x, y));
     for (const {row, time} of timed) picture.append(scatterMark(row, time, x, y));
     return h("figure", {class: "chart"}, h("figcaption", {}, shot), picture);
 }
 
 function scatterMark(row, time, x, y) {
-    const color = seriesColor(seriesOf(row.variant)), px = x.toPixel(time.value), py = y.toPixel(row.value);
+    const color = seriesColor(scatterSeries(row)), px = x.toPixel(time.value), py = y.toPixel(row.value);
     const bar = (x1, y1, x2, y2) => svg("line", {x1, y1, x2, y2, stroke: color, "stroke-width": 1.5});
     const group = svg(
         "g", {class: "point", "data-variant": row.variant, "data-point": row.point},
         bar(x.toPixel(time.low), py, x.toPixel(time.high), py),
         row.low === null ? null : bar(px, y.toPixel(row.low), px, y.toPixel(row.high)),
-        y.isInside(row.value) ? mark(seriesOf(row.variant), px, py) :
+        y.isInside(row.value) ? mark(scatterSeries(row), px, py) :
                                 svg("text", {x: px, y: py - 4, "text-anchor": "middle", style: `fill:${color}`}, "▼"));
     return withTip(
         group,

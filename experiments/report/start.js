@@ -4,12 +4,16 @@ document.body.append(tip);
 showHead();
 if (report.errors.length) {
     showChoice();
-    choiceListeners.push(showSummary, showScatter);
+    choiceListeners.push(showOverview, showSummary, showScatter);
     choiceListeners.forEach(f => f());
 } else {
     at("summary").append(h("p", {class: "note"}, "results.csv has no rows."));
 }
+showRoughness();
+showSplits();
 showStages();
+showEffects();
+showTemporal();
 showReferences();
 showNeeds();
 showParameters();

@@ -3,7 +3,8 @@
 const choice = {
     target: null,
     metric: null,
-    mask: null
+    mask: null,
+    hasSingleChanges: false
 };
 const choiceListeners = [];
 
@@ -12,7 +13,8 @@ const metricKey = row => `${row.metric}|${row.formula}`;
 const totalTime = row => report.times.find(
     t => t.shot === row.shot && t.variant === row.variant && t.point === row.point && t.stage === "total");
 const chosenRows = () =>
-    report.errors.filter(r => r.target === choice.target && metricKey(r) === choice.metric && r.mask === choice.mask);
+    report.errors.filter(r => r.target === choice.target && metricKey(r) === choice.metric && r.mask === choice.mask &&
+        (choice.hasSingleChanges || !isSingleChange(r)));
 
 /// The value if it is present, else the first one.
 const preferred = (values, value) => values.includes(value) ? value : values[0];
@@ -21,20 +23,23 @@ function showChoice() {
     const targets = unique(report.errors.map(r => r.target)), metrics = unique(report.errors.map(metricKey)),
           masks = unique(report.errors.map(r => r.mask));
     choice.target = preferred(targets, "specular");
-    choice.metric = metrics.find(m => m.startsWith("mse|")) ?? metrics[0];
+    choice.metric = headlineMetric(report.errors);
     choice.mask = preferred(masks, "reflective");
     const changed = key => value => {
         choice[key] = value;
         choiceListeners.forEach(f => f());
     };
-    const name = key => {
-        const [metric, formula] = key.split("|");
-        return metric === formula || !formula ? metric : `${metric} (${formula})`;
-    };
     at("choice").append(
         select("Target", targets, choice.target, changed("target")),
-        select("Metric", metrics.map(m => [m, name(m)]), choice.metric, changed("metric")),
-        select("Mask", masks, choice.mask, changed("mask")));
+        select("Metric", metrics.map(m => [m, metricName(m)]), choice.metric, changed("metric")),
+        select("Mask", masks, choice.mask, changed("mask")),
+        ...(singleChangeKeys.size ? [h("label", {}, h("input", {
+                                           type: "checkbox",
+                                           id: "single-changes",
+                                           change: event => changed("hasSingleChanges")(event.target.checked)
+                                       }),
+                                       `${singleChangeKeys.size} points that change one parameter of a baseline, too`)] :
+                                     []));
 }
 
 /// Distance from perfect, so that less is better for every metric; null if its direction is not known.

@@ -153,18 +153,18 @@ TEST_F(Report, ReducesImagesToTheBudgetAndSaysSo) {
         for (const ReportImage& image : r.images) sum += image.data.size();
         return sum;
     };
-    const ReportImages all = report_images(folder, manifest, 100'000'000);
+    const ReportImages all = report_images(folder, manifest, {}, 100'000'000);
     EXPECT_EQ(all.images.size(),
               2u * 3u * 4u);  // targets x shots x (reference and three points), of the first seed only
     EXPECT_TRUE(all.notes.empty());
-    const ReportImages foremost = report_images(folder, manifest, bytes(all) * 3 / 4);
+    const ReportImages foremost = report_images(folder, manifest, {}, bytes(all) * 3 / 4);
     EXPECT_EQ(foremost.images.size(), 12u);
     EXPECT_EQ(foremost.images[0].target, "image");
     EXPECT_TRUE(contains(foremost.notes, "'specular' are not in this page"));
-    const ReportImages half = report_images(folder, manifest, bytes(foremost) * 3 / 4);
+    const ReportImages half = report_images(folder, manifest, {}, bytes(foremost) * 3 / 4);
     EXPECT_EQ(half.images.back().width, 81u);  // 161 pixels by two, rounded up
     EXPECT_TRUE(contains(half.notes, "2 x 2"));
-    const ReportImages some = report_images(folder, manifest, 2000);
+    const ReportImages some = report_images(folder, manifest, {}, 2000);
     EXPECT_LE(bytes(some), 2000u);
     EXPECT_LT(some.images.size(), 12u);
     EXPECT_TRUE(contains(some.notes, "to keep it small"));

@@ -1,0 +1,83 @@
+"use strict";
+// What the page is made of: the tables that report_data() of experiments/report_data.cpp packs, unpacked.
+
+const report = readData();
+
+function readData() {
+    const raw = JSON.parse(document.getElementById("data").textContent);
+    const t = raw.texts;
+    const error = r => ({
+        shot: t[r[0]],
+        variant: t[r[1]],
+        point: t[r[2]],
+        target: t[r[3]],
+        metric: t[r[4]],
+        formula: t[r[5]],
+        mask: t[r[6]],
+        value: r[7],
+        low: r[8],
+        high: r[9],
+        floor: r[10],
+        deviation: r[11],
+        seeds: r[12],
+        corrected: r[13] === 1,
+        pixels: r[14],
+        nonFinite: r[15],
+        negative: r[16],
+        frame: t[r[17]]
+    });
+    const split = r => ({
+        shot: t[r[0]],
+        frame: t[r[1]],
+        variant: t[r[2]],
+        point: t[r[3]],
+        target: t[r[4]],
+        mask: t[r[5]],
+        seeds: r[6],
+        mse: r[7],
+        biasSquared: r[8],
+        variance: r[9],
+        low: r[10],
+        high: r[11]
+    });
+    const effect = r => ({
+        shot: t[r[0]],
+        variant: t[r[1]],
+        point: t[r[2]],
+        againstVariant: t[r[3]],
+        againstPoint: t[r[4]],
+        target: t[r[5]],
+        metric: t[r[6]],
+        formula: t[r[7]],
+        mask: t[r[8]],
+        seeds: r[9],
+        value: r[10],
+        low: r[11],
+        high: r[12],
+        holm: r[13]
+    });
+    const time = r => ({
+        shot: t[r[0]],
+        variant: t[r[1]],
+        point: t[r[2]],
+        stage: t[r[3]],
+        clock: t[r[4]],
+        frames: r[5],
+        value: r[6],
+        low: r[7],
+        high: r[8]
+    });
+    return {
+        manifest: raw.manifest,
+        metrics: raw.metrics,
+        warnings: raw.warnings,
+        notes: raw.notes,
+        images: raw.images,
+        singleChanges: raw.single_changes,
+        errors: raw.errors.map(error),  // those that speak for their shot
+        frames: raw.frames.map(error),  // those of each frame, where the ones above are over all of them
+        splits: raw.splits.map(split),
+        effects: raw.effects.map(effect),
+        times: raw.times.map(time)
+    };
+}

@@ -1,0 +1,21 @@
+// All shots at a glance: the chosen error of every point. A short table is its own overview.
+
+const longTable = 20;  // rows
+
+function showOverview() {
+    const rows = chosenRows().filter(r => r.value !== null);
+    at("overview").hidden = rows.length <= longTable;
+    if (at("overview").hidden) return;
+    const name = choice.metric.split("|")[0], isLog = better(name) === "lower";
+    const reference = {near_zero: 0, near_one: 1}[better(name)] ?? null;
+    const shown = chartedRows(rows);
+    const scale = stripScale(shown.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value]), isLog, reference);
+    const lines = unique(shown.map(r => r.shot)).map(shot => {
+        const marks = shown.filter(r => r.shot === shot).map((r, lane) => ({
+            series: chartedIndex(r), row: r, lane, tip: `${pointLabel(r)}\n${name} ${number(r.value)} ${interval(r)}`}));
+        return [shot, strip(scale, marks)];
+    });
+    lines.push(["", stripAxis(scale, `${name}${unitText(name)} of ${choice.target}, ${choice.mask} pixels${isLog ? ", logarithmic" : ""}`)]);
+    at("overview").replaceChildren(
+        pointLegend(), h("div", {class: "scroll strips"}, table([{name: "Shot"}, {name: "95 % intervals"}], lines)));
+}

@@ -1,0 +1,39 @@
+// Which points tables and charts compare, and the colour and mark that each keeps throughout the page.
+
+const pointKey = row => row.variant + "|" + row.point;
+const singleChangeKeys = new Set(report.singleChanges.map(pointKey));
+const isSingleChange = row => singleChangeKeys.has(pointKey(row));
+
+const comparedPoints = unique(report.errors.filter(r => !isSingleChange(r)).map(pointLabel));
+const mostSeries = 8;  // as many colours as can be told apart
+const charted = comparedPoints.slice(0, mostSeries);
+const chartedIndex = row => isSingleChange(row) ? -1 : charted.indexOf(pointLabel(row));
+
+/// Rows of the charted points, single changes left out.
+const chartedRows = rows => rows.filter(r => chartedIndex(r) >= 0);
+
+/// Marks and names; where there are more points than colours, that too.
+function pointLegend() {
+    const hidden = comparedPoints.length - charted.length;
+    return h(
+        "div", {class: "legend"},
+        charted.map((name, i) => h("span", {}, svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true"}, mark(i, 7, 7)), name)),
+        hidden ? h("span", {class: "note"}, `The first ${charted.length} of ${comparedPoints.length} points; all are in summary.csv.`) :
+                 null);
+}
+
+const headlineMetric = rows => preferred(unique(rows.map(metricKey)), unique(rows.map(metricKey)).find(m => m.startsWith("relmse|")));
+const metricName = key => {
+    const [metric, formula] = key.split("|");
+    return metric === formula || !formula ? metric : `${metric} (${formula})`;
+};
+const unitText = metric => {
+    const unit = report.metrics[metric]?.unit;
+    return unit && unit !== "1" ? ` (${unit.replace("^2", "²")})` : "";
+};
+
+/// Takes a section that a study has nothing for off the page, and the link to it.
+function leaveOut(id) {
+    at(id).remove();
+    document.querySelector(`nav a[href="#${id}"]`)?.remove();
+}

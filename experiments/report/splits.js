@@ -1,0 +1,51 @@
+// Bias and variance: what of an error all seeds share, and what differs from seed to seed.
+
+const splitChoice = {target: null, mask: null};
+
+function showSplits() {
+    if (!report.splits.some(s => chartedIndex(s) >= 0)) {
+        leaveOut("splits");
+        return;
+    }
+    const targets = unique(report.splits.map(s => s.target)), masks = unique(report.splits.map(s => s.mask));
+    splitChoice.target = preferred(targets, "specular");
+    splitChoice.mask = preferred(masks, "reflective");
+    const changed = key => value => {
+        splitChoice[key] = value;
+        drawSplits();
+    };
+    at("splits").append(
+        h("p", {class: "note"},
+          "Mean squared error = bias² + variance, over the seeds, of each shot's last frame. Bias² is what would remain over infinitely many seeds; where nothing is left of it, noise puts it around 0, at times below (◀). The variance has a 95 % interval from independent pairs of seeds."),
+        h("div", {class: "controls"}, select("Target", targets, splitChoice.target, changed("target")),
+          select("Mask", masks, splitChoice.mask, changed("mask"))),
+        h("div", {class: "legend"}, splitMark(0, false, "bias²"), splitMark(1, true, "variance")),
+        h("div", {class: "scroll strips", id: "split-table"}));
+    drawSplits();
+}
+
+const splitMark = (series, isHollow, text) =>
+    h("span", {}, svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true"}, mark(series, 7, 7, 1, isHollow)), text);
+
+function drawSplits() {
+    const rows = report.splits.filter(s => s.target === splitChoice.target && s.mask === splitChoice.mask && chartedIndex(s) >= 0);
+    const scale = stripScale(rows.flatMap(s => [s.biasSquared, s.variance, s.low ?? s.variance, s.high ?? s.variance]), true);
+    const columns = [
+        {name: "Shot"}, {name: "Point"}, {name: "Bias² and variance"}, {name: "MSE", number: true}, {name: "Bias²", number: true},
+        {name: "Variance", number: true}, {name: "Seeds", number: true}
+    ];
+    const lines = rows.map(s => {
+        const variance = {value: s.variance, low: s.low, high: s.high};
+        const marks = [
+            {series: 0, row: {value: s.biasSquared}, tip: `${pointLabel(s)}\nbias² ${number(s.biasSquared)}`, lane: 0},
+            {series: 1, row: variance, isHollow: true, tip: `${pointLabel(s)}\nvariance ${number(s.variance)} ${interval(s)}`, lane: 1}
+        ];
+        return [
+            s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse)),
+            cell(s.biasSquared, number(s.biasSquared), s.biasSquared <= 0 ? h("small", {}, " about 0") : ""),
+            cell(s.variance, number(s.variance), " ", h("small", {}, interval(s))), cell(s.seeds, String(s.seeds))
+        ];
+    });
+    lines.push(["", "", stripAxis(scale, "radiance², logarithmic"), "", "", "", ""]);
+    at("split-table").replaceChildren(table(columns, lines, {groupBy: 0}));
+}

@@ -1,0 +1,96 @@
+// What is seen in motion: flicker at rest, changes that are not the truth's, ghosts, and the error of each frame.
+
+const temporalColumns = ["flicker", "flicker_relative", "flicker_correlation", "frame_difference", "frame_difference_relative", "ghost_length", "settling_length"];
+const temporalChoice = {mask: null};
+const frameChoice = {metric: null, mask: null};
+
+function showTemporal() {
+    const rows = report.errors.filter(r => temporalColumns.includes(r.metric) && !isSingleChange(r));
+    const frames = chartedRows(report.frames).filter(r => r.value !== null);
+    if (!rows.length && !frames.length) {
+        leaveOut("temporal");
+        return;
+    }
+    if (rows.length) showTemporalTable(rows);
+    if (frames.length) showFrames(frames);
+}
+
+function showTemporalTable(rows) {
+    const masks = unique(rows.map(r => r.mask)), metrics = temporalColumns.filter(m => rows.some(r => r.metric === m));
+    temporalChoice.mask = preferred(masks, "reflective");
+    at("temporal").append(
+        h("p", {class: "note"}, metrics.map(m => [h("b", {}, m), `${unitText(m)}: ${report.metrics[m]?.doc ?? ""}. `]).flat()),
+        h("div", {class: "controls"}, select("Mask", masks, temporalChoice.mask, mask => {
+              temporalChoice.mask = mask;
+              draw();
+          })),
+        h("div", {class: "scroll", id: "temporal-table"}));
+    const draw = () => drawTemporalTable(rows.filter(r => r.mask === temporalChoice.mask), metrics);
+    draw();
+}
+
+/// One row per shot and point; of the error where the camera has just uncovered something, too.
+function drawTemporalTable(rows, metrics) {
+    const isUncovered = r => r.mask === "disoccluded" && r.target === "specular" && r.metric === "relmse" && !isSingleChange(r);
+    const uncovered = report.errors.filter(isUncovered);
+    const shown = metrics.filter(m => rows.some(r => r.metric === m));
+    const columns = [{name: "Shot"}, {name: "Point"}, ...shown.map(m => ({name: m, number: true})),
+                     ...(uncovered.length ? [{name: "relmse, disoccluded", number: true}] : [])];
+    const lines = unique(rows.map(r => r.shot)).flatMap(shot => comparedPoints.map(point => {
+        const own = rows.filter(r => r.shot === shot && pointLabel(r) === point);
+        const error = uncovered.find(r => r.shot === shot && pointLabel(r) === point);
+        return own.length && [shot, point, ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
+                              ...(uncovered.length ? [temporalCell(error)] : [])];
+    })).filter(Boolean);
+    at("temporal-table").replaceChildren(table(columns, lines, {sortable: true, groupBy: 0}));
+}
+
+function temporalCell(row) {
+    if (!row) return "";
+    if (row.value === null) return cell(null, h("small", {}, whyMissing(row)));
+    return cell(row.value, number(row.value), " ", h("small", {}, interval(row)));
+}
+
+/// The reason, from the manifest's notes: "<shot>: <variant> <point>: no <metric>: <reason> (<masks>)".
+function whyMissing(row) {
+    const start = `${row.shot}: ${row.variant} ${row.point}: no ${row.metric}: `;
+    const note = list(report.manifest.notes).find(n => n.startsWith(start) && n.slice(n.lastIndexOf("(") + 1, -1).split(", ").includes(row.mask));
+    return note ? note.slice(start.length, note.lastIndexOf(" (")) : "not told";
+}
+
+function showFrames(rows) {
+    const metrics = unique(rows.map(metricKey)), masks = unique(rows.map(r => r.mask));
+    Object.assign(frameChoice, {metric: headlineMetric(rows), mask: preferred(masks, "reflective")});
+    const changed = key => value => {
+        frameChoice[key] = value;
+        drawFrames(rows);
+    };
+    at("temporal").append(
+        h("h3", {}, "Frame by frame"),
+        h("div", {class: "controls"}, select("Metric", metrics.map(m => [m, metricName(m)]), frameChoice.metric, changed("metric")),
+          select("Mask", masks, frameChoice.mask, changed("mask"))),
+        pointLegend(), h("div", {class: "grid small", id: "frame-charts"}));
+    drawFrames(rows);
+}
+
+function drawFrames(all) {
+    const rows = all.filter(r => metricKey(r) === frameChoice.metric && r.mask === frameChoice.mask);
+    const metric = frameChoice.metric.split("|")[0];
+    at("frame-charts").replaceChildren(...unique(rows.map(r => r.shot)).map(
+        shot => frameChart(shot, rows.filter(r => r.shot === shot), metric)));
+}
+
+function frameChart(shot, rows, metric) {
+    const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b);
+    const step = Math.ceil(frames.length / 8);
+    const change = manifestShots().find(s => s.shot === shot)?.change;
+    const lines = unique(rows.map(chartedIndex)).map(series => ({
+        series,
+        points: rows.filter(r => chartedIndex(r) === series).sort((a, b) => a.frame - b.frame).map(row => ({
+            at: Number(row.frame), row, tip: `${pointLabel(row)}\nframe ${row.frame}\n${metric} ${number(row.value)} ${interval(row)}`}))
+    }));
+    return lineChart({
+        title: shot + (change === undefined ? "" : `: the scene changes at frame ${change}`), xLabel: "frame", yLabel: metric + unitText(metric), lines,
+        ticks: frames.filter((_, i) => i % step === 0).map(f => ({at: f, text: String(f)})), isLog: better(metric) === "lower", spread: false
+    });
+}

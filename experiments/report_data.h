@@ -1,0 +1,24 @@
+#pragma once
+#include "experiments/effects.h"
+#include "experiments/report_points.h"
+#include "experiments/summary.h"
+
+#include <nlohmann/json.hpp>
+
+/// The tables of a results folder (experiments/RESULTS.md).
+struct ReportTables {
+    std::vector<MetricSummary> errors;
+    std::vector<SplitRow> splits;
+    std::vector<EffectRow> effects;
+    std::vector<TimeSummary> times;
+};
+
+/// results.csv must be there; tables that are not are empty.
+ReportTables read_report_tables(const std::filesystem::path& folder);
+
+/// The rows that speak for their shot: those over its frames ("all") where there are such, else those of its last frame.
+std::vector<const MetricSummary*> rows_for_shots(std::span<const MetricSummary> errors);
+
+/// What the page's scripts read (report/page.js): tables as arrays, with texts as indices into `texts`, since few texts
+/// are repeated many times. Of the single changes only what speaks for a shot, not each of its frames.
+nlohmann::json report_data(const ReportTables& tables, std::span<const SingleChange> changes);

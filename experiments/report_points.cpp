@@ -1,0 +1,54 @@
+#include "experiments/report_points.h"
+
+namespace {
+
+using nlohmann::json;
+
+struct Point {
+    std::string variant, point;
+    json parameters;
+};
+
+std::vector<Point> read_points(const json& manifest) {
+    std::vector<Point> points;
+    const json variants = manifest.value("variants", json::array());
+    for (const json& v : variants)
+        if (v.is_object() && v.contains("variant") && v["variant"].is_string() && v.contains("point") &&
+            v["point"].is_string() && v.contains("parameters") && v["parameters"].is_object())
+            points.push_back({v["variant"], v["point"], v["parameters"]});
+    return points;
+}
+
+std::vector<std::string> differing_parameters(const json& a, const json& b) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : a.items())
+        if (!b.contains(name) || b[name] != value) names.push_back(name);
+    return names;
+}
+
+}  // namespace
+
+std::vector<SingleChange> single_changes(const json& manifest, std::span<const EffectRow> effects) {
+    PointSet baselines;
+    for (const EffectRow& e : effects) baselines.insert({e.against_variant, e.against_point});
+    const std::vector<Point> points = read_points(manifest);
+    std::vector<SingleChange> changes;
+    for (const Point& p : points) {
+        const bool is_swept = p.point.find('=') != std::string::npos;  // else a preset, which is compared as a whole
+        if (!is_swept || baselines.contains({p.variant, p.point})) continue;
+        for (const Point& baseline : points) {
+            if (baseline.variant != p.variant || !baselines.contains({baseline.variant, baseline.point})) continue;
+            const std::vector<std::string> names = differing_parameters(p.parameters, baseline.parameters);
+            if (names.size() != 1) continue;
+            changes.push_back({p.variant, p.point, names.front(), p.parameters[names.front()]});
+            break;
+        }
+    }
+    return changes;
+}
+
+PointSet points_of(std::span<const SingleChange> changes) {
+    PointSet points;
+    for (const SingleChange& c : changes) points.insert({c.variant, c.point});
+    return points;
+}

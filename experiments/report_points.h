@@ -1,0 +1,23 @@
+#pragma once
+#include "experiments/effects.h"
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// A swept point that differs from a baseline of its variant in one parameter. A study may hold dozens: they belong
+/// into the list of effects, not into every table and chart.
+struct SingleChange {
+    std::string variant, point, parameter;
+    nlohmann::json value;
+};
+
+/// In the order of manifest.json's `variants`; the baselines are those that `effects` compares with. Manifests of other
+/// versions may lack any key: what is not known to be a single change is none.
+std::vector<SingleChange> single_changes(const nlohmann::json& manifest, std::span<const EffectRow> effects);
+
+/// (variant, point) of each.
+using PointSet = std::set<std::pair<std::string, std::string>>;
+PointSet points_of(std::span<const SingleChange> changes);
