@@ -51,7 +51,7 @@ const std::vector<VariantEntry> table = {
             "pyramid; rays are accumulated over frames, filtered in space and clipped to their neighbourhood.",
         .needs = {"has_reflective", "min_roughness"},
         .presets =
-            {{"slides", "the traversal loop as the slides of 2020 print it", {{"march", "slides"}}},
+            {{"slides", "distances in the traversal loop as the slides of 2020 print them", {{"march", "slides"}}},
              {"sdk_1_5", "the shaders of FidelityFX SDK 1.1.4 with the defaults of its sample",
               nlohmann::json::object()},
              {"corrected",

@@ -53,11 +53,11 @@ struct AmdIntersectionOf : VariantTest, testing::WithParamInterface<std::string>
     }
 };
 
-/// Recorded rays that do not change when depth moves by two units in the last place; of the others, too, all but 24 of
-/// 20 805 end in the same pixel. Of the 894 000 rays compared here one ends in another pixel and 30 have another
-/// confidence: rounding at borders of texels. 268 have another length, all misses whose first random number is exactly
-/// 1, where the sampled normal lies on the horizon of what can be seen and its direction is rounding. The bounds leave
-/// room for devices that round otherwise.
+/// Recorded rays that do not change when depth moves by two units in the last place. Of the 877 543 of the full data
+/// two end in another pixel and 30 have another confidence: rounding at borders of texels. 266 have another length, all
+/// misses whose first random number is exactly 1, where the sampled normal lies on the horizon of what can be seen and
+/// its direction is rounding; so are all but two of the 34 that end elsewhere among the 20 805 unstable ones. The
+/// bounds leave room for devices that round otherwise.
 TEST_P(AmdIntersectionOf, EndsRaysWhereTheOriginalDoes) {
     for (const char* parameters : {"p1", "p2", "p3", "p4"}) {
         if (!is_golden(file("hit", parameters))) continue;
@@ -71,6 +71,7 @@ TEST_P(AmdIntersectionOf, EndsRaysWhereTheOriginalDoes) {
 }
 
 TEST_P(AmdIntersectionOf, BlendsTheOriginalsColours) {
+    if (!is_golden(file("color", "p1"))) GTEST_SKIP() << "no recorded colours";
     for (const char* parameters : {"p1", "p2", "p3", "p4"}) {
         if (!is_golden(file("color", parameters))) continue;
         SCOPED_TRACE(parameters);

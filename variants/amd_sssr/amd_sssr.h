@@ -7,10 +7,7 @@
 /// AMD FidelityFX Stochastic Screen-Space Reflections with its reflection denoiser, as the shaders of FidelityFX SDK
 /// 1.1.4 compute them (effects SSSR 1.5 and Denoiser 1.3, MIT licence). Defaults are those of AMD's sample.
 ///
-/// Deviations: surfaces from roughness_threshold_alpha on take the G-buffer's prefiltered environment in place of a
-/// mip of a cube map, with confidence 0; a ray's own miss takes the environment in the ray's direction, as published, so
-/// that all other pixels have confidence 1. Texel fetches outside an image are tested and give 0, where the original
-/// relies on the driver.
+/// README.md explains the passes, lists the deviations, and names the parameter that mends each defect of the original.
 class AmdSssr final : public Variant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
