@@ -1,8 +1,10 @@
-"""Paper figures from a results folder: error against time, stage times, and crops with error maps, as PDF, SVG and PNG.
+"""Paper figures from a results folder, as PDF, SVG and PNG. Of each shot: error against time, stage times, and crops with
+error maps. Of the study, where it has such results: error and bias by roughness, bias and variance, effects of changes,
+temporal metrics, and the error of each frame.
 
-usage: figures.py RESULTS [--out DIR] [--target specular] [--metric mse] [--mask reflective]
+usage: figures.py RESULTS [--out DIR] [--target specular] [--metric relmse] [--mask reflective]
 
-It reads manifest.json, summary.csv, time_summary.csv and the EXR images (experiments/RESULTS.md), and writes the same bytes
+It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv and the EXR images (experiments/RESULTS.md), and writes the same bytes
 whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
 """
 
@@ -18,8 +20,29 @@ try:
 except ImportError as missing:
     sys.exit(f"error: {missing}: install python3-matplotlib and python3-numpy")
 
-from paper_figures import crops, error_time, stage_times, style
+from paper_figures import (
+    bias_variance,
+    crops,
+    effects,
+    error_time,
+    frames,
+    roughness,
+    stage_times,
+    style,
+    temporal,
+)
 from paper_figures.results import Results, ResultsError
+
+
+SHOT_FIGURES = {"error_time": error_time.draw, "stage_times": stage_times.draw, "crops": crops.draw}
+STUDY_FIGURES = {
+    "roughness_error": roughness.draw_error,
+    "roughness_bias": roughness.draw_bias,
+    "bias_variance": bias_variance.draw,
+    "effects": effects.draw,
+    "temporal": temporal.draw,
+    "frames": frames.draw,
+}
 
 
 def parse_arguments():
@@ -27,7 +50,7 @@ def parse_arguments():
     parser.add_argument("results", help="a folder that `ssrlab run` filled")
     parser.add_argument("--out", help="default: figures in the results folder")
     parser.add_argument("--target", default="specular", help="default: specular")
-    parser.add_argument("--metric", default="mse", help="default: mse")
+    parser.add_argument("--metric", help="default: relmse where the study has it, else its first metric")
     parser.add_argument("--mask", default="reflective", help="default: reflective")
     return parser.parse_args()
 
@@ -38,19 +61,20 @@ def main():
     style.apply()
     try:
         results = Results(arguments.results)
+        arguments.metric = arguments.metric or results.headline_metric()
         errors = results.errors_of(arguments.target, arguments.metric, arguments.mask)
         out = arguments.out or os.path.join(arguments.results, "figures")
         os.makedirs(out, exist_ok=True)
+        drawings = [
+            (f"{name}_{shot}", draw, (results, shot, errors, arguments))
+            for shot in results.shots()
+            for name, draw in SHOT_FIGURES.items()
+        ] + [(name, draw, (results, arguments)) for name, draw in STUDY_FIGURES.items()]
         written = []
-        for shot in results.shots():
-            for name, draw in (
-                ("error_time", error_time.draw),
-                ("stage_times", stage_times.draw),
-                ("crops", crops.draw),
-            ):
-                figure = draw(results, shot, errors, arguments)
-                if figure is not None:
-                    written += style.save(figure, out, f"{name}_{shot}")
+        for name, draw, what in drawings:
+            figure = draw(*what)
+            if figure is not None:
+                written += style.save(figure, out, name)
     except ResultsError as mistake:
         print(f"error: {mistake}", file=sys.stderr)
         return 2

@@ -125,7 +125,7 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
             ""
             if error is None
             else f"\n{chosen.metric} {style.number(error.value)}"
-            + ("" if error.low is None else f" [{style.number(error.low)}, {style.number(error.high)}]")
+            + ("" if error.low is None else f"\n[{style.number(error.low)}, {style.number(error.high)}]")
         )
         grid[0, column].set_title(label(*key) + number)
         for index, box in enumerate(boxes):
@@ -154,9 +154,9 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
         extend="max",
     )
     bar.set_label(
-        f"{shot}, {target}: absolute error, mean over channels (one scale); top row: {chosen.metric} of {chosen.target} on {chosen.mask} pixels; "
-        "crops: MSE with the reference's noise in it",
-        fontsize=5.5,
+        f"{shot}, {target}: absolute error, mean over channels (one scale)\n"
+        f"top row: {chosen.metric} of {chosen.target}, {chosen.mask} pixels; crops: MSE with the reference's noise in it",
+        fontsize=7,
     )
     return figure
 

@@ -1,7 +1,6 @@
 """Error against run time of one shot, both logarithmic, with intervals."""
 
 import matplotlib.pyplot as plt
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from paper_figures import style
 
@@ -38,7 +37,7 @@ def _draw_points(axes, errors, times, shot):
             )
             if point != "default":
                 axes.annotate(
-                    point, (total.value, error.value), (3, 3), textcoords="offset points", fontsize=5, color="#444444"
+                    point, (total.value, error.value), (3, 3), textcoords="offset points", fontsize=7, color="#444444"
                 )
             is_first = False
     return has_nonpositive
@@ -57,14 +56,12 @@ def draw(results, shot, errors, chosen):
         ylabel=f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels",
         title=shot,
     )
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.set_major_formatter(FuncFormatter(lambda x, _: style.number(x)))
-        axis.set_minor_formatter(NullFormatter())
+    style.log_axis(axes.xaxis)
+    style.log_axis(axes.yaxis)
     axes.margins(0.12)
     if has_nonpositive:
         axes.text(
-            0.02, 0.02, "errors not above 0 after noise correction are not shown", transform=axes.transAxes, fontsize=5
+            0.02, 0.02, "errors not above 0 after noise correction are not shown", transform=axes.transAxes, fontsize=7
         )
     axes.legend(loc="best")
     return figure

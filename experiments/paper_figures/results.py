@@ -31,12 +31,31 @@ def label(variant, point):
     return variant if point in ("", "default") else f"{variant} {point}"
 
 
+def rows_for_shots(rows):
+    """Of each quantity the rows over its shot's frames ("all"); where there are none, those of the shot's last frame."""
+    over_frames = {(r["shot"], r["target"], r["metric"], r["mask"]) for r in rows if r["frame"] == "all"}
+    last = {}
+    for r in rows:
+        if r["frame"] != "all":
+            last[r["shot"]] = max(last.get(r["shot"], 0), int(r["frame"]))
+    return [
+        r
+        for r in rows
+        if r["frame"] == "all"
+        or (int(r["frame"]) == last[r["shot"]] and (r["shot"], r["target"], r["metric"], r["mask"]) not in over_frames)
+    ]
+
+
 class Results:
     def __init__(self, folder):
         self.folder = folder
         self.manifest = self._read_manifest()
-        self.errors = self._read_csv("summary.csv")
+        self.all_errors = self._read_csv("summary.csv")
+        self.errors = rows_for_shots(self.all_errors)
         self.times = self._read_csv("time_summary.csv")
+        self.splits = self._read_csv("splits.csv", is_optional=True)
+        self.effects = self._read_csv("effects.csv", is_optional=True)
+        self.single_changes = self._single_changes()
 
     def _read_manifest(self):
         file = os.path.join(self.folder, "manifest.json")
@@ -51,13 +70,39 @@ class Results:
             raise ResultsError(f"{file} must be a JSON object")
         return manifest
 
-    def _read_csv(self, name):
+    def _read_csv(self, name, is_optional=False):
         file = os.path.join(self.folder, name)
+        if is_optional and not os.path.exists(file):
+            return []
         try:
             with open(file, newline="", encoding="utf-8") as text:
                 return list(csv.DictReader(text))
         except OSError as e:
             raise ResultsError(f"cannot read {file}: {e.strerror}") from e
+
+    def _single_changes(self):
+        """(variant, point) to (parameter, value) of the swept points that differ from a baseline in one parameter."""
+        values = {(v["variant"], v["point"]): v.get("parameters", {}) for v in self.manifest.get("variants", [])}
+        baselines = dict.fromkeys((e["against_variant"], e["against_point"]) for e in self.effects)
+        changes = {}
+        for key, own in values.items():
+            if key in baselines or "=" not in key[1]:
+                continue
+            for baseline in baselines:
+                differing = [n for n, v in own.items() if values.get(baseline, {}).get(n) != v]
+                if baseline[0] == key[0] and len(differing) == 1:
+                    changes.setdefault(key, (differing[0], own[differing[0]]))
+        return changes
+
+    def points(self):
+        """The compared (variant, point), in the order of the study; single changes have a figure of their own."""
+        every = dict.fromkeys((r["variant"], r["point"]) for r in self.errors)
+        return [key for key in every if key not in self.single_changes]
+
+    def measured(self, row, columns=("value", "low", "high"), name="summary.csv"):
+        """None where the row has no value."""
+        numbers = [self._number(row, c, name) for c in columns]
+        return None if numbers[0] is None else Measured(*numbers)
 
     def _number(self, row, column, name):
         text = row.get(column)
@@ -69,21 +114,25 @@ class Results:
     def shots(self):
         return list(dict.fromkeys(row["shot"] for row in self.errors))
 
+    def headline_metric(self):
+        found = list(dict.fromkeys(r["metric"] for r in self.errors))
+        return "relmse" if "relmse" in found or not found else found[0]
+
     def errors_of(self, target, metric, mask):
-        """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out."""
-        rows = [r for r in self.errors if (r["target"], r["metric"], r["mask"]) == (target, metric, mask)]
+        """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out, and so are single changes."""
+        rows = [
+            r
+            for r in self.errors
+            if (r["target"], r["metric"], r["mask"]) == (target, metric, mask)
+            and (r["variant"], r["point"]) not in self.single_changes
+        ]
         if not rows:
             found = sorted({f"{r['target']} {r['metric']} {r['mask']}" for r in self.errors})
             raise ResultsError(
                 f"{os.path.join(self.folder, 'summary.csv')} has no rows of target {target}, metric {metric}, mask {mask}; it has: {', '.join(found)}"
             )
-        read = {
-            (r["shot"], r["variant"], r["point"]): Measured(
-                *(self._number(r, c, "summary.csv") for c in ("value", "low", "high"))
-            )
-            for r in rows
-        }
-        return {key: value for key, value in read.items() if value.value is not None}
+        read = {(r["shot"], r["variant"], r["point"]): self.measured(r) for r in rows}
+        return {key: value for key, value in read.items() if value is not None}
 
     def times_of(self, shot):
         """(variant, point) to {stage: Measured} in ms; the G-buffer and the lit colour belong to no variant and are not in it."""
@@ -103,7 +152,10 @@ class Results:
         entries = [
             i
             for i in self.manifest.get("images", [])
-            if i.get("shot") == shot and i.get("target") == target and i.get("kind") in ("result", "reference")
+            if i.get("shot") == shot
+            and i.get("target") == target
+            and i.get("kind") in ("result", "reference")
+            and (i["variant"], i.get("point") or "") not in self.single_changes
         ]
         first = {}
         for entry in sorted(entries, key=lambda i: i.get("seed") or 0):

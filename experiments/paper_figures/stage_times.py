@@ -21,9 +21,16 @@ def draw(results, shot, errors, chosen):
     for row, stages in enumerate(times.values()):
         start = 0.0
         for name, time in ((n, stages[n]) for n in names if n in stages):
-            color = style.COLORS[names.index(name) % len(style.COLORS)]
             axes.barh(
-                row, time.value, left=start, height=0.62, color=color, edgecolor="white", linewidth=0.4, label=name
+                row,
+                time.value,
+                left=start,
+                height=0.62,
+                color=style.series(names.index(name))[0],
+                hatch="" if names.index(name) < len(style.COLORS) else "/////",
+                edgecolor="white",
+                linewidth=0.4,
+                label=name,
             )
             start += time.value
             axes.errorbar(
@@ -46,13 +53,14 @@ def draw(results, shot, errors, chosen):
                 row,
                 f"  {style.number(total.value)} [{style.number(total.low)}, {style.number(total.high)}]",
                 va="center",
-                fontsize=5.5,
+                fontsize=7,
             )
     axes.set_yticks(range(len(times)), [label(*key) for key in times])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.set(xlabel="median time (ms), 95 % intervals")
-    axes.set_xlim(0, 1.45 * max(sum(t.value for n, t in s.items() if n != "total") for s in times.values()))
+    ends = [max(sum(t.value for n, t in s.items() if n != "total"), s["total"].high if "total" in s else 0.0) for s in times.values()]
+    axes.set_xlim(0, 2.0 * max(ends))  # room for the totals as text
     handles, labels = axes.get_legend_handles_labels()
     by_label = dict(zip(labels, handles))
     legend_axes.axis("off")

@@ -4,10 +4,12 @@ import os
 
 import matplotlib
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 CENTIMETRE = 1 / 2.54
 SINGLE_COLUMN = 8.5 * CENTIMETRE
 DOUBLE_COLUMN = 17.8 * CENTIMETRE
+LEGEND_HEIGHT = 0.9  # cm
 
 # Okabe & Ito 2008, "Color Universal Design": told apart with all kinds of colour vision; every series has a mark of its own too.
 COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666"]
@@ -21,7 +23,7 @@ def apply():
             "font.family": "DejaVu Sans",
             "font.size": 7,
             "axes.titlesize": 7,
-            "legend.fontsize": 6.5,
+            "legend.fontsize": 7,
             "axes.linewidth": 0.6,
             "axes.spines.top": False,
             "axes.spines.right": False,
@@ -39,6 +41,46 @@ def apply():
             "svg.hashsalt": "ssrlab",
         }
     )
+
+
+def series(index):
+    """Colour and mark of the index-th series; beyond the colours, other marks."""
+    return COLORS[index % len(COLORS)], MARKS[(index + index // len(COLORS)) % len(MARKS)]
+
+
+def panels(count, most_columns=3, height=4.6, **shared):
+    """A figure with `count` axes in rows (height of a row in cm) below room for a legend: of single-column width if one
+    axes stands alone, of double-column width otherwise. `shared`: sharex, sharey, as in pyplot.subplots."""
+    columns = min(count, most_columns)
+    rows = -(-count // columns)
+    width = SINGLE_COLUMN if count == 1 else DOUBLE_COLUMN
+    figure = plt.figure(figsize=(width, (height * rows + LEGEND_HEIGHT) * CENTIMETRE), layout="constrained")
+    legend_part, part = figure.subfigures(2, height_ratios=[LEGEND_HEIGHT, height * rows])
+    axes = part.subplots(rows, columns, squeeze=False, **shared)
+    for unused in axes.flat[count:]:
+        unused.axis("off")
+    return figure, list(axes.flat[:count]), legend_part
+
+
+def draw_legend(part, panels, names=()):
+    """One legend for all panels, without repetitions, in the order of `names` (others last)."""
+    by_label = {text: handle for a in panels for handle, text in zip(*a.get_legend_handles_labels())}
+    order = list(names) + [text for text in by_label if text not in names]
+    texts = [text for text in order if text in by_label]
+    is_wide = part.figure.get_figwidth() > SINGLE_COLUMN
+    part.legend([by_label[t] for t in texts], texts, loc="center", ncols=min(len(texts), 5 if is_wide else 2))
+
+
+def shot_title(shot):
+    """Long names of shots are broken at a dot."""
+    parts = shot.split(".")
+    return shot if len(shot) <= 34 or len(parts) < 3 else ".".join(parts[:2]) + "\n." + ".".join(parts[2:])
+
+
+def log_axis(axis, subs=(1, 2, 5)):
+    axis.set_major_locator(LogLocator(subs=subs))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: number(x)))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def number(x):

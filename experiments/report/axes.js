@@ -1,21 +1,25 @@
 // Axes of charts: scales from values to pixels, ticks, marks, colours.
 
-const seriesColor = index => `var(--s${index % 8})`;
+/// Eight colours that can be told apart, then paler ones.
+const seriesColor = index =>
+    index % 16 < 8 ? `var(--s${index % 8})` : `color-mix(in srgb, var(--s${index % 8}) 45%, var(--card))`;
 
-/// A logarithmic scale over all positive values, with some air; `toPixel` clamps what is not positive to the low end.
-function logScale(values, from, to) {
+/// A logarithmic scale over all positive values, with some air (in decades, at least); `toPixel` clamps what lies beyond
+/// to the ends.
+function logScale(values, from, to, leastAir = 0.15) {
     const positive = values.filter(v => v > 0);
     let low = Math.log10(Math.min(...positive)), high = Math.log10(Math.max(...positive));
     if (!positive.length) [low, high] = [0, 1];
-    const air = Math.max(0.08 * (high - low), 0.15);
+    const air = Math.max(0.08 * (high - low), leastAir);
     [low, high] = [low - air, high + air];
     const toPixel = v =>
         from + (to - from) * Math.min(Math.max(((v > 0 ? Math.log10(v) : -Infinity) - low) / (high - low), 0), 1);
-    return {toPixel, ticks: logTicks(low, high), isInside: v => v > 0};
+    return {toPixel, ticks: logTicks(low, high), isInside: v => v > 0 && Math.log10(v) >= low && Math.log10(v) <= high};
 }
 
-/// Decades, and 2 and 5 between them where there are few.
+/// Decades, and 2 and 5 between them where there are few; even steps where the axis spans less than a factor of 1.6.
 function logTicks(low, high) {
+    if (high - low < 0.2) return evenTicks(10 ** low, 10 ** high);
     const steps = high - low < 1.2 ? [1, 1.5, 2, 3, 4, 5, 7] : high - low < 2.5 ? [1, 2, 5] : [1];
     const ticks = [];
     for (let e = Math.floor(low); e <= Math.ceil(high); ++e)
@@ -30,11 +34,16 @@ function linearScale(values, from, to, mustShowZero = false) {
     if (!(high > low)) [low, high] = [low - 0.5, low + 0.5];
     const air = mustShowZero ? [0, 0.03] : [0.08, 0.08];
     [low, high] = [low - air[0] * (high - low), high + air[1] * (high - low)];
+    return {toPixel: v => from + (to - from) * (v - low) / (high - low), ticks: evenTicks(low, high), isInside: () => true};
+}
+
+/// About six, at 1, 2 or 5 times a power of ten.
+function evenTicks(low, high) {
     const rough = (high - low) / 6, unit = 10 ** Math.floor(Math.log10(rough));
     const step = unit * [1, 2, 5, 10].find(s => s * unit >= rough);
     const ticks = [];
     for (let i = Math.ceil(low / step); i * step <= high; ++i) ticks.push(Number((i * step).toPrecision(12)));
-    return {toPixel: v => from + (to - from) * (v - low) / (high - low), ticks, isInside: () => true};
+    return ticks;
 }
 
 /// A mark about 8 wide at (x, y): each series has a shape of its own beside its colour.

@@ -128,10 +128,20 @@ function drawStages() {
                              .sort((a, b) => points.indexOf(pointLabel(a)) - points.indexOf(pointLabel(b)));
     at("stage-table")
         .replaceChildren(
-            table(columns, variantTimes.map(row), {groupBy: 0}),
+            floorNote(), h("details", {open: variantTimes.length <= longTable}, h("summary", {}, "All stages as numbers"),
+                           table(columns, variantTimes.map(row), {groupBy: 0})),
             ...(shared.length ?
                     [h("h3", {}, "Shared by all variants: G-buffer and lit colour"), table(columns, shared.map(row))] :
                     []));
+}
+
+/// How far two interleaved copies of the same point were apart: smaller differences are none.
+function floorNote() {
+    const pairs = list(report.manifest.clock?.aa_pairs).filter(p => p.shot === stageState.shot);
+    if (!pairs.length) return "";
+    return h("p", {class: "note"}, "Two interleaved copies of the same point differed by ",
+             pairs.map(p => `${percent(p.floor)} (${pointLabel(p)}, ${number(p.first_ms, 3)} ms)`).join(", "),
+             `. A/A floor of the study: ${percent(report.manifest.clock.aa_floor)}; smaller differences between times say nothing.`);
 }
 
 const swatch = index => h("span", {class: "swatch", style: `background:${seriesColor(index)}`});
@@ -175,6 +185,6 @@ function stageBars(points, stages, times) {
                 fill: "none"
             }));
     });
-    const names = h("p", {class: "note"}, stages.map((s, i) => h("span", {style: "margin-right:1.2em"}, swatch(i), s)));
+    const names = h("p", {class: "note"}, stages.map((s, i) => h("span", {class: "stage"}, swatch(i), s)));
     return h("figure", {class: "chart"}, names, picture);
 }

@@ -1,9 +1,12 @@
 // What each change of a baseline does to an error: ratios over paired seeds, for all shots at once or one in detail.
 
-const effectChoice = {against: null, target: null, metric: null, mask: null, shot: "all shots"};
+const effectChoice = {against: null, target: null, metric: null, mask: null, shot: "all shots", scale: "all"};
 const significant = 0.05;
+const scales = {all: "all ratios", "1.5": "2/3 to 1.5", "1.1": "0.91 to 1.1", "1.01": "0.99 to 1.01"};
 
 const effectsShown = () => report.effects.filter(e => e.variant === e.againstVariant);
+const effectShots = () => unique([...manifestShots().map(s => s.shot), ...effectsShown().map(e => e.shot)])
+                              .filter(shot => effectsShown().some(e => e.shot === shot));
 const againstLabel = e => pointLabel({variant: e.againstVariant, point: e.againstPoint});
 
 function showEffects() {
@@ -17,7 +20,8 @@ function showEffects() {
         target: unique(rows.map(e => e.target)),
         metric: unique(rows.map(metricKey)),
         mask: unique(rows.map(e => e.mask)),
-        shot: ["all shots", ...unique(rows.map(e => e.shot))]
+        shot: ["all shots", ...effectShots()],
+        scale: Object.keys(scales)
     };
     Object.assign(effectChoice, {
         against: options.against[0],
@@ -35,7 +39,7 @@ function showEffects() {
           "Error with the change / error of the baseline, of the same seeds: below 1 the change helps. Intervals (95 %) hold the scatter over seeds; the reference is the same for both. ",
           `Filled marks differ from 1 after Holm's correction over all changes and shots (p < ${significant}); hollow ones may be chance.`),
         h("div", {class: "controls"}, box("Against", "against"), box("Shot", "shot"), box("Target", "target"),
-          box("Metric", "metric", metricName), box("Mask", "mask")),
+          box("Metric", "metric", metricName), box("Mask", "mask"), box("Scale", "scale", o => scales[o])),
         h("div", {id: "effect-legend"}), h("div", {class: "scroll strips", id: "effect-table"}));
     drawEffects();
 }
@@ -56,7 +60,7 @@ function drawEffects() {
         e => againstLabel(e) === effectChoice.against && e.target === effectChoice.target && metricKey(e) === effectChoice.metric &&
             e.mask === effectChoice.mask && (effectChoice.shot === "all shots" || e.shot === effectChoice.shot));
     const isAll = effectChoice.shot === "all shots";
-    const shots = unique(effectsShown().map(e => e.shot));
+    const shots = effectShots();
     const scale = effectScale(rows, !isAll);
     const columns = isAll ?
         [{name: "Change"}, {name: "Ratio, one mark per shot"}, {name: "Mean ratio", number: true}, {name: "Helps", number: true}, {name: "Harms", number: true}, {name: "Shots", number: true}] :
@@ -71,12 +75,14 @@ function drawEffects() {
     at("effect-table").replaceChildren(table(columns, lines));
 }
 
-/// All ratios fit; an interval of few seeds may reach far beyond them and is cut there.
+/// All ratios fit unless a narrower scale is asked for; an interval of few seeds may reach far beyond them and is cut.
 function effectScale(rows, hasIntervals) {
+    const limit = Number(effectChoice.scale);
+    if (limit) return stripScale([1 / limit, limit], true, 1, 0.04 * Math.log10(limit));
     const ratios = [1, ...rows.map(e => e.value).filter(v => v > 0)];
     const low = Math.min(...ratios) / 2, high = Math.max(...ratios) * 2;
     const ends = hasIntervals ? rows.flatMap(e => e.low === null ? [] : [Math.max(e.low, low), Math.min(e.high, high)]) : [];
-    return stripScale([...ratios, ...ends], true, 1);
+    return stripScale([...ratios, ...ends], true, 1, 0.02);
 }
 
 const isSignificant = e => e.holm !== null && e.holm < significant;

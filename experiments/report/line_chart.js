@@ -10,7 +10,7 @@ const lineSize = {
 };
 
 /// `ticks`: [{at, text}] along x. `lines`: [{series, points: [{at, row}]}], each row with value, low and high (null if
-/// there is none). `isLog`: values that are not above 0 are drawn as arrows at the lower edge.
+/// there is none). `spread`: the lines' marks stand side by side at each tick. `isLog`: values that are not above 0 are drawn as arrows at the lower edge.
 function lineChart({title, xLabel, yLabel, ticks, lines, isLog, spread}) {
     const {width, height, left, right, top, bottom} = lineSize;
     const values = lines.flatMap(l => l.points.flatMap(p => [p.row.value, p.row.low ?? p.row.value, p.row.high ?? p.row.value]));
@@ -24,7 +24,8 @@ function lineChart({title, xLabel, yLabel, ticks, lines, isLog, spread}) {
     if (!isLog)
         picture.append(svg("line", {class: "zero", x1: left, x2: right, y1: y.toPixel(0), y2: y.toPixel(0)}));
     lines.forEach((line, i) => {
-        const dodge = spread ? Math.min(11, 0.7 * (x(1) - x(0)) / lines.length) * (i - (lines.length - 1) / 2) : 0;
+        const step = spread ? Math.min(11, 0.7 * (x(1) - x(0)) / lines.length) : 2.5;
+        const dodge = step * (i - (lines.length - 1) / 2);
         picture.append(...lineMarks(line, p => x(p.at) + dodge, y));
     });
     return h("figure", {class: "chart"}, h("figcaption", {}, title), picture);

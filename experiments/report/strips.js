@@ -3,9 +3,9 @@
 const stripSize = {width: 420, left: 8, right: 412, row: 12};
 
 /// One scale for all values of a table, and of the `reference` that a line marks (null if none does).
-function stripScale(values, isLog, reference = null) {
+function stripScale(values, isLog, reference = null, leastAir = 0.15) {
     const all = reference === null ? values : [...values, reference];
-    const scale = isLog ? logScale(all, stripSize.left, stripSize.right) : linearScale(all, stripSize.left, stripSize.right);
+    const scale = isLog ? logScale(all, stripSize.left, stripSize.right, leastAir) : linearScale(all, stripSize.left, stripSize.right);
     return {...scale, from: stripSize.left, to: stripSize.right, reference};
 }
 
@@ -31,8 +31,14 @@ function stripMark(scale, {series, row, isHollow, tip}, y) {
             "stroke-width": 1.4,
             fill: "none"
         });
-    const dot = scale.isInside(row.value) ? mark(series, x, y, 1, isHollow) : svg("text", {x, y: y + 4, style: `fill:${color}`}, "◀");
+    const dot = scale.isInside(row.value) ? mark(series, x, y, 1, isHollow) : offScale(x, y, color);
     return withTip(svg("g", {class: "point", "data-value": row.value}, bar, dot), tip);
+}
+
+/// An arrow at the end beyond which the value lies.
+function offScale(x, y, color) {
+    const isLeft = x < (stripSize.left + stripSize.right) / 2;
+    return svg("text", {x, y: y + 4, "text-anchor": isLeft ? "start" : "end", style: `fill:${color}`}, isLeft ? "◀" : "▶");
 }
 
 /// The labels of the scale, for the last row of a table of strips.

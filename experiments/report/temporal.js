@@ -1,52 +1,59 @@
 // What is seen in motion: flicker at rest, changes that are not the truth's, ghosts, and the error of each frame.
 
-const temporalColumns = ["flicker", "flicker_relative", "flicker_correlation", "frame_difference", "frame_difference_relative", "ghost_length", "settling_length"];
+const temporalTables = [
+    {title: "At rest: flicker", metrics: ["flicker", "flicker_relative", "flicker_correlation"]},
+    {title: "In motion: changes that are not the truth's", metrics: ["frame_difference", "frame_difference_relative"], hasDisoccluded: true},
+    {title: "After a change: ghosts", metrics: ["ghost_length", "settling_length"]}
+];
 const temporalChoice = {mask: null};
 const frameChoice = {metric: null, mask: null};
 
 function showTemporal() {
-    const rows = report.errors.filter(r => temporalColumns.includes(r.metric) && !isSingleChange(r));
+    const rows = report.errors.filter(r => temporalTables.some(t => t.metrics.includes(r.metric)) && !isSingleChange(r));
     const frames = chartedRows(report.frames).filter(r => r.value !== null);
     if (!rows.length && !frames.length) {
         leaveOut("temporal");
         return;
     }
-    if (rows.length) showTemporalTable(rows);
+    if (rows.length) showTemporalTables(rows);
     if (frames.length) showFrames(frames);
 }
 
-function showTemporalTable(rows) {
-    const masks = unique(rows.map(r => r.mask)), metrics = temporalColumns.filter(m => rows.some(r => r.metric === m));
+function showTemporalTables(rows) {
+    const masks = unique(rows.map(r => r.mask)), tables = h("div", {id: "temporal-tables"});
+    const draw = () => tables.replaceChildren(...temporalTables.flatMap(t => temporalTable(t, rows.filter(r => r.mask === temporalChoice.mask))));
     temporalChoice.mask = preferred(masks, "reflective");
     at("temporal").append(
-        h("p", {class: "note"}, metrics.map(m => [h("b", {}, m), `${unitText(m)}: ${report.metrics[m]?.doc ?? ""}. `]).flat()),
         h("div", {class: "controls"}, select("Mask", masks, temporalChoice.mask, mask => {
               temporalChoice.mask = mask;
               draw();
           })),
-        h("div", {class: "scroll", id: "temporal-table"}));
-    const draw = () => drawTemporalTable(rows.filter(r => r.mask === temporalChoice.mask), metrics);
+        tables);
     draw();
 }
 
-/// One row per shot and point; of the error where the camera has just uncovered something, too.
-function drawTemporalTable(rows, metrics) {
-    const isUncovered = r => r.mask === "disoccluded" && r.target === "specular" && r.metric === "relmse" && !isSingleChange(r);
-    const uncovered = report.errors.filter(isUncovered);
-    const shown = metrics.filter(m => rows.some(r => r.metric === m));
-    const columns = [{name: "Shot"}, {name: "Point"}, ...shown.map(m => ({name: m, number: true})),
-                     ...(uncovered.length ? [{name: "relmse, disoccluded", number: true}] : [])];
-    const lines = unique(rows.map(r => r.shot)).flatMap(shot => comparedPoints.map(point => {
-        const own = rows.filter(r => r.shot === shot && pointLabel(r) === point);
-        const error = uncovered.find(r => r.shot === shot && pointLabel(r) === point);
-        return own.length && [shot, point, ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
-                              ...(uncovered.length ? [temporalCell(error)] : [])];
+const isDisoccluded = r => r.mask === "disoccluded" && r.target === "specular" && r.metric === "relmse" && !isSingleChange(r);
+
+/// One row per shot and point that has such values.
+function temporalTable({title, metrics, hasDisoccluded}, all) {
+    const rows = all.filter(r => metrics.includes(r.metric)), shown = metrics.filter(m => rows.some(r => r.metric === m));
+    if (!rows.length) return [];
+    const shots = unique(rows.map(r => r.shot));
+    const disoccluded = hasDisoccluded ? report.errors.filter(r => isDisoccluded(r) && shots.includes(r.shot)) : [];
+    const columns = [{name: "Shot"}, {name: "Point"}, ...shown.map(m => ({name: m + unitText(m), number: true})),
+                     ...(disoccluded.length ? [{name: "relmse, disoccluded", number: true}] : [])];
+    const lines = shots.flatMap(shot => comparedPoints.map(point => {
+        const isOwn = r => r.shot === shot && pointLabel(r) === point;
+        const own = rows.filter(isOwn);
+        return own.length ? [shot, point, ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
+                             ...(disoccluded.length ? [temporalCell(disoccluded.find(isOwn))] : [])] : null;
     })).filter(Boolean);
-    at("temporal-table").replaceChildren(table(columns, lines, {sortable: true, groupBy: 0}));
+    const meanings = shown.flatMap(m => [h("b", {}, m), `: ${report.metrics[m]?.doc ?? "not known"}. `]);
+    return [h("h3", {}, title), h("p", {class: "note"}, meanings), h("div", {class: "scroll"}, table(columns, lines, {sortable: true, groupBy: 0}))];
 }
 
 function temporalCell(row) {
-    if (!row) return "";
+    if (!row) return cell(null, "");
     if (row.value === null) return cell(null, h("small", {}, whyMissing(row)));
     return cell(row.value, number(row.value), " ", h("small", {}, interval(row)));
 }

@@ -1,0 +1,94 @@
+"""Forest plot: what each change does to the error of its baseline, one panel per shot."""
+
+import json
+
+import matplotlib.pyplot as plt
+
+from paper_figures import style
+from paper_figures.results import label
+
+SIGNIFICANT = 0.05
+CUT = 2.0  # intervals reach at most this factor beyond the outermost ratio
+
+
+def _groups(results, rows):
+    """(variant, point) to its label: single changes in the order of the study, then whole points."""
+    found = dict.fromkeys((e["variant"], e["point"]) for e in rows)
+    singles = {k: f"{p} = {json.dumps(v)}" for k, (p, v) in results.single_changes.items() if k in found}
+    return singles | {k: label(*k) for k in found if k not in singles}
+
+
+def draw(results, chosen):
+    rows = [
+        e
+        for e in results.effects
+        if (e["target"], e["metric"], e["mask"]) == (chosen.target, chosen.metric, chosen.mask)
+        and e["variant"] == e["against_variant"]
+    ]
+    if not rows:
+        return None
+    baseline = (rows[0]["against_variant"], rows[0]["against_point"])
+    rows = [e for e in rows if (e["against_variant"], e["against_point"]) == baseline]
+    shots = [s for s in results.shots() if any(e["shot"] == s for e in rows)]
+    groups = _groups(results, rows)
+    columns = min(len(shots), 4)
+    grid_rows = -(-len(shots) // columns)
+    figure, grid = plt.subplots(
+        grid_rows,
+        columns,
+        figsize=(style.DOUBLE_COLUMN, grid_rows * (2.2 + 0.38 * len(groups)) * style.CENTIMETRE),
+        layout="constrained",
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+    )
+    for axes in grid.flat[len(shots) :]:
+        axes.axis("off")
+    for index, (axes, shot) in enumerate(zip(grid.flat, shots)):
+        _draw_shot(results, axes, [e for e in rows if e["shot"] == shot], list(groups))
+        axes.set_title(style.shot_title(shot))
+        axes.tick_params(labelbottom=index + columns >= len(shots))
+    grid[0, 0].set_yticks(range(len(groups)), list(groups.values()))
+    grid[0, 0].set_ylim(len(groups) - 0.5, -0.5)
+    _limit(grid[0, 0], results, rows)
+    figure.supxlabel(
+        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {label(*baseline)}; 95 % intervals over seeds; "
+        f"filled: p (Holm) < {SIGNIFICANT}",
+        fontsize=7,
+    )
+    return figure
+
+
+def _draw_shot(results, axes, rows, keys):
+    color, mark = style.series(0)
+    axes.axvline(1.0, color="#555555", linewidth=0.7)
+    axes.set_xscale("log")
+    axes.grid(axis="y", visible=False)
+    for e in rows:
+        ratio = results.measured(e, ("ratio", "low", "high"), "effects.csv")
+        if ratio is None:
+            continue
+        is_significant = e["p_holm"] != "" and float(e["p_holm"]) < SIGNIFICANT
+        axes.errorbar(
+            [ratio.value],
+            [keys.index((e["variant"], e["point"]))],
+            xerr=ratio.whiskers(),
+            fmt=mark,
+            color=color,
+            markersize=3.4,
+            markeredgewidth=0.8,
+            markerfacecolor=color if is_significant else "white",
+        )
+
+
+def _limit(axes, results, rows):
+    """One scale for all panels. An interval of few seeds may reach far beyond all ratios: it is cut."""
+    measured = [results.measured(e, ("ratio", "low", "high"), "effects.csv") for e in rows]
+    measured = [m for m in measured if m is not None]
+    ratios = [1.0] + [m.value for m in measured]
+    low, high = min(ratios) / CUT, max(ratios) * CUT
+    ends = [max(m.low, low) for m in measured if m.low is not None] + [
+        min(m.high, high) for m in measured if m.high is not None
+    ]
+    axes.set_xlim(min(ratios + ends) / 1.05, max(ratios + ends) * 1.05)
+    style.log_axis(axes.xaxis, (1, 1.5, 2, 3, 5, 7))

@@ -1,0 +1,66 @@
+"""Temporal metrics, one panel each: flicker at rest, changes that are not the truth's, frames until a ghost has gone."""
+
+from matplotlib.ticker import MaxNLocator
+
+from paper_figures import style
+from paper_figures.results import label
+
+METRICS = {
+    "flicker_relative": "relative flicker",
+    "frame_difference_relative": "relative frame-difference error",
+    "ghost_length": "ghost length (frames)",
+    "settling_length": "settling length (frames)",
+}
+
+
+def draw(results, chosen):
+    rows = [
+        r
+        for r in results.errors
+        if r["metric"] in METRICS
+        and r["mask"] == chosen.mask
+        and (r["variant"], r["point"]) in results.points()
+    ]
+    metrics = [m for m in METRICS if any(r["metric"] == m for r in rows)]
+    if not metrics:
+        return None
+    most = max(len({r["shot"] for r in rows if r["metric"] == m}) for m in metrics)
+    figure, panels, legend = style.panels(len(metrics), most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(results.points())))
+    for axes, metric in zip(panels, metrics):
+        _draw_metric(results, axes, [r for r in rows if r["metric"] == metric], metric)
+        axes.set_xlabel(f"{METRICS[metric]}, {chosen.mask}")
+    style.draw_legend(legend, panels, [label(*k) for k in results.points()])
+    return figure
+
+
+def _draw_metric(results, axes, rows, metric):
+    shots, points = list(dict.fromkeys(r["shot"] for r in rows)), results.points()
+    is_log = "length" not in metric
+    for r in rows:
+        index = points.index((r["variant"], r["point"]))
+        y = shots.index(r["shot"]) + 0.7 * ((index + 0.5) / len(points) - 0.5)
+        value = results.measured(r)
+        color, mark = style.series(index)
+        if value is None or (is_log and value.value <= 0):
+            text = "cannot be told" if value is None else "0"
+            axes.text(0.01, y, text, color=color, va="center", transform=axes.get_yaxis_transform())
+            continue
+        axes.errorbar(
+            [value.value],
+            [y],
+            xerr=value.whiskers(),
+            fmt=mark,
+            color=color,
+            markeredgewidth=0,
+            label=label(r["variant"], r["point"]),
+        )
+    if is_log:
+        axes.set_xscale("log")
+        style.log_axis(axes.xaxis)
+    axes.margins(x=0.1)
+    if not is_log:
+        axes.set_xlim(left=-0.5, right=max(axes.get_xlim()[1], 1.0))
+        axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
+    axes.set_yticks(range(len(shots)), [style.shot_title(s) for s in shots])
+    axes.set_ylim(len(shots) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
