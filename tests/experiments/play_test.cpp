@@ -1,5 +1,8 @@
 // Shots of several frames: what is rendered, and what each frame is measured against.
 #include "core/error.h"
+#include "core/gbuffer/gbuffer_transfer.h"
+#include "core/gpu/device.h"
+#include "experiments/frame_source.h"
 #include "tests/experiments/study_fixture.h"
 
 TEST_F(Study, AHeldPoseDoesNotFlickerAndHasOneReference) {
@@ -79,4 +82,57 @@ TEST_F(Study, AStepGhostsOnlyWhereSomethingRemembers) {
     moves.shots.front().scene = "moving_emitter";
     moves.shots.front().frames = {29, 30, 31};
     EXPECT_THROW(run(moves, "moves"), Error);
+}
+
+TEST_F(Study, SeedsKnowNothingOfEachOther) {
+    // A technique with histories: each seed must come out as if it ran alone, from a fresh state.
+    const std::string shot =
+        R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": [4, 5, 6], "warm_up": 3}],
+        "reference": {"samples": 16}, "variants": [{"variant": "amd_sssr"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, )";
+    write_text(folder / "both.json", shot + R"("seeds": [3, 7]})");
+    write_text(folder / "alone.json", shot + R"("seeds": [7]})");
+    const auto both = read_result_rows(run(read_config(folder / "both.json"), "both") / "results.csv");
+    const auto alone = read_result_rows(run(read_config(folder / "alone.json"), "alone") / "results.csv");
+    size_t equal = 0, different = 0;
+    for (const ResultRow& r : alone)
+        for (const ResultRow& o : both) {
+            if (o.frame != r.frame || o.metric != r.metric || o.mask != r.mask) continue;
+            if (o.seed == 7) {
+                EXPECT_EQ(o.value, r.value) << r.frame << " " << r.metric << " " << r.mask;
+                ++equal;
+            } else {
+                different += o.value != r.value;
+            }
+        }
+    EXPECT_EQ(equal, alone.size());
+    EXPECT_GT(different, 0u) << "seeds must matter, or this test shows nothing";
+}
+
+TEST_F(Study, StoredFramesAreThoseThatAreRendered) {
+    Device device;
+    Config config;
+    config.direct_lit = true;
+    const Shot shot = load_shot(
+        {.scene = "moving_emitter", .camera = "", .extent = {64, 36}, .frames = {3, 5, 6}, .warm_up = 2, .repeat = 2},
+        {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    const std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
+    FrameStore keeps(*source, DepthFormat::d32f, size_t(1) << 30), forgets(*source, DepthFormat::d32f, 0);
+    for (const unsigned round : {0, 1})
+        for (const FrameStep& step : shot.steps) {
+            HostGBuffer host[2];
+            FrameStore* const stores[] = {&keeps, &forgets};
+            for (size_t i = 0; i < 2; ++i) {
+                const FrameStore::Frame frame = stores[i]->frame(step, {});
+                host[i] = download_gbuffer(source->graph(), frame.gbuffer, frame.camera, DepthFormat::d32f);
+                EXPECT_NE(frame.gbuffer.environment, nullptr);
+            }
+            EXPECT_EQ(host[0].camera.frame, glm::uvec4(step.index, 0, 0, step.previous_frame.has_value()));
+            EXPECT_EQ(host[0].camera.frame, host[1].camera.frame);
+            EXPECT_EQ(host[0].camera.previous_clip_from_world, host[1].camera.previous_clip_from_world);
+            for (const auto image :
+                 {&HostGBuffer::depth, &HostGBuffer::normal, &HostGBuffer::motion, &HostGBuffer::previous_depth,
+                  &HostGBuffer::previous_normal, &HostGBuffer::lit, &HostGBuffer::fallback, &HostGBuffer::material_id})
+                EXPECT_EQ((host[0].*image).values, (host[1].*image).values)
+                    << "round " << round << ", step " << step.index;
+        }
 }

@@ -54,6 +54,8 @@ TEST_F(Study, LeavingOutChangesNothing) {
                     1e-7 + 1e-4 * std::abs(lean[i].value.value_or(0)))
             << lean[i].shot << " " << lean[i].metric << " " << lean[i].mask;
     }
+    const nlohmann::json complete = read_json(folder / "all/manifest.json");
+    for (const auto& shot : complete["shots"]) EXPECT_TRUE(shot["left_out"].empty()) << shot["left_out"].dump();
     const nlohmann::json manifest = read_json(folder / "lean/manifest.json");
     for (const auto& shot : manifest["shots"]) {
         if (shot["scene"] == "fence") continue;
