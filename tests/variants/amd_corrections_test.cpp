@@ -3,6 +3,7 @@
 #include "tests/variants/amd_scenes.h"
 #include "tests/variants/variant_fixture.h"
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace {
@@ -121,6 +122,7 @@ TEST_F(AmdCorrections, GuardMirrorNormalHoldsForEveryRandomNumber) {
     EXPECT_GT(sum_of(expected), 1000);
     noise = HostImage({128, 128}, 2, 1.0f);
     EXPECT_EQ(trace(gbuffer, {{"guard_mirror_normal", true}}).values, expected.values);
+    for (const float value : trace(gbuffer, nlohmann::json::object()).values) EXPECT_TRUE(std::isfinite(value));
 }
 
 /// In the middle of 97 columns rays stay in their column exactly.

@@ -1,5 +1,5 @@
-// All levels of the depth pyramid in one dispatch, as AMD's Single Pass Downsampler: a group reduces 64x64 texels to one,
-// and the group that finishes last reduces what the others have left.
+// All levels of the depth pyramid in one dispatch, as AMD's Single Pass Downsampler: a group reduces 64x64 texels to
+// one, and the group that finishes last reduces what the others have left.
 layout(local_size_x = 256) in;
 layout(push_constant) uniform Levels { uint level_count, group_count; };
 uniform sampler2D depth;
@@ -61,7 +61,8 @@ void reduce_tile(uint level, ivec2 tile_index) {
         float value = 0.0;
         if (is_active) {
             ivec2 a = 2 * inside, b = max(min(a + 1, last), a);
-            value = nearest_of_four(tile[a.y * 32 + a.x], tile[a.y * 32 + b.x], tile[b.y * 32 + a.x], tile[b.y * 32 + b.x]);
+            value = nearest_of_four(tile[a.y * 32 + a.x], tile[a.y * 32 + b.x], tile[b.y * 32 + a.x],
+                                    tile[b.y * 32 + b.x]);
             store(level + 1u, tile_index * width + inside, value);
         }
         barrier();
