@@ -26,7 +26,7 @@ std::string content_hash(const Reference& reference) {
          {&reference.image, &reference.diffuse, &reference.specular, &reference.incident})
         for (const HostImage* image : {&output->mean, &output->half_a, &output->half_b})
             hash.add(std::as_bytes(std::span(image->values)));
-    for (const HostImage* image : {&reference.depth, &reference.normal, &reference.material_id})
+    for (const HostImage* image : {&reference.highlights, &reference.depth, &reference.normal, &reference.material_id})
         hash.add(std::as_bytes(std::span(image->values)));
     return hash.hex();
 }
@@ -46,10 +46,10 @@ MetricReference target_reference(const std::string& target, const Reference& ref
     HostImage mean = output.mean;
     ReferenceHalves halves{output.half_a, output.half_b};
     if (target == "image") {
-        // A result's `image` adds the truth's own diffuse light, so the noise in it is that of the specular halves
+        // A result's `image` adds the truth's own direct light, so the noise in it is that of the specular halves
         // alone.
-        const HostImage& diffuse = reference.diffuse.mean;
-        mean = sum(diffuse, mean), halves = {sum(diffuse, halves.a), sum(diffuse, halves.b)};
+        const HostImage direct = sum(reference.diffuse.mean, reference.highlights);
+        mean = sum(direct, mean), halves = {sum(direct, halves.a), sum(direct, halves.b)};
     }
     return metric_reference(std::move(mean), std::move(halves), metrics, settings);
 }
@@ -95,6 +95,7 @@ MaskInputs mask_inputs(const FrameTruth& truth, const HostImage& confidence, con
 
 PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use) {
     PoseTruth truth{.diffuse = reference.diffuse.mean,
+                    .direct = sum(reference.diffuse.mean, reference.highlights),
                     .targets = {},
                     .view_depth = reference.depth,
                     .normal = reference.normal,
@@ -138,7 +139,7 @@ std::vector<Mask> masks_of(const FrameTruth& truth, const HostImage& confidence,
 }
 
 HostImage composited_image(const PoseTruth& truth, const CompositedImages& result) {
-    return sum(truth.diffuse, result.specular);
+    return sum(truth.direct, result.specular);
 }
 
 std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result,

@@ -19,7 +19,8 @@ struct CompositedImages {
 
 /// What all frames of one pose are measured against: made once, used for every variant, point and seed.
 struct PoseTruth {
-    HostImage diffuse;  ///< the truth's own, which `image` adds to every result; also the lit colour that variants read
+    HostImage diffuse;  ///< the truth's own: the lit colour that variants read
+    HostImage direct;   ///< and what `image` adds to every result: the same with the highlights of punctual lights
     std::map<std::string, MetricReference> targets;  ///< by name, with all metrics; where everything is measured
     std::optional<MetricReference>
         frame_reference;  ///< `specular` with Config::frame_metrics; in shots of several frames
@@ -57,5 +58,5 @@ std::vector<ResultRow> measure_frame(const PoseTruth& truth, const HostImage& sp
 /// references' noises were the same in all frames. Pixels are summed. No value if one frame has none.
 std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows);
 
-/// diffuse + specular.
+/// direct + specular.
 HostImage composited_image(const PoseTruth& truth, const CompositedImages& result);

@@ -89,7 +89,8 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
 
 ShotTruth truth_of_lit(HostImage lit) {
     ShotTruth truth;
-    PoseTruth pose{.diffuse = std::move(lit),
+    PoseTruth pose{.diffuse = lit,
+                   .direct = std::move(lit),
                    .targets = {},
                    .view_depth = {},
                    .normal = {},
