@@ -4,17 +4,16 @@
 #define AMD_SSSR_MARCH_GLSL
 #include "amd_sssr/screen.glsl"
 
-const uint as_in_sdk = 0u;          // parameter `march`
-const float huge = 3.402823466e38;  // largest float
-const float overshoot_texels = 0.005;  // of the finest level, beyond each border, so that rounding lands in the next texel
+const uint as_in_sdk = 0u;             // parameter `march`
+const float huge = 3.402823466e38;     // largest float
+const float overshoot_texels = 0.005;  // of the finest level: beyond a border, so that rounding does not fall short of it
 
 struct MarchEnd {
     vec3 position;       // image
     bool is_unfinished;  // given up before it met anything
 };
 
-// Origin and direction on the screen: of a straight line, whose t is not proportional to distance. The direction is that
-// of a step of one metre.
+// A straight line on the screen, whose t is not proportional to distance. Its direction is that of a step of one metre.
 struct ScreenRay {
     vec3 origin, direction, inverse;
 };
@@ -49,6 +48,8 @@ bool gives_up() {
     return min_traversal_occupancy > 0u && subgroupBallotBitCount(subgroupBallot(true)) <= min_traversal_occupancy;
 }
 
+bool is_outside(vec2 uv) { return any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0))); }
+
 // `finest`: level of the pyramid at which a surface counts as met.
 MarchEnd march_pyramid(ScreenRay ray, int finest, bool is_mirror) {
     int coarsest = textureQueryLevels(depth_pyramid) - 1;
@@ -68,8 +69,7 @@ MarchEnd march_pyramid(ScreenRay ray, int finest, bool is_mirror) {
     uint step = 0u;
     bool has_given_up = false;
     while (step < max_traversal_intersections && level >= finest && !has_given_up) {
-        if (stop_outside_screen && (any(lessThan(position.xy, vec2(0.0))) || any(greaterThanEqual(position.xy, vec2(1.0)))))
-            return MarchEnd(position, true);
+        if (stop_outside_screen && is_outside(position.xy)) return MarchEnd(position, true);
         vec2 texel = resolution * position.xy;
         float surface = surface_depth(ivec2(texel), level);
         has_given_up = gives_up() && !is_mirror;

@@ -8,7 +8,8 @@ struct TracingParameters {
 
     // clang-format off
     Param<unsigned> samples_per_quad{params, "samples_per_quad", 1, {1, 4},
-        {"rays", "rays that each 2x2 pixels start at least: 1, 2 or 4; 3 counts as 4", "SSSR 1.5, samplesPerQuad"}, Use::constant};
+        {"rays", "rays that each 2x2 pixels start at least: 1, 2 or 4; 3 counts as 4", "SSSR 1.5, samplesPerQuad"},
+        Use::constant};
     Switch guided_tracing{params, "guided_tracing", true,
         {"", "pixels whose variance of the last frame exceeds variance_threshold trace rays of their own",
          "SSSR 1.5, temporalVarianceGuidedTracingEnabled"}};
@@ -16,13 +17,13 @@ struct TracingParameters {
         {"squared relative change of luminance", "exceeded by pixels that trace rays of their own",
          "SSSR 1.5, varianceThreshold; at its default of 0 nearly every pixel traces from the second frame on"}};
     Param<float> roughness_threshold_alpha{params, "roughness_threshold_alpha", 0.2f, {0.0f, 1.0f},
-        {"alpha", "GGX alpha (squared perceptual roughness) from which surfaces are left to the prefiltered environment",
-         "SSSR 1.5, roughnessThreshold"}};
+        {"alpha", "GGX alpha (squared perceptual roughness) from which surfaces are left to the prefiltered "
+         "environment", "SSSR 1.5, roughnessThreshold"}};
     Param<unsigned> max_traversal_intersections{params, "max_traversal_intersections", 128, {0, 4096},
         {"steps", "texels of the depth pyramid that one ray may visit", "SSSR 1.5, maxTraversalIntersections"}};
     Param<unsigned> min_traversal_occupancy{params, "min_traversal_occupancy", 4, {0, 128},
-        {"lanes", "a subgroup with at most this many rays left gives them up, so the result depends on its size; 0: none are",
-         "SSSR 1.5, minTraversalOccupancy"}, Use::constant};
+        {"lanes", "a subgroup with at most this many rays left gives them up, so the result depends on its size; "
+         "0: none are", "SSSR 1.5, minTraversalOccupancy"}, Use::constant};
     Param<unsigned> most_detailed_mip{params, "most_detailed_mip", 0, {0, 5},
         {"mip", "finest level of the depth pyramid for all but mirrors, which use 0", "SSSR 1.5, mostDetailedMip"}};
     Param<float> depth_buffer_thickness{params, "depth_buffer_thickness", 0.015f, {1e-6f, 1e6f},
@@ -34,9 +35,8 @@ struct TracingParameters {
         {"mips", "levels of the depth pyramid, the full resolution included; as many as the image has, at most",
          "SSSR 1.5: 7; version 1.3 builds the whole chain"}};
     Choice march{params, "march", "sdk", {"sdk", "slides"},
-        {"", "sdk: t to a plane is plane / d - origin / d, and t are compared bit by bit. slides: (plane - origin) / d, compared "
-         "as floats. Deviation: the slides' listing has no advance to the first texel border; without it every ray would end "
-         "where it starts, so both have it. That they count a subgroup's rays after a step and not before changes nothing",
+        {"", "how t is computed where a ray meets a plane. sdk: plane / d - origin / d, compared bit by bit; slides: (plane "
+         "- origin) / d, compared as floats. README.md says what else the slides print, and why it changes nothing",
          "SSSR 1.5, ffx_sssr.h; slides of 2020, 'Stochastic Screen Space Reflections', traversal loop"}};
 
     // Corrections.
@@ -44,35 +44,35 @@ struct TracingParameters {
         {"", "measures thickness and background against the level that the march ended on. The original takes the "
          "nearest of 2x2 pixels, so that confidence is lost wherever depth varies", "ssrlab; SSSR 1.5 reads mip 1"}};
     Switch independent_noise_shifts{params, "independent_noise_shifts", false,
-        {"", "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts both by the "
-         "golden ratio, so that a pixel's samples stay on one diagonal of the unit square and never cover the lobe", "ssrlab; "
-         "Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"}};
+        {"", "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts "
+         "both by the golden ratio, so that a pixel's samples stay on one diagonal of the unit square and never "
+         "cover the lobe", "ssrlab; Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"}};
     Switch trace_orphans{params, "trace_orphans", false,
         {"", "a pixel that waits for the ray of a quad neighbour which traces none traces its own. In the original it "
          "stays black: dark contours where a quad's first pixel is sky, rough or of another surface", "ssrlab"}};
     Switch clip_ray_to_near_plane{params, "clip_ray_to_near_plane", false,
-        {"", "shortens the unit step that gives the ray's direction on the screen so that it stays before the near plane; "
-         "behind the camera it would be mirrored", "ssrlab"}};
+        {"", "shortens the unit step that gives the ray's direction on the screen so that it stays before the near "
+         "plane; behind the camera it would be mirrored", "ssrlab"}};
     Switch guard_zero_direction{params, "guard_zero_direction", false,
-        {"", "a ray along a screen axis divides by a number that is not 0; in the original's GLSL the guard only works if "
-         "all three components are 0", "ssrlab; AMD's hybrid reflections sample guards each component"}};
+        {"", "a ray along a screen axis divides by a number that is not 0; in the original's GLSL the guard only "
+         "works if all three components are 0", "ssrlab; AMD's hybrid reflections sample guards each component"}};
     Switch guard_mirror_normal{params, "guard_mirror_normal", false,
         {"", "mirrors reflect about the shading normal itself. The original samples a lobe of width 0, which is not a "
          "number where the random number rounds to 1", "ssrlab"}};
     Switch above_horizon{params, "above_horizon", false,
-        {"", "draws directions until one is above the horizon of the shading normal; those below the geometric surface meet "
-         "it and bring no light. The original traces all", "Eto and Tokuyoshi 2023, 'Bounded VNDF Sampling for Smith-GGX "
-         "Reflections'; as the path-traced reference"}};
+        {"", "draws directions until one is above the horizon of the shading normal; those below the geometric "
+         "surface meet it and bring no light. The original traces all", "Eto and Tokuyoshi 2023, 'Bounded VNDF "
+         "Sampling for Smith-GGX Reflections'; as the path-traced reference"}};
     Switch stop_outside_screen{params, "stop_outside_screen", false,
-        {"", "ends a ray where it leaves the screen, and treats texels that odd-sized levels lack as to be refined. The "
-         "original reads 0 there: with reversed depth whole strips at the lower and right edge are skipped", "ssrlab; "
-         "AMD's hybrid reflections sample ends rays so"}};
+        {"", "ends a ray where it leaves the screen, and treats texels that odd-sized levels lack as to be "
+         "refined. The original reads 0 there: with reversed depth whole strips at the lower and right edge are "
+         "skipped", "ssrlab; AMD's hybrid reflections sample ends rays so"}};
     Switch reject_unfinished{params, "reject_unfinished", false,
-        {"", "a ray that ran out of steps, or was given up by its subgroup, is a miss. The original validates wherever it "
-         "stood", "ssrlab"}};
+        {"", "a ray that ran out of steps, or was given up by its subgroup, is a miss. The original validates "
+         "wherever it stood", "ssrlab"}};
     Switch accept_contact_hits{params, "accept_contact_hits", false,
-        {"", "rejects a hit only in the pixel that its ray started from. The original rejects those nearer than two pixels "
-         "on both axes, so that contact reflections show the environment", "ssrlab"}};
+        {"", "rejects a hit only in the pixel that its ray started from. The original rejects those nearer than "
+         "two pixels on both axes, so that contact reflections show the environment", "ssrlab"}};
     Switch far_misses{params, "far_misses", false,
         {"", "a ray that misses is as long as the far plane is away. The original stores the length to wherever it was "
          "given up, and the denoiser reprojects the environment from there", "ssrlab"}};
