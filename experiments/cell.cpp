@@ -32,7 +32,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ResultRow, shot, scene, camera, frame, width,
                                    metric, formula, mask, value, is_corrected, uncorrected, low, high, floor, pixels,
                                    non_finite, negative)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SplitRow, shot, frame, variant, point, target, mask, seeds, mse, bias_squared,
-                                   variance, variance_low, variance_high, pixels)
+                                   variance, variance_low, variance_high, pixels, bias_squared_low, bias_squared_high)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeRow, shot, variant, point, seed, stage, frame, milliseconds, clock)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cell, rows, splits, times, images, timing, notes)
 

@@ -27,6 +27,7 @@ struct SplitRow {
     double mse = 0, bias_squared = 0, variance = 0;
     std::optional<double> variance_low, variance_high;
     size_t pixels = 0;
+    std::optional<double> bias_squared_low, bias_squared_high;
 };
 
 /// One row of times.csv.

@@ -85,7 +85,7 @@ void measure_last(Play& play, const FrameTruth& truth, const CompositedImages& i
     for (ResultRow& r : measure_targets(*truth.pose, images, masks, row)) play.cell.rows.push_back(std::move(r));
     const HostImage image = composited_image(*truth.pose, images);
     for (const auto& [target, reference] : truth.pose->targets)
-        play.splits[target].add(image_of(target, images, image));
+        play.splits.try_emplace(target, reference).first->second.add(image_of(target, images, image));
 }
 
 /// Whether the full measure of the last frame holds this row already.
@@ -186,8 +186,7 @@ void add_splits(Play& play) {
                               .point = play.variant.point,
                               .target = target,
                               .mask = {}};
-        for (SplitRow& row : split_rows(split, last->pose->targets.at(target), masks, shared))
-            play.cell.splits.push_back(std::move(row));
+        for (SplitRow& row : split_rows(split, masks, shared)) play.cell.splits.push_back(std::move(row));
     }
 }
 

@@ -12,7 +12,8 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& 
         "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,"
         "uncorrected,low,high,floor,pixels,non_finite,negative\n";
     std::string splits =
-        "shot,frame,variant,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels\n";
+        "shot,frame,variant,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels,bias_"
+        "squared_low,bias_squared_high\n";
     std::string times = "shot,variant,point,seed,stage,frame,milliseconds,clock\n";
     for (const Cell& cell : cells) {
         for (const ResultRow& r : cell.rows)
@@ -21,7 +22,8 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& 
                              r.high, r.floor, r.pixels, r.non_finite, r.negative);
         for (const SplitRow& s : cell.splits)
             splits += csv_line(s.shot, s.frame, s.variant, s.point, s.target, s.mask, s.seeds, s.mse, s.bias_squared,
-                               s.variance, s.variance_low, s.variance_high, s.pixels);
+                               s.variance, s.variance_low, s.variance_high, s.pixels, s.bias_squared_low,
+                               s.bias_squared_high);
         for (const TimeRow& t : cell.times)
             times += csv_line(t.shot, t.variant, t.point, t.seed, t.stage, t.frame, t.milliseconds, t.clock);
     }

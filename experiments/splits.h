@@ -2,18 +2,21 @@
 #include "experiments/cell.h"
 #include "metrics/statistics.h"
 
-/// One target's images of all seeds, added one after the other.
+/// One target's images of all seeds, added one after the other. Each two successive seeds x, y tell by themselves, and
+/// independently of the other pairs, the variance and, against the halves A, B of the reference, the squared bias:
+/// their noises are independent, so E[(x - A)(y - B)] = bias^2.
 struct SeedSplit {
-    SeedMoments moments;
-    HostImage odd_one;                  ///< a seed that waits for its partner; empty if none does
-    std::vector<Plane> pair_variances;  ///< (x_i - x_j)^2 / 2, mean over channels, of each two successive seeds
+    const MetricReference& reference;  ///< must outlive this
+    SeedMoments moments = {};
+    HostImage odd_one = {};  ///< a seed that waits for its partner; empty if none does
+    /// Of each pair, mean over channels: (x - y)^2 / 2, and ((x - A)(y - B) + (y - A)(x - B)) / 2.
+    std::vector<Plane> pair_variances = {}, pair_biases = {};
 
     void add(const HostImage& rgb);
 };
 
-/// split_error() under each mask that holds finite pixels; nothing below two seeds. Each pair of seeds is an estimate
-/// of the variance by itself, and independent of the other pairs: the interval is Student's over them (two pairs or
-/// more), around their mean, moved to the variance over all seeds, which wastes nothing and is hence a little more
-/// certain than it says. `shared` holds shot, frame, variant, point and target.
-std::vector<SplitRow> split_rows(const SeedSplit& split, const MetricReference& reference, std::span<const Mask> masks,
-                                 const SplitRow& shared);
+/// split_error() under each mask that holds finite pixels; nothing below two seeds. Intervals are Student's over the
+/// pairs of seeds (two or more), around the value that all seeds give; it is a little more certain than that of pairs.
+/// That of the squared bias has the reference's noise added in quadrature. `shared` holds shot, frame, variant, point
+/// and target.
+std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared);

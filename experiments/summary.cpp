@@ -115,7 +115,8 @@ std::vector<SplitRow> read_split_rows(const std::filesystem::path& file) {
         rows.push_back({csv.text("shot"), csv.text("frame"), csv.text("variant"), csv.text("point"), csv.text("target"),
                         csv.text("mask"), small_count(csv, "seeds"), csv.number("mse"), csv.number("bias_squared"),
                         csv.number("variance"), csv.optional_number("variance_low"),
-                        csv.optional_number("variance_high"), csv.count("pixels")});
+                        csv.optional_number("variance_high"), csv.count("pixels"),
+                        csv.optional_number("bias_squared_low"), csv.optional_number("bias_squared_high")});
     return rows;
 }
 

@@ -86,34 +86,51 @@ TEST(Effects, AreNotMadeUp) {
 }
 
 TEST(Splits, FindTheBiasAndTheVariance) {
-    // Bias 0.5 and standard deviation 0.3 in every channel of 64x64 pixels and 16 seeds.
+    // Bias 0.5 and standard deviation 0.3 in every channel of 64x64 pixels and 16 seeds; halves of a reference of 1
+    // with a standard deviation of 0.2.
     std::mt19937 random(1);
-    std::normal_distribution<float> noise(1.5f, 0.3f);
-    SeedSplit split;
-    for (unsigned seed = 0; seed < 16; ++seed) {
+    const auto noisy = [&](float mean, float deviation) {
+        std::normal_distribution<float> noise(mean, deviation);
         HostImage image({64, 64}, 3);
         for (float& v : image.values) v = noise(random);
-        split.add(image);
-    }
-    const MetricReference reference = metric_reference(HostImage({64, 64}, 3, 1.0f), {}, {"mse"}, {});
+        return image;
+    };
+    ReferenceHalves halves{noisy(1.0f, 0.2f), noisy(1.0f, 0.2f)};
+    HostImage mean = halves.a;
+    for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = 0.5f * (halves.a.values[i] + halves.b.values[i]);
+    const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
+    SeedSplit split{reference};
+    for (unsigned seed = 0; seed < 16; ++seed) split.add(noisy(1.5f, 0.3f));
     const std::vector<Mask> masks = {full_mask({64, 64}),
                                      {.name = "none", .extent = {64, 64}, .inside = std::vector<uint8_t>(64 * 64)}};
-    const std::vector<SplitRow> rows = split_rows(split, reference, masks, {.shot = "s"});
+    const std::vector<SplitRow> rows = split_rows(split, masks, {.shot = "s"});
     ASSERT_EQ(rows.size(), 1u) << "an empty mask has no row";
-    // 12288 x 15 samples: the variance is known to 0.3 %, the bias to 0.2 %; five times that.
-    EXPECT_NEAR(rows[0].variance, 0.09, 0.09 * 0.017);
-    EXPECT_NEAR(rows[0].bias_squared, 0.25, 0.25 * 0.01);
-    EXPECT_DOUBLE_EQ(rows[0].mse, rows[0].bias_squared + rows[0].variance);
-    EXPECT_LT(*rows[0].variance_low, 0.09);
-    EXPECT_GT(*rows[0].variance_high, 0.09);
-    EXPECT_LT(*rows[0].variance_high - *rows[0].variance_low, 0.09 * 0.05);
+    const SplitRow& row = rows.front();
+    // 12288 x 15 samples know the variance to 0.33 %. The mean of reference and seeds, whose deviation is 0.2 / sqrt(2)
+    // and 0.3 / 4 in 12288 values, shifts the bias by 0.0014, its square by 0.0014. Four standard deviations.
+    EXPECT_NEAR(row.variance, 0.09, 4 * 0.0003);
+    EXPECT_NEAR(row.bias_squared, 0.25, 4 * 0.0014);
+    EXPECT_DOUBLE_EQ(row.mse, row.bias_squared + row.variance);
+    EXPECT_LT(*row.variance_low, 0.09);
+    EXPECT_GT(*row.variance_high, 0.09);
+    EXPECT_LT(*row.variance_high - *row.variance_low, 0.09 * 0.05);
+    EXPECT_LT(*row.bias_squared_low, 0.25);
+    EXPECT_GT(*row.bias_squared_high, 0.25);
+    EXPECT_NEAR(*row.bias_squared_high - *row.bias_squared_low, 2 * 2 * 0.0014, 0.0028)
+        << "two standard deviations each way";
 }
 
 TEST(Splits, NeedTwoSeeds) {
-    SeedSplit split;
-    split.add(HostImage({8, 8}, 3));
     const MetricReference reference = metric_reference(HostImage({8, 8}, 3), {}, {}, {});
-    EXPECT_TRUE(split_rows(split, reference, std::vector{full_mask({8, 8})}, {}).empty());
+    SeedSplit split{reference};
+    split.add(HostImage({8, 8}, 3));
+    EXPECT_TRUE(split_rows(split, std::vector{full_mask({8, 8})}, {}).empty());
+    split.add(HostImage({8, 8}, 3, 2.0f));
+    const std::vector<SplitRow> rows = split_rows(split, std::vector{full_mask({8, 8})}, {});
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].variance, 2.0);      // of 0 and 2
+    EXPECT_EQ(rows[0].bias_squared, 0.0);  // (0 - 0)(2 - 0), or 1 - 2 / 2
+    EXPECT_FALSE(rows[0].variance_low) << "one pair has no interval";
 }
 
 TEST(Measure, ReportsAResultWithoutAnyFinitePixel) {

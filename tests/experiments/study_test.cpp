@@ -146,6 +146,12 @@ TEST_F(Study, ACaptureIsMeasuredAsItsScene) {
         EXPECT_EQ(capture[i].value, scene[i].value)
             << scene[i].target << " " << scene[i].metric << " " << scene[i].mask;
 
+    // Without a truth it is rendered all the same.
+    Config alone = read_config(folder / "capture.json");
+    alone.shots.front().reference.clear();
+    EXPECT_TRUE(read_result_rows(run(alone, "alone") / "results.csv").empty());
+    EXPECT_FALSE(read_json(folder / "alone/manifest.json")["images"].empty());
+
     // The truth of another scene may have the same size.
     ASSERT_EQ(std::system((common + "reference fence --size 96 54 --samples 16 --out other.exr > log 2>&1").c_str()),
               0);
