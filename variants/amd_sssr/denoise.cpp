@@ -2,15 +2,17 @@
 
 namespace {
 
-struct DenoiserPasses {
-    std::string reproject, prefilter, resolve;
-};
-
-DenoiserPasses passes_of(const DenoiserParameters&) {
-    return {"amd_sssr/reproject.comp", "amd_sssr/prefilter.comp", "amd_sssr/resolve_temporal.comp"};
+/// Each form has shaders of its own. A group of the faithful form denoises one tile, of the fast form eight.
+PassGraph::Pass denoiser_pass(PassGraph& graph, const std::string& name, bool is_fast) {
+    return graph.compute("amd_sssr/" + name + (is_fast ? "_fast.comp" : ".comp")).label("amd_sssr/" + name);
 }
 
-constexpr size_t denoiser_arguments = 12;  // bytes, of AmdWork::indirect_arguments
+void dispatch_tiles(PassGraph::Pass& pass, const AmdWork& work, bool is_fast) {
+    constexpr size_t tile_groups = 12, octet_groups = 24;  // bytes, in AmdWork::indirect_arguments
+    pass.use(work.tile_list.as("tile_list"))
+        .use(work.counters.as("counters"))
+        .dispatch(work.indirect_arguments, is_fast ? octet_groups : tile_groups);
+}
 
 Image reprojected_image(PassGraph& graph, const AmdHistories& histories) {
     return graph.image("reprojected_radiance", histories.radiance.current.format);
@@ -31,10 +33,9 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
         for (const Image& image :
              {histories.variance.current, histories.sample_count.current, histories.average_radiance.current})
             graph.clear(image, {});
-    graph.compute(passes_of(parameters).reproject)
-        .use(work.tile_list.as("tile_list"))
-        .use(work.counters.as("counters"))
-        .read(histories.radiance.current.as("radiance"))
+    const bool is_fast = parameters.denoiser_form.is("fast");
+    PassGraph::Pass pass = denoiser_pass(graph, "reproject", is_fast);
+    pass.read(histories.radiance.current.as("radiance"))
         .read(histories.roughness.current.as("roughness"))
         .read_linear(histories.radiance.previous.as("previous_radiance"))
         .read_linear(histories.variance.previous.as("previous_variance"))
@@ -45,31 +46,29 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
         .write(reprojected)
         .write(histories.variance.current.as("variance"))
         .write(histories.sample_count.current.as("sample_count"))
-        .write(histories.average_radiance.current.as("average_radiance"))
-        .dispatch(work.indirect_arguments, denoiser_arguments);
+        .write(histories.average_radiance.current.as("average_radiance"));
+    dispatch_tiles(pass, work, is_fast);
 }
 
 void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
                    const DenoiserParameters& parameters) {
-    graph.compute(passes_of(parameters).prefilter)
-        .use(work.tile_list.as("tile_list"))
-        .use(work.counters.as("counters"))
-        .read(histories.radiance.current.as("radiance"))
+    const bool is_fast = parameters.denoiser_form.is("fast");
+    PassGraph::Pass pass = denoiser_pass(graph, "prefilter", is_fast);
+    pass.read(histories.radiance.current.as("radiance"))
         .read(histories.variance.current.as("variance"))
         .read(histories.roughness.current.as("roughness"))
         .read_linear(average_image(histories, parameters))
         .write(histories.radiance.previous.as("prefiltered_radiance"))
-        .write(histories.variance.previous.as("prefiltered_variance"))
-        .dispatch(work.indirect_arguments, denoiser_arguments);
+        .write(histories.variance.previous.as("prefiltered_variance"));
+    dispatch_tiles(pass, work, is_fast);
 }
 
 void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
                           const DenoiserParameters& parameters) {
     const PassGraph::History& samples = histories.sample_count;
-    graph.compute(passes_of(parameters).resolve)
-        .use(work.tile_list.as("tile_list"))
-        .use(work.counters.as("counters"))
-        .read(histories.radiance.current.as("traced_radiance"))
+    const bool is_fast = parameters.denoiser_form.is("fast");
+    PassGraph::Pass pass = denoiser_pass(graph, "resolve_temporal", is_fast);
+    pass.read(histories.radiance.current.as("traced_radiance"))
         .read(histories.radiance.previous.as("prefiltered_radiance"))
         .read(histories.variance.previous.as("prefiltered_variance"))
         .read(reprojected_image(graph, histories))
@@ -77,8 +76,8 @@ void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistor
         .read(histories.roughness.current.as("roughness"))
         .read_linear(average_image(histories, parameters))
         .write(histories.radiance.current.as("radiance"))
-        .write(histories.variance.current.as("variance"))
-        .dispatch(work.indirect_arguments, denoiser_arguments);
+        .write(histories.variance.current.as("variance"));
+    dispatch_tiles(pass, work, is_fast);
 }
 
 void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,

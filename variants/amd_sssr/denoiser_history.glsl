@@ -84,9 +84,9 @@ bool is_better(Candidate reflected, Candidate on_surface) {
 
 // History along the surface's motion must resemble the colours around. A squared distance is held against the length of
 // a vector of variances: as in the original.
+float squared_distance(vec3 a, vec3 b) { return dot(a - b, a - b); }
 bool is_plausible(vec3 found, Neighborhood around) {
-    vec3 difference = found - around.mean;
-    return dot(difference, difference) < surface_discard_variance_weight * length(around.variance);
+    return squared_distance(found, around.mean) < surface_discard_variance_weight * length(around.variance);
 }
 
 // Step 0 to 8 of a search through 3x3 places, each starting from the best so far.

@@ -40,7 +40,7 @@ Filter start_filter(Neighbor center, vec3 average) {
     return f;
 }
 
-void add_neighbor(inout Filter f, Neighbor neighbor) {
+void add_tap(inout Filter f, Neighbor neighbor) {
     float apart = abs(f.center.depth - neighbor.depth);
     float scale = relative_depth_weight ? 1.0 / f.center.depth : f.center.depth;
     float weight = pow(max(dot(f.center.normal, neighbor.normal), 0.0), prefilter_normal_sigma) *

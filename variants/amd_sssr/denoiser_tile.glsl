@@ -22,8 +22,13 @@ bool is_in_image(ivec2 pixel) {
     return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy)));
 }
 
+ivec2 last_pixel() { return ivec2(camera.extent.xy) - 1; }
+
 // 0 outside of the image, which the original leaves to the driver.
 vec4 texel(sampler2D image, ivec2 pixel) { return is_in_image(pixel) ? texelFetch(image, pixel, 0) : vec4(0.0); }
+
+uvec2 packed_halves(vec4 color) { return uvec2(packHalf2x16(color.xy), packHalf2x16(color.zw)); }
+vec4 unpacked_halves(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
 
 bool is_glossy(float alpha) { return alpha < roughness_threshold_alpha; }
 bool is_mirror(float alpha) { return alpha < mirror_alpha; }

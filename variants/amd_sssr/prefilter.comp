@@ -1,18 +1,14 @@
 // AMD FidelityFX Denoiser 1.3 (reflections), second pass, laid out as the original: an edge-stopping filter over 15
 // neighbours, the stronger the more the pixel has changed over time.
-#include "amd_sssr/denoiser_average_lookup.glsl"
-#include "amd_sssr/denoiser_prefilter_weights.glsl"
+#include "amd_sssr/denoiser_prefilter.glsl"
 #include "amd_sssr/denoiser_shared_halves.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D radiance, variance, depth, normal, roughness;
-uniform writeonly image2D prefiltered_radiance, prefiltered_variance;
-
 shared uvec2 shared_normal[16][16];  // xyz, variance
 shared float shared_depth[16][16];   // m
 
 void share_neighbor(ivec2 pixel, ivec2 at) {
-    share_color(at, neighbor_color(texel(radiance, pixel).rgb));
+    share_color(at, counted(texel(radiance, pixel).rgb));
     shared_normal[at.y][at.x] =
         packed_halves(vec4(unit_or_zero(texel(normal, pixel).xyz), texel(variance, pixel).r));
     shared_depth[at.y][at.x] = linear_depth(uv_of(pixel), texel(depth, pixel).r);
@@ -31,14 +27,7 @@ void main() {
     }
     barrier();
     if (!is_in_image(pixel)) return;
-    Neighbor center = neighbor_at(local + reach);
-    vec4 result = vec4(center.color, center.variance);
-    float alpha = texelFetch(roughness, pixel, 0).r;
-    if (center.variance > 0.0 && is_glossy(alpha) && !is_mirror(alpha)) {
-        Filter filtered = start_filter(center, average_around(pixel));
-        for (int i = 0; i < 15; ++i) add_neighbor(filtered, neighbor_at(local + reach + filter_taps[i]));
-        result = filter_result(filtered);
-    }
-    imageStore(prefiltered_radiance, pixel, vec4(result.rgb, 0.0));
-    imageStore(prefiltered_variance, pixel, vec4(result.w));
+    Filter filtered = start_filter(neighbor_at(local + reach), average_around(pixel));
+    for (int i = 0; i < 15; ++i) add_tap(filtered, neighbor_at(local + reach + filter_taps[i]));
+    store_filtered(pixel, filtered);
 }

@@ -11,7 +11,7 @@ uniform sampler2D radiance;
 void share_neighborhood(ivec2 pixel, ivec2 local) {
     for (int i = 0; i < 4; ++i) {
         ivec2 block = ivec2(i & 1, i >> 1) * 8;
-        share_color(local + block, neighbor_color(texel(radiance, pixel - reach + block).rgb));
+        share_color(local + block, counted(texel(radiance, pixel - reach + block).rgb));
     }
 }
 
