@@ -47,7 +47,7 @@ std::optional<Cell> CellStore::load(const std::string& hash) const {
 }
 
 void CellStore::save(const std::string& hash, const Cell& cell) const {
-    write_text(folder_ / (hash + ".json"), nlohmann::json(cell).dump(1) + "\n");
+    write_text(folder_ / (hash + ".json"), nlohmann::json(cell).dump() + "\n");
 }
 
 CellStore::Claim::~Claim() {
