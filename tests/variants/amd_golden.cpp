@@ -50,7 +50,7 @@ namespace {
 std::vector<uint32_t> words(PassGraph& graph, const Buffer& buffer, size_t count) {
     const std::vector<std::byte> bytes = graph.download(buffer);
     std::vector<uint32_t> values(count);
-    std::memcpy(values.data(), bytes.data(), count * 4);
+    if (count > 0) std::memcpy(values.data(), bytes.data(), count * 4);
     return values;
 }
 

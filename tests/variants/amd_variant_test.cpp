@@ -117,6 +117,38 @@ TEST_F(AmdMirrorFloor, ShowsItToAnOrthographicCamera) {
     for (const char* preset : {"sdk_1_5", "corrected"}) expect_true_hits(preset, 1.05f, 0.4);
 }
 
+/// A held mirror keeps, through filters and history, what it shows: the wall's 0.25 below y = 1 and 1 above. Only
+/// pixels that average with nothing else are looked at: filters reach 4 pixels, tile averages 16.
+TEST_F(AmdSssrVariant, KeepsWhatAMirrorShows) {
+    view.extent = {320, 240};
+    const Frame frame = render({{"depth_buffer_thickness", 0.5}}, "corrected", mirror_floor, 4);
+    const CameraData camera = camera_data(pose, nullptr, view);
+    const auto rows_between = [&](glm::vec3 a, glm::vec3 b) {
+        return std::abs(pixel_from_world(camera, a).y - pixel_from_world(camera, b).y);
+    };
+    unsigned below = 0, above = 0;
+    for (unsigned y = 0; y < view.extent.y; ++y)
+        for (unsigned x = 16; x < view.extent.x - 16; ++x) {
+            const CameraRay ray = camera_ray(pose, view.extent, glm::vec2(x, y) + 0.5f);
+            const SyntheticHit first = mirror_floor(ray);
+            if (first.metalness == 0) continue;
+            const glm::vec3 p = ray.origin + first.distance * ray.direction;
+            const glm::vec3 d = ray.direction * glm::vec3(1, -1, 1), met = p + (-6 - p.z) / d.z * d;
+            const bool is_near_wall = rows_between(p, {p.x * -6 / p.z, -1, -6}) < 18;
+            const bool is_near_change = rows_between(met, {met.x, 1, -6}) < 18;
+            const glm::vec2 pixel = pixel_from_world(camera, met),
+                            border = glm::vec2(0.06f * float(view.extent.y) + 18);
+            if (is_near_wall || is_near_change || glm::any(glm::lessThan(pixel, border)) ||
+                glm::any(glm::greaterThan(pixel, glm::vec2(view.extent) - border)))
+                continue;
+            const float expected = met.y > 1 ? 1.0f : 0.25f;
+            EXPECT_NEAR(frame.radiance.pixel(x, y)[0], expected, 1e-4f * expected) << x << ", " << y;
+            ++(met.y > 1 ? above : below);
+        }
+    EXPECT_GT(below, 1000u);
+    EXPECT_GT(above, 1000u);
+}
+
 // Energy.
 
 /// All that is seen radiates 1.

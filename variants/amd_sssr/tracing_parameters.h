@@ -35,8 +35,8 @@ struct TracingParameters {
         {"mips", "levels of the depth pyramid, the full resolution included; as many as the image has, at most",
          "SSSR 1.5: 7; version 1.3 builds the whole chain"}};
     Choice march{params, "march", "sdk", {"sdk", "slides"},
-        {"", "how t is computed where a ray meets a plane. sdk: plane / d - origin / d, compared bit by bit; slides: (plane "
-         "- origin) / d, compared as floats. README.md says what else the slides print, and why it changes nothing",
+        {"", "how t is computed where a ray meets a plane. sdk: plane / d - origin / d, compared bit by bit; slides: "
+         "(plane - origin) / d, compared as floats. README.md says what else the slides print, and why it changes nothing",
          "SSSR 1.5, ffx_sssr.h; slides of 2020, 'Stochastic Screen Space Reflections', traversal loop"}};
 
     // Corrections.
