@@ -76,9 +76,20 @@ json error_row(const MetricSummary& e, Texts& code) {
 }
 
 json split_row(const SplitRow& s, Texts& code) {
-    return {code(s.shot), code(s.frame),  code(s.variant), code(s.point), code(s.target),
-            code(s.mask), s.seeds,        s.mse,           s.bias_squared, s.variance,
-            optional_json(s.variance_low), optional_json(s.variance_high)};
+    return {code(s.shot),
+            code(s.frame),
+            code(s.variant),
+            code(s.point),
+            code(s.target),
+            code(s.mask),
+            s.seeds,
+            s.mse,
+            s.bias_squared,
+            optional_json(s.bias_squared_low),
+            optional_json(s.bias_squared_high),
+            s.variance,
+            optional_json(s.variance_low),
+            optional_json(s.variance_high)};
 }
 
 json effect_row(const EffectRow& e, Texts& code) {

@@ -4,6 +4,9 @@ from paper_figures import style
 from paper_figures.results import label
 
 
+NAMES = {"bias_squared": "bias\N{SUPERSCRIPT TWO}", "variance": "variance"}
+
+
 def draw(results, chosen):
     rows = [
         s
@@ -20,7 +23,7 @@ def draw(results, chosen):
         _draw_shot(results, axes, [s for s in rows if s["shot"] == shot], points)
         axes.set_title(style.shot_title(shot))
         axes.tick_params(labelbottom=True)
-        axes.set_xlabel("part of the MSE (radiance\N{SUPERSCRIPT TWO})")
+        axes.set_xlabel("part of the MSE (radiance\N{SUPERSCRIPT TWO}), 95 % intervals")
     seeds = {p: "/".join(sorted({s["seeds"] for s in rows if (s["variant"], s["point"]) == p})) for p in points}
     panels[0].set_yticks(range(len(points)), [f"{label(*p)}\n({seeds[p]} seeds)" for p in points])
     panels[0].set_ylim(len(points) - 0.5, -0.5)
@@ -29,29 +32,27 @@ def draw(results, chosen):
 
 
 def _draw_shot(results, axes, rows, points):
-    variances = [results.measured(s, ("variance", "variance_low", "variance_high"), "splits.csv") for s in rows]
-    biases = [results.measured(s, ("bias_squared", "bias_squared", "bias_squared"), "splits.csv").value for s in rows]
-    least = min([v for v in biases + [v.value for v in variances] if v > 0], default=1e-6)
-    for row, bias, variance in zip(rows, biases, variances):
-        y = points.index((row["variant"], row["point"]))
-        color, mark = style.series(0)
-        if bias > 0:
-            axes.plot([bias], [y - 0.16], mark, color=color, markeredgewidth=0, label="bias\N{SUPERSCRIPT TWO}")
-        else:
-            axes.text(least, y - 0.16, "bias\N{SUPERSCRIPT TWO} about 0", color=color, va="center")
-        color, mark = style.series(1)
-        if variance.value <= 0:
-            axes.text(least, y + 0.16, "no variance", color=color, va="center")
-            continue
-        axes.errorbar(
-            [variance.value],
-            [y + 0.16],
-            xerr=variance.whiskers(),
-            fmt=mark,
-            color=color,
-            markerfacecolor="white",
-            label="variance, 95 % interval",
-        )
+    parts = {
+        name: [results.measured(s, (name, f"{name}_low", f"{name}_high"), "splits.csv") for s in rows]
+        for name in ("bias_squared", "variance")
+    }
+    least = min((m.value for part in parts.values() for m in part if m.value > 0), default=1e-6)
+    for index, (name, part) in enumerate(parts.items()):
+        color, mark = style.series(index)
+        for row, measured in zip(rows, part):
+            y = points.index((row["variant"], row["point"])) + 0.16 * (2 * index - 1)
+            if measured.value <= 0:
+                axes.text(least, y, f"{NAMES[name]} about 0", color=color, va="center")
+                continue
+            axes.errorbar(
+                [measured.value],
+                [y],
+                xerr=measured.whiskers(),
+                fmt=mark,
+                color=color,
+                markerfacecolor=color if index == 0 else "white",
+                label=NAMES[name],
+            )
     axes.set_xscale("log")
     axes.margins(x=0.12)
     axes.grid(axis="y", visible=False)

@@ -4,7 +4,7 @@ from matplotlib.ticker import MaxNLocator
 
 from paper_figures import style
 from paper_figures.lines import draw_lines
-from paper_figures.results import label
+from paper_figures.results import frame_number, label
 
 
 def draw(results, chosen):
@@ -18,10 +18,10 @@ def draw(results, chosen):
         return None
     figure, panels, legend = style.panels(len(shots))
     for axes, shot in zip(panels, shots):
-        own = sorted((r for r in rows if r["shot"] == shot), key=lambda r: int(r["frame"]))
+        own = sorted((r for r in rows if r["shot"] == shot), key=lambda r: frame_number(r))
         lines = {
             key: [
-                (int(r["frame"]), results.measured(r))
+                (frame_number(r), results.measured(r))
                 for r in own
                 if (r["variant"], r["point"]) == key and results.measured(r) is not None
             ]

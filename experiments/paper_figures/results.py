@@ -31,18 +31,25 @@ def label(variant, point):
     return variant if point in ("", "default") else f"{variant} {point}"
 
 
+def frame_number(row):
+    """None for "all"."""
+    try:
+        return None if row["frame"] == "all" else int(row["frame"])
+    except ValueError as e:
+        raise ResultsError(f"summary.csv: 'frame' = \"{row['frame']}\" is neither a number nor all") from e
+
+
 def rows_for_shots(rows):
     """Of each quantity the rows over its shot's frames ("all"); where there are none, those of the shot's last frame."""
     over_frames = {(r["shot"], r["target"], r["metric"], r["mask"]) for r in rows if r["frame"] == "all"}
     last = {}
     for r in rows:
-        if r["frame"] != "all":
-            last[r["shot"]] = max(last.get(r["shot"], 0), int(r["frame"]))
+        last[r["shot"]] = max(last.get(r["shot"], 0), frame_number(r) or 0)
     return [
         r
         for r in rows
         if r["frame"] == "all"
-        or (int(r["frame"]) == last[r["shot"]] and (r["shot"], r["target"], r["metric"], r["mask"]) not in over_frames)
+        or (frame_number(r) == last[r["shot"]] and (r["shot"], r["target"], r["metric"], r["mask"]) not in over_frames)
     ]
 
 

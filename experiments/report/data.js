@@ -35,10 +35,8 @@ function readData() {
         mask: t[r[5]],
         seeds: r[6],
         mse: r[7],
-        biasSquared: r[8],
-        variance: r[9],
-        low: r[10],
-        high: r[11]
+        biasSquared: {value: r[8], low: r[9], high: r[10]},
+        variance: {value: r[11], low: r[12], high: r[13]}
     });
     const effect = r => ({
         shot: t[r[0]],

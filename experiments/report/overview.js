@@ -10,12 +10,17 @@ function showOverview() {
     const reference = {near_zero: 0, near_one: 1}[better(name)] ?? null;
     const shown = chartedRows(rows);
     const scale = stripScale(shown.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value]), isLog, reference);
+    const best = clearlyBestRows(rows);
     const lines = unique(shown.map(r => r.shot)).map(shot => {
-        const marks = shown.filter(r => r.shot === shot).map((r, lane) => ({
+        const own = shown.filter(r => r.shot === shot);
+        const marks = own.map((r, lane) => ({
             series: chartedIndex(r), row: r, lane, tip: `${pointLabel(r)}\n${name} ${number(r.value)} ${interval(r)}`}));
-        return [shot, strip(scale, marks)];
+        return [shot, strip(scale, marks), ...charted.map((_, i) => overviewCell(own.find(r => chartedIndex(r) === i), best))];
     });
-    lines.push(["", stripAxis(scale, `${name}${unitText(name)} of ${choice.target}, ${choice.mask} pixels${isLog ? ", logarithmic" : ""}`)]);
-    at("overview").replaceChildren(
-        pointLegend(), h("div", {class: "scroll strips"}, table([{name: "Shot"}, {name: "95 % intervals"}], lines)));
+    const label = `${name}${unitText(name)} of ${choice.target}, ${choice.mask} pixels${isLog ? ", logarithmic" : ""}`;
+    lines.push(["", stripAxis(scale, label), ...charted.map(() => "")]);
+    const columns = [{name: "Shot"}, {name: "95 % intervals"}, ...charted.map(name => ({name, number: true}))];
+    at("overview").replaceChildren(pointLegend(), h("div", {class: "scroll strips"}, table(columns, lines)));
 }
+
+const overviewCell = (row, best) => row ? h(best.has(row) ? "b" : "span", {}, number(row.value, 3)) : "–";

@@ -16,7 +16,7 @@ function showSplits() {
     };
     at("splits").append(
         h("p", {class: "note"},
-          "Mean squared error = bias² + variance, over the seeds, of each shot's last frame. Bias² is what would remain over infinitely many seeds; where nothing is left of it, noise puts it around 0, at times below (◀). The variance has a 95 % interval from independent pairs of seeds."),
+          "Mean squared error = bias² + variance, over the seeds, of each shot's last frame. Bias² is what would remain over infinitely many seeds; where there is none, noise puts it around 0, at times below (◀). The 95 % intervals come from independent pairs of seeds, that of bias² from the reference's noise, too."),
         h("div", {class: "controls"}, select("Target", targets, splitChoice.target, changed("target")),
           select("Mask", masks, splitChoice.mask, changed("mask"))),
         h("div", {class: "legend"}, splitMark(0, false, "bias²"), splitMark(1, true, "variance")),
@@ -29,23 +29,26 @@ const splitMark = (series, isHollow, text) =>
 
 function drawSplits() {
     const rows = report.splits.filter(s => s.target === splitChoice.target && s.mask === splitChoice.mask && chartedIndex(s) >= 0);
-    const scale = stripScale(rows.flatMap(s => [s.biasSquared, s.variance, s.low ?? s.variance, s.high ?? s.variance]), true);
+    const ends = part => [part.value, part.low ?? part.value, part.high ?? part.value];
+    const scale = stripScale(rows.flatMap(s => [...ends(s.biasSquared), ...ends(s.variance)]), true);
     const columns = [
         {name: "Shot"}, {name: "Point"}, {name: "Bias² and variance"}, {name: "MSE", number: true}, {name: "Bias²", number: true},
         {name: "Variance", number: true}, {name: "Seeds", number: true}
     ];
     const lines = rows.map(s => {
-        const variance = {value: s.variance, low: s.low, high: s.high};
+        const tip = (name, part) => `${pointLabel(s)}\n${name} ${number(part.value)} ${interval(part)}`;
         const marks = [
-            {series: 0, row: {value: s.biasSquared}, tip: `${pointLabel(s)}\nbias² ${number(s.biasSquared)}`, lane: 0},
-            {series: 1, row: variance, isHollow: true, tip: `${pointLabel(s)}\nvariance ${number(s.variance)} ${interval(s)}`, lane: 1}
+            {series: 0, row: s.biasSquared, tip: tip("bias²", s.biasSquared), lane: 0},
+            {series: 1, row: s.variance, isHollow: true, tip: tip("variance", s.variance), lane: 1}
         ];
-        return [
-            s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse)),
-            cell(s.biasSquared, number(s.biasSquared), s.biasSquared <= 0 ? h("small", {}, " about 0") : ""),
-            cell(s.variance, number(s.variance), " ", h("small", {}, interval(s))), cell(s.seeds, String(s.seeds))
-        ];
+        return [s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse)), partCell(s.biasSquared), partCell(s.variance),
+                cell(s.seeds, String(s.seeds))];
     });
     lines.push(["", "", stripAxis(scale, "radiance², logarithmic"), "", "", "", ""]);
     at("split-table").replaceChildren(table(columns, lines, {groupBy: 0}));
+}
+
+function partCell(part) {
+    const isAboutZero = part.value <= 0 || (part.low !== null && part.low <= 0);
+    return cell(part.value, number(part.value), " ", h("small", {}, interval(part), isAboutZero ? " about 0" : ""));
 }

@@ -76,6 +76,9 @@ function clearlyBest(rows) {
     return intervals.every((x, i) => i === first || x[0] > intervals[first][1]) ? rows[first] : null;
 }
 
+const clearlyBestRows = rows =>
+    new Set(unique(rows.map(r => r.shot)).map(shot => clearlyBest(rows.filter(r => r.shot === shot))));
+
 /// value / none with the worst case of both intervals; only where a quotient of errors makes sense.
 function againstNone(row, rows) {
     const none = rows.find(r => r.shot === row.shot && r.variant === "none");
@@ -118,7 +121,7 @@ function summaryRow(row, rows, best) {
 
 function showSummary() {
     const rows = chosenRows();
-    const best = new Set(unique(rows.map(r => r.shot)).map(shot => clearlyBest(rows.filter(r => r.shot === shot))));
+    const best = clearlyBestRows(rows);
     const name = choice.metric.split("|")[0];
     const columns = [
         {name: "Shot"}, {name: "Variant"}, {name: "Point"}, {name: name, number: true},
@@ -126,8 +129,10 @@ function showSummary() {
         {name: "Seeds", number: true}, {name: "Pixels", number: true},
         ...(rows.some(r => r.nonFinite) ? [{name: "Non-finite", number: true}] : [])
     ];
-    at("summary").replaceChildren(
-        table(columns, rows.map(r => summaryRow(r, rows, best)), {sortable: true, groupBy: 0}));
+    const whole = table(columns, rows.map(r => summaryRow(r, rows, best)), {sortable: true, groupBy: 0});
+    const isOpen = at("summary").querySelector("details")?.open || choice.hasSingleChanges;
+    const title = `All ${rows.length} values, with noise floors, times and seeds`;
+    at("summary").replaceChildren(rows.length > longTable ? h("details", {open: isOpen}, h("summary", {}, title), whole) : whole);
     const about = report.metrics[name];
     const direction = {
         lower: "Less is better.",

@@ -3,6 +3,7 @@
 usage: report_figures_test.py REPORT_PAGE_PROGRAM FIGURES_SCRIPT
 """
 
+import argparse
 import csv
 import os
 import subprocess
@@ -12,11 +13,17 @@ import tempfile
 program, script = sys.argv[1:]
 sys.path.insert(0, os.path.dirname(script))
 sys.dont_write_bytecode = True
+os.environ["MPLBACKEND"] = "Agg"
 
 try:
+    import matplotlib.pyplot as plt
     import numpy as np
+    from figures import SHOT_FIGURES, STUDY_FIGURES
+    from matplotlib.text import Text
+    from paper_figures import style
     from paper_figures.crops import crop_boxes
     from paper_figures.exr import ExrError, read_exr_rgb
+    from paper_figures.results import Results
 except ImportError as missing:
     sys.exit(f"figures need python3-matplotlib and python3-numpy (tests/run.sh installs them): {missing}")
 
@@ -115,6 +122,65 @@ def test_mistakes(folder, temporary):
     check(not os.path.exists(os.path.join(temporary, "none")), "a failed run left a folder")
 
 
+def numbers(rows, column):
+    return sorted(float(r[column]) for r in rows)
+
+
+def drawn(panels, axis):
+    """All values of marks and lines with marks along one axis."""
+    lines = [line for a in panels for line in a.get_lines() if line.get_marker() not in ("None", "", None, "|", "_", "-")]
+    return sorted(float(v) for line in lines for v in (line.get_xdata() if axis == "x" else line.get_ydata()))
+
+
+def test_study(folder):
+    """What the figures of a study draw is what its tables hold; no text is smaller than 7 pt."""
+    style.apply()
+    results = Results(folder)
+    chosen = argparse.Namespace(target="specular", metric=results.headline_metric(), mask="reflective")
+    errors = results.errors_of(chosen.target, chosen.metric, chosen.mask)
+    figures_of = {name: draw(results, chosen) for name, draw in STUDY_FIGURES.items()}
+    panels = {name: [a for a in figure.get_axes() if a.has_data()] for name, figure in figures_of.items()}
+    is_single = lambda r: "=" in r["point"]
+
+    roughness = [r for r in results.errors if r["mask"].startswith("roughness") and not is_single(r)]
+    check(
+        drawn(panels["roughness_error"], "y") == numbers([r for r in roughness if r["metric"] == "relmse"], "value"),
+        "errors by roughness",
+    )
+    check(
+        drawn(panels["roughness_bias"], "y") == numbers([r for r in roughness if r["metric"] == "bias"], "value"),
+        "biases by roughness",
+    )
+    splits = [r for r in results.splits if not is_single(r)]
+    expected = [v for s in splits for v in (float(s["bias_squared"]), float(s["variance"])) if v > 0]
+    check(drawn(panels["bias_variance"], "x") == sorted(expected), "bias and variance")
+    texts = [t.get_text() for a in panels["bias_variance"] for t in a.texts]
+    check(len(texts) == 7 and all("about 0" in t for t in texts), f"biases that are not above 0: {texts}")
+    effects = [e for e in results.effects if (e["metric"], e["mask"], e["variant"]) == ("relmse", "reflective", "sssr")]
+    check(drawn(panels["effects"], "x") == numbers(effects, "ratio"), "effects")
+    frames = [
+        r
+        for r in results.all_errors
+        if (r["target"], r["metric"], r["mask"]) == ("specular", "relmse", "reflective") and not is_single(r)
+    ]
+    frames = [r for r in frames if r["frame"] != "all" and not r["shot"].startswith("still")]
+    check(drawn(panels["frames"], "y") == numbers(frames, "value"), "errors of frames")
+    check(any("cannot be told" in t.get_text() for a in panels["temporal"] for t in a.texts), "a value is missing silently")
+
+    figures_of |= {name: draw(results, results.shots()[0], errors, chosen) for name, draw in SHOT_FIGURES.items()}
+    check([name for name, figure in figures_of.items() if figure is None] == ["crops"], "without images there are no crops")
+    check_text_sizes(figures_of)
+
+
+def check_text_sizes(figures_of):
+    for name, figure in figures_of.items():
+        if figure is None:
+            continue
+        sizes = [t.get_fontsize() for t in figure.findobj(Text) if t.get_text()]
+        check(sizes and min(sizes) >= 7, f"{name} has text of {min(sizes)} pt")
+        plt.close(figure)
+
+
 with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     folder = os.path.join(temporary, "results")
     subprocess.run([program, folder], check=True)
@@ -123,3 +189,6 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     keep_one_shot(folder)
     test_same_bytes(folder, temporary)
     test_mistakes(folder, temporary)
+    study = os.path.join(temporary, "study")
+    subprocess.run([program, "--study", study], check=True)
+    test_study(study)

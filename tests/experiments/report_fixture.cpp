@@ -117,6 +117,7 @@ Cell make_cell(const std::filesystem::path& folder, const std::string& shot, glm
     ResultRow row{.shot = shot,
                   .scene = shot.substr(0, shot.find('.')),
                   .camera = "front",
+                  .frame = "0",
                   .width = extent.x,
                   .height = extent.y,
                   .variant = p.variant,

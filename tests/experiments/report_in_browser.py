@@ -71,8 +71,18 @@ def check_table(page, folder, target, metric, mask):
             equal(float(cells[6][1]), float(total), "total time")
 
 
+def test_sections(page):
+    """A study without classes of roughness, seeds to split over, baselines and frames has no sections of them."""
+    ids = page.execute_script("return [...document.querySelectorAll('main > section')].map(s => s.id)")
+    wanted = "warnings facts results error-time stages viewer references needs parameters how".split()
+    equal(ids, wanted, "sections")
+    links = page.execute_script("return [...document.querySelectorAll('nav a')].map(a => a.hash.slice(1))")
+    equal(links, wanted[2:], "links to sections")
+    check(not page.find_element(By.ID, "overview").is_displayed(), "a short table needs no overview")
+
+
 def test_table(page, folder):
-    check_table(page, folder, "specular", "mse", "reflective")
+    check_table(page, folder, "specular", "relmse", "reflective")
     choose(page, "Metric", "ssim (ssim_gauss11)")
     check_table(page, folder, "specular", "ssim", "reflective")
     equal(
@@ -301,6 +311,7 @@ def main():
                 lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
             )
             equal(len(page.find_elements(By.CSS_SELECTOR, "#warnings .warning")), 4, "warnings")
+            test_sections(page)
             test_table(page, folder)
             test_sorting(page)
             test_charts(page, folder)

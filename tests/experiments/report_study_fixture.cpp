@@ -1,0 +1,171 @@
+#include "tests/experiments/report_study_fixture.h"
+
+#include "core/files.h"
+#include "experiments/effects.h"
+#include "experiments/results.h"
+
+#include <random>
+#include <vector>
+
+namespace {
+
+using nlohmann::json;
+
+struct StudyPoint {
+    std::string variant, point;
+    double error;  ///< relative to the baseline's
+    unsigned seeds;
+    json parameters;
+};
+
+const StudyPoint points[] = {
+    {"none", "default", 3.0, 1, json::object()},
+    {"sssr", "first", 1.0, 4, {{"float_histories", false}, {"round_up_tiles", false}}},
+    {"sssr", "mended", 0.5, 4, {{"float_histories", true}, {"round_up_tiles", true}}},
+    {"sssr", "first float_histories=true", 0.6, 4, {{"float_histories", true}, {"round_up_tiles", false}}},
+    {"sssr", "first round_up_tiles=true", 1.0, 4, {{"float_histories", false}, {"round_up_tiles", true}}}};
+
+struct StudyShot {
+    std::string name;
+    std::vector<unsigned> frames;
+    unsigned repeat;
+};
+
+std::vector<StudyShot> study_shots() {
+    std::vector<StudyShot> shots;
+    for (const char* scene : {"still_a", "still_b", "still_c", "still_d", "still_e"})
+        shots.push_back({scene + std::string(".main.160x90.w8.r8"), {0}, 8});
+    shots.push_back({study_moving_shot, {3, 4, 5, 6}, 1});
+    shots.push_back({study_step_shot, {}, 1});
+    for (unsigned frame = 29; frame < 45; ++frame) shots.back().frames.push_back(frame);
+    return shots;
+}
+
+/// Errors of the seeds scatter by about 1 %; equal for equal seeds, whatever the point.
+double scatter(const std::string& shot, unsigned seed) {
+    std::mt19937 random(unsigned(std::hash<std::string>()(shot)) + seed * 7919u);
+    return 1.0 + 0.02 * (std::generate_canonical<double, 32>(random) - 0.5);
+}
+
+struct RowMaker {
+    const StudyShot& shot;
+    const StudyPoint& point;
+    unsigned seed;
+    Cell& cell;
+
+    void add(const std::string& frame, const char* target, const char* metric, const char* formula,
+             const std::string& mask, std::optional<double> value) const {
+        ResultRow r{.shot = shot.name, .scene = shot.name.substr(0, shot.name.find('.')), .camera = "main", .frame = frame,
+                    .width = 160, .height = 90, .variant = point.variant, .point = point.point, .seed = seed,
+                    .target = target, .metric = metric, .formula = formula, .mask = mask, .value = value,
+                    .is_corrected = true, .uncorrected = value, .pixels = 500};
+        if (value) r.low = *value - 0.03 * std::abs(*value), r.high = *value + 0.03 * std::abs(*value);
+        cell.rows.push_back(r);
+    }
+
+    /// `factor` tells masks, frames and metrics apart.
+    double error(double factor) const { return 0.1 * factor * point.error * scatter(shot.name, seed); }
+};
+
+void add_errors(const RowMaker& make) {
+    const bool has_frames = make.shot.frames.size() > 1;
+    const std::string last = std::to_string(make.shot.frames.back()), speaking = has_frames ? "all" : last;
+    double factor = 1.0;
+    for (const char* mask : {"reflective", "roughness_0_0.03", "roughness_0.03_0.3", "roughness_0.3_0.6"}) {
+        make.add(speaking, "specular", "relmse", "relmse_a", mask, make.error(factor));
+        if (has_frames) make.add(last, "specular", "relmse", "relmse_a", mask, make.error(factor * 1.7));
+        make.add(last, "incident", "bias", "bias", mask, -make.error(factor * 0.3));
+        factor *= 1.4;
+    }
+    for (size_t i = 0; has_frames && i + 1 < make.shot.frames.size(); ++i)
+        make.add(std::to_string(make.shot.frames[i]), "specular", "relmse", "relmse_a", "reflective",
+                 make.error(2.0 / double(i + 1)));
+}
+
+void add_temporal(const RowMaker& make) {
+    const auto add = [&](const char* metric, const char* formula, std::optional<double> value) {
+        make.add("all", "specular", metric, formula, "reflective", value);
+    };
+    if (make.shot.repeat > 1) add("flicker_relative", "temporal_variance_a", make.error(0.001));
+    if (make.shot.frames.size() > 1) {
+        add("frame_difference_relative", "frame_difference_a", make.error(0.4));
+        make.add("all", "specular", "relmse", "relmse_a", "disoccluded", make.error(5.0));
+    }
+    if (make.shot.name != study_step_shot) return;
+    add("ghost_length", "ghost_projection_0.05", make.point.variant == "none" ? 0.0 : 6.0);
+    if (make.point.point != "mended") add("settling_length", "squared_error_step_0.05", 3.0);
+    if (make.point.point == "mended") add("settling_length", "squared_error_step_0.05", std::nullopt);
+}
+
+void add_split(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
+    if (point.seeds < 2) return;
+    const double variance = 0.001 * point.error, bias = point.point == "mended" ? -1e-5 : 0.05 * point.error;
+    cell.splits.push_back({shot.name, std::to_string(shot.frames.back()), point.variant, point.point, "specular", "reflective",
+                           point.seeds, bias + variance, bias, variance, 0.8 * variance, 1.2 * variance, 500, bias - 2e-5, bias + 3e-5});
+}
+
+/// Ten stages: more than there are colours.
+void add_times(const StudyShot& shot, Cell& cell) {
+    for (unsigned frame = 0; frame < 15; ++frame) {
+        double total = 0;
+        for (unsigned stage = 0; stage < 10; ++stage) {
+            const double time = 0.1 * (stage + 1) + 0.01 * frame;
+            cell.times.push_back({shot.name, "sssr", "first", 0, "sssr/stage_" + std::to_string(stage), frame, time, "host_fence"});
+            total += time;
+        }
+        cell.times.push_back({shot.name, "sssr", "first", 0, "total", frame, total, "host_fence"});
+    }
+}
+
+json study_manifest(const std::vector<StudyShot>& shots) {
+    json manifest = {{"title", "A study of changes"},
+                     {"started", "2026-01-31T12:00:00Z"},
+                     {"finished", "2026-01-31T12:05:00Z"},
+                     {"clock", {{"method", "host_fence"}, {"aa_floor", 0.02}, {"aa_pairs", json::array()},
+                                {"proof", json::array({{{"stage_kind", "compute"}, {"passed", true}}})}}},
+                     {"notes", {study_step_shot + ": sssr mended: no settling_length: not within the first half of 15 frames (all, reflective)"}},
+                     {"parameter_docs", {{"sssr", {{"float_histories", "keeps <b>32</b> bits & drifts less"},
+                                                   {"round_up_tiles", "counts tiles"}}}}},
+                     {"images", json::array()}};
+    for (const StudyShot& shot : shots) {
+        json entry = {{"shot", shot.name}, {"frames", shot.frames}, {"frame", shot.frames.back()}};
+        if (shot.name == study_step_shot) entry["change"] = 30;
+        manifest["shots"].push_back(entry);
+        manifest["clock"]["aa_pairs"].push_back({{"shot", shot.name}, {"variant", "sssr"}, {"point", "first"},
+                                                 {"first_ms", 6.2}, {"second_ms", 6.27}, {"floor", 0.0112}});
+    }
+    for (const StudyPoint& p : points)
+        manifest["variants"].push_back({{"variant", p.variant}, {"point", p.point}, {"title", p.variant}, {"source", ""}, {"parameters", p.parameters}});
+    return manifest;
+}
+
+}  // namespace
+
+void write_study_fixture(const std::filesystem::path& folder) {
+    const std::vector<StudyShot> shots = study_shots();
+    std::vector<Cell> cells;
+    std::vector<ResultRow> rows;
+    for (const StudyShot& shot : shots) {
+        for (const StudyPoint& point : points) {
+            Cell cell;
+            for (unsigned seed = 0; seed < point.seeds; ++seed) {
+                const RowMaker make{shot, point, seed, cell};
+                add_errors(make);
+                add_temporal(make);
+            }
+            add_split(shot, point, cell);
+            if (point.point == "first") add_times(shot, cell);
+            rows.insert(rows.end(), cell.rows.begin(), cell.rows.end());
+            cells.push_back(std::move(cell));
+        }
+    }
+    std::vector<VariantConfig> variants;
+    for (const StudyPoint& p : points) {
+        VariantConfig variant;
+        variant.variant = p.variant, variant.point = p.point, variant.is_baseline = p.point == "first";
+        variants.push_back(variant);
+    }
+    write_tables(folder, cells);
+    write_effects(folder, paired_effects(rows, variants));
+    write_text(folder / "manifest.json", study_manifest(shots).dump(1));
+}
