@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
 
-/// Reads manifest.json, results.csv, splits.csv, effects.csv, times.csv (these three may be absent) and the EXR images of a results folder
-/// (experiments/RESULTS.md), and writes summary.csv, time_summary.csv and report.html into it, each atomically. The
-/// page is one file below 15 MB that needs no network. Fails with Error, naming the file, if one is missing or
-/// malformed.
+/// Reads manifest.json, results.csv, splits.csv, effects.csv, times.csv (these three may be absent) and the EXR images
+/// of a results folder (experiments/RESULTS.md), and writes summary.csv, time_summary.csv and report.html into it, each
+/// atomically. The page is one file below 15 MB that needs no network. Fails with Error, naming the file, if one is
+/// missing or malformed.
 void write_report(const std::filesystem::path& results_folder);

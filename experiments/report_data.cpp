@@ -64,15 +64,24 @@ std::set<Quantity> quantities_over_frames(std::span<const MetricSummary> errors)
 unsigned frame_number(const MetricSummary& e) { return unsigned(std::strtoul(e.frame.c_str(), nullptr, 10)); }
 
 json error_row(const MetricSummary& e, Texts& code) {
-    return {code(e.shot),           code(e.variant),
-            code(e.point),          code(e.target),
-            code(e.metric),         code(e.formula),
-            code(e.mask),           optional_json(e.value),
-            optional_json(e.low),   optional_json(e.high),
-            optional_json(e.floor), optional_json(e.seed_deviation),
-            e.seeds,                e.is_corrected ? 1 : 0,
-            e.pixels,               e.non_finite,
-            e.negative,             code(e.frame)};
+    return {code(e.shot),
+            code(e.variant),
+            code(e.point),
+            code(e.target),
+            code(e.metric),
+            code(e.formula),
+            code(e.mask),
+            optional_json(e.value),
+            optional_json(e.low),
+            optional_json(e.high),
+            optional_json(e.floor),
+            optional_json(e.seed_deviation),
+            e.seeds,
+            e.is_corrected ? 1 : 0,
+            e.pixels,
+            e.non_finite,
+            e.negative,
+            code(e.frame)};
 }
 
 json split_row(const SplitRow& s, Texts& code) {
@@ -93,21 +102,25 @@ json split_row(const SplitRow& s, Texts& code) {
 }
 
 json effect_row(const EffectRow& e, Texts& code) {
-    return {code(e.shot),          code(e.variant),      code(e.point),           code(e.against_variant),
-            code(e.against_point), code(e.target),       code(e.metric),          code(e.formula),
-            code(e.mask),          e.seeds,              optional_json(e.ratio),  optional_json(e.low),
-            optional_json(e.high), optional_json(e.p_holm)};
+    return {code(e.shot),           code(e.variant),
+            code(e.point),          code(e.against_variant),
+            code(e.against_point),  code(e.target),
+            code(e.metric),         code(e.formula),
+            code(e.mask),           e.seeds,
+            optional_json(e.ratio), optional_json(e.low),
+            optional_json(e.high),  optional_json(e.p_holm)};
 }
 
 json time_row(const TimeSummary& t, Texts& code) {
-    return {code(t.shot),  code(t.variant), code(t.point), code(t.stage), code(t.clock),
-            t.frames,      t.median,        t.low,         t.high};
+    return {code(t.shot), code(t.variant), code(t.point), code(t.stage), code(t.clock),
+            t.frames,     t.median,        t.low,         t.high};
 }
 
 }  // namespace
 
 ReportTables read_report_tables(const std::filesystem::path& folder) {
-    ReportTables tables{.errors = summarise(read_result_rows(folder / "results.csv")), .splits = {}, .effects = {}, .times = {}};
+    ReportTables tables{
+        .errors = summarise(read_result_rows(folder / "results.csv")), .splits = {}, .effects = {}, .times = {}};
     if (std::filesystem::exists(folder / "splits.csv")) tables.splits = read_split_rows(folder / "splits.csv");
     if (std::filesystem::exists(folder / "effects.csv")) tables.effects = read_effect_rows(folder / "effects.csv");
     if (std::filesystem::exists(folder / "times.csv")) tables.times = summarise(read_time_rows(folder / "times.csv"));
@@ -140,7 +153,7 @@ json report_data(const ReportTables& tables, std::span<const SingleChange> chang
     for (const TimeSummary& t : tables.times) times.push_back(time_row(t, code));
     for (const SingleChange& c : changes)
         single.push_back({{"variant", c.variant}, {"point", c.point}, {"parameter", c.parameter}, {"value", c.value}});
-    return {{"texts", std::move(code.list)}, {"errors", std::move(errors)}, {"frames", std::move(frames)},
-            {"splits", std::move(splits)},   {"effects", std::move(effects)}, {"times", std::move(times)},
+    return {{"texts", std::move(code.list)},       {"errors", std::move(errors)},     {"frames", std::move(frames)},
+            {"splits", std::move(splits)},         {"effects", std::move(effects)},   {"times", std::move(times)},
             {"single_changes", std::move(single)}, {"metrics", metric_descriptions()}};
 }

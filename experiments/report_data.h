@@ -16,7 +16,8 @@ struct ReportTables {
 /// results.csv must be there; tables that are not are empty.
 ReportTables read_report_tables(const std::filesystem::path& folder);
 
-/// The rows that speak for their shot: those over its frames ("all") where there are such, else those of its last frame.
+/// The rows that speak for their shot: those over its frames ("all") where there are such, else those of its last
+/// frame.
 std::vector<const MetricSummary*> rows_for_shots(std::span<const MetricSummary> errors);
 
 /// What the page's scripts read (report/page.js): tables as arrays, with texts as indices into `texts`, since few texts

@@ -135,14 +135,18 @@ ReportImages report_images(const std::filesystem::path& folder, const nlohmann::
         return target == "image" ? 0 : target == "specular" ? 1 : target == "incident" ? 2 : 3;
     };
     std::vector<Entry> entries = first_seeds(read_entries(folder, manifest));
-    const bool has_left_out = std::erase_if(entries, [&](const Entry& e) { return left_out.contains({e.variant, e.point}); }) > 0;
+    const bool has_left_out = std::erase_if(entries, [&](const Entry& e) {
+                                  return left_out.contains({e.variant, e.point});
+                              }) > 0;
     for (Entry& e : entries) {
         const int r = rank(e.target);
         by_rank[r].push_back(std::move(e));
     }
     ReportImages report;
     if (has_left_out)
-        report.notes.push_back("The images of points that change one parameter of a baseline are not in this page; the results folder has them.");
+        report.notes.push_back(
+            "The images of points that change one parameter of a baseline are not in this page; the results folder has "
+            "them.");
     if (by_rank.empty()) return report;
 
     const std::vector<Entry>& foremost = by_rank.begin()->second;

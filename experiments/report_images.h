@@ -23,9 +23,9 @@ struct ReportImages {
 };
 
 /// The images that fit into `budget` bytes of text, from manifest.json's `images`: for each shot the references and the
-/// first seed of each variant point but those in `left_out`; of target `image` first, `specular` and `incident` if there is room. If not even
-/// the first fits, all are reduced to a half, a quarter, an eighth; if that is still too much, the last variant points
-/// are left out. Fails with Error if a file that the manifest lists is missing or broken.
+/// first seed of each variant point but those in `left_out`; of target `image` first, `specular` and `incident` if
+/// there is room. If not even the first fits, all are reduced to a half, a quarter, an eighth; if that is still too
+/// much, the last variant points are left out. Fails with Error if a file that the manifest lists is missing or broken.
 ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest,
                            const PointSet& left_out, size_t budget);
 

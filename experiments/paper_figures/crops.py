@@ -29,7 +29,7 @@ def _absolute_error(image, reference):
 
 
 def crop_boxes(error, count):
-    """The `count` disjoint boxes (x, y, width, height) with the largest mean of `error`, largest first: always the same ones."""
+    """The `count` disjoint boxes (x, y, width, height) of the largest mean `error`, in descending order."""
     height, width = error.shape
     size_y = max(height // 4, min(height, 4))
     size_x = min(width, max(round(size_y * 4 / 3), 4))
@@ -155,7 +155,8 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
     )
     bar.set_label(
         f"{shot}, {target}: absolute error, mean over channels (one scale)\n"
-        f"top row: {chosen.metric} of {chosen.target}, {chosen.mask} pixels; crops: MSE with the reference's noise in it",
+        f"top row: {chosen.metric} of {chosen.target}, {chosen.mask} pixels; "
+        "crops: MSE with the reference's noise in it",
         fontsize=7,
     )
     return figure

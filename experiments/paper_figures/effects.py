@@ -52,8 +52,8 @@ def draw(results, chosen):
     grid[0, 0].set_ylim(len(groups) - 0.5, -0.5)
     _limit(grid[0, 0], results, rows)
     figure.supxlabel(
-        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {label(*baseline)}; 95 % intervals over seeds; "
-        f"filled: p (Holm) < {SIGNIFICANT}",
+        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {label(*baseline)}; "
+        f"95 % intervals over seeds; filled: p (Holm) < {SIGNIFICANT}",
         fontsize=7,
     )
     return figure

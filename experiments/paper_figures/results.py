@@ -40,7 +40,7 @@ def frame_number(row):
 
 
 def rows_for_shots(rows):
-    """Of each quantity the rows over its shot's frames ("all"); where there are none, those of the shot's last frame."""
+    """Of each quantity the rows over its shot's frames ("all"), else those of the shot's last frame."""
     over_frames = {(r["shot"], r["target"], r["metric"], r["mask"]) for r in rows if r["frame"] == "all"}
     last = {}
     for r in rows:

@@ -59,7 +59,10 @@ def draw(results, shot, errors, chosen):
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.set(xlabel="median time (ms), 95 % intervals")
-    ends = [max(sum(t.value for n, t in s.items() if n != "total"), s["total"].high if "total" in s else 0.0) for s in times.values()]
+    ends = [
+        max(sum(t.value for n, t in s.items() if n != "total"), s["total"].high if "total" in s else 0.0)
+        for s in times.values()
+    ]
     axes.set_xlim(0, 2.0 * max(ends))  # room for the totals as text
     handles, labels = axes.get_legend_handles_labels()
     by_label = dict(zip(labels, handles))

@@ -1,4 +1,4 @@
-"""Temporal metrics, one panel each: flicker at rest, changes that are not the truth's, frames until a ghost has gone."""
+"""Temporal metrics, one panel each: flicker at rest, changes that are not the truth's, frames until ghosts are gone."""
 
 from matplotlib.ticker import MaxNLocator
 
@@ -17,15 +17,15 @@ def draw(results, chosen):
     rows = [
         r
         for r in results.errors
-        if r["metric"] in METRICS
-        and r["mask"] == chosen.mask
-        and (r["variant"], r["point"]) in results.points()
+        if r["metric"] in METRICS and r["mask"] == chosen.mask and (r["variant"], r["point"]) in results.points()
     ]
     metrics = [m for m in METRICS if any(r["metric"] == m for r in rows)]
     if not metrics:
         return None
     most = max(len({r["shot"] for r in rows if r["metric"] == m}) for m in metrics)
-    figure, panels, legend = style.panels(len(metrics), most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(results.points())))
+    figure, panels, legend = style.panels(
+        len(metrics), most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(results.points()))
+    )
     for axes, metric in zip(panels, metrics):
         _draw_metric(results, axes, [r for r in rows if r["metric"] == metric], metric)
         axes.set_xlabel(f"{METRICS[metric]}, {chosen.mask}")

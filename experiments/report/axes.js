@@ -4,8 +4,8 @@
 const seriesColor = index =>
     index % 16 < 8 ? `var(--s${index % 8})` : `color-mix(in srgb, var(--s${index % 8}) 45%, var(--card))`;
 
-/// A logarithmic scale over all positive values, with some air (in decades, at least); `toPixel` clamps what lies beyond
-/// to the ends.
+/// A logarithmic scale over all positive values, with some air (in decades, at least); `toPixel` clamps what lies
+/// beyond to the ends.
 function logScale(values, from, to, leastAir = 0.15) {
     const positive = values.filter(v => v > 0);
     let low = Math.log10(Math.min(...positive)), high = Math.log10(Math.max(...positive));
@@ -34,7 +34,11 @@ function linearScale(values, from, to, mustShowZero = false) {
     if (!(high > low)) [low, high] = [low - 0.5, low + 0.5];
     const air = mustShowZero ? [0, 0.03] : [0.08, 0.08];
     [low, high] = [low - air[0] * (high - low), high + air[1] * (high - low)];
-    return {toPixel: v => from + (to - from) * (v - low) / (high - low), ticks: evenTicks(low, high), isInside: () => true};
+    return {
+        toPixel: v => from + (to - from) * (v - low) / (high - low),
+        ticks: evenTicks(low, high),
+        isInside: () => true
+    };
 }
 
 /// About six, at 1, 2 or 5 times a power of ten.
@@ -72,6 +76,9 @@ function mark(series, x, y, size = 1, isHollow = false) {
             return svg("polygon", {points: polygon(3, Math.PI, 5.6), ...style});
     }
 }
+
+const legendEntry = (series, name, isHollow = false) =>
+    h("span", {}, svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true"}, mark(series, 7, 7, 1, isHollow)), name);
 
 function horizontalAxis(scale, top, bottom, label) {
     const lines = scale.ticks.map(

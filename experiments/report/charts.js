@@ -18,7 +18,9 @@ function showScatter() {
         "No times were measured for these variants." :
         `${metric} of ${choice.target} on ${choice.mask} pixels against the total time of the variant's stages${
             isLog ? ", both logarithmic" : ""}. Lines are 95 % intervals; the dashed line is none. ` +
-            (isLog ? "An arrow marks a value whose noise-corrected error is not above zero; the grey steps join the points that none other beats in both, whatever the intervals say. " : "") +
+            (isLog ? "An arrow marks a value whose noise-corrected error is not above zero; the grey steps join the " +
+                     "points that none other beats in both, whatever the intervals say. " :
+                     "") +
             "Point at a mark, or tab to it, for its numbers.";
     at("legend").replaceChildren(timed.length ? scatterLegend() : "");
     at("scatter").replaceChildren(
@@ -33,19 +35,21 @@ const scatterSeries = row => isByPoint && !isSingleChange(row) ? chartedIndex(ro
 
 function scatterLegend() {
     if (isByPoint) return pointLegend();
-    const entry = (v, i) => h("span", {}, svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true"}, mark(i, 7, 7)), v);
-    return h("div", {class: "legend"}, variants.map(entry));
+    return h("div", {class: "legend"}, variants.map((v, i) => legendEntry(i, v)));
 }
 
 /// Those that none other beats in both: a hint, by medians and means alone.
 function paretoFront(timed) {
-    const isBeaten = p => timed.some(q => q !== p && q.time.value <= p.time.value && q.row.value <= p.row.value &&
-        (q.time.value < p.time.value || q.row.value < p.row.value));
+    const isBeaten = p => timed.some(
+        q => q !== p && q.time.value <= p.time.value && q.row.value <= p.row.value &&
+            (q.time.value < p.time.value || q.row.value < p.row.value));
     return timed.filter(p => !isBeaten(p)).sort((a, b) => a.time.value - b.time.value);
 }
 
 function frontLine(front, x, y) {
-    const steps = front.map((p, i) => i ? `H${x.toPixel(p.time.value)}V${y.toPixel(p.row.value)}` : `M${x.toPixel(p.time.value)} ${y.toPixel(p.row.value)}`);
+    const steps = front.map(
+        (p, i) => i ? `H${x.toPixel(p.time.value)}V${y.toPixel(p.row.value)}` :
+                      `M${x.toPixel(p.time.value)} ${y.toPixel(p.row.value)}`);
     return svg("path", {class: "front", d: steps.join(""), fill: "none"});
 }
 
@@ -128,8 +132,9 @@ function drawStages() {
                              .sort((a, b) => points.indexOf(pointLabel(a)) - points.indexOf(pointLabel(b)));
     at("stage-table")
         .replaceChildren(
-            floorNote(), h("details", {open: variantTimes.length <= longTable}, h("summary", {}, "All stages as numbers"),
-                           table(columns, variantTimes.map(row), {groupBy: 0})),
+            floorNote(),
+            h("details", {open: variantTimes.length <= longTable}, h("summary", {}, "All stages as numbers"),
+              table(columns, variantTimes.map(row), {groupBy: 0})),
             ...(shared.length ?
                     [h("h3", {}, "Shared by all variants: G-buffer and lit colour"), table(columns, shared.map(row))] :
                     []));
@@ -139,9 +144,11 @@ function drawStages() {
 function floorNote() {
     const pairs = list(report.manifest.clock?.aa_pairs).filter(p => p.shot === stageState.shot);
     if (!pairs.length) return "";
-    return h("p", {class: "note"}, "Two interleaved copies of the same point differed by ",
-             pairs.map(p => `${percent(p.floor)} (${pointLabel(p)}, ${number(p.first_ms, 3)} ms)`).join(", "),
-             `. A/A floor of the study: ${percent(report.manifest.clock.aa_floor)}; smaller differences between times say nothing.`);
+    return h(
+        "p", {class: "note"}, "Two interleaved copies of the same point differed by ",
+        pairs.map(p => `${percent(p.floor)} (${pointLabel(p)}, ${number(p.first_ms, 3)} ms)`).join(", "),
+        `. A/A floor of the study: ${
+            percent(report.manifest.clock.aa_floor)}; smaller differences between times say nothing.`);
 }
 
 const swatch = index => h("span", {class: "swatch", style: `background:${seriesColor(index)}`});

@@ -14,8 +14,15 @@ function showOverview() {
     const lines = unique(shown.map(r => r.shot)).map(shot => {
         const own = shown.filter(r => r.shot === shot);
         const marks = own.map((r, lane) => ({
-            series: chartedIndex(r), row: r, lane, tip: `${pointLabel(r)}\n${name} ${number(r.value)} ${interval(r)}`}));
-        return [shot, strip(scale, marks), ...charted.map((_, i) => overviewCell(own.find(r => chartedIndex(r) === i), best))];
+                                  series: chartedIndex(r),
+                                  row: r,
+                                  lane,
+                                  tip: `${pointLabel(r)}\n${name} ${number(r.value)} ${interval(r)}`
+                              }));
+        return [
+            shot, strip(scale, marks),
+            ...charted.map((_, i) => overviewCell(own.find(r => chartedIndex(r) === i), best))
+        ];
     });
     const label = `${name}${unitText(name)} of ${choice.target}, ${choice.mask} pixels${isLog ? ", logarithmic" : ""}`;
     lines.push(["", stripAxis(scale, label), ...charted.map(() => "")]);

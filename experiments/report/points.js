@@ -16,13 +16,14 @@ const chartedRows = rows => rows.filter(r => chartedIndex(r) >= 0);
 function pointLegend() {
     const hidden = comparedPoints.length - charted.length;
     return h(
-        "div", {class: "legend"},
-        charted.map((name, i) => h("span", {}, svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true"}, mark(i, 7, 7)), name)),
-        hidden ? h("span", {class: "note"}, `The first ${charted.length} of ${comparedPoints.length} points; all are in summary.csv.`) :
+        "div", {class: "legend"}, charted.map((name, i) => legendEntry(i, name)),
+        hidden ? h("span", {class: "note"},
+                   `The first ${charted.length} of ${comparedPoints.length} points; all are in summary.csv.`) :
                  null);
 }
 
-const headlineMetric = rows => preferred(unique(rows.map(metricKey)), unique(rows.map(metricKey)).find(m => m.startsWith("relmse|")));
+const headlineMetric = rows =>
+    preferred(unique(rows.map(metricKey)), unique(rows.map(metricKey)).find(m => m.startsWith("relmse|")));
 const metricName = key => {
     const [metric, formula] = key.split("|");
     return metric === formula || !formula ? metric : `${metric} (${formula})`;

@@ -14,18 +14,20 @@ function showRoughness() {
     }
     const specular = rows.filter(r => r.target === preferred(unique(rows.map(o => o.target)), "specular"));
     const metric = headlineMetric(specular);
-    const incident = rows.filter(r => r.metric === "bias" && r.target === preferred(unique(rows.map(o => o.target)), "incident"));
-    at("roughness").append(
-        h("p", {class: "note"},
-          "Perceptual roughness of the surface, in classes that hold their lower end. Lines are 95 % intervals; an arrow marks an error that is not above 0. All values lie in summary.csv."),
-        pointLegend(), ...roughnessCharts(specular.filter(r => metricKey(r) === metric), true, "Error"),
-        ...(incident.length ? roughnessCharts(incident, false, "Signed bias: above 0 too bright, below too dark") : []));
+    const incident =
+        rows.filter(r => r.metric === "bias" && r.target === preferred(unique(rows.map(o => o.target)), "incident"));
+    at("roughness")
+        .append(
+            pointLegend(), ...roughnessCharts(specular.filter(r => metricKey(r) === metric), true, "Error"),
+            ...(incident.length ? roughnessCharts(incident, false, "Signed bias: above 0 too bright, below too dark") :
+                                  []));
 }
 
 function roughnessCharts(rows, isLog, title) {
     const {metric, target} = rows[0];
     const yLabel = `${metric}${unitText(metric)}`;
-    const charts = unique(rows.map(r => r.shot)).map(shot => roughnessChart(shot, rows.filter(r => r.shot === shot), isLog, yLabel));
+    const charts = unique(rows.map(r => r.shot))
+                       .map(shot => roughnessChart(shot, rows.filter(r => r.shot === shot), isLog, yLabel));
     return [h("h3", {}, `${title}: ${metric} of target ${target}`), h("div", {class: "grid small"}, charts)];
 }
 
@@ -33,14 +35,16 @@ function roughnessChart(shot, rows, isLog, yLabel) {
     const masks = unique(rows.map(r => r.mask)).sort((a, b) => roughnessClass(a)[0] - roughnessClass(b)[0]);
     const ticks = masks.map((mask, at) => ({at, text: roughnessClass(mask).map(v => number(v, 3)).join("–")}));
     const lines = unique(rows.map(chartedIndex)).map(series => {
-        const own = rows.filter(r => chartedIndex(r) === series).sort((a, b) => masks.indexOf(a.mask) - masks.indexOf(b.mask));
+        const own =
+            rows.filter(r => chartedIndex(r) === series).sort((a, b) => masks.indexOf(a.mask) - masks.indexOf(b.mask));
         return {
             series,
             points: own.map(row => ({
-                at: masks.indexOf(row.mask),
-                row,
-                tip: `${pointLabel(row)}\nroughness ${ticks[masks.indexOf(row.mask)].text}, ${row.pixels} pixels\n${row.metric} ${number(row.value)} ${interval(row)}`
-            }))
+                                at: masks.indexOf(row.mask),
+                                row,
+                                tip: `${pointLabel(row)}\nroughness ${ticks[masks.indexOf(row.mask)].text}, ${
+                                    row.pixels} pixels\n${row.metric} ${number(row.value)} ${interval(row)}`
+                            }))
         };
     });
     return lineChart({title: shot, xLabel: "perceptual roughness", yLabel, ticks, lines, isLog, spread: true});

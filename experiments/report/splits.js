@@ -1,6 +1,9 @@
 // Bias and variance: what of an error all seeds share, and what differs from seed to seed.
 
-const splitChoice = {target: null, mask: null};
+const splitChoice = {
+    target: null,
+    mask: null
+};
 
 function showSplits() {
     if (!report.splits.some(s => chartedIndex(s) >= 0)) {
@@ -15,25 +18,21 @@ function showSplits() {
         drawSplits();
     };
     at("splits").append(
-        h("p", {class: "note"},
-          "Mean squared error = bias² + variance, over the seeds, of each shot's last frame. Bias² is what would remain over infinitely many seeds; where there is none, noise puts it around 0, at times below (◀). The 95 % intervals come from independent pairs of seeds, that of bias² from the reference's noise, too."),
         h("div", {class: "controls"}, select("Target", targets, splitChoice.target, changed("target")),
           select("Mask", masks, splitChoice.mask, changed("mask"))),
-        h("div", {class: "legend"}, splitMark(0, false, "bias²"), splitMark(1, true, "variance")),
+        h("div", {class: "legend"}, legendEntry(0, "bias²"), legendEntry(1, "variance", true)),
         h("div", {class: "scroll strips", id: "split-table"}));
     drawSplits();
 }
 
-const splitMark = (series, isHollow, text) =>
-    h("span", {}, svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true"}, mark(series, 7, 7, 1, isHollow)), text);
-
 function drawSplits() {
-    const rows = report.splits.filter(s => s.target === splitChoice.target && s.mask === splitChoice.mask && chartedIndex(s) >= 0);
+    const rows = report.splits.filter(
+        s => s.target === splitChoice.target && s.mask === splitChoice.mask && chartedIndex(s) >= 0);
     const ends = part => [part.value, part.low ?? part.value, part.high ?? part.value];
     const scale = stripScale(rows.flatMap(s => [...ends(s.biasSquared), ...ends(s.variance)]), true);
     const columns = [
-        {name: "Shot"}, {name: "Point"}, {name: "Bias² and variance"}, {name: "MSE", number: true}, {name: "Bias²", number: true},
-        {name: "Variance", number: true}, {name: "Seeds", number: true}
+        {name: "Shot"}, {name: "Point"}, {name: "Bias² and variance"}, {name: "MSE", number: true},
+        {name: "Bias²", number: true}, {name: "Variance", number: true}, {name: "Seeds", number: true}
     ];
     const lines = rows.map(s => {
         const tip = (name, part) => `${pointLabel(s)}\n${name} ${number(part.value)} ${interval(part)}`;
@@ -41,8 +40,10 @@ function drawSplits() {
             {series: 0, row: s.biasSquared, tip: tip("bias²", s.biasSquared), lane: 0},
             {series: 1, row: s.variance, isHollow: true, tip: tip("variance", s.variance), lane: 1}
         ];
-        return [s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse)), partCell(s.biasSquared), partCell(s.variance),
-                cell(s.seeds, String(s.seeds))];
+        return [
+            s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse)), partCell(s.biasSquared),
+            partCell(s.variance), cell(s.seeds, String(s.seeds))
+        ];
     });
     lines.push(["", "", stripAxis(scale, "radiance², logarithmic"), "", "", "", ""]);
     at("split-table").replaceChildren(table(columns, lines, {groupBy: 0}));

@@ -12,8 +12,8 @@ const better = metric => report.metrics[metric]?.better;
 const metricKey = row => `${row.metric}|${row.formula}`;
 const totalTime = row => report.times.find(
     t => t.shot === row.shot && t.variant === row.variant && t.point === row.point && t.stage === "total");
-const chosenRows = () =>
-    report.errors.filter(r => r.target === choice.target && metricKey(r) === choice.metric && r.mask === choice.mask &&
+const chosenRows = () => report.errors.filter(
+    r => r.target === choice.target && metricKey(r) === choice.metric && r.mask === choice.mask &&
         (choice.hasSingleChanges || !isSingleChange(r)));
 
 /// The value if it is present, else the first one.
@@ -33,13 +33,14 @@ function showChoice() {
         select("Target", targets, choice.target, changed("target")),
         select("Metric", metrics.map(m => [m, metricName(m)]), choice.metric, changed("metric")),
         select("Mask", masks, choice.mask, changed("mask")),
-        ...(singleChangeKeys.size ? [h("label", {}, h("input", {
-                                           type: "checkbox",
-                                           id: "single-changes",
-                                           change: event => changed("hasSingleChanges")(event.target.checked)
-                                       }),
-                                       `${singleChangeKeys.size} points that change one parameter of a baseline, too`)] :
-                                     []));
+        ...(singleChangeKeys.size ?
+                [h("label", {}, h("input", {
+                       type: "checkbox",
+                       id: "single-changes",
+                       change: event => changed("hasSingleChanges")(event.target.checked)
+                   }),
+                   `${singleChangeKeys.size} points that change one parameter of a baseline, too`)] :
+                []));
 }
 
 /// Distance from perfect, so that less is better for every metric; null if its direction is not known.
@@ -132,7 +133,8 @@ function showSummary() {
     const whole = table(columns, rows.map(r => summaryRow(r, rows, best)), {sortable: true, groupBy: 0});
     const isOpen = at("summary").querySelector("details")?.open || choice.hasSingleChanges;
     const title = `All ${rows.length} values, with noise floors, times and seeds`;
-    at("summary").replaceChildren(rows.length > longTable ? h("details", {open: isOpen}, h("summary", {}, title), whole) : whole);
+    at("summary").replaceChildren(
+        rows.length > longTable ? h("details", {open: isOpen}, h("summary", {}, title), whole) : whole);
     const about = report.metrics[name];
     const direction = {
         lower: "Less is better.",

@@ -1,15 +1,24 @@
 // What is seen in motion: flicker at rest, changes that are not the truth's, ghosts, and the error of each frame.
 
 const temporalTables = [
-    {title: "At rest: flicker", metrics: ["flicker", "flicker_relative", "flicker_correlation"]},
-    {title: "In motion: changes that are not the truth's", metrics: ["frame_difference", "frame_difference_relative"], hasDisoccluded: true},
+    {title: "At rest: flicker", metrics: ["flicker", "flicker_relative", "flicker_correlation"]}, {
+        title: "In motion: changes that are not the truth's",
+        metrics: ["frame_difference", "frame_difference_relative"],
+        hasDisoccluded: true
+    },
     {title: "After a change: ghosts", metrics: ["ghost_length", "settling_length"]}
 ];
-const temporalChoice = {mask: null};
-const frameChoice = {metric: null, mask: null};
+const temporalChoice = {
+    mask: null
+};
+const frameChoice = {
+    metric: null,
+    mask: null
+};
 
 function showTemporal() {
-    const rows = report.errors.filter(r => temporalTables.some(t => t.metrics.includes(r.metric)) && !isSingleChange(r));
+    const rows =
+        report.errors.filter(r => temporalTables.some(t => t.metrics.includes(r.metric)) && !isSingleChange(r));
     const frames = chartedRows(report.frames).filter(r => r.value !== null);
     if (!rows.length && !frames.length) {
         leaveOut("temporal");
@@ -21,35 +30,47 @@ function showTemporal() {
 
 function showTemporalTables(rows) {
     const masks = unique(rows.map(r => r.mask)), tables = h("div", {id: "temporal-tables"});
-    const draw = () => tables.replaceChildren(...temporalTables.flatMap(t => temporalTable(t, rows.filter(r => r.mask === temporalChoice.mask))));
+    const draw = () => tables.replaceChildren(
+        ...temporalTables.flatMap(t => temporalTable(t, rows.filter(r => r.mask === temporalChoice.mask))));
     temporalChoice.mask = preferred(masks, "reflective");
-    at("temporal").append(
-        h("div", {class: "controls"}, select("Mask", masks, temporalChoice.mask, mask => {
-              temporalChoice.mask = mask;
-              draw();
-          })),
-        tables);
+    at("temporal").append(h("div", {class: "controls"}, select("Mask", masks, temporalChoice.mask, mask => {
+                                temporalChoice.mask = mask;
+                                draw();
+                            })), tables);
     draw();
 }
 
-const isDisoccluded = r => r.mask === "disoccluded" && r.target === "specular" && r.metric === "relmse" && !isSingleChange(r);
+const isDisoccluded = r =>
+    r.mask === "disoccluded" && r.target === "specular" && r.metric === "relmse" && !isSingleChange(r);
 
 /// One row per shot and point that has such values.
 function temporalTable({title, metrics, hasDisoccluded}, all) {
-    const rows = all.filter(r => metrics.includes(r.metric)), shown = metrics.filter(m => rows.some(r => r.metric === m));
+    const rows = all.filter(r => metrics.includes(r.metric)),
+          shown = metrics.filter(m => rows.some(r => r.metric === m));
     if (!rows.length) return [];
     const shots = unique(rows.map(r => r.shot));
     const disoccluded = hasDisoccluded ? report.errors.filter(r => isDisoccluded(r) && shots.includes(r.shot)) : [];
-    const columns = [{name: "Shot"}, {name: "Point"}, ...shown.map(m => ({name: m + unitText(m), number: true})),
-                     ...(disoccluded.length ? [{name: "relmse, disoccluded", number: true}] : [])];
-    const lines = shots.flatMap(shot => comparedPoints.map(point => {
-        const isOwn = r => r.shot === shot && pointLabel(r) === point;
-        const own = rows.filter(isOwn);
-        return own.length ? [shot, point, ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
-                             ...(disoccluded.length ? [temporalCell(disoccluded.find(isOwn))] : [])] : null;
-    })).filter(Boolean);
+    const columns = [
+        {name: "Shot"}, {name: "Point"}, ...shown.map(m => ({name: m + unitText(m), number: true})),
+        ...(disoccluded.length ? [{name: "relmse, disoccluded", number: true}] : [])
+    ];
+    const lines = shots
+                      .flatMap(shot => comparedPoints.map(point => {
+                          const isOwn = r => r.shot === shot && pointLabel(r) === point;
+                          const own = rows.filter(isOwn);
+                          return own.length ?
+                              [
+                                  shot, point, ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
+                                  ...(disoccluded.length ? [temporalCell(disoccluded.find(isOwn))] : [])
+                              ] :
+                              null;
+                      }))
+                      .filter(Boolean);
     const meanings = shown.flatMap(m => [h("b", {}, m), `: ${report.metrics[m]?.doc ?? "not known"}. `]);
-    return [h("h3", {}, title), h("p", {class: "note"}, meanings), h("div", {class: "scroll"}, table(columns, lines, {sortable: true, groupBy: 0}))];
+    return [
+        h("h3", {}, title), h("p", {class: "note"}, meanings),
+        h("div", {class: "scroll"}, table(columns, lines, {sortable: true, groupBy: 0}))
+    ];
 }
 
 function temporalCell(row) {
@@ -61,7 +82,9 @@ function temporalCell(row) {
 /// The reason, from the manifest's notes: "<shot>: <variant> <point>: no <metric>: <reason> (<masks>)".
 function whyMissing(row) {
     const start = `${row.shot}: ${row.variant} ${row.point}: no ${row.metric}: `;
-    const note = list(report.manifest.notes).find(n => n.startsWith(start) && n.slice(n.lastIndexOf("(") + 1, -1).split(", ").includes(row.mask));
+    const note =
+        list(report.manifest.notes)
+            .find(n => n.startsWith(start) && n.slice(n.lastIndexOf("(") + 1, -1).split(", ").includes(row.mask));
     return note ? note.slice(start.length, note.lastIndexOf(" (")) : "not told";
 }
 
@@ -72,32 +95,47 @@ function showFrames(rows) {
         frameChoice[key] = value;
         drawFrames(rows);
     };
-    at("temporal").append(
-        h("h3", {}, "Frame by frame"),
-        h("div", {class: "controls"}, select("Metric", metrics.map(m => [m, metricName(m)]), frameChoice.metric, changed("metric")),
-          select("Mask", masks, frameChoice.mask, changed("mask"))),
-        pointLegend(), h("div", {class: "grid small", id: "frame-charts"}));
+    at("temporal")
+        .append(
+            h("h3", {}, "Frame by frame"),
+            h("div", {class: "controls"},
+              select("Metric", metrics.map(m => [m, metricName(m)]), frameChoice.metric, changed("metric")),
+              select("Mask", masks, frameChoice.mask, changed("mask"))),
+            pointLegend(), h("div", {class: "grid small", id: "frame-charts"}));
     drawFrames(rows);
 }
 
 function drawFrames(all) {
     const rows = all.filter(r => metricKey(r) === frameChoice.metric && r.mask === frameChoice.mask);
     const metric = frameChoice.metric.split("|")[0];
-    at("frame-charts").replaceChildren(...unique(rows.map(r => r.shot)).map(
-        shot => frameChart(shot, rows.filter(r => r.shot === shot), metric)));
+    at("frame-charts")
+        .replaceChildren(
+            ...unique(rows.map(r => r.shot)).map(shot => frameChart(shot, rows.filter(r => r.shot === shot), metric)));
 }
 
 function frameChart(shot, rows, metric) {
     const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b);
     const step = Math.ceil(frames.length / 8);
     const change = manifestShots().find(s => s.shot === shot)?.change;
-    const lines = unique(rows.map(chartedIndex)).map(series => ({
-        series,
-        points: rows.filter(r => chartedIndex(r) === series).sort((a, b) => a.frame - b.frame).map(row => ({
-            at: Number(row.frame), row, tip: `${pointLabel(row)}\nframe ${row.frame}\n${metric} ${number(row.value)} ${interval(row)}`}))
-    }));
+    const lines =
+        unique(rows.map(chartedIndex)).map(series => ({
+                                               series,
+                                               points: rows.filter(r => chartedIndex(r) === series)
+                                                           .sort((a, b) => a.frame - b.frame)
+                                                           .map(row => ({
+                                                                    at: Number(row.frame),
+                                                                    row,
+                                                                    tip: `${pointLabel(row)}\nframe ${row.frame}\n${
+                                                                        metric} ${number(row.value)} ${interval(row)}`
+                                                                }))
+                                           }));
     return lineChart({
-        title: shot + (change === undefined ? "" : `: the scene changes at frame ${change}`), xLabel: "frame", yLabel: metric + unitText(metric), lines,
-        ticks: frames.filter((_, i) => i % step === 0).map(f => ({at: f, text: String(f)})), isLog: better(metric) === "lower", spread: false
+        title: shot + (change === undefined ? "" : `: the scene changes at frame ${change}`),
+        xLabel: "frame",
+        yLabel: metric + unitText(metric),
+        lines,
+        ticks: frames.filter((_, i) => i % step === 0).map(f => ({at: f, text: String(f)})),
+        isLog: better(metric) === "lower",
+        spread: false
     });
 }

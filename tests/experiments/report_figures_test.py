@@ -128,7 +128,9 @@ def numbers(rows, column):
 
 def drawn(panels, axis):
     """All values of marks and lines with marks along one axis."""
-    lines = [line for a in panels for line in a.get_lines() if line.get_marker() not in ("None", "", None, "|", "_", "-")]
+    lines = [
+        line for a in panels for line in a.get_lines() if line.get_marker() not in ("None", "", None, "|", "_", "-")
+    ]
     return sorted(float(v) for line in lines for v in (line.get_xdata() if axis == "x" else line.get_ydata()))
 
 
@@ -165,10 +167,16 @@ def test_study(folder):
     ]
     frames = [r for r in frames if r["frame"] != "all" and not r["shot"].startswith("still")]
     check(drawn(panels["frames"], "y") == numbers(frames, "value"), "errors of frames")
-    check(any("cannot be told" in t.get_text() for a in panels["temporal"] for t in a.texts), "a value is missing silently")
+    check(
+        any("cannot be told" in t.get_text() for a in panels["temporal"] for t in a.texts),
+        "a value is missing silently",
+    )
 
     figures_of |= {name: draw(results, results.shots()[0], errors, chosen) for name, draw in SHOT_FIGURES.items()}
-    check([name for name, figure in figures_of.items() if figure is None] == ["crops"], "without images there are no crops")
+    check(
+        [name for name, figure in figures_of.items() if figure is None] == ["crops"],
+        "without images there are no crops",
+    )
     check_text_sizes(figures_of)
 
 

@@ -55,10 +55,23 @@ struct RowMaker {
 
     void add(const std::string& frame, const char* target, const char* metric, const char* formula,
              const std::string& mask, std::optional<double> value) const {
-        ResultRow r{.shot = shot.name, .scene = shot.name.substr(0, shot.name.find('.')), .camera = "main", .frame = frame,
-                    .width = 160, .height = 90, .variant = point.variant, .point = point.point, .seed = seed,
-                    .target = target, .metric = metric, .formula = formula, .mask = mask, .value = value,
-                    .is_corrected = true, .uncorrected = value, .pixels = 500};
+        ResultRow r{.shot = shot.name,
+                    .scene = shot.name.substr(0, shot.name.find('.')),
+                    .camera = "main",
+                    .frame = frame,
+                    .width = 160,
+                    .height = 90,
+                    .variant = point.variant,
+                    .point = point.point,
+                    .seed = seed,
+                    .target = target,
+                    .metric = metric,
+                    .formula = formula,
+                    .mask = mask,
+                    .value = value,
+                    .is_corrected = true,
+                    .uncorrected = value,
+                    .pixels = 500};
         if (value) r.low = *value - 0.03 * std::abs(*value), r.high = *value + 0.03 * std::abs(*value);
         cell.rows.push_back(r);
     }
@@ -100,8 +113,9 @@ void add_temporal(const RowMaker& make) {
 void add_split(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     if (point.seeds < 2) return;
     const double variance = 0.001 * point.error, bias = point.point == "mended" ? -1e-5 : 0.05 * point.error;
-    cell.splits.push_back({shot.name, std::to_string(shot.frames.back()), point.variant, point.point, "specular", "reflective",
-                           point.seeds, bias + variance, bias, variance, 0.8 * variance, 1.2 * variance, 500, bias - 2e-5, bias + 3e-5});
+    cell.splits.push_back({shot.name, std::to_string(shot.frames.back()), point.variant, point.point, "specular",
+                           "reflective", point.seeds, bias + variance, bias, variance, 0.8 * variance, 1.2 * variance,
+                           500, bias - 2e-5, bias + 3e-5});
 }
 
 /// Ten stages: more than there are colours.
@@ -110,7 +124,8 @@ void add_times(const StudyShot& shot, Cell& cell) {
         double total = 0;
         for (unsigned stage = 0; stage < 10; ++stage) {
             const double time = 0.1 * (stage + 1) + 0.01 * frame;
-            cell.times.push_back({shot.name, "sssr", "first", 0, "sssr/stage_" + std::to_string(stage), frame, time, "host_fence"});
+            cell.times.push_back(
+                {shot.name, "sssr", "first", 0, "sssr/stage_" + std::to_string(stage), frame, time, "host_fence"});
             total += time;
         }
         cell.times.push_back({shot.name, "sssr", "first", 0, "total", frame, total, "host_fence"});
@@ -118,24 +133,38 @@ void add_times(const StudyShot& shot, Cell& cell) {
 }
 
 json study_manifest(const std::vector<StudyShot>& shots) {
-    json manifest = {{"title", "A study of changes"},
-                     {"started", "2026-01-31T12:00:00Z"},
-                     {"finished", "2026-01-31T12:05:00Z"},
-                     {"clock", {{"method", "host_fence"}, {"aa_floor", 0.02}, {"aa_pairs", json::array()},
-                                {"proof", json::array({{{"stage_kind", "compute"}, {"passed", true}}})}}},
-                     {"notes", {study_step_shot + ": sssr mended: no settling_length: not within the first half of 15 frames (all, reflective)"}},
-                     {"parameter_docs", {{"sssr", {{"float_histories", "keeps <b>32</b> bits & drifts less"},
-                                                   {"round_up_tiles", "counts tiles"}}}}},
-                     {"images", json::array()}};
+    json manifest = {
+        {"title", "A study of changes"},
+        {"started", "2026-01-31T12:00:00Z"},
+        {"finished", "2026-01-31T12:05:00Z"},
+        {"clock",
+         {{"method", "host_fence"},
+          {"aa_floor", 0.02},
+          {"aa_pairs", json::array()},
+          {"proof", json::array({{{"stage_kind", "compute"}, {"passed", true}}})}}},
+        {"notes",
+         {study_step_shot +
+          ": sssr mended: no settling_length: not within the first half of 15 frames (all, reflective)"}},
+        {"parameter_docs",
+         {{"sssr", {{"float_histories", "keeps <b>32</b> bits & drifts less"}, {"round_up_tiles", "counts tiles"}}}}},
+        {"images", json::array()}};
     for (const StudyShot& shot : shots) {
         json entry = {{"shot", shot.name}, {"frames", shot.frames}, {"frame", shot.frames.back()}};
         if (shot.name == study_step_shot) entry["change"] = 30;
         manifest["shots"].push_back(entry);
-        manifest["clock"]["aa_pairs"].push_back({{"shot", shot.name}, {"variant", "sssr"}, {"point", "first"},
-                                                 {"first_ms", 6.2}, {"second_ms", 6.27}, {"floor", 0.0112}});
+        manifest["clock"]["aa_pairs"].push_back({{"shot", shot.name},
+                                                 {"variant", "sssr"},
+                                                 {"point", "first"},
+                                                 {"first_ms", 6.2},
+                                                 {"second_ms", 6.27},
+                                                 {"floor", 0.0112}});
     }
     for (const StudyPoint& p : points)
-        manifest["variants"].push_back({{"variant", p.variant}, {"point", p.point}, {"title", p.variant}, {"source", ""}, {"parameters", p.parameters}});
+        manifest["variants"].push_back({{"variant", p.variant},
+                                        {"point", p.point},
+                                        {"title", p.variant},
+                                        {"source", ""},
+                                        {"parameters", p.parameters}});
     return manifest;
 }
 

@@ -33,7 +33,9 @@ def values(page, selector):
 
 
 def choose(page, section, label, text):
-    element = page.find_element(By.XPATH, f"//section[@id='{section}']//label[normalize-space(text())='{label}']/select")
+    element = page.find_element(
+        By.XPATH, f"//section[@id='{section}']//label[normalize-space(text())='{label}']/select"
+    )
     Select(element).select_by_visible_text(text)
 
 
@@ -53,20 +55,27 @@ def test_results(page, folder):
     equal([float(c[3][1]) for c in shown], [float(r["value"]) for r in compared], "the table of results")
     equal(values(page, "#overview .point"), [float(r["value"]) for r in compared], "the overview")
     page.find_element(By.ID, "single-changes").click()
-    equal([float(c[3][1]) for c in table_of(page, "#summary")], [float(r["value"]) for r in speaking], "with single changes")
+    equal(
+        [float(c[3][1]) for c in table_of(page, "#summary")],
+        [float(r["value"]) for r in speaking],
+        "with single changes",
+    )
     page.find_element(By.ID, "single-changes").click()
 
 
 def test_roughness(page, folder):
     expected = []
     for target, metric in (("specular", "relmse"), ("incident", "bias")):
-        rows = [r for r in rows_of(folder, "summary.csv", target=target, metric=metric) if r["mask"].startswith("roughness")]
+        rows = [
+            r for r in rows_of(folder, "summary.csv", target=target, metric=metric) if r["mask"].startswith("roughness")
+        ]
         last = {STEP: "44", MOVING: "6"}
         speaking = "all" if metric == "relmse" else None
         expected += [
             float(r["value"])
             for r in rows
-            if not is_single_change(r) and r["frame"] == (last.get(r["shot"], "0") if speaking is None or r["shot"] not in last else speaking)
+            if not is_single_change(r)
+            and r["frame"] == (last.get(r["shot"], "0") if speaking is None or r["shot"] not in last else speaking)
         ]
     equal(values(page, "#roughness .point"), expected, "errors and biases by roughness")
     titles = page.execute_script("return [...document.querySelectorAll('#roughness h3')].map(t => t.innerText)")
@@ -78,34 +87,66 @@ def test_splits(page, folder):
     shown = table_of(page, "#split-table")[:-1]  # the last row has the scale
     equal(len(shown), len(rows), "rows of bias and variance")
     for cells, row in zip(shown, rows):
-        equal([float(cells[i][1]) for i in (3, 4, 5, 6)], [float(row[k]) for k in ("mse", "bias_squared", "variance", "seeds")], row["point"])
-        check((float(row["bias_squared"]) <= 0) == ("about 0" in cells[4][0]), f"bias² of {row['point']}: {cells[4][0]}")
+        equal(
+            [float(cells[i][1]) for i in (3, 4, 5, 6)],
+            [float(row[k]) for k in ("mse", "bias_squared", "variance", "seeds")],
+            row["point"],
+        )
+        check(
+            (float(row["bias_squared"]) <= 0) == ("about 0" in cells[4][0]), f"bias² of {row['point']}: {cells[4][0]}"
+        )
         for cell, name in ((cells[4], "bias_squared"), (cells[5], "variance")):
             low, high = (float(x) for x in cell[0].split("[")[1].split("]")[0].split(","))
             ends = [float(row[f"{name}_{end}"]) for end in ("low", "high")]
-            check(all(abs(a - b) <= 5.1e-4 * abs(b) for a, b in zip((low, high), ends)), f"interval of {name}: {cell[0]}, expected {ends}")
-    equal(values(page, "#split-table .point"), [float(r[k]) for r in rows for k in ("bias_squared", "variance")], "marks of bias and variance")
+            check(
+                all(abs(a - b) <= 5.1e-4 * abs(b) for a, b in zip((low, high), ends)),
+                f"interval of {name}: {cell[0]}, expected {ends}",
+            )
+    equal(
+        values(page, "#split-table .point"),
+        [float(r[k]) for r in rows for k in ("bias_squared", "variance")],
+        "marks of bias and variance",
+    )
 
 
 def test_stages(page):
     colors = page.execute_script("return [...document.querySelectorAll('#bars .swatch')].map(s => s.style.background)")
     equal(len(set(colors)), 10, f"ten stages need ten colours: {colors}")
     text = page.find_element(By.ID, "stage-table").text
-    check("1.12 % (sssr · first, 6.2 ms)" in text and "A/A floor of the study: 2 %" in text, f"the A/A floor: {text!r}")
-    check(page.execute_script("return document.querySelector('#stage-table details').open"), "11 rows need not be folded")
+    for part in ("1.12 % (sssr · first, 6.2 ms)", "A/A floor of the study: 2 %"):
+        check(part in text, f"the A/A floor: {text!r}")
+    check(
+        page.execute_script("return document.querySelector('#stage-table details').open"), "11 rows need not be folded"
+    )
 
 
 def test_effects(page, folder):
-    rows = rows_of(folder, "effects.csv", target="specular", metric="relmse", mask="reflective", against_point="first", variant="sssr")
+    rows = rows_of(
+        folder,
+        "effects.csv",
+        target="specular",
+        metric="relmse",
+        mask="reflective",
+        against_point="first",
+        variant="sssr",
+    )
     points = ["first float_histories=true", "first round_up_tiles=true", "mended"]
     shown = table_of(page, "#effect-table")[:-1]
-    equal([c[0][0].split("\n")[0] for c in shown], ["float_histories = true", "round_up_tiles = true", "sssr · mended"], "changes")
+    equal(
+        [c[0][0].split("\n")[0] for c in shown],
+        ["float_histories = true", "round_up_tiles = true", "sssr · mended"],
+        "changes",
+    )
     equal(shown[0][0][0].split("\n")[1], "keeps <b>32</b> bits & drifts less", "what the parameter means, as text")
     for cells, point in zip(shown, points):
         ratios = [float(r["ratio"]) for r in rows if r["point"] == point]
         mean = math.exp(sum(math.log(r) for r in ratios) / len(ratios))
         check(abs(float(cells[2][1]) - mean) < 1e-12 * mean, f"mean ratio of {point}: {cells[2]}, expected {mean}")
-        helped = [r for r in rows if r["point"] == point and r["p_holm"] and float(r["p_holm"]) < 0.05 and float(r["ratio"]) < 1]
+        helped = [
+            r
+            for r in rows
+            if r["point"] == point and r["p_holm"] and float(r["p_holm"]) < 0.05 and float(r["ratio"]) < 1
+        ]
         equal([int(cells[i][1]) for i in (3, 4, 5)], [len(helped), 0, 7], f"shots that {point} helps, harms, and all")
     choose(page, "effects", "Shot", STEP)
     for cells, point in zip(table_of(page, "#effect-table"), points):
@@ -116,9 +157,15 @@ def test_effects(page, folder):
         result = "less error" if is_significant else "changes nothing"
         check(result in cells[5][0], f"result of {point}: {cells[5][0]!r}, expected {result!r}")
     marks = values(page, "#effect-table .point")
-    equal(marks, [float(r["ratio"]) for p in points for r in rows if r["point"] == p and r["shot"] == STEP], "marks of a shot")
+    equal(
+        marks,
+        [float(r["ratio"]) for p in points for r in rows if r["point"] == p and r["shot"] == STEP],
+        "marks of a shot",
+    )
     choose(page, "effects", "Scale", "0.91 to 1.1")
-    arrows = page.execute_script("return [...document.querySelectorAll('#effect-table .point text')].map(t => t.textContent)")
+    arrows = page.execute_script(
+        "return [...document.querySelectorAll('#effect-table .point text')].map(t => t.textContent)"
+    )
     equal(arrows, ["◀", "◀"], "ratios beyond the scale")
 
 
@@ -128,7 +175,8 @@ def test_temporal(page, folder):
     for metric in ("flicker_relative", "frame_difference_relative", "ghost_length"):
         rows = [r for r in rows_of(folder, "summary.csv", metric=metric) if not is_single_change(r)]
         shown = page.execute_script(
-            """const t = [...document.querySelectorAll('#temporal-tables table')].find(t => t.tHead.innerText.includes(arguments[0]));
+            """const tables = [...document.querySelectorAll('#temporal-tables table')];
+            const t = tables.find(t => t.tHead.innerText.includes(arguments[0]));
             const c = [...t.tHead.rows[0].cells].findIndex(h => h.innerText.startsWith(arguments[0]));
             return [...t.tBodies[0].rows].map(r => Number(r.cells[c].dataset.value))""",
             metric,
@@ -138,7 +186,9 @@ def test_temporal(page, folder):
         r
         for shot in (MOVING, STEP)
         for point in ("default", "first", "mended")
-        for r in rows_of(folder, "summary.csv", shot=shot, point=point, target="specular", metric="relmse", mask="reflective")
+        for r in rows_of(
+            folder, "summary.csv", shot=shot, point=point, target="specular", metric="relmse", mask="reflective"
+        )
         if r["frame"] != "all"
     ]
     frames.sort(key=lambda r: (r["shot"] != MOVING, ["default", "first", "mended"].index(r["point"]), int(r["frame"])))
@@ -151,7 +201,11 @@ def test_quiet(page):
     shown = page.find_element(By.TAG_NAME, "body").text
     for word in ("undefined", "NaN", "[object"):
         check(word not in shown, f"the page says {word!r}")
-    equal(page.execute_script("return document.body.scrollWidth <= innerWidth"), True, "the page is not wider than the window")
+    equal(
+        page.execute_script("return document.body.scrollWidth <= innerWidth"),
+        True,
+        "the page is not wider than the window",
+    )
 
 
 def main():

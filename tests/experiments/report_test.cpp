@@ -94,7 +94,8 @@ TEST(Summary, JoinsTheSpreadOfSeedsWithTheNoiseOfTheReference) {
     EXPECT_EQ(s.seeds, 3u);
     EXPECT_DOUBLE_EQ(*s.value, 2.0);
     EXPECT_DOUBLE_EQ(*s.seed_deviation, 1.0);
-    // With two degrees of freedom Student's t has the closed form (2p - 1) sqrt(2 / (4p (1 - p))); it joins 0.5 of the reference.
+    // With two degrees of freedom Student's t has the closed form (2p - 1) sqrt(2 / (4p (1 - p))); it joins 0.5 of the
+    // reference.
     const double t = 0.95 * std::sqrt(2.0 / (4.0 * 0.975 * 0.025));
     EXPECT_NEAR(*s.high - 2.0, std::hypot(t / std::sqrt(3.0), 0.5), 1e-9);
     EXPECT_NEAR(2.0 - *s.low, *s.high - 2.0, 1e-12);
