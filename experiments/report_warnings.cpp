@@ -1,5 +1,6 @@
 #include "experiments/report_warnings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -71,13 +72,16 @@ void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
                            " samples of the reference were not finite and were left out: its mean may be biased.");
 }
 
-void warn_of_pixels(std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
+constexpr size_t most_pixel_warnings = 12;  ///< the rest is counted: nobody reads a hundred
+
+std::vector<std::string> pixel_warnings(std::span<const MetricSummary> errors) {
     std::map<std::string, std::pair<size_t, size_t>> worst;
     for (const MetricSummary& e : errors) {
         auto& [non_finite, negative] = worst[e.shot + ", " + e.variant + " (" + e.point + "), " + e.target + ": "];
         non_finite = std::max(non_finite, e.non_finite);
         negative = std::max(negative, e.negative);
     }
+    std::vector<std::string> warnings;
     for (const auto& [where, counts] : worst) {
         if (counts.first)
             warnings.push_back(where + std::to_string(counts.first) +
@@ -87,6 +91,17 @@ void warn_of_pixels(std::vector<std::string>& warnings, std::span<const MetricSu
             warnings.push_back(where + std::to_string(counts.second) +
                                (counts.second == 1 ? " pixel is" : " pixels are") + " negative.");
     }
+    return warnings;
+}
+
+void warn_of_pixels(std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
+    const std::vector<std::string> found = pixel_warnings(errors);
+    const size_t shown = std::min(found.size(), most_pixel_warnings);
+    warnings.insert(warnings.end(), found.begin(), found.begin() + long(shown));
+    if (found.size() > shown)
+        warnings.push_back(std::to_string(found.size() - shown) +
+                           " more warnings of pixels that are not finite or negative: see the columns non_finite and "
+                           "negative of summary.csv.");
 }
 
 }  // namespace

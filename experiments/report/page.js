@@ -37,7 +37,8 @@ function number(x, digits = 4) {
     return String(Number(x.toPrecision(digits)));
 }
 
-const interval = row => row.low === null || row.low === undefined ? "" : `[${number(row.low)}, ${number(row.high)}]`;
+const interval = (row, digits = 4) =>
+    row.low === null || row.low === undefined ? "" : `[${number(row.low, digits)}, ${number(row.high, digits)}]`;
 
 function select(label, options, value, changed) {
     const box = h("select", {change: event => changed(event.target.value)}, options.map(o => {

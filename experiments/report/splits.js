@@ -41,7 +41,7 @@ function drawSplits() {
             {series: 1, row: s.variance, isHollow: true, tip: tip("variance", s.variance), lane: 1}
         ];
         return [
-            s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse)), partCell(s.biasSquared),
+            s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse, 3)), partCell(s.biasSquared),
             partCell(s.variance), cell(s.seeds, String(s.seeds))
         ];
     });
@@ -51,5 +51,6 @@ function drawSplits() {
 
 function partCell(part) {
     const isAboutZero = part.value <= 0 || (part.low !== null && part.low <= 0);
-    return cell(part.value, number(part.value), " ", h("small", {}, interval(part), isAboutZero ? " about 0" : ""));
+    return cell(
+        part.value, number(part.value, 3), " ", h("small", {}, interval(part, 3), isAboutZero ? " about 0" : ""));
 }

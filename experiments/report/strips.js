@@ -1,9 +1,9 @@
 // Strips: the cells of a table that show values as marks on one scale, which the last row of the table labels.
 
 const stripSize = {
-    width: 420,
+    width: 330,
     left: 8,
-    right: 412,
+    right: 322,
     row: 12
 };
 

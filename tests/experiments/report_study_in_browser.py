@@ -99,7 +99,7 @@ def test_splits(page, folder):
             low, high = (float(x) for x in cell[0].split("[")[1].split("]")[0].split(","))
             ends = [float(row[f"{name}_{end}"]) for end in ("low", "high")]
             check(
-                all(abs(a - b) <= 5.1e-4 * abs(b) for a, b in zip((low, high), ends)),
+                all(abs(a - b) <= 5.1e-3 * abs(b) for a, b in zip((low, high), ends)),
                 f"interval of {name}: {cell[0]}, expected {ends}",
             )
     equal(

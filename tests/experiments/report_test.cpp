@@ -185,6 +185,11 @@ TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
         "roughness_gradient.side.161x91: only 62 % of the reference's pixels reached the relative error of 3 %"));
     EXPECT_TRUE(contains(warnings, "fence.low.160x90, mcguire_dda (stride=4), specular: 1 pixel is NaN"));
     EXPECT_EQ(warnings.size(), 4u);  // and the like for target `image`
+    std::vector<MetricSummary> many(40, errors.front());
+    for (size_t i = 0; i < many.size(); ++i) many[i].point = std::to_string(i), many[i].negative = 2;
+    const auto counted = report_warnings(manifest, many, times);
+    EXPECT_TRUE(contains(counted, "28 more warnings of pixels"));
+    EXPECT_EQ(counted.size(), warnings.size() - 2 + 12 + 1);
     manifest["shots"][0]["warnings"] = {"a texture is missing"};
     manifest["finished"] = nullptr;
     EXPECT_TRUE(
