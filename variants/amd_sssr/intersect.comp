@@ -20,10 +20,6 @@ vec3 lit_at(vec2 uv) {
     return is_on_screen(texel) ? texelFetch(lit, texel, 0).rgb : vec3(0.0);  // uv may be 1
 }
 
-vec3 environment_towards(ivec2 pixel, vec3 vs_direction) {
-    return ibl_factor * environment_along_ray(pixel, mat3(camera.world_from_view) * vs_direction);
-}
-
 Traced trace(ivec2 pixel) {
     float alpha = texelFetch(roughness, pixel, 0).r;
     bool is_mirror = alpha < mirror_alpha;
@@ -35,17 +31,19 @@ Traced trace(ivec2 pixel) {
     vec3 view = view_direction(vs_origin), vs_normal = view_normal(pixel);
     vec2 u = texelFetch(blue_noise, pixel & 127, 0).xy;
     vec3 direction = sample_reflection(pixel, view, vs_normal, alpha, is_mirror, u);
-    // Where a mirror's lobe has no direction (guard_mirror_normal) the original's ray is a miss of length 0, too.
-    if (any(isnan(direction))) return Traced(environment_towards(pixel, reflect(view, vs_normal)), 0.0);
+    // Where a mirror's lobe has no direction (guard_mirror_normal) the original's ray, too, is a miss of length 0.
+    bool is_nowhere = any(isnan(direction));
+    if (is_nowhere) direction = reflect(view, vs_normal);
     if (above_horizon && dot(direction, view_geometric_normal(pixel)) <= 0.0) return Traced(vec3(0.0), 0.0);
 
     MarchEnd end = march_pyramid(screen_ray(origin, vs_origin, direction), finest, is_mirror);
     vec3 vs_ray = view_from_image(end.position) - vs_origin;
-    bool is_rejected = reject_unfinished && end.is_unfinished;
+    bool is_rejected = is_nowhere || (reject_unfinished && end.is_unfinished);
     float confidence = is_rejected ? 0.0 : hit_confidence(origin, end.position, vs_ray, finest);
     vec3 hit = confidence > 0.0 ? lit_at(end.position.xy) : vec3(0.0);
+    vec3 environment = ibl_factor * environment_along_ray(pixel, mat3(camera.world_from_view) * direction);
     float distance = confidence > 0.0 || !far_misses ? length(vs_ray) : camera.depth.y;
-    return Traced(mix(environment_towards(pixel, direction), hit, confidence), isnan(distance) ? 0.0 : distance);
+    return Traced(mix(environment, hit, confidence), is_nowhere || isnan(distance) ? 0.0 : distance);
 }
 
 void main() {
