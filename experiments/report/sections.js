@@ -106,7 +106,8 @@ function showNeeds() {
 
 function showParameters() {
     for (const name of unique(list(report.manifest.variants).map(v => v.variant))) {
-        const points = report.manifest.variants.filter(v => v.variant === name);
+        const points = report.manifest.variants.filter(v => v.variant === name && !isSingleChange(v));
+        if (!points.length) continue;
         const first = points[0],
               stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
         at("parameters").append(h("h3", {}, first.title ?? name), h("p", {class: "note"}, [
@@ -118,8 +119,11 @@ function showParameters() {
             typeof value === "number"             ? number(value, 6) :
                                                     JSON.stringify(value);
         const differs = key => unique(points.map(p => JSON.stringify(p.parameters?.[key]))).length > 1;
-        const rows =
-            keys.map(key => [differs(key) ? h("b", {}, key) : key, ...points.map(p => text(p.parameters?.[key]))]);
+        const meaning = key => report.manifest.parameter_docs?.[name]?.[key] ?? null;
+        const rows = keys.map(
+            key =>
+                [h(differs(key) ? "b" : "span", {title: meaning(key)}, key),
+                 ...points.map(p => text(p.parameters?.[key]))]);
         at("parameters")
             .append(
                 h("div", {class: "scroll"},
