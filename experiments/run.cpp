@@ -36,7 +36,7 @@ void plan_work(Study& study) {
         study.work.plan("reference", double(config.frames.size()), reference_guess);
         for (const VariantConfig& variant : study.config.variants)
             study.work.plan("frames", double(timeline(config).size() * variant.seeds.size()), frame_guess);
-        study.work.plan("times", 1, timing_guess);
+        if (study.config.timing.frames > 0) study.work.plan("times", 1, timing_guess);
     }
 }
 

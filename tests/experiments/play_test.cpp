@@ -85,10 +85,11 @@ TEST_F(Study, AStepGhostsOnlyWhereSomethingRemembers) {
 }
 
 TEST_F(Study, SeedsKnowNothingOfEachOther) {
-    // A technique with histories: each seed must come out as if it ran alone, from a fresh state.
+    // A technique with histories: each seed must come out as if it ran alone, from a fresh state. Not with the preset
+    // sdk_1_5, which keeps a race of the original: its bits differ from run to run.
     const std::string shot =
         R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": [4, 5, 6], "warm_up": 3}],
-        "reference": {"samples": 16}, "variants": [{"variant": "amd_sssr"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, )";
+        "reference": {"samples": 16}, "variants": [{"variant": "amd_sssr", "preset": "corrected"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, )";
     write_text(folder / "both.json", shot + R"("seeds": [3, 7]})");
     write_text(folder / "alone.json", shot + R"("seeds": [7]})");
     const auto both = read_result_rows(run(read_config(folder / "both.json"), "both") / "results.csv");
