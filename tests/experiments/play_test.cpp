@@ -86,7 +86,7 @@ TEST_F(Study, AStepGhostsOnlyWhereSomethingRemembers) {
 
 TEST_F(Study, SeedsKnowNothingOfEachOther) {
     // A technique with histories: each seed must come out as if it ran alone, from a fresh state. Not with the preset
-    // sdk_1_5, which keeps a race of the original: its bits differ from run to run.
+    // sdk_1_5: its exit of thinly occupied subgroups depends on which rays share one, and so on the order of atomics.
     const std::string shot =
         R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": [4, 5, 6], "warm_up": 3}],
         "reference": {"samples": 16}, "variants": [{"variant": "amd_sssr", "preset": "corrected"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, )";
