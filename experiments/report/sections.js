@@ -60,21 +60,22 @@ function clockProof(clock) {
 function showReferences() {
     const columns = [
         "Shot", "Samples per pixel", "Seconds", "Rays", "Longest path", "Error, median", "Error, 95 %",
-        "Reached target", "Lit colour", "Hash"
-    ].map((name, i) => ({name, number: i > 0 && i < 8}));
+        "Reached target", "Poses", "Lit colour", "Hash"
+    ].map((name, i) => ({name, number: i > 0 && i < 9}));
     const rows = list(manifestShots()).map(s => {
         const r = s.reference ?? {}, e = r.relative_error ?? {};
         return [
             s.shot, number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""),
             number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95), percent(r.reached_share),
-            known(s.lit, String(s.lit).replace("_", "\u2011")),
+            s.references ? String(s.references.length) : "1", known(s.lit, String(s.lit).replace("_", "\u2011")),
             h("span", {class: "hash", title: r.hash ?? ""}, known(r.hash, String(r.hash).slice(0, 12)))
         ];
     });
     at("references")
         .append(
             h("p", {class: "note"},
-              "Relative standard error of the truth's specular light at a pixel. Every comparison accounts for it."),
+              "Relative standard error of the truth's specular light at a pixel, in the last frame. " +
+                  "Every comparison accounts for it."),
             h("div", {class: "scroll"}, table(columns, rows)));
 }
 
@@ -112,7 +113,7 @@ function showParameters() {
               stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
         at("parameters").append(h("h3", {}, first.title ?? name), h("p", {class: "note"}, [
                                     first.source, stages.length && "Stages: " + stages.join(", ")
-                                ].filter(Boolean).join(". ")));
+                                ].filter(Boolean).join(". ").replaceAll("..", ".")));
         const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
         if (!keys.length) continue;
         const text = value => value === undefined ? "–" :
@@ -120,13 +121,15 @@ function showParameters() {
                                                     JSON.stringify(value);
         const differs = key => unique(points.map(p => JSON.stringify(p.parameters?.[key]))).length > 1;
         const meaning = key => report.manifest.parameter_docs?.[name]?.[key] ?? null;
-        const rows = keys.map(
-            key =>
-                [h(differs(key) ? "b" : "span", {title: meaning(key)}, key),
-                 ...points.map(p => text(p.parameters?.[key]))]);
+        const row = key =>
+            [h(differs(key) ? "b" : "span", {title: meaning(key)}, key), ...points.map(p => text(p.parameters?.[key]))];
+        const columns = [{name: "Parameter"}, ...points.map(p => ({name: p.point, number: true}))];
+        const rest = keys.length > longTable && keys.some(differs) ? keys.filter(k => !differs(k)) : [];
         at("parameters")
             .append(
-                h("div", {class: "scroll"},
-                  table([{name: "Parameter"}, ...points.map(p => ({name: p.point, number: true}))], rows)));
+                h("div", {class: "scroll"}, table(columns, keys.filter(k => !rest.includes(k)).map(row))),
+                rest.length ? h("details", {}, h("summary", {}, `${rest.length} more, equal for all points`),
+                                h("div", {class: "scroll"}, table(columns, rest.map(row)))) :
+                              "");
     }
 }

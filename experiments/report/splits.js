@@ -41,16 +41,17 @@ function drawSplits() {
             {series: 1, row: s.variance, isHollow: true, tip: tip("variance", s.variance), lane: 1}
         ];
         return [
-            s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse, 3)), partCell(s.biasSquared),
-            partCell(s.variance), cell(s.seeds, String(s.seeds))
+            s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse, 3)),
+            partCell(s.biasSquared, isAboutZero(s.biasSquared)), partCell(s.variance, false),
+            cell(s.seeds, String(s.seeds))
         ];
     });
     lines.push(["", "", stripAxis(scale, "radiance², logarithmic"), "", "", "", ""]);
     at("split-table").replaceChildren(table(columns, lines, {groupBy: 0}));
 }
 
-function partCell(part) {
-    const isAboutZero = part.value <= 0 || (part.low !== null && part.low <= 0);
-    return cell(
-        part.value, number(part.value, 3), " ", h("small", {}, interval(part, 3), isAboutZero ? " about 0" : ""));
-}
+/// A squared bias that cannot be told from 0.
+const isAboutZero = part => part.value <= 0 || (part.low !== null && part.low <= 0);
+
+const partCell = (part, hasNote) =>
+    cell(part.value, number(part.value, 3), " ", h("small", {}, interval(part, 3), hasNote ? " about 0" : ""));
