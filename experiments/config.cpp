@@ -127,12 +127,17 @@ void read_shot(JsonObject shot, const std::filesystem::path& folder, std::vector
 /// A value as it stands in a point's label: texts without their quotes.
 std::string label(const nlohmann::json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
+void check_values(const std::string& key, const std::string& name, const nlohmann::json& values,
+                  const std::string& where) {
+    if (!values.is_array() || values.empty())
+        fail(where, ": ", key, ": '", name, "' must be an array of values, not ", values.dump());
+}
+
 /// All combinations of the swept values, in the order of the axes as written, the last axis fastest.
 std::vector<nlohmann::json> grid_points(const nlohmann::json& axes, const std::string& where) {
     std::vector<nlohmann::json> points = {nlohmann::json::object()};
     for (const auto& [name, values] : axes.items()) {
-        if (!values.is_array() || values.empty())
-            fail(where, ": sweep: '", name, "' must be an array of values, not ", values.dump());
+        check_values("sweep", name, values, where);
         std::vector<nlohmann::json> longer;
         for (const nlohmann::json& point : points)
             for (const nlohmann::json& value : values) {
@@ -144,18 +149,38 @@ std::vector<nlohmann::json> grid_points(const nlohmann::json& axes, const std::s
     return points;
 }
 
+/// One point for each value of each parameter, which differs in nothing else.
+std::vector<nlohmann::json> single_changes(const nlohmann::json& axes, const std::string& where) {
+    std::vector<nlohmann::json> points;
+    for (const auto& [name, values] : axes.items()) {
+        check_values("each", name, values, where);
+        for (const nlohmann::json& value : values) points.push_back({{name, value}});
+    }
+    return points;
+}
+
+std::vector<nlohmann::json> read_points(JsonObject& entry) {
+    for (const char* key : {"sweep", "each"})
+        if (entry.has(key) && !entry.any(key).is_object())
+            fail(entry.where(), ": '", key, "' must be an object, not ", entry.any(key).dump());
+    if (entry.has("sweep") && entry.has("each"))
+        fail(entry.where(), ": 'sweep' and 'each' exclude one another; write two entries");
+    if (entry.has("each")) return single_changes(entry.any("each"), entry.where());
+    return grid_points(entry.has("sweep") ? entry.any("sweep") : nlohmann::json::object(), entry.where());
+}
+
 void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, std::vector<VariantConfig>& variants) {
     const std::string name = entry.text("variant");
     const std::vector<std::string> presets = one_or_more(entry, "preset", "");
     const nlohmann::json parameters = entry.has("parameters") ? entry.any("parameters") : nlohmann::json::object();
-    const nlohmann::json sweep = entry.has("sweep") ? entry.any("sweep") : nlohmann::json::object();
+    if (!parameters.is_object())
+        fail(entry.where(), ": 'parameters' must be an object, not ", parameters.dump());
+    const std::vector<nlohmann::json> points = read_points(entry);
     const std::vector<unsigned> seeds = numbers(entry, "seeds", max_seed, study_seeds);
     const bool is_baseline = entry.boolean("baseline", false), is_timed = entry.boolean("timing", true);
     entry.finish();
-    for (const nlohmann::json* part : {&parameters, &sweep})
-        if (!part->is_object()) fail(entry.where(), ": 'parameters' and 'sweep' must be objects, not ", part->dump());
     for (const std::string& preset : presets)
-        for (const nlohmann::json& point : grid_points(sweep, entry.where())) {
+        for (const nlohmann::json& point : points) {
             VariantConfig variant{.variant = name,
                                   .preset = preset,
                                   .parameters = parameters,

@@ -37,6 +37,7 @@ json variant_schema(const VariantEntry& entry) {
                    {"preset", list_of(presets)},
                    {"parameters", parameters},
                    {"sweep", axes},
+                   {"each", axes},
                    {"seeds", counts(100000)},
                    {"baseline", {{"type", "boolean"}}},
                    {"timing", {{"type", "boolean"}}}},

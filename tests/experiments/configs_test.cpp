@@ -1,4 +1,6 @@
 // The studies that come with ssrlab: each can be read, and finds its scenes and cameras.
+#include "core/error.h"
+#include "core/files.h"
 #include "experiments/config.h"
 #include "experiments/shot.h"
 #include "variants/registry.h"
@@ -62,4 +64,19 @@ TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
         EXPECT_EQ(variant.seeds.size(), variant.variant == "none" ? 1u : is_alone ? 4u : 16u) << variant.point;
         EXPECT_EQ(variant.seeds.front(), 0u);
     }
+}
+
+TEST(Configs, EachChangesOneParameterAtATime) {
+    const fs::path file = fs::path(testing::TempDir()) / "each.json";
+    write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [
+        {"variant": "mcguire_dda", "preset": "coarse", "each": {"stride": [2, 8], "refine": [false]}}]})");
+    std::vector<std::string> points;
+    for (const VariantConfig& variant : read_config(file).variants) {
+        EXPECT_EQ(variant.parameters.size(), 1u);
+        points.push_back(variant.point);
+    }
+    EXPECT_EQ(points, (std::vector<std::string>{"coarse refine=false", "coarse stride=2", "coarse stride=8"}));
+    write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [
+        {"variant": "mcguire_dda", "each": {"stride": [2]}, "sweep": {"refine": [false]}}]})");
+    EXPECT_THROW(read_config(file), Error);
 }
