@@ -13,7 +13,6 @@ public:
           rasterizer_(device, shot.scene,
                       {.extent = shot.config.extent, .depth_format = config.depth_format, .keep_all = keep_all}) {}
 
-    using FrameSource::render;
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
         const GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,
                                                                   .depth_direction = config_.depth_direction,
@@ -45,7 +44,6 @@ public:
           graph_(device, gbuffer.extent()),
           gbuffer_(upload_gbuffer(graph_, gbuffer)) {}
 
-    using FrameSource::render;
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
         // Whatever the file says: what was rendered before is known here.
         camera_.frame.x = step.index, camera_.frame.y = seed, camera_.frame.w = step.previous_frame.has_value();

@@ -16,10 +16,6 @@ public:
     /// The G-buffer of a frame with the lit colour `lit` (RGB), and camera() of it. Its times are those of graph(), and
     /// its images are valid until the next one is rendered.
     virtual GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) = 0;
-    /// The first and only frame of a run.
-    GBuffer render(unsigned frame, unsigned seed, const HostImage& lit) {
-        return render(FrameStep{.frame = frame}, seed, lit);
-    }
     virtual const CameraData& camera() const = 0;
     virtual PassGraph& graph() = 0;
     virtual const std::vector<LeftOut>& left_out() const = 0;
