@@ -3,8 +3,7 @@
 from paper_figures import style
 from paper_figures.results import label
 
-
-NAMES = {"bias_squared": "bias\N{SUPERSCRIPT TWO}", "variance": "variance"}
+NAMES = {"bias_squared": "bias\N{SUPERSCRIPT TWO}, 95 % interval", "variance": "variance, 95 % interval"}
 
 
 def draw(results, chosen):
@@ -18,12 +17,22 @@ def draw(results, chosen):
     if not shots:
         return None
     points = list(dict.fromkeys((s["variant"], s["point"]) for s in rows))
+    parts = {
+        name: [results.measured(s, (name, f"{name}_low", f"{name}_high"), "splits.csv") for s in rows] for name in NAMES
+    }
+    limits = _limits([m for part in parts.values() for m in part])
     figure, panels, legend = style.panels(len(shots), height=2.2 + 0.8 * len(points), sharex=True, sharey=True)
     for axes, shot in zip(panels, shots):
-        _draw_shot(results, axes, [s for s in rows if s["shot"] == shot], points)
+        axes.set_xscale("log")
+        axes.set_xlim(limits)
+        for index, (name, part) in enumerate(parts.items()):
+            for row, measured in zip(rows, part):
+                if row["shot"] == shot:
+                    _draw_part(axes, points.index((row["variant"], row["point"])), index, name, measured, limits)
         axes.set_title(style.shot_title(shot))
         axes.tick_params(labelbottom=True)
-        axes.set_xlabel("part of the MSE (radiance\N{SUPERSCRIPT TWO}), 95 % intervals")
+        axes.grid(axis="y", visible=False)
+        axes.set_xlabel("part of the MSE (radiance\N{SUPERSCRIPT TWO})")
     seeds = {p: "/".join(sorted({s["seeds"] for s in rows if (s["variant"], s["point"]) == p})) for p in points}
     panels[0].set_yticks(range(len(points)), [f"{label(*p)}\n({seeds[p]} seeds)" for p in points])
     panels[0].set_ylim(len(points) - 0.5, -0.5)
@@ -31,28 +40,25 @@ def draw(results, chosen):
     return figure
 
 
-def _draw_shot(results, axes, rows, points):
-    parts = {
-        name: [results.measured(s, (name, f"{name}_low", f"{name}_high"), "splits.csv") for s in rows]
-        for name in ("bias_squared", "variance")
-    }
-    least = min((m.value for part in parts.values() for m in part if m.value > 0), default=1e-6)
-    for index, (name, part) in enumerate(parts.items()):
-        color, mark = style.series(index)
-        for row, measured in zip(rows, part):
-            y = points.index((row["variant"], row["point"])) + 0.16 * (2 * index - 1)
-            if measured.value <= 0:
-                axes.text(least, y, f"{NAMES[name]} about 0", color=color, va="center")
-                continue
-            axes.errorbar(
-                [measured.value],
-                [y],
-                xerr=measured.whiskers(),
-                fmt=mark,
-                color=color,
-                markerfacecolor=color if index == 0 else "white",
-                label=NAMES[name],
-            )
-    axes.set_xscale("log")
-    axes.margins(x=0.12)
-    axes.grid(axis="y", visible=False)
+def _limits(measured):
+    """All values and the upper ends of all intervals; lower ends may be 0 and are cut."""
+    positive = [v for m in measured for v in (m.value, m.high) if v is not None and v > 0] or [1.0]
+    return min(positive) / 4, max(positive) * 2
+
+
+def _draw_part(axes, row, index, name, measured, limits):
+    color, mark = style.series(index)
+    y = row + 0.16 * (2 * index - 1)
+    if measured.value <= 0:
+        axes.text(limits[0] * 1.1, y, "about 0", color=color, va="center")
+        return
+    below, above = measured.whiskers()
+    axes.errorbar(
+        [measured.value],
+        [y],
+        xerr=[[min(below[0], measured.value - limits[0])], above],
+        fmt=mark,
+        color=color,
+        markerfacecolor=color if index == 0 else "white",
+        label=NAMES[name],
+    )

@@ -35,6 +35,7 @@ def _draw(results, target, metric, is_log):
         draw_lines(axes, {k: p for k, p in lines.items() if p}, is_log, dodge=0.1)
         texts = ["\N{EN DASH}".join(CLASS.match(m).groups()) for m in masks]
         axes.set_xticks(range(len(masks)), texts, rotation=30, ha="right", rotation_mode="anchor")
+        axes.set_xlim(-0.6, len(masks) - 0.4)
         axes.grid(axis="x", visible=False)
         axes.set_title(style.shot_title(shot))
         axes.set_ylabel(f"{metric}, {target}" + ("" if is_log else " (radiance)"))

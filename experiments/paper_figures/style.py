@@ -84,7 +84,10 @@ def log_axis(axis, subs=(1, 2, 5)):
 
 
 def number(x):
-    return f"{x:.3g}".replace("e-0", "e-").replace("e+0", "e")
+    if 0 < abs(x) < 1e-3:
+        mantissa, exponent = f"{x:.2e}".split("e")
+        return f"{float(mantissa):g}e{int(exponent)}"
+    return f"{x:.3g}".replace("e+0", "e")
 
 
 def save(figure, folder, name):
