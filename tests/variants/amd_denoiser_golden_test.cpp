@@ -1,61 +1,13 @@
+#include "tests/variants/denoiser_tolerance.h"
 #include "tests/variants/golden_denoiser.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <cmath>
-#include <functional>
 
 // The denoiser's passes against what the original's shaders wrote, with the bindings of the original's host code: each
 // pass fed the recorded inputs, and the chain run freely.
 
 namespace {
-
-/// One unit in the last place of a half of the size of `value`.
-double half_ulp(double value) {
-    return std::ldexp(1.0, std::max(std::ilogb(std::max(std::abs(value), 1e-9)), -14) - 10);
-}
-
-/// Both sides compute in float32, to about 1e-6 of the value, and lavapipe then truncates to a half: they differ by one
-/// half at most, where a half lies in between.
-double one_half(double value) { return 1.001 * half_ulp(value); }
-
-/// History is interpolated at uv from a chain of float32 matrices: 1e-7 of the extent, 1e-4 of a pixel, between colours
-/// that differ by about 1.
-double interpolated(double value) { return one_half(value) + 1e-4; }
-
-/// The relative change of luminance is a difference of nearly equal numbers: float32 leaves 1e-6 in each, and the roots
-/// that the clip box takes of variances of 1e-8 leave 1e-4, so that a squared change of up to 1 is off by 2e-4.
-double squared_change(double value) { return 2e-4 + half_ulp(value); }
-
-/// One unit in the last place of the blue channel's five bits; averages of halves are summed in halves.
-double one_small_float(double value) { return std::abs(value) / 32 + 1e-5; }
-
-using Tolerance = std::function<double(double)>;
-using IsCompared = std::function<bool(unsigned, unsigned)>;
-
-/// All channels of `theirs` within the tolerance in at least 99.9 % of the pixels compared.
-void expect_near(const std::string& what, const HostImage& ours, const HostImage& theirs, const IsCompared& is_compared,
-                 const Tolerance& tolerance) {
-    size_t compared = 0, off = 0;
-    double worst = 0;
-    glm::uvec2 worst_at{0, 0};
-    for (unsigned y = 0; y < theirs.extent.y; ++y)
-        for (unsigned x = 0; x < theirs.extent.x; ++x) {
-            if (!is_compared(x, y)) continue;
-            ++compared;
-            double excess = 0;
-            for (unsigned c = 0; c < theirs.channels; ++c) {
-                const double golden = theirs.pixel(x, y)[c], difference = std::abs(ours.pixel(x, y)[c] - golden);
-                excess = std::max(excess, difference <= tolerance(golden) ? 0 : difference / tolerance(golden));
-                if (std::isnan(difference)) excess = INFINITY;
-            }
-            if (excess > 0) ++off;
-            if (excess > worst) worst = excess, worst_at = {x, y};
-        }
-    ASSERT_GT(compared, 100u) << what;
-    EXPECT_LE(double(off), 0.001 * double(compared))
-        << what << ": " << off << " of " << compared << " are off, at worst " << worst << " times the tolerance at "
-        << worst_at.x << ", " << worst_at.y;
-}
 
 struct Golden {
     std::string set, form;
@@ -76,7 +28,7 @@ protected:
     const nlohmann::json meta = golden_meta(GetParam().set);
     const unsigned border = meta.value("compare_border", 0u);
     DenoiserBench bench{VariantTest::device(),
-                        frames.front().depth.extent,
+                        frames.front().resolved.extent,
                         {{"denoiser_form", GetParam().form},
                          {"stale_average", true},
                          {"barrier_before_average", true},
@@ -90,15 +42,14 @@ protected:
     IsCompared is_tile_compared(size_t frame) const {
         const unsigned edge = (border + 7) / 8;
         return [&, frame, edge](unsigned x, unsigned y) {
-            const HostImage& tiles = frames[frame].tiles;
+            const HostImage& tiles = frames[frame].inputs.tiles;
             const bool is_inside = std::min(x, y) >= edge && x + edge < tiles.extent.x && y + edge < tiles.extent.y;
             return is_inside && *tiles.pixel(x, y) > 0;
         };
     }
     /// Null: black, as all histories are before the first frame.
     void upload(const Image& image, const HostImage* pixels) {
-        const unsigned channels = image.format == Format::rgba16f ? 4 : image.format == Format::r11g11b10f ? 3 : 1;
-        bench.graph.upload(image, pixels ? resized_channels(*pixels, channels) : HostImage(image.extent, channels));
+        bench.upload(image, pixels ? *pixels : HostImage(image.extent, 4));
     }
     void expect(const std::string& what, size_t frame, const Image& ours, const HostImage& theirs,
                 const Tolerance& tolerance) {
@@ -119,7 +70,7 @@ std::vector<Golden> all_sets_and_forms() {
 TEST_P(AmdDenoiserOf, EachPassFedTheRecordedInputs) {
     for (size_t k = 0; k < frames.size(); ++k) {
         const GoldenDenoiserFrame &now = frames[k], *before = k > 0 ? &frames[k - 1] : nullptr;
-        bench.begin_frame(now, before);
+        bench.begin_frame(now.inputs, before ? &before->inputs : nullptr);
         const AmdHistories& h = bench.histories;
         upload(h.radiance.previous, before ? &before->resolved : nullptr);
         upload(h.variance.previous, before ? &before->resolved_variance : nullptr);
@@ -151,7 +102,7 @@ TEST_P(AmdDenoiserOf, EachPassFedTheRecordedInputs) {
 /// over the compared pixels, for a peak of 1 W sr^-1 m^-2: the brightest that a display shows.
 TEST_P(AmdDenoiserOf, WholeChainRunFreely) {
     for (size_t k = 0; k < frames.size(); ++k) {
-        bench.begin_frame(frames[k], k > 0 ? &frames[k - 1] : nullptr);
+        bench.begin_frame(frames[k].inputs, k > 0 ? &frames[k - 1].inputs : nullptr);
         amd_denoise(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
         const HostImage ours = bench.graph.download(bench.histories.radiance.current);
         double sum = 0;

@@ -60,15 +60,16 @@ struct DenoiserParameters {
         {"W sr^-1 m^-2", "the temporal resolve sets darker pixels (sum of rgb) to 0", "Denoiser 1.3, RADIANCE_THRESHOLD"}};
     Switch stale_average{params, "stale_average", false,
         {"", "prefilter and resolve read the tile averages of the last frame, as the host code of Denoiser 1.3 binds them "
-         "by mistake: after the first frame everything is black", "Denoiser 1.3, host code"}};
+         "by mistake: the first frame comes out black", "Denoiser 1.3, host code"}};
     Choice denoiser_form{params, "denoiser_form", "fast", {"fast", "faithful"},
-        {"", "the same output within half-float rounding, from rearranged shaders or from shaders laid out as the original's",
+        {"", "faithful: shaders laid out as the original's, a thread per pixel. fast: the same output within half-float "
+         "rounding, a thread per column of a tile; takes half the time on lavapipe",
          "ssrlab"}};
 
     // Corrections.
     Switch barrier_before_average{params, "barrier_before_average", false,
         {"", "waits until all of a tile's moments are computed before shared memory is reused for its average; without it "
-         "results vary from run to run where a subgroup is smaller than the tile", "ssrlab"}};
+         "results vary from run to run where a subgroup is smaller than the tile. The fast form shares no moments and needs none", "ssrlab"}};
     Switch current_sample_count{params, "current_sample_count", false,
         {"", "the temporal resolve weights history by this frame's reprojected sample count; the original binds the last "
          "frame's count at the same pixel", "ssrlab; Denoiser 1.3 and 1.2, host code"}};
@@ -90,10 +91,11 @@ struct DenoiserParameters {
         {"", "clamps radiance to the largest half float before it is shared, and leaves non-finite neighbours out",
          "ssrlab; the overflow is FidelityFX SDK issue 186"}};
     Switch fresh_neighborhood{params, "fresh_neighborhood", false,
-        {"", "clears what tiles without a glossy pixel hold, which filters next to them read; the original leaves there what "
-         "earlier frames wrote", "ssrlab; FidelityFX SSSR issue 4"}};
+        {"", "filters next to tiles without a glossy pixel see this frame's colours there, no variance and no average; the "
+         "original sees what earlier frames have left", "ssrlab; FidelityFX SSSR issue 4"}};
     Switch float_histories{params, "float_histories", false,
-        {"", "keeps radiance, variance and counts in 32 bits; half floats that truncate drift dark as they accumulate",
+        {"", "keeps radiance, variance, counts and averages in 32 bits; half floats that truncate drift dark as they "
+         "accumulate. The faithful form still shares halves between the threads of a tile",
          "ssrlab; the original's formats are R16G16B16A16_FLOAT, R16_FLOAT and R11G11B10_FLOAT"}};
     // clang-format on
 };
