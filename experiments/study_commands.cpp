@@ -10,6 +10,7 @@
 #include "experiments/shot.h"
 #include "groundtruth/reference_cache.h"
 #include "metrics/metric.h"
+#include "metrics/temporal.h"
 #include "variants/registry.h"
 
 #include <cstdio>
@@ -75,9 +76,14 @@ void list_command(const std::string& what, const CommonOptions& common) {
     if (what == "variants")
         for (const VariantEntry& entry : variant_table())
             std::printf("%-16s %s (%s)\n", entry.name.c_str(), entry.title.c_str(), entry.source.c_str());
-    if (what == "metrics")
-        for (const Metric& metric : all_metrics())
-            std::printf("%-16s %-14s %s\n", metric.name.c_str(), metric.formula.c_str(), metric.doc.c_str());
+    if (what == "metrics") {
+        const auto print = [](const auto& metric) {
+            std::printf("%-25s %-26s %s\n", metric.name.c_str(), metric.formula.c_str(), metric.doc.c_str());
+        };
+        for (const Metric& metric : all_metrics()) print(metric);
+        std::printf("\nOf shots that move or repeat a frame:\n");
+        for (const TemporalMetric& metric : temporal_metrics()) print(metric);
+    }
     if (what == "devices") {
         const std::vector<DeviceInfo> devices = list_devices();
         for (size_t i = 0; i < devices.size(); ++i)
