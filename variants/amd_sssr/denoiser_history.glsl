@@ -25,8 +25,8 @@ struct History {
 
 const float history_rejected = -1.0;  // a factor
 
-// Where the point at `length_of_ray` beyond the surface, on the same line of sight, was on the last frame's screen: a plane
-// mirror shows it there (Stachowiak 2015, "Stochastic Screen-Space Reflections", hit point reprojection).
+// Where the point at `length_of_ray` beyond the surface, on the same line of sight, was on the last frame's screen: a
+// plane mirror shows it there (Stachowiak 2015, "Stochastic Screen-Space Reflections", hit point reprojection).
 vec2 uv_of_reflected_point(vec3 vs_position, float length_of_ray) {
     vec3 vs_point = vs_position + view_direction(vs_position) * length_of_ray;
     vec4 clip = camera.previous_clip_from_world * (camera.world_from_view * vec4(vs_point, 1.0));

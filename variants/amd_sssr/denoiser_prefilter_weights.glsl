@@ -1,12 +1,12 @@
-// The prefilter's sum: neighbours count by how close their normal and depth are to the pixel's and how close their colour
-// is to the tile's average.
+// The prefilter's sum: neighbours count by how close their normal and depth are to the pixel's and how close their
+// colour is to the tile's average.
 #ifndef AMD_SSSR_DENOISER_PREFILTER_WEIGHTS_GLSL
 #define AMD_SSSR_DENOISER_PREFILTER_WEIGHTS_GLSL
 
 // The first points of the Halton sequence (2, 3) stretched to [-3, 3] (Denoiser 1.3, prefilter).
-const ivec2 filter_taps[15] =
-    ivec2[](ivec2(0, 1), ivec2(-2, 1), ivec2(2, -3), ivec2(-3, 0), ivec2(1, 2), ivec2(-1, -2), ivec2(3, 0), ivec2(-3, 3),
-            ivec2(0, -3), ivec2(-1, -1), ivec2(2, 1), ivec2(-2, -2), ivec2(1, 0), ivec2(0, 2), ivec2(3, -1));
+const ivec2 filter_taps[15] = ivec2[](ivec2(0, 1), ivec2(-2, 1), ivec2(2, -3), ivec2(-3, 0), ivec2(1, 2),
+                                      ivec2(-1, -2), ivec2(3, 0), ivec2(-3, 3), ivec2(0, -3), ivec2(-1, -1),
+                                      ivec2(2, 1), ivec2(-2, -2), ivec2(1, 0), ivec2(0, 2), ivec2(3, -1));
 
 struct Neighbor {
     vec3 color;

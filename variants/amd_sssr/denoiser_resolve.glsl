@@ -9,8 +9,8 @@ uniform sampler2D prefiltered_radiance, prefiltered_variance, reprojected_radian
 uniform sampler2D traced_radiance;  // the image that this pass overwrites
 uniform writeonly image2D radiance, variance;
 
-// A pixel that is not glossy holds its colour before any filter. With fresh_neighborhood it is taken from there, since the
-// prefilter has copied it in listed tiles only; and it stays untouched, since other groups may read it.
+// A pixel that is not glossy holds its colour before any filter. With fresh_neighborhood it is taken from there, since
+// the prefilter has copied it in listed tiles only; and it stays untouched, since other groups may read it.
 bool is_final(float alpha) { return fresh_neighborhood && !is_glossy(alpha); }
 
 // `pixel`: inside of the image.

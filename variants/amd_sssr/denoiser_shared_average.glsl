@@ -1,5 +1,5 @@
-// Averages of the eight tiles of a group: summed by fours in halves, as the original does, so that they round alike. With
-// float_histories they are summed in floats.
+// Averages of the eight tiles of a group: summed by fours in halves, as the original does, so that they round alike.
+// With float_histories they are summed in floats.
 #ifndef AMD_SSSR_DENOISER_SHARED_AVERAGE_GLSL
 #define AMD_SSSR_DENOISER_SHARED_AVERAGE_GLSL
 #include "amd_sssr/denoiser_history_output.glsl"

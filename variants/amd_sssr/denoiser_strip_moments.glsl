@@ -7,8 +7,8 @@
 // Colour of a pixel inside of the image, and whether it counts: defined by the pass.
 vec4 strip_neighbor(ivec2 pixel);
 
-// Moments of all pixels of the strip, as neighborhood_at() has them: the weights are products, so that each row is summed
-// once for all pixels below and above it. Pixels outside of the image count as black.
+// Moments of all pixels of the strip, as neighborhood_at() has them: the weights are products, so that each row is
+// summed once for all pixels below and above it. Pixels outside of the image count as black.
 Neighborhood[8] strip_neighborhoods(ivec2 first) {
     float kernel[9], inside[9];
     int columns[9];

@@ -1,5 +1,6 @@
-// The prefilter with the output of prefilter.comp, from strips of pixels. Normals are shared, since making halves of them
-// costs more than sharing them; all else is fetched, once for all pixels of a strip that look at the same neighbour.
+// The prefilter with the output of prefilter.comp, from strips of pixels. Normals are shared, since making halves of
+// them costs more than sharing them; all else is fetched, once for all pixels of a strip that look at the same
+// neighbour.
 #extension GL_EXT_control_flow_attributes : require
 #include "amd_sssr/denoiser_prefilter.glsl"
 #include "amd_sssr/denoiser_strip.glsl"
