@@ -84,7 +84,7 @@ function horizontalAxis(scale, top, bottom, label) {
     const lines = scale.ticks.map(
         v =>
             [svg("line", {class: "axis", x1: scale.toPixel(v), x2: scale.toPixel(v), y1: top, y2: bottom}),
-             svg("text", {x: scale.toPixel(v), y: bottom + 15, "text-anchor": "middle"}, number(v, 3))]);
+             svg("text", {x: scale.toPixel(v), y: bottom + 15, "text-anchor": "middle"}, number(v, 4))]);
     return [
         ...lines.flat(),
         svg("text", {class: "faint", x: (scale.from + scale.to) / 2, y: bottom + 32, "text-anchor": "middle"}, label)
@@ -95,7 +95,7 @@ function verticalAxis(scale, left, right, label, middle) {
     const lines = scale.ticks.map(
         v =>
             [svg("line", {class: "axis", x1: left, x2: right, y1: scale.toPixel(v), y2: scale.toPixel(v)}),
-             svg("text", {x: left - 6, y: scale.toPixel(v) + 4, "text-anchor": "end"}, number(v, 3))]);
+             svg("text", {x: left - 6, y: scale.toPixel(v) + 4, "text-anchor": "end"}, number(v, 4))]);
     return [
         ...lines.flat(),
         svg("text", {class: "faint", transform: `translate(13 ${middle}) rotate(-90)`, "text-anchor": "middle"}, label)
