@@ -35,7 +35,9 @@ function strip(scale, marks) {
 
 function stripMark(scale, {series, row, isHollow, tip}, y) {
     const color = seriesColor(series), x = scale.toPixel(row.value);
-    const bar = row.low === null || row.low === undefined ? null : svg("path", {
+    const hasBar = row.low !== null && row.low !== undefined &&
+        (scale.toPixel(row.low) < scale.toPixel(row.high) || scale.isInside(row.value));
+    const bar = !hasBar ? null : svg("path", {
         d: `M${scale.toPixel(row.low)} ${y}H${scale.toPixel(row.high)}M${scale.toPixel(row.low)} ${y - 3}v6M${
             scale.toPixel(row.high)} ${y - 3}v6`,
         stroke: color,
