@@ -149,33 +149,49 @@ std::vector<nlohmann::json> grid_points(const nlohmann::json& axes, const std::s
     return points;
 }
 
-/// One point for each value of each parameter, which differs in nothing else.
-std::vector<nlohmann::json> single_changes(const nlohmann::json& axes, const std::string& where) {
-    std::vector<nlohmann::json> points;
-    for (const auto& [name, values] : axes.items()) {
-        check_values("each", name, values, where);
-        for (const nlohmann::json& value : values) points.push_back({{name, value}});
+/// The variant; fails with the place in the file if there is none such.
+std::unique_ptr<Variant> make_checked(const JsonObject& entry, const std::string& name,
+                                      const nlohmann::json& parameters = nlohmann::json::object(),
+                                      const std::string& preset = "") {
+    try {
+        return make_variant(name, parameters, preset);
+    } catch (const Error& e) {
+        fail(entry.where(), ": ", e.what());
     }
+}
+
+/// One point for each value of each parameter, which differs in nothing else, in the order of the declarations.
+std::vector<nlohmann::json> single_changes(nlohmann::json axes, const ParameterSet& declared,
+                                           const std::string& where) {
+    std::vector<nlohmann::json> points;
+    const auto add = [&](const std::string& name) {
+        check_values("each", name, axes[name], where);
+        for (const nlohmann::json& value : axes[name]) points.push_back({{name, value}});
+    };
+    for (const Parameter& parameter : declared)
+        if (axes.contains(parameter.name)) add(parameter.name), axes.erase(parameter.name);
+    for (const auto& [name, values] : axes.items()) points.push_back({{name, values}});  // unknown: refused by the variant
     return points;
 }
 
-std::vector<nlohmann::json> read_points(JsonObject& entry) {
+std::vector<nlohmann::json> read_points(JsonObject& entry, const std::string& variant) {
     for (const char* key : {"sweep", "each"})
         if (entry.has(key) && !entry.any(key).is_object())
             fail(entry.where(), ": '", key, "' must be an object, not ", entry.any(key).dump());
     if (entry.has("sweep") && entry.has("each"))
         fail(entry.where(), ": 'sweep' and 'each' exclude one another; write two entries");
-    if (entry.has("each")) return single_changes(entry.any("each"), entry.where());
+    if (entry.has("each")) return single_changes(entry.any("each"), make_checked(entry, variant)->params, entry.where());
     return grid_points(entry.has("sweep") ? entry.any("sweep") : nlohmann::json::object(), entry.where());
 }
 
 void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, std::vector<VariantConfig>& variants) {
     const std::string name = entry.text("variant");
+    make_checked(entry, name);
     const std::vector<std::string> presets = one_or_more(entry, "preset", "");
     const nlohmann::json parameters = entry.has("parameters") ? entry.any("parameters") : nlohmann::json::object();
     if (!parameters.is_object())
         fail(entry.where(), ": 'parameters' must be an object, not ", parameters.dump());
-    const std::vector<nlohmann::json> points = read_points(entry);
+    const std::vector<nlohmann::json> points = read_points(entry, name);
     const std::vector<unsigned> seeds = numbers(entry, "seeds", max_seed, study_seeds);
     const bool is_baseline = entry.boolean("baseline", false), is_timed = entry.boolean("timing", true);
     entry.finish();
@@ -192,11 +208,7 @@ void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, st
             for (const auto& [key, value] : point.items())
                 variant.point += (variant.point.empty() ? "" : " ") + key + "=" + label(value);
             if (variant.point.empty()) variant.point = "default";
-            try {
-                make_variant(variant.variant, variant.parameters, variant.preset);
-            } catch (const Error& e) {
-                fail(entry.where(), ": ", e.what());
-            }
+            make_checked(entry, name, variant.parameters, preset);
             variants.push_back(std::move(variant));
         }
 }

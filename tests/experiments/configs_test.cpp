@@ -75,7 +75,7 @@ TEST(Configs, EachChangesOneParameterAtATime) {
         EXPECT_EQ(variant.parameters.size(), 1u);
         points.push_back(variant.point);
     }
-    EXPECT_EQ(points, (std::vector<std::string>{"coarse refine=false", "coarse stride=2", "coarse stride=8"}));
+    EXPECT_EQ(points, (std::vector<std::string>{"coarse stride=2", "coarse stride=8", "coarse refine=false"}));
     write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [
         {"variant": "mcguire_dda", "each": {"stride": [2]}, "sweep": {"refine": [false]}}]})");
     EXPECT_THROW(read_config(file), Error);
