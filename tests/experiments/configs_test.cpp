@@ -61,7 +61,7 @@ TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
         const bool is_alone = variant.point.find('=') != std::string::npos;
         EXPECT_EQ(variant.is_baseline, variant.point == "sdk_1_5");
         EXPECT_EQ(variant.is_timed, !is_alone) << variant.point;
-        EXPECT_EQ(variant.seeds.size(), variant.variant == "none" ? 1u : is_alone ? 4u : 16u) << variant.point;
+        EXPECT_EQ(variant.seeds.size(), variant.variant == "none" ? 1u : is_alone ? 8u : 16u) << variant.point;
         EXPECT_EQ(variant.seeds.front(), 0u);
     }
 }
