@@ -47,7 +47,7 @@ std::vector<std::string> default_frame_masks(const std::vector<std::string>& mas
     return chosen.empty() ? masks : chosen;
 }
 
-/// A count n, which stands for 0 .. n-1, or an array of whole numbers.
+/// A count n, which stands for 0 .. n-1, or an array of ascending whole numbers.
 std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsigned max,
                               const std::vector<unsigned>& fallback) {
     if (!object.has(key)) return fallback;
@@ -63,9 +63,9 @@ std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsign
             fail(object.where(), ": '", key, "' holds ", v.dump(), "; allowed are whole numbers in [0, ", max, "]");
         list.push_back(v.get<unsigned>());
     }
-    std::ranges::sort(list);
-    const bool repeats = std::ranges::adjacent_find(list) != list.end();
-    if (list.empty() || repeats) fail(object.where(), ": '", key, "' must hold at least one number, each once");
+    const bool ascends = std::ranges::adjacent_find(list, std::greater_equal()) == list.end();
+    if (list.empty() || !ascends)
+        fail(object.where(), ": '", key, "' must hold at least one number, each greater than the one before");
     return list;
 }
 
@@ -88,9 +88,22 @@ ShotConfig read_gbuffer_shot(JsonObject& shot, const std::filesystem::path& fold
     return config;
 }
 
+/// A count, an array, or {"from", "to"}, both included.
+std::vector<unsigned> read_frames(JsonObject& shot) {
+    if (!shot.has("frames") || !shot.any("frames").is_object()) return numbers(shot, "frames", max_frames, {0});
+    JsonObject range = shot.object("frames");
+    const int from = range.integer("from", 0, int(max_frames)), to = range.integer("to", from, int(max_frames));
+    range.finish();
+    std::vector<unsigned> frames;
+    for (int frame = from; frame <= to; ++frame) frames.push_back(unsigned(frame));
+    return frames;
+}
+
 /// How a shot is played.
 void read_timeline(JsonObject& shot, ShotConfig& config) {
-    config.frames = numbers(shot, "frames", max_frames, {0});
+    config.frames = read_frames(shot);
+    config.measure_from = unsigned(shot.integer("measure_from", int(config.frames.front()), int(config.frames.back()),
+                                                int(config.frames.front())));
     config.warm_up = unsigned(shot.integer("warm_up", 0, int(max_frames), 0));
     config.repeat = unsigned(shot.integer("repeat", 1, int(max_frames), 1));
     config.measures_last_only = shot.choice("measure", {"all", "last"}, "all") == "last";
@@ -168,6 +181,7 @@ std::vector<nlohmann::json> single_changes(nlohmann::json axes, const ParameterS
         check_values("each", name, axes[name], where);
         for (const nlohmann::json& value : axes[name]) points.push_back({{name, value}});
     };
+    if (axes.empty()) fail(where, ": 'each' is empty; name parameters with the values to try");
     for (const Parameter& parameter : declared)
         if (axes.contains(parameter.name)) add(parameter.name), axes.erase(parameter.name);
     for (const auto& [name, values] : axes.items()) points.push_back({{name, values}});  // unknown: refused by the variant

@@ -18,7 +18,8 @@ struct ShotConfig {
     unsigned warm_up = 0;             ///< frames at the first pose before it is played: rendered, not measured
     unsigned repeat = 1;  ///< how often the last pose is rendered in a row; a shot of one pose has its flicker measured
     std::optional<unsigned> change;   ///< the first of `frames` after the scene's step: how long it ghosts is measured
-    bool measures_last_only = false;  ///< else every one of `frames` is measured
+    bool measures_last_only = false;  ///< else every one of `frames` is measured ...
+    unsigned measure_from = 0;        ///< ... that is not before this one
 
     std::filesystem::path gbuffer;  ///< in place of a scene: a folder with gbuffer.exr and camera.json
     std::filesystem::path

@@ -58,11 +58,14 @@ nlohmann::json config_schema(const std::string& variant) {
     json variants = json::array();
     for (const VariantEntry& entry : variant_table()) variants.push_back(variant_schema(entry));
     const json text = {{"type", "string"}};
+    json frames = counts(100000);
+    frames["anyOf"].push_back(object({{"from", integer(0, 100000)}, {"to", integer(0, 100000)}}, {"from", "to"}));
     const json shot =
         object({{"scene", one_or_more(text)},
                 {"camera", one_or_more(text)},
                 {"resolution", {{"type", "array"}, {"items", integer(1, 16384)}, {"minItems", 2}, {"maxItems", 2}}},
-                {"frames", counts(100000)},
+                {"frames", frames},
+                {"measure_from", integer(0, 100000)},
                 {"warm_up", integer(0, 100000)},
                 {"repeat", integer(1, 100000)},
                 {"change", integer(1, 100000)},

@@ -19,7 +19,7 @@ std::vector<FrameStep> timeline(const ShotConfig& config) {
         const bool is_last = frame == config.frames.back();
         for (unsigned i = 0; i < (is_last ? config.repeat : 1); ++i)
             render(frame).is_held = is_last && config.repeat > 1;
-        steps.back().is_measured = is_last || !config.measures_last_only;
+        steps.back().is_measured = is_last || (!config.measures_last_only && frame >= config.measure_from);
     }
     return steps;
 }

@@ -33,7 +33,7 @@ void check_change(const Shot& shot, const std::map<unsigned, std::string>& looks
 
 bool measures_difference(const Shot& shot, const FrameStep& step) {
     return !shot.config.measures_last_only && !step.is_warm_up && step.frame != step.previous_frame &&
-           step.frame != shot.config.frames.front();
+           step.frame > std::max(shot.config.frames.front(), shot.config.measure_from);
 }
 
 bool is_after_change(const Shot& shot, const FrameStep& step) {

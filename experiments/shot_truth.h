@@ -18,7 +18,7 @@ struct ShotTruth {
 };
 
 /// True for the steps whose change since the step before is compared with the truth's: the first rendering of each pose
-/// after the first, where all frames are measured.
+/// after the first that is measured, unless only the last is.
 bool measures_difference(const Shot& shot, const FrameStep& step);
 
 /// The frames from Shot::config.change on.

@@ -24,7 +24,7 @@ std::string cell_hash(const Study& study, const ShotRun& run, const std::string&
     }
     for (const auto& list : {shot.frames,
                              seeds,
-                             {shot.warm_up, shot.repeat, shot.change.value_or(0), unsigned(shot.measures_last_only)}}) {
+                             {shot.warm_up, shot.repeat, shot.change.value_or(0), unsigned(shot.measures_last_only), shot.measure_from}}) {
         hash.add(list.size());
         for (const unsigned number : list) hash.add(number);
     }

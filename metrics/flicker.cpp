@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace {
 
@@ -44,6 +45,19 @@ void set_value(TemporalScore& row, std::span<const std::vector<double>> columns,
     }
 }
 
+void withhold(TemporalScore& row, const std::string& why) {
+    row.value = NAN;
+    row.low = row.high = std::nullopt;
+    row.note = why;
+}
+
+/// So many that an exponential history of weight a, whose correlation is 1 - a, makes the variance a fifth too small:
+/// 2 (1 - a) / (a T) = 0.2.
+unsigned frames_needed(double correlation) {
+    constexpr double most = 1e6;
+    return unsigned(std::clamp(std::ceil(10 * correlation / std::max(1 - correlation, 1e-9)), 0.0, most));
+}
+
 Mask finite_pixels(const FlickerMoments& moments, const MetricReference* reference) {
     Mask finite = moments.frames.finite;
     if (!reference) return finite;
@@ -76,12 +90,15 @@ std::vector<TemporalScore> flicker_scores(const FlickerMoments& moments, const M
         TemporalScore relative = empty_score("flicker_relative", mask, finite);
         TemporalScore lag = empty_score("flicker_correlation", mask, finite);
         if (flicker.pixels > 0) {
+            set_value(lag, std::to_array({counts, variances, tile_sums(planes.steps, inside)}), correlation, -1, 1);
             set_value(flicker, std::to_array({counts, variances}), deviation, 0, INFINITY);
             set_value(relative, std::to_array({counts, tile_sums(planes.relative, inside)}), mean, 0, INFINITY);
-            if (flicker.value > 0)
-                set_value(lag, std::to_array({counts, variances, tile_sums(planes.steps, inside)}), correlation, -1, 1);
-            else
-                lag.note = "nothing flickers";
+            if (flicker.value == 0)
+                withhold(lag, "nothing flickers");
+            else if (const unsigned needed = frames_needed(lag.value); moments.frames.count < needed)
+                for (TemporalScore* row : {&flicker, &relative})
+                    withhold(*row, std::to_string(moments.frames.count) + " frames are too few where successive ones " +
+                                       "are as alike as here: repeat " + std::to_string(needed) + " or more");
         }
         scores.push_back(flicker);
         if (reference) scores.push_back(relative);

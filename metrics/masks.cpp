@@ -125,6 +125,18 @@ void check_mask_name(const std::string& name) {
     fail("no mask named '", name, "'", suggestion(name, known));
 }
 
+namespace {
+
+std::vector<uint8_t> disoccluded_reflective(const MaskInputs& inputs) {
+    std::vector<uint8_t> inside = disoccluded(inputs.view_depth, inputs.normal, inputs.material_id, *inputs.previous);
+    const std::vector<uint8_t> reflective = inside_pixels(
+        inputs.view_depth.extent, [&](glm::uvec2 p) { return is_inside("reflective", inputs, p); });
+    for (size_t i = 0; i < inside.size(); ++i) inside[i] = inside[i] && reflective[i];
+    return inside;
+}
+
+}  // namespace
+
 Mask make_mask(const std::string& name, const MaskInputs& inputs) {
     check_mask_name(name);
     check(inputs);
@@ -135,7 +147,7 @@ Mask make_mask(const std::string& name, const MaskInputs& inputs) {
     else if (name != "disoccluded")
         mask.inside = inside_pixels(extent, [&](glm::uvec2 p) { return is_inside(name, inputs, p); });
     else if (inputs.previous)
-        mask.inside = disoccluded(inputs.view_depth, inputs.normal, inputs.material_id, *inputs.previous);
+        mask.inside = disoccluded_reflective(inputs);
     else
         mask.inside.assign(size_t(extent.x) * extent.y, 0);
     return mask;

@@ -41,7 +41,7 @@ inline constexpr const char* roughness_class_pattern = "^roughness_(0|0?\\.[0-9]
 /// apart,
 ///   or a jump of depth. 1/depth is affine in the screen over every plane, however slanted, so a jump is where its
 ///   second difference exceeds 2 % of the largest of the three values: free of scale, and blind to slant.
-/// - disoccluded: what the frame before did not show, see disoccluded()
+/// - disoccluded: reflective pixels that the frame before did not show, see disoccluded()
 const std::vector<std::string>& mask_names();
 
 /// Fails on a name that is neither one of mask_names() nor a roughness class.

@@ -52,8 +52,13 @@ const std::vector<VariantEntry> table = {
         .needs = {"has_reflective", "min_roughness"},
         .presets =
             {{"slides", "distances in the traversal loop as the slides of 2020 print them", {{"march", "slides"}}},
-             {"sdk_1_5", "the shaders of FidelityFX SDK 1.1.4 with the defaults of its sample",
+             {"sdk_1_5",
+              "the shaders of FidelityFX SDK 1.1.4 with the defaults of its sample; of what its host code binds wrongly, "
+              "the stale sample count is kept, as in version 1.3, the stale averages and the pyramid's are not",
               nlohmann::json::object()},
+             {"repeatable",
+              "as sdk_1_5, but subgroups do not give up their last rays, so that every run and device gives one image",
+              {{"min_traversal_occupancy", 0}}},
              {"corrected",
               "every correction, and no early exit of thinly occupied subgroups",
               {{"min_traversal_occupancy", 0},  {"thickness_at_hit_mip", true},    {"independent_noise_shifts", true},

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/shot.h"
+#include "experiments/shot_truth.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>
@@ -54,6 +55,20 @@ TEST(Timeline, MeasuresTheLastAlone) {
     EXPECT_EQ(measured, 1u);
 }
 
+TEST(Timeline, MeasuresFromAFrameOn) {
+    std::vector<unsigned> measured;
+    for (const FrameStep& step : timeline({.frames = {4, 5, 6, 7}, .measure_from = 6}))
+        if (step.is_measured) measured.push_back(step.frame);
+    EXPECT_EQ(measured, (std::vector<unsigned>{6, 7}));
+
+    // A change is measured between two frames that both are.
+    Shot shot{.config = {.frames = {4, 5, 6, 7}, .measure_from = 6}, .scene = {}, .camera = {}, .facts = {}, .steps = {}};
+    std::vector<unsigned> compared;
+    for (const FrameStep& step : timeline(shot.config))
+        if (measures_difference(shot, step)) compared.push_back(step.frame);
+    EXPECT_EQ(compared, (std::vector<unsigned>{7}));
+}
+
 TEST(Timeline, NamesWhatTellsShotsApart) {
     Shot shot{.config = {.extent = {32, 18}}, .scene = {}, .camera = {.name = "c"}, .facts = {}, .steps = {}};
     shot.scene.name = "s";
@@ -75,6 +90,14 @@ TEST_F(TemporaryConfig, ReadsHowAShotIsPlayed) {
     EXPECT_EQ(shot.repeat, 9u);
     EXPECT_EQ(shot.change, 3u);
     EXPECT_TRUE(shot.measures_last_only);
+}
+
+TEST_F(TemporaryConfig, ReadsFramesFromTo) {
+    const Config config = read(R"({"scene": "fence", "frames": {"from": 7, "to": 9}, "measure_from": 8})");
+    EXPECT_EQ(config.shots.front().frames, (std::vector<unsigned>{7, 8, 9}));
+    EXPECT_EQ(config.shots.front().measure_from, 8u);
+    EXPECT_THROW(read(R"({"scene": "fence", "frames": {"from": 7, "to": 6}})"), Error);
+    EXPECT_THROW(read(R"({"scene": "fence", "frames": [9, 8]})"), Error);
 }
 
 TEST_F(TemporaryConfig, GivesVariantsTheirSeeds) {

@@ -51,6 +51,23 @@ TEST(Flicker, AnExponentialHistoryHasItsClosedForm) {
     EXPECT_EQ(scores[0].pixels, 64u * 64);
 }
 
+TEST(Flicker, TooFewFramesOfALongHistoryTellNothing) {
+    // Weight 0.2: 40 frames are asked for, somewhat fewer by a correlation that comes out low itself.
+    Random random(7);
+    HostImage y({32, 32}, 3);
+    FlickerMoments moments;
+    for (int t = 0; t < 40; ++t) {
+        const HostImage x = plus_noise(HostImage({32, 32}, 3), 1, random);
+        for (size_t i = 0; i < y.values.size(); ++i) y.values[i] += 0.2f * (x.values[i] - y.values[i]);
+        if (t >= 20) moments.add(y);
+    }
+    const std::vector<TemporalScore> scores = scores_of(moments);
+    EXPECT_TRUE(std::isnan(scores[0].value));
+    EXPECT_FALSE(scores[0].low || scores[0].high);
+    EXPECT_NE(scores[0].note.find("20 frames are too few"), std::string::npos) << scores[0].note;
+    EXPECT_GT(scores[1].value, 0.6);  // the correlation itself stays
+}
+
 TEST(Flicker, FramesWithoutHistoryAreNotCorrelated) {
     Random random(6);
     FlickerMoments moments;
@@ -97,14 +114,14 @@ TEST(Flicker, APixelThatIsOnceNotFiniteIsLeftOutAndCounted) {
     moments.add(image);
     for (const float bad : {NAN, INFINITY}) {
         image.set_rgb(bad == INFINITY ? 1 : 0, {1, bad, 1});
-        image.set_rgb(2, glm::vec3(3));
+        image.set_rgb(2, glm::vec3(bad == INFINITY ? 1 : 3));
         moments.add(image);
     }
     const std::vector<TemporalScore> scores = scores_of(moments);
     EXPECT_EQ(scores[0].pixels, 1u);
     EXPECT_EQ(scores[0].left_out, 2u);
-    EXPECT_NEAR(scores[0].value, std::sqrt(4.0 / 3), 1e-12);     // of 1, 3, 3
-    EXPECT_NEAR(scores[1].value, 1 - 2 / (2 * 4.0 / 3), 1e-12);  // steps of 4 and 0
+    EXPECT_NEAR(scores[0].value, std::sqrt(4.0 / 3), 1e-12);     // of 1, 3, 1
+    EXPECT_NEAR(scores[1].value, 1 - 4 / (2 * 4.0 / 3), 1e-12);  // two steps of 4
     EXPECT_FALSE(scores[0].low);                                 // a single tile
 
     Mask bad_ones = full_mask({3, 1});
