@@ -13,12 +13,6 @@
 
 namespace {
 
-bool is_error(const std::string& metric) {
-    const auto temporal = std::ranges::find(temporal_metrics(), metric, &TemporalMetric::name);
-    if (temporal != temporal_metrics().end()) return temporal->better == Better::lower;
-    return metric_named(metric).better == Better::lower;
-}
-
 using Quantity = std::tuple<std::string, std::string, std::string, std::string>;  // shot, target, metric, mask
 Quantity quantity_of(const ResultRow& r) { return {r.shot, r.target, r.metric, r.mask}; }
 
@@ -80,6 +74,15 @@ void adjust(std::vector<EffectRow>& effects) {
 }
 
 }  // namespace
+
+bool is_error(const std::string& metric) {
+    const auto is_lower_better = [&](const auto& table, auto name, auto better) {
+        const auto found = std::ranges::find(table, metric, name);
+        return found != table.end() && (*found).*better == Better::lower;
+    };
+    return is_lower_better(all_metrics(), &Metric::name, &Metric::better) ||
+           is_lower_better(temporal_metrics(), &TemporalMetric::name, &TemporalMetric::better);
+}
 
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants) {
     std::map<Quantity, std::map<Point, Seeds>> table;

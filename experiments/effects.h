@@ -13,6 +13,9 @@ struct EffectRow {
     std::optional<double> p_holm;        ///< p adjusted for all rows of equal target, metric and mask
 };
 
+/// Whether less of the metric is better: such are never negative, but for the correction of noise.
+bool is_error(const std::string& metric);
+
 /// Every point against every point marked as a baseline, by errors for which less is better. Seeds are paired: equal
 /// ones share random numbers, camera and scene, so what they have in common cancels (paired_ratio()). Of a shot's rows
 /// those over its frames count where there are such ("all"), else those of its last frame.

@@ -43,16 +43,21 @@ std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>
     return values;
 }
 
+/// Whether a row's interval is open to one side: the length of a ghost that may never end has no upper end.
+bool is_one_sided(const ResultRow* row) { return row->low.has_value() != row->high.has_value(); }
+
 void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows) {
+    if (std::ranges::any_of(rows, is_one_sided)) return;
     const auto lows = values_of(rows, &ResultRow::low), highs = values_of(rows, &ResultRow::high);
-    const bool has_interval = lows && highs;
-    const bool reference_is_exact = !has_interval && s.floor.value_or(0.0) == 0.0;
+    const bool has_interval = lows && highs, reference_is_exact = s.floor == 0.0;
     if (!has_interval && !(reference_is_exact && s.seed_deviation)) return;
     const double from_seeds = s.seed_deviation ? student_t_quantile(0.975, double(s.seeds - 1)) * *s.seed_deviation /
                                                      std::sqrt(double(s.seeds))
                                                : 0.0;
     s.low = *s.value - std::hypot(from_seeds, has_interval ? *s.value - mean(*lows) : 0.0);
     s.high = *s.value + std::hypot(from_seeds, has_interval ? mean(*highs) - *s.value : 0.0);
+    // Corrected for the reference's noise an error may come out below 0 itself; no interval leaves its value out.
+    if (is_error(s.metric)) s.low = std::max(*s.low, std::min(0.0, *s.value));
 }
 
 MetricSummary summary_of(const std::vector<const ResultRow*>& rows) {

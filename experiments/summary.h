@@ -29,8 +29,8 @@ struct MetricSummary {
 
 /// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same
 /// reference for all seeds, so the mean of the rows' intervals) and Student's t interval of the seeds, t(0.975, n-1) s
-/// / sqrt(n). A metric whose rows give no interval although the reference has noise (a floor above 0) gets none: the
-/// seeds alone would understate it.
+/// / sqrt(n). The seeds alone would understate it, so a metric gets none if a row lacks one end of its interval or
+/// both; unless the reference is known to be exact (a floor of 0). Intervals of errors end at 0.
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows);
 
 /// One stage of one variant point: the median over the measured frames of all seeds of its time in a frame, with its
