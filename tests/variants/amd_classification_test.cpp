@@ -66,10 +66,11 @@ Expected classify(const HostGBuffer& gbuffer, unsigned rays_per_quad, const Host
     return expected;
 }
 
+/// Below, at and above the threshold of 0.5.
 HostImage random_variance(glm::uvec2 extent) {
     HostImage variance(extent, 1);
     std::mt19937 random(4);
-    for (float& v : variance.values) v = float(random() % 2);
+    for (float& v : variance.values) v = 0.5f * float(random() % 3);
     return variance;
 }
 

@@ -49,11 +49,6 @@ SyntheticHit ceiling_before_white(const CameraRay& ray) {
     return hit;
 }
 
-SyntheticHit floor_below_nothing(const CameraRay& ray) {
-    const SyntheticHit hit = mirror_floor(ray);
-    return hit.metalness > 0 ? hit : SyntheticHit{};
-}
-
 /// 120 rows are 7.5 texels of the pyramid's fourth level, as 1080 are 67.5: it has no texels for the last 8 rows, to
 /// which the ceiling's rays go.
 TEST_F(AmdCorrections, StopOutsideScreenFindsWhatOddLevelsLackWithReversedDepth) {

@@ -12,3 +12,9 @@ inline SyntheticHit glossy_floor(const CameraRay& ray) {
         hit.lit = glm::vec3((int(std::floor(p.x)) + int(std::floor(p.y))) & 1 ? 1.0f : 0.25f);
     return hit;
 }
+
+/// The floor of mirror_floor without its wall.
+inline SyntheticHit floor_below_nothing(const CameraRay& ray) {
+    const SyntheticHit hit = mirror_floor(ray);
+    return hit.metalness > 0 ? hit : SyntheticHit{};
+}
