@@ -90,15 +90,15 @@ TEST(Csv, ReadsQuotedFieldsAndNamesLineAndColumnOfMistakes) {
 }
 
 TEST(Summary, JoinsTheSpreadOfSeedsWithTheNoiseOfTheReference) {
-    const auto s = summarise(seed_rows({1, 2, 3}, 0.5, 0.1)).at(0);
+    const auto s = summarise(seed_rows({5, 6, 7}, 0.5, 0.1)).at(0);
     EXPECT_EQ(s.seeds, 3u);
-    EXPECT_DOUBLE_EQ(*s.value, 2.0);
+    EXPECT_DOUBLE_EQ(*s.value, 6.0);
     EXPECT_DOUBLE_EQ(*s.seed_deviation, 1.0);
     // With two degrees of freedom Student's t has the closed form (2p - 1) sqrt(2 / (4p (1 - p))); it joins 0.5 of the
     // reference.
     const double t = 0.95 * std::sqrt(2.0 / (4.0 * 0.975 * 0.025));
-    EXPECT_NEAR(*s.high - 2.0, std::hypot(t / std::sqrt(3.0), 0.5), 1e-9);
-    EXPECT_NEAR(2.0 - *s.low, *s.high - 2.0, 1e-12);
+    EXPECT_NEAR(*s.high - 6.0, std::hypot(t / std::sqrt(3.0), 0.5), 1e-9);
+    EXPECT_NEAR(6.0 - *s.low, *s.high - 6.0, 1e-12);
     const auto one = summarise(seed_rows({2}, 0.5, 0.1)).at(0);
     EXPECT_EQ(one.low, 1.5);
     EXPECT_FALSE(one.seed_deviation);
