@@ -13,7 +13,20 @@
 #include <thread>
 #include <vector>
 
+namespace fs = std::filesystem;
+
 namespace {
+
+/// Shaders, what they include, and the tables of variants, in an order of their own.
+std::vector<fs::path> files_read_at_run_time() {
+    const std::vector<std::string> extensions = {".comp", ".frag", ".vert", ".glsl", ".h", ".png"};
+    std::vector<fs::path> files;
+    for (const char* folder : {"core", "variants"})
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(SSRLAB_SOURCE_DIR) / folder))
+            if (std::ranges::count(extensions, entry.path().extension().string()) > 0) files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
+}
 
 /// The value behind "key   : value" in a file of /proc.
 std::string proc_value(const char* file, const std::string& key) {
@@ -39,31 +52,24 @@ nlohmann::json host_info() {
 
 nlohmann::json build_info() {
     nlohmann::json build = {{"commit", ""}, {"dirty", false}};
-    const std::filesystem::path file =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "build_commit.json";
-    if (std::filesystem::exists(file)) build = read_json(file);
+    const fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / "build_commit.json";
+    const std::string code = code_hash();
+    if (fs::exists(file)) {
+        build = read_json(file);
+        if (build.value("code", "") != code) build["dirty"] = true;
+    }
     return {{"version", SSRLAB_VERSION},
             {"commit", build.at("commit")},
             {"dirty", build.at("dirty")},
+            {"code", code},
             {"compiler", SSRLAB_COMPILER},
             {"build", SSRLAB_BUILD_TYPE}};
 }
 
 std::string code_hash() {
-    namespace fs = std::filesystem;
     ContentHash hash;
     hash.add(read_text("/proc/self/exe"));
-    std::vector<fs::path> shaders;
-    for (const char* folder : {"core", "variants"})
-        for (const auto& entry : fs::recursive_directory_iterator(fs::path(SSRLAB_SOURCE_DIR) / folder)) {
-            const std::string extension = entry.path().extension();
-            const bool is_shader =
-                std::ranges::any_of(std::vector<std::string>{".comp", ".frag", ".vert", ".glsl", ".h"},
-                                    [&](const std::string& e) { return e == extension; });
-            if (is_shader) shaders.push_back(entry.path());
-        }
-    std::ranges::sort(shaders);
-    for (const fs::path& shader : shaders) hash.add(read_text(shader));
+    for (const fs::path& file : files_read_at_run_time()) hash.add(read_text(file));
     return hash.hex();
 }
 

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "experiments/commands.h"
+#include "experiments/host_info.h"
 #include "metrics/tone_map.h"
 
 #include <CLI/CLI.hpp>
@@ -53,6 +54,9 @@ int parse_and_run(int argc, char** argv) {
         "Exit codes: 0 done, 2 a mistake in what was asked for, 3 a fault of this machine."};
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
+    app.set_version_flag(
+        "--version", [] { return build_info().dump(); },
+        "Print version, commit and the hash of all code, as manifest.json has them");
     CommonOptions common;
     int status = 0;
 

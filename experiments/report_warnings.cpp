@@ -43,8 +43,8 @@ void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
         warnings.push_back("This study is not finished: some variants or shots may be missing.");
     if (is_true(member(member(manifest, "ssrlab"), "dirty")))
         warnings.push_back(
-            "The program was built from a source tree with uncommitted changes: the commit alone does not identify "
-            "it.");
+            "The program or its shaders are not those of the commit: it does not identify them, `code` in manifest.json "
+            "does.");
 }
 
 void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
