@@ -1,6 +1,7 @@
 #include "metrics/disocclusion.h"
 #include "core/error.h"
 #include "core/shared/camera.h"
+#include "metrics/masks.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -185,6 +186,24 @@ TEST(Disocclusion, AMovingBoxUncoversWhatWasBehindIt) {
         EXPECT_EQ(draw({.scene = {wall, box_moved(2, -4)}, .is_reversed = is_reversed}).count(),
                   2u * 10 + 4 * 16 - 2 * 4);
     }
+}
+
+TEST(Disocclusion, TheMaskHoldsReflectivePixelsOnly) {
+    const Frame f = draw({.scene = {wall, box_moved(3, 0)}});
+    const PreviousFrame previous{f.camera, f.motion, f.depth_before, f.normal_before, f.depth_step};
+    HostImage roughness(extent, 1, 0.1f), reflectance(extent, 3, 0.04f), confidence(extent, 1);
+    const auto mask = [&] {
+        return make_mask("disoccluded", {.view_depth = f.view_depth,
+                                         .normal = f.normal,
+                                         .material_id = f.id,
+                                         .roughness = roughness,
+                                         .reflectance = reflectance,
+                                         .confidence = confidence,
+                                         .previous = &previous});
+    };
+    EXPECT_EQ(mask().inside, f.mask());
+    std::ranges::fill(roughness.values, 0.9f);
+    EXPECT_EQ(mask().count(), 0u);
 }
 
 TEST(Disocclusion, ABoxBeforeTheSkyUncoversSky) { EXPECT_EQ(draw({.scene = {box_moved(3, 0)}}).count(), 3u * 10); }
