@@ -5,6 +5,8 @@
 #include "core/left_out.h"
 #include "core/parameters.h"
 
+#include <string>
+
 /// What each variant estimates for each pixel of the G-buffer.
 struct Reflections {
     Image radiance;    ///< mean incident radiance over the specular lobe, before the BRDF (rgb, W sr^-1 m^-2)
@@ -22,6 +24,10 @@ public:
     /// Called before the first frame of a shot, after the parameters are set; not called under --keep-all. From then on
     /// render() skips the stages returned, which would not have changed a pixel.
     virtual std::vector<LeftOut> leave_out(const SceneFacts&) { return {}; }
+
+    /// Why a seed's result may differ from run to run, as a clause that names the parameter to blame; empty if it does
+    /// not. Called after the parameters are set.
+    virtual std::string not_repeatable() const { return {}; }
 
     ParameterSet params;
 };

@@ -38,7 +38,7 @@ std::vector<const ResultRow*> chosen_rows(std::span<const ResultRow> rows) {
 using Point = std::pair<std::string, std::string>;
 using Seeds = std::map<unsigned, const ResultRow*>;
 
-EffectRow effect(const Seeds& point, const Seeds& baseline) {
+EffectRow effect(const Seeds& point, const Seeds& baseline, bool is_repeatable) {
     const ResultRow &first = *point.begin()->second, &other = *baseline.begin()->second;
     EffectRow row{first.shot,  first.frame,  first.variant, first.point,   other.variant,
                   other.point, first.target, first.metric,  first.formula, first.mask};
@@ -57,7 +57,8 @@ EffectRow effect(const Seeds& point, const Seeds& baseline) {
         return row;
     }
     const RatioEstimate e = paired_ratio(errors, base_errors);
-    row.ratio = e.ratio.value, row.low = e.ratio.low, row.high = e.ratio.high, row.p = e.p_value;
+    row.ratio = e.ratio.value;
+    if (is_repeatable) row.low = e.ratio.low, row.high = e.ratio.high, row.p = e.p_value;
     return row;
 }
 
@@ -84,7 +85,8 @@ bool is_error(const std::string& metric) {
            is_lower_better(temporal_metrics(), &TemporalMetric::name, &TemporalMetric::better);
 }
 
-std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants) {
+std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
+                                      const std::set<std::pair<std::string, std::string>>& not_repeatable) {
     std::map<Quantity, std::map<Point, Seeds>> table;
     for (const ResultRow* r : chosen_rows(rows)) table[quantity_of(*r)][{r->variant, r->point}][r->seed] = r;
     std::vector<EffectRow> effects;
@@ -92,10 +94,12 @@ std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std
         if (!baseline.is_baseline) continue;
         for (const VariantConfig& variant : variants) {
             if (variant.variant == baseline.variant && variant.point == baseline.point) continue;
+            const Point name(variant.variant, variant.point), base_name(baseline.variant, baseline.point);
+            const bool is_repeatable = !not_repeatable.contains(name) && !not_repeatable.contains(base_name);
             for (const auto& [quantity, points] : table) {
-                const auto a = points.find({variant.variant, variant.point}),
-                           b = points.find({baseline.variant, baseline.point});
-                if (a != points.end() && b != points.end()) effects.push_back(effect(a->second, b->second));
+                const auto a = points.find(name), b = points.find(base_name);
+                if (a != points.end() && b != points.end())
+                    effects.push_back(effect(a->second, b->second, is_repeatable));
             }
         }
     }

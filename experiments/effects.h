@@ -2,6 +2,7 @@
 #include "experiments/cell.h"
 #include "experiments/config.h"
 
+#include <set>
 #include <span>
 
 /// What a point changes about one error of its baseline.
@@ -9,7 +10,7 @@ struct EffectRow {
     std::string shot, frame, variant, point, against_variant, against_point, target, metric, formula, mask;
     size_t seeds = 0;             ///< that both were run with
     std::optional<double> ratio;  ///< point / baseline, geometric mean over the seeds; none if an error is not above 0
-    std::optional<double> low, high, p;  ///< 95 % interval; two-sided p of "the ratio is 1"; none for a single seed
+    std::optional<double> low, high, p;  ///< 95 % interval; two-sided p of "the ratio is 1", see paired_effects()
     std::optional<double> p_holm;        ///< p adjusted for all rows of equal target, metric and mask
 };
 
@@ -19,7 +20,11 @@ bool is_error(const std::string& metric);
 /// Every point against every point marked as a baseline, by errors for which less is better. Seeds are paired: equal
 /// ones share random numbers, camera and scene, so what they have in common cancels (paired_ratio()). Of a shot's rows
 /// those over its frames count where there are such ("all"), else those of its last frame.
-std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants);
+///
+/// No interval and no p are given for a single seed, nor if one of both is in `not_repeatable` (variant, point): seeds
+/// do not share what such points add by chance, and another run would tell another ratio.
+std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
+                                      const std::set<std::pair<std::string, std::string>>& not_repeatable = {});
 
 /// effects.csv. Only the header where no baseline is marked.
 void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects);

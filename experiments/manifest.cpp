@@ -37,11 +37,13 @@ nlohmann::json variant_entries(const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
     for (const VariantConfig& v : config.variants) {
         const VariantEntry& entry = find_variant(v.variant);
+        const auto variant = make_variant(v.variant, v.parameters, v.preset);
         entries.push_back({{"variant", v.variant},
                            {"point", v.point},
                            {"title", entry.title},
                            {"source", entry.source},
-                           {"parameters", make_variant(v.variant, v.parameters, v.preset)->params.values()}});
+                           {"parameters", variant->params.values()}});
+        if (const std::string why = variant->not_repeatable(); !why.empty()) entries.back()["not_repeatable"] = why;
     }
     return entries;
 }
@@ -99,18 +101,20 @@ nlohmann::json left_out_entry(const LeftOut& part) {
 /// What path tracer, rasteriser and variants leave out, each once.
 nlohmann::json left_out_entries(const Shot& shot, const std::vector<LeftOut>& rasterizer, const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
-    const auto add = [&](const LeftOut& part) {
-        const nlohmann::json entry = left_out_entry(part);
+    const auto add = [&](const LeftOut& part, const std::string& whose) {
+        nlohmann::json entry = left_out_entry(part);
+        entry["what"] = whose + part.what;
         if (std::ranges::find(entries, entry) == entries.end()) entries.push_back(entry);
     };
     if (shot.config.gbuffer.empty()) {
         const ShotFrame now = shot_frame(shot, shot.config.frames.back());
         const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
-        for (const LeftOut& part : tracer.left_out()) add(part);
+        for (const LeftOut& part : tracer.left_out()) add(part, "path tracer: ");
     }
     for (const VariantConfig& v : config.variants)
-        for (const LeftOut& part : make_variant(v.variant, v.parameters, v.preset)->leave_out(shot.facts)) add(part);
-    for (const LeftOut& part : rasterizer) add(part);
+        for (const LeftOut& part : make_variant(v.variant, v.parameters, v.preset)->leave_out(shot.facts))
+            add(part, "");  // a stage, whose name says whose it is
+    for (const LeftOut& part : rasterizer) add(part, "rasteriser: ");
     return entries;
 }
 
@@ -161,6 +165,7 @@ nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const std:
         {"warm_up", shot.config.warm_up},
         {"repeat", shot.config.repeat},
         {"measure", shot.config.measures_last_only ? "last" : "all"},
+        {"measure_from", std::max(shot.config.measure_from, shot.config.frames.front())},
         {"exposure_ev", shot.camera.exposure_ev},
         {"lit", config.direct_lit ? "direct" : "path_traced"},
         {"warnings", shot.scene.warnings},

@@ -47,6 +47,20 @@ void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
             "does.");
 }
 
+/// One warning for each reason, with all points that have it.
+void warn_of_variation(std::vector<std::string>& warnings, const json& variants) {
+    std::map<std::pair<std::string, std::string>, std::string> points;  // by variant and reason
+    for (const json& v : variants) {
+        const json& why = member(v, "not_repeatable");
+        if (!why.is_string()) continue;
+        std::string& names = points[{text(member(v, "variant")), why.get<std::string>()}];
+        names += (names.empty() ? "" : ", ") + text(member(v, "point"));
+    }
+    for (const auto& [what, names] : points)
+        warnings.push_back(what.first + " (" + names + "): results differ from run to run, and their intervals do not " +
+                           "hold the scatter between runs. The reason: " + ended(what.second));
+}
+
 void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
     if (!has_times) return;
     const json& proof = member(clock, "proof");
@@ -110,6 +124,7 @@ std::vector<std::string> report_warnings(const json& manifest, std::span<const M
                                          std::span<const TimeSummary> times) {
     std::vector<std::string> warnings;
     warn_of_study(warnings, manifest);
+    warn_of_variation(warnings, member(manifest, "variants"));
     warn_of_clock(warnings, member(manifest, "clock"), !times.empty());
     for (const json& shot : member(manifest, "shots")) warn_of_shot(warnings, shot);
     warn_of_pixels(warnings, errors);

@@ -136,6 +136,14 @@ void run_gbuffer_shot(Study& study, const ShotConfig& config) {
     run_cells(study, run);
 }
 
+/// (variant, point) of those whose results differ from run to run.
+std::set<std::pair<std::string, std::string>> not_repeatable_points(const nlohmann::json& manifest) {
+    std::set<std::pair<std::string, std::string>> points;
+    for (const nlohmann::json& v : manifest["variants"])
+        if (v.contains("not_repeatable")) points.emplace(v["variant"], v["point"]);
+    return points;
+}
+
 /// Writes what is finished so far, so that a long study can be read while it runs.
 void write_results(Study& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
@@ -149,7 +157,8 @@ void write_results(Study& study, bool is_last) {
     if (is_last) manifest["finished"] = time_stamp();
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
     write_tables(study.settings.out, study.finished);
-    write_effects(study.settings.out, paired_effects(rows, study.config.variants));
+    write_effects(study.settings.out,
+                  paired_effects(rows, study.config.variants, not_repeatable_points(study.manifest)));
     write_report(study.settings.out);
 }
 

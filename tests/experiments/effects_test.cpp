@@ -85,6 +85,28 @@ TEST(Effects, AreNotMadeUp) {
     EXPECT_TRUE(paired_effects(std::vector{row("0", "other", 0, "mse", 1)}, two_points).empty());
 }
 
+TEST(Effects, OfWhatVariesFromRunToRunAreRatiosAlone) {
+    std::vector<ResultRow> rows;
+    for (unsigned seed = 0; seed < 3; ++seed) {
+        rows.push_back(row("0", "base", seed, "mse", 4 + seed));
+        rows.push_back(row("0", "better", seed, "mse", 1 + seed));
+        rows.push_back(row("0", "third", seed, "mse", 2 + seed));
+    }
+    std::vector<VariantConfig> points = two_points;
+    points.push_back({.variant = "v", .point = "third"});
+    for (const char* varies : {"base", "better"}) {
+        const std::vector<EffectRow> effects = paired_effects(rows, points, {{"v", varies}});
+        ASSERT_EQ(effects.size(), 2u);
+        for (const EffectRow& e : effects) {
+            EXPECT_LT(e.ratio, 1.0);
+            const bool can_tell = e.point == "third" && varies == std::string("better");
+            for (const auto& number : {e.low, e.high, e.p, e.p_holm})
+                EXPECT_EQ(number.has_value(), can_tell) << e.point << " while " << varies << " varies";
+            if (can_tell) EXPECT_EQ(e.p_holm, e.p) << "the other is not of its family";
+        }
+    }
+}
+
 TEST(Splits, FindTheBiasAndTheVariance) {
     // Bias 0.5 and standard deviation 0.3 in every channel of 64x64 pixels and 16 seeds; halves of a reference of 1
     // with a standard deviation of 0.2.

@@ -34,3 +34,15 @@ std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
     for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
     return left_out;
 }
+
+std::string AmdSssr::not_repeatable() const {
+    std::string why;
+    // Pixels enter the ray list in the order in which atomics let them, and a subgroup gives rays up by their number.
+    if (tracing_.min_traversal_occupancy > 0)
+        why = "min_traversal_occupancy > 0: which rays share a subgroup depends on the order in which threads ran";
+    if (denoiser_.denoise && denoiser_.denoiser_form.is("faithful") && !denoiser_.barrier_before_average)
+        why += std::string(why.empty() ? "" : "; ") +
+               "denoiser_form = faithful without barrier_before_average: a tile's average may overwrite moments that "
+               "other threads have still to read";
+    return why;
+}
