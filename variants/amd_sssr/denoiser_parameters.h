@@ -12,9 +12,11 @@ struct DenoiserParameters {
     Param<float> temporal_stability_factor{params, "temporal_stability_factor", 0.7f, {0.0f, 1.0f},
         {"", "scales the box of neighbouring colours that history is clipped to", "SSSR 1.5, temporalStabilityFactor"}};
     Param<float> max_samples{params, "max_samples", 32.0f, {1.0f, 1024.0f},
-        {"frames", "longest history of a rough pixel", "Denoiser 1.3, literal in the reprojection"}};
+        {"frames", "longest history of a rough pixel; where it is lower, min_history_samples wins",
+         "Denoiser 1.3, literal in the reprojection"}};
     Param<float> min_history_samples{params, "min_history_samples", 8.0f, {1.0f, 1024.0f},
-        {"frames", "longest history of a mirror", "Denoiser 1.3, get_max_samples"}};
+        {"frames", "longest history of a mirror; no pixel's is shorter, even where max_samples is lower",
+         "Denoiser 1.3, get_max_samples"}};
     Param<float> samples_per_alpha{params, "samples_per_alpha", 100.0f, {0.0f, 1e4f},
         {"1 / alpha", "k of 1 - exp(-k alpha), which goes from the mirror's history to the longest",
          "Denoiser 1.3, SAMPLES_FOR_ROUGHNESS"}};

@@ -6,7 +6,7 @@
 
 const uint as_in_sdk = 0u;             // parameter `march`
 const float huge = 3.402823466e38;     // largest float
-const float overshoot_texels = 0.005;  // of the finest level: beyond a border, so that rounding does not fall short of it
+const float overshoot_texels = 0.005;  // of the finest level: beyond a border, lest rounding fall short of it
 
 struct MarchEnd {
     vec3 position;       // image

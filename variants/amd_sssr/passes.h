@@ -9,27 +9,29 @@
 /// What outlives a frame. As in the original two images of each kind take turns, and passes of one frame use both: see
 /// amd_denoise().
 struct AmdHistories {
-    PassGraph::History radiance;         ///< rgb W sr^-1 m^-2; w length of the ray (m) until the denoiser drops it
-    PassGraph::History variance;         ///< squared relative change of luminance
-    PassGraph::History sample_count;     ///< frames
-    PassGraph::History average_radiance; ///< one texel per 8x8 tile, rounded up
-    PassGraph::History roughness;        ///< alpha
+    PassGraph::History radiance;          ///< rgb W sr^-1 m^-2; w length of the ray (m) until the denoiser drops it
+    PassGraph::History variance;          ///< squared relative change of luminance
+    PassGraph::History sample_count;      ///< frames
+    PassGraph::History average_radiance;  ///< one texel per 8x8 tile, rounded up
+    PassGraph::History roughness;         ///< alpha
 };
 
-/// Images of the graph's extent, black in the first frame. `is_float`: all but roughness in 32 bits per channel in place
-/// of the original's 16 (11, 11, 10 for averages); `is_float_roughness`: alpha in 32 in place of 8 bits.
+/// Images of the graph's extent, black in the first frame. `is_float`: all but roughness in 32 bits per channel, where
+/// the original has 16 (11, 11, 10 for averages); `is_float_roughness`: alpha in 32 in place of 8 bits.
 AmdHistories amd_histories(PassGraph& graph, bool is_float, bool is_float_roughness);
 
 /// What classification found to do, and the indirect arguments that start it.
 struct AmdWork {
-    Buffer ray_list;            ///< bits 0-14 x, 15-28 y, 29 copy to the horizontal neighbour in the quad, 30 vertical, 31 diagonal
-    Buffer tile_list;           ///< of 8x8 pixels to denoise: y << 16 | x of the first pixel
-    Buffer counters;            ///< rays being listed, rays, tiles being listed, tiles
-    Buffer indirect_arguments;  ///< groups to intersect (3 words); to denoise a tile each (at byte 12), eight tiles each (24)
+    /// Bits 0-14 x, 15-28 y; copy to a neighbour in the quad: 29 the horizontal, 30 the vertical, 31 the diagonal one.
+    Buffer ray_list;
+    Buffer tile_list;  ///< of 8x8 pixels to denoise: y << 16 | x of the first pixel
+    Buffer counters;   ///< rays being listed, rays, tiles being listed, tiles
+    /// Groups to intersect (3 words); to denoise a tile each (at byte 12); to denoise eight tiles each (24).
+    Buffer indirect_arguments;
 };
 
-/// Mip 0 is `depth`, each following texel the nearest of 2x2: min, or max for reversed depth. `mips` at least 2, capped by
-/// the extent. One dispatch (AMD's Single Pass Downsampler).
+/// Mip 0 is `depth`, each following texel the nearest of 2x2: min, or max for reversed depth. `mips` at least 2, capped
+/// by the extent. One dispatch (AMD's Single Pass Downsampler).
 Image amd_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips);
 
 /// Lists rays and tiles; writes alpha, clears histories.radiance.current (environment where too rough) and writes
