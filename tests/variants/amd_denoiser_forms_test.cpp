@@ -52,7 +52,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 TEST_P(AmdDenoiserForms, GiveTheSame) {
     std::vector<DenoiserInputs> frames;
     for (unsigned index = 0; index < 4; ++index) {
-        frames.push_back(floor_and_ball(GetParam().extent, GetParam().direction, index));
+        frames.push_back(floor_and_ball(GetParam().extent, GetParam().direction, index, index > 0 ? index - 1 : 0));
         const DenoiserInputs& now = frames.back();
         const DenoiserInputs* before = index > 0 ? &frames[index - 1] : nullptr;
         const std::string frame = " of frame " + std::to_string(index);

@@ -93,10 +93,10 @@ DenoiserInputs facing_wall(const FacingWall& wall) {
     return inputs;
 }
 
-DenoiserInputs floor_and_ball(glm::uvec2 extent, DepthDirection direction, unsigned index) {
+DenoiserInputs floor_and_ball(glm::uvec2 extent, DepthDirection direction, unsigned index, unsigned previous) {
     CameraPose pose, before;
     pose.world_from_view[3].x = 0.05f * float(index);
-    before.world_from_view[3].x = 0.05f * float(index > 0 ? index - 1 : 0);
+    before.world_from_view[3].x = 0.05f * float(previous);
     const CameraData camera =
         camera_data(pose, &before, {.extent = extent, .depth_direction = direction, .frame = index});
     DenoiserInputs inputs = blank_inputs(extent, camera);

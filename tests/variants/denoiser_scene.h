@@ -17,5 +17,5 @@ DenoiserInputs facing_wall(const FacingWall& wall);
 glm::vec3 checkered(unsigned x, unsigned y);
 
 /// Frame `index` of a camera that moves sideways over a floor in strips of different alpha, with a ball on it, before a
-/// checkered wall; noise grows with alpha. Tiles are listed where any pixel is glossy.
-DenoiserInputs floor_and_ball(glm::uvec2 extent, DepthDirection direction, unsigned index);
+/// checkered wall; noise grows with alpha. Tiles are listed where any pixel is glossy. `previous`: the frame before.
+DenoiserInputs floor_and_ball(glm::uvec2 extent, DepthDirection direction, unsigned index, unsigned previous);
