@@ -165,6 +165,27 @@ TEST_F(AmdDenoiserCorrections, ReprojectHistoryDepth) {
     }
 }
 
+/// A near plane that moves from 0.5 to 0.1 m: what depth was stored for the wall changes, the wall does not.
+TEST_F(AmdDenoiserCorrections, ReprojectHistoryDepthKnowsTheLastProjection) {
+    for (const bool is_on : {false, true}) {
+        const DenoiserInputs first = facing_wall({.color = checkered});
+        DenoiserInputs now = first, before = first;
+        CameraPose pose;
+        pose.world_from_view[3].z = 4;
+        CameraPose pose_before = pose;
+        pose_before.near = 0.5f;
+        now.camera = camera_data(pose, &pose_before, {.extent = {64, 64}, .frame = 1});
+        const glm::vec4 clip = clip_from_view(pose_before, 1, DepthDirection::standard) * glm::vec4(0, 0, -4, 1);
+        before.depth = HostImage({64, 64}, 1, clip.z / clip.w);
+        DenoiserBench bench(device(), now.depth.extent, with("reproject_history_depth", is_on));
+        bench.begin_frame(now, &before);
+        bench.fill(bench.histories.radiance.previous, glm::vec4(0.5f));
+        bench.fill(bench.histories.sample_count.previous, glm::vec4(7.0f));
+        reproject(bench);
+        EXPECT_NEAR(at_center(bench, bench.histories.sample_count.current), is_on ? 8 : 1, 0.01f);  // halves
+    }
+}
+
 /// One infinite ray blackens its pixel and the 15 that filter it in, or at most its own.
 TEST_F(AmdDenoiserCorrections, FiniteNeighborhood) {
     for (const bool is_on : {false, true}) {
@@ -184,6 +205,29 @@ TEST_F(AmdDenoiserCorrections, FiniteNeighborhood) {
         } else {
             EXPECT_EQ(black, 16u);
         }
+    }
+}
+
+/// A million is to the temporal resolve what the largest half is, in either form; so is what has no square in a float.
+TEST_F(AmdDenoiserCorrections, FiniteNeighborhoodTakesNothingForMoreThanTheLargestHalf) {
+    const DenoiserInputs inputs = facing_wall({.color = checkered});
+    for (const char* form : {"faithful", "fast"}) {
+        nlohmann::json parameters = with("finite_neighborhood", true, form);
+        parameters["float_histories"] = true;
+        DenoiserBench bench(device(), inputs.depth.extent, parameters);
+        HostImage found[3];
+        for (int i = 0; i < 3; ++i) {
+            const float brightest[] = {65504, 1e6f, 1e30f};
+            bench.begin_frame(inputs, nullptr);
+            fill_resolve_inputs(bench, 0.6f, 4.0f, 4.0f);
+            HostImage pixels = bench.graph.download(bench.histories.radiance.previous);
+            pixels.set_rgb(32 * 64 + 32, glm::vec3(brightest[i]));
+            bench.upload(bench.histories.radiance.previous, pixels);
+            resolve(bench);
+            found[i] = bench.graph.download(bench.histories.radiance.current);
+        }
+        EXPECT_GT(found[0].pixel(34, 32)[0], 0.1f);
+        for (int i = 1; i < 3; ++i) EXPECT_TRUE(found[i].values == found[0].values) << form;
     }
 }
 
