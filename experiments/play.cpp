@@ -3,6 +3,7 @@
 #include "core/gbuffer/composite.h"
 #include "core/gpu/device.h"
 #include "experiments/manifest.h"
+#include "experiments/render_variant.h"
 #include "experiments/splits.h"
 #include "metrics/flicker.h"
 #include "metrics/frame_difference.h"
@@ -114,10 +115,8 @@ void measure_step(Play& play, SeedRun& run, const FrameStep& step, const Composi
 }
 
 void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameStore::Frame& frame) {
-    CameraData camera = frame.camera;
-    camera.frame.y = run.seed;
-    run.graph->begin_frame(camera, run.variant->params, frame.gbuffer.images());
-    const Reflections reflections = run.variant->render(*run.graph, frame.gbuffer);
+    const Reflections reflections =
+        render_variant(*run.graph, *run.variant, frame.camera, run.seed, frame.gbuffer);
     if (!step.is_warm_up) {
         const Composite composite = run.compositor->render(frame.gbuffer, reflections);
         const FrameTruth* truth = play.truth.frame(step);

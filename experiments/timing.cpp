@@ -1,6 +1,7 @@
 #include "experiments/timing.h"
 
 #include "core/gpu/device.h"
+#include "experiments/render_variant.h"
 #include "experiments/results.h"
 #include "variants/registry.h"
 
@@ -36,10 +37,8 @@ struct TimedCopy {
           graph(std::make_unique<PassGraph>(like.device(), like.extent())),
           variant(make_variant(c.variant, c.parameters, c.preset)) {}
 
-    void render(CameraData camera, const GBuffer& gbuffer) {
-        camera.frame.y = config.seeds.front();
-        graph->begin_frame(camera, variant->params, gbuffer.images());
-        variant->render(*graph, gbuffer);
+    void render(const CameraData& camera, const GBuffer& gbuffer) {
+        render_variant(*graph, *variant, camera, config.seeds.front(), gbuffer);
         graph->times();  // waits for the device: the next copy starts on an idle one
     }
 

@@ -4,7 +4,9 @@
 #include "experiments/splits.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 namespace {
@@ -55,20 +57,61 @@ TEST(Effects, AreRatiosPairedBySeed) {
     EXPECT_EQ(*e.p_holm, *e.p) << "a family of one";
 }
 
+TEST(Effects, PairSeedsByTheirNumber) {
+    std::vector<ResultRow> rows;
+    for (unsigned seed = 0; seed < 4; ++seed) rows.push_back(row("0", "base", seed, "mse", std::pow(10.0, seed)));
+    for (const unsigned seed : {1, 3}) rows.push_back(row("0", "better", seed, "mse", 0.5 * std::pow(10.0, seed)));
+    const std::vector<EffectRow> effects = paired_effects(rows, two_points);
+    ASSERT_EQ(effects.size(), 1u);
+    EXPECT_EQ(effects[0].seeds, 2u);
+    EXPECT_NEAR(*effects[0].ratio, 0.5, 1e-12) << "rounding of logarithms";
+}
+
+TEST(Effects, AreAdjustedTogetherOverShotsOfOneTarget) {
+    std::vector<ResultRow> rows;
+    // The scatter over three seeds, and so p, is another for each shot and target.
+    const std::map<std::pair<std::string, std::string>, double> scatters = {{{"a", "specular"}, 1.01},
+                                                                            {{"b", "specular"}, 1.9},
+                                                                            {{"a", "image"}, 1.1},
+                                                                            {{"b", "image"}, 1.4}};
+    for (const auto& [key, scatter] : scatters)
+        for (unsigned seed = 0; seed < 3; ++seed)
+            for (const char* point : {"base", "better"}) {
+                ResultRow r = row("0", point, seed, "mse", point == std::string("base") ? 1 : 0.5);
+                if (point == std::string("better")) r.value = *r.value * std::pow(scatter, double(seed) - 1);
+                r.shot = key.first, r.target = key.second;
+                rows.push_back(r);
+            }
+    const std::vector<EffectRow> effects = paired_effects(rows, two_points);
+    ASSERT_EQ(effects.size(), 4u);
+    const auto effect_of = [&](const std::string& shot, const std::string& target) {
+        return *std::ranges::find_if(effects,
+                                     [&](const EffectRow& e) { return e.shot == shot && e.target == target; });
+    };
+    for (const char* target : {"specular", "image"}) {
+        const EffectRow sure = effect_of("a", target), unsure = effect_of("b", target);
+        ASSERT_LT(*sure.p, *unsure.p);
+        EXPECT_DOUBLE_EQ(*sure.p_holm, 2 * *sure.p) << "of two, in both shots";
+        EXPECT_DOUBLE_EQ(*unsure.p_holm, std::max(*unsure.p, 2 * *sure.p));
+    }
+}
+
 TEST(Effects, OfRowsOverFramesComeBeforeThoseOfOneFrame) {
     std::vector<ResultRow> rows;
     for (const char* point : {"base", "better"})
         for (const char* frame : {"3", "11", "all"})
             for (unsigned seed = 0; seed < 2; ++seed) {
-                rows.push_back(row(frame, point, seed, "mse", 1 + seed));
-                if (std::string(frame) != "all") rows.push_back(row(frame, point, seed, "flip", 1 + seed));
+                // Another ratio in each frame: 1/2 in frame 3, 1/4 in frame 11, 1/8 over all of them.
+                const double share = frame == std::string("3") ? 0.5 : frame == std::string("11") ? 0.25 : 0.125;
+                const double value = (1 + seed) * (point == std::string("better") ? share : 1);
+                rows.push_back(row(frame, point, seed, "mse", value));
+                if (std::string(frame) != "all") rows.push_back(row(frame, point, seed, "flip", value));
             }
     const std::vector<EffectRow> effects = paired_effects(rows, two_points);
     ASSERT_EQ(effects.size(), 2u);
     for (const EffectRow& e : effects) {
         EXPECT_EQ(e.frame, e.metric == "mse" ? "all" : "11");
-        EXPECT_EQ(*e.ratio, 1.0);
-        EXPECT_EQ(*e.p, 1.0);
+        EXPECT_DOUBLE_EQ(*e.ratio, e.metric == "mse" ? 0.125 : 0.25);
     }
 }
 
@@ -82,6 +125,13 @@ TEST(Effects, AreNotMadeUp) {
         paired_effects(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", 0.25)}, two_points);
     EXPECT_EQ(effects[0].ratio, 0.25);
     EXPECT_FALSE(effects[0].low || effects[0].high || effects[0].p || effects[0].p_holm);
+    // Equal errors differ by nothing.
+    std::vector<ResultRow> equal;
+    for (const char* point : {"base", "better"})
+        for (unsigned seed = 0; seed < 2; ++seed) equal.push_back(row("0", point, seed, "mse", 1 + seed));
+    effects = paired_effects(equal, two_points);
+    EXPECT_EQ(effects[0].ratio, 1.0);
+    EXPECT_EQ(effects[0].p, 1.0);
     EXPECT_TRUE(paired_effects(std::vector{row("0", "other", 0, "mse", 1)}, two_points).empty());
 }
 
@@ -140,6 +190,29 @@ TEST(Splits, FindTheBiasAndTheVariance) {
     EXPECT_GT(*row.bias_squared_high, 0.25);
     EXPECT_NEAR(*row.bias_squared_high - *row.bias_squared_low, 2 * 2 * 0.0014, 0.0028)
         << "two standard deviations each way";
+}
+
+TEST(Splits, HoldTheNoiseOfTheReferenceInTheIntervalOfTheBias) {
+    // Seeds without any scatter: all that is uncertain of the bias of 0.5 is the reference, whose halves have a
+    // standard deviation of 0.2 in 12288 values.
+    std::mt19937 random(2);
+    std::normal_distribution<float> noise(1.0f, 0.2f);
+    ReferenceHalves halves{HostImage({64, 64}, 3), HostImage({64, 64}, 3)};
+    HostImage mean({64, 64}, 3);
+    for (size_t i = 0; i < mean.values.size(); ++i) {
+        halves.a.values[i] = noise(random), halves.b.values[i] = noise(random);
+        mean.values[i] = 0.5f * (halves.a.values[i] + halves.b.values[i]);
+    }
+    const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
+    SeedSplit split{reference};
+    for (unsigned seed = 0; seed < 4; ++seed) split.add(HostImage({64, 64}, 3, 1.5f));
+    const SplitRow row = split_rows(split, std::vector{full_mask({64, 64})}, {.shot = "s"}).at(0);
+    EXPECT_EQ(row.variance, 0.0);
+    EXPECT_EQ(*row.variance_high, 0.0);
+    // d(bias^2) = 2 bias d(bias); the interval's own estimate comes from 16 tiles, +-18 %: three of that.
+    const double half_width = 1.96 * 2 * 0.5 * 0.2 / std::sqrt(2.0 * 12288);
+    EXPECT_NEAR(*row.bias_squared_high - row.bias_squared, half_width, 0.54 * half_width);
+    EXPECT_NEAR(row.bias_squared - *row.bias_squared_low, half_width, 0.54 * half_width);
 }
 
 TEST(Splits, NeedTwoSeeds) {

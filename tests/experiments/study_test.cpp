@@ -107,6 +107,16 @@ TEST_F(Study, ANewReferenceMakesNewCells) {
     EXPECT_EQ(count(), 2 * before);
 }
 
+TEST_F(Study, OtherSeedsMakeNewCells) {
+    Config study = config(R"("fence")");
+    for (const unsigned seed : {0, 7}) {
+        for (VariantConfig& variant : study.variants) variant.seeds = {seed};
+        const auto rows = read_result_rows(run(study, "a") / "results.csv");
+        ASSERT_FALSE(rows.empty());
+        for (const ResultRow& r : rows) EXPECT_EQ(r.seed, seed);
+    }
+}
+
 TEST_F(Study, TimesEveryStageByTheProvenClock) {
     Config study = config(R"("fence")");
     study.timing = {.frames = 15, .warm_up = 2};

@@ -1,0 +1,8 @@
+#include "experiments/render_variant.h"
+
+Reflections render_variant(PassGraph& graph, Variant& variant, CameraData camera, unsigned seed,
+                           const GBuffer& gbuffer) {
+    camera.frame.y = seed;
+    graph.begin_frame(camera, variant.params, gbuffer.images());
+    return variant.render(graph, gbuffer);
+}
