@@ -231,6 +231,25 @@ TEST_F(AmdDenoiserCorrections, FiniteNeighborhoodTakesNothingForMoreThanTheLarge
     }
 }
 
+/// Nor does a tile's average.
+TEST_F(AmdDenoiserCorrections, FiniteNeighborhoodClampsAverages) {
+    for (const char* form : {"faithful", "fast"}) {
+        nlohmann::json parameters = with("finite_neighborhood", true, form);
+        parameters["float_histories"] = true;
+        HostImage found[2];
+        for (int i = 0; i < 2; ++i) {
+            DenoiserInputs inputs = facing_wall({.color = checkered});
+            inputs.radiance.set_rgb(32 * 64 + 32, glm::vec3(i == 0 ? 65504.0f : 1e9f));
+            DenoiserBench bench(device(), inputs.depth.extent, parameters);
+            bench.begin_frame(inputs, nullptr);
+            reproject(bench);
+            found[i] = bench.graph.download(bench.histories.average_radiance.current);
+        }
+        EXPECT_GT(found[0].pixel(4, 4)[0], 1.0f);
+        EXPECT_TRUE(found[1].values == found[0].values) << form;
+    }
+}
+
 /// Whatever tiles that are not listed hold from earlier frames: listed ones next to them come out the same.
 TEST_F(AmdDenoiserCorrections, FreshNeighborhood) {
     for (const bool is_on : {false, true}) {

@@ -5,6 +5,7 @@
 
 // rgb times weight, weight; 0 where the pixel must not count.
 vec4 weighted_for_average(ivec2 pixel, vec3 color) {
+    if (finite_neighborhood && is_finite(color)) color = min(color, largest_half);
     float weight = max(exp(-avg_radiance_luminance_weight * luminance(color)), 0.01);
     bool counts = is_in_image(pixel) && is_finite(color * weight) && weight <= 1e3;
     return counts ? vec4(color * weight, weight) : vec4(0.0);
