@@ -97,21 +97,25 @@ TEST(Effects, AreAdjustedTogetherOverShotsOfOneTarget) {
 }
 
 TEST(Effects, OfRowsOverFramesComeBeforeThoseOfOneFrame) {
-    std::vector<ResultRow> rows;
-    for (const char* point : {"base", "better"})
-        for (const char* frame : {"3", "11", "all"})
+    // Another ratio in each frame: 1/2 in frame 3, 1/4 in frame 11, 1/8 over all of them.
+    std::vector<std::pair<std::string, double>> frames = {{"3", 0.5}, {"11", 0.25}, {"all", 0.125}};
+    for (const char* order : {"frames first", "all first"}) {
+        std::vector<ResultRow> rows;
+        for (const auto& [frame, share] : frames)
             for (unsigned seed = 0; seed < 2; ++seed) {
-                // Another ratio in each frame: 1/2 in frame 3, 1/4 in frame 11, 1/8 over all of them.
-                const double share = frame == std::string("3") ? 0.5 : frame == std::string("11") ? 0.25 : 0.125;
-                const double value = (1 + seed) * (point == std::string("better") ? share : 1);
-                rows.push_back(row(frame, point, seed, "mse", value));
-                if (std::string(frame) != "all") rows.push_back(row(frame, point, seed, "flip", value));
+                rows.push_back(row(frame, "base", seed, "mse", 1 + seed));
+                rows.push_back(row(frame, "better", seed, "mse", (1 + seed) * share));
+                if (frame == "all") continue;
+                rows.push_back(row(frame, "base", seed, "flip", 1 + seed));
+                rows.push_back(row(frame, "better", seed, "flip", (1 + seed) * share));
             }
-    const std::vector<EffectRow> effects = paired_effects(rows, two_points);
-    ASSERT_EQ(effects.size(), 2u);
-    for (const EffectRow& e : effects) {
-        EXPECT_EQ(e.frame, e.metric == "mse" ? "all" : "11");
-        EXPECT_DOUBLE_EQ(*e.ratio, e.metric == "mse" ? 0.125 : 0.25);
+        const std::vector<EffectRow> effects = paired_effects(rows, two_points);
+        ASSERT_EQ(effects.size(), 2u);
+        for (const EffectRow& e : effects) {
+            EXPECT_EQ(e.frame, e.metric == "mse" ? "all" : "11") << order;
+            EXPECT_DOUBLE_EQ(*e.ratio, e.metric == "mse" ? 0.125 : 0.25) << order;
+        }
+        std::ranges::reverse(frames);
     }
 }
 

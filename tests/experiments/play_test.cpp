@@ -84,6 +84,24 @@ TEST_F(Study, AStepGhostsOnlyWhereSomethingRemembers) {
     EXPECT_THROW(run(moves, "moves"), Error);
 }
 
+TEST_F(Study, AHistoryGhosts) {
+    // Histories of 12 frames that are not clipped. The error against the new state falls until they have forgotten the
+    // old one: taken for each other, the two states would leave a ghost as long, and no settling that can be told.
+    write_text(folder / "step.json", R"({"shots": [{"scene": "stepping_emitter", "resolution": [96, 54], "warm_up": 8,
+        "frames": [29, 30], "change": 30, "repeat": 40, "measure": "last"}], "reference": {"samples": 256},
+        "variants": [{"variant": "amd_sssr", "preset": "corrected",
+                      "parameters": {"max_samples": 12, "min_history_samples": 6, "clip_scale": 100}}],
+        "metrics": "mse", "targets": "specular", "masks": "reflective", "timing": {"frames": 0}})");
+    std::map<std::string, std::optional<double>> lengths;
+    for (const ResultRow& r : read_result_rows(run(read_config(folder / "step.json"), "step") / "results.csv"))
+        if (r.frame == "all") lengths[r.metric] = r.value;
+    for (const char* metric : {"ghost_length", "settling_length"}) {
+        ASSERT_TRUE(lengths[metric]) << metric;
+        EXPECT_GE(*lengths[metric], 2.0) << metric;
+        EXPECT_LE(*lengths[metric], 20.0) << metric;
+    }
+}
+
 TEST_F(Study, SeedsKnowNothingOfEachOther) {
     // A technique with histories: each seed must come out as if it ran alone, from a fresh state. Not with the preset
     // sdk_1_5: its exit of thinly occupied subgroups depends on which rays share one, and so on the order of atomics.
