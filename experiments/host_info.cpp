@@ -58,12 +58,8 @@ nlohmann::json build_info() {
         build = read_json(file);
         if (build.value("code", "") != code) build["dirty"] = true;
     }
-    return {{"version", SSRLAB_VERSION},
-            {"commit", build.at("commit")},
-            {"dirty", build.at("dirty")},
-            {"code", code},
-            {"compiler", SSRLAB_COMPILER},
-            {"build", SSRLAB_BUILD_TYPE}};
+    return {{"version", SSRLAB_VERSION},   {"commit", build.at("commit")}, {"dirty", build.at("dirty")}, {"code", code},
+            {"compiler", SSRLAB_COMPILER}, {"build", SSRLAB_BUILD_TYPE}};
 }
 
 std::string code_hash() {

@@ -115,8 +115,7 @@ void measure_step(Play& play, SeedRun& run, const FrameStep& step, const Composi
 }
 
 void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameStore::Frame& frame) {
-    const Reflections reflections =
-        render_variant(*run.graph, *run.variant, frame.camera, run.seed, frame.gbuffer);
+    const Reflections reflections = render_variant(*run.graph, *run.variant, frame.camera, run.seed, frame.gbuffer);
     if (!step.is_warm_up) {
         const Composite composite = run.compositor->render(frame.gbuffer, reflections);
         const FrameTruth* truth = play.truth.frame(step);

@@ -43,7 +43,8 @@ void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
         warnings.push_back("This study is not finished: some variants or shots may be missing.");
     if (is_true(member(member(manifest, "ssrlab"), "dirty")))
         warnings.push_back(
-            "The program or its shaders are not those of the commit: it does not identify them, `code` in manifest.json "
+            "The program or its shaders are not those of the commit: it does not identify them, `code` in "
+            "manifest.json "
             "does.");
 }
 
@@ -57,7 +58,8 @@ void warn_of_variation(std::vector<std::string>& warnings, const json& variants)
         names += (names.empty() ? "" : ", ") + text(member(v, "point"));
     }
     for (const auto& [what, names] : points)
-        warnings.push_back(what.first + " (" + names + "): results differ from run to run, and their intervals do not " +
+        warnings.push_back(what.first + " (" + names +
+                           "): results differ from run to run, and their intervals do not " +
                            "hold the scatter between runs. The reason: " + ended(what.second));
 }
 

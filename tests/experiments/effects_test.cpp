@@ -70,10 +70,8 @@ TEST(Effects, PairSeedsByTheirNumber) {
 TEST(Effects, AreAdjustedTogetherOverShotsOfOneTarget) {
     std::vector<ResultRow> rows;
     // The scatter over three seeds, and so p, is another for each shot and target.
-    const std::map<std::pair<std::string, std::string>, double> scatters = {{{"a", "specular"}, 1.01},
-                                                                            {{"b", "specular"}, 1.9},
-                                                                            {{"a", "image"}, 1.1},
-                                                                            {{"b", "image"}, 1.4}};
+    const std::map<std::pair<std::string, std::string>, double> scatters = {
+        {{"a", "specular"}, 1.01}, {{"b", "specular"}, 1.9}, {{"a", "image"}, 1.1}, {{"b", "image"}, 1.4}};
     for (const auto& [key, scatter] : scatters)
         for (unsigned seed = 0; seed < 3; ++seed)
             for (const char* point : {"base", "better"}) {
@@ -85,8 +83,7 @@ TEST(Effects, AreAdjustedTogetherOverShotsOfOneTarget) {
     const std::vector<EffectRow> effects = paired_effects(rows, two_points);
     ASSERT_EQ(effects.size(), 4u);
     const auto effect_of = [&](const std::string& shot, const std::string& target) {
-        return *std::ranges::find_if(effects,
-                                     [&](const EffectRow& e) { return e.shot == shot && e.target == target; });
+        return *std::ranges::find_if(effects, [&](const EffectRow& e) { return e.shot == shot && e.target == target; });
     };
     for (const char* target : {"specular", "image"}) {
         const EffectRow sure = effect_of("a", target), unsure = effect_of("b", target);
