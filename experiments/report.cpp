@@ -42,8 +42,9 @@ std::string script_text(const json& value) {
     return escaped;
 }
 
-/// The rows of one metric, `headline` of what is reflected where there is such.
-std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> errors, const PointSet& singles) {
+/// The rows of `metric` of what is reflected; where there are none such, those of the first target, metric and mask.
+std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> errors, const PointSet& singles,
+                                                const std::string& metric) {
     std::vector<const MetricSummary*> rows = rows_for_shots(errors);
     std::erase_if(rows, [&](const MetricSummary* e) { return singles.contains({e->variant, e->point}); });
     const auto narrow = [&](const std::string MetricSummary::*column, const std::string& wanted) {
@@ -52,22 +53,16 @@ std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> e
         std::erase_if(rows, [&](const MetricSummary* e) { return e->*column != chosen; });
     };
     narrow(&MetricSummary::target, "specular");
-    narrow(&MetricSummary::metric, "relmse");
+    narrow(&MetricSummary::metric, metric);
     narrow(&MetricSummary::mask, "reflective");
     return rows;
 }
 
-/// What a reader without scripts gets: the warnings, and the headline error of each shot.
-std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors,
-                        const PointSet& singles) {
-    std::string html =
-        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in the CSV files beside this page.</p>\n";
-    for (const std::string& warning : warnings) html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
-    const std::vector<const MetricSummary*> rows = headline_rows(errors, singles);
-    if (rows.empty()) return html;
+std::string static_table(const std::vector<const MetricSummary*>& rows) {
     const MetricSummary& chosen = *rows.front();
-    html += "<table><caption>" + html_text(chosen.metric + " of target " + chosen.target + " on mask " + chosen.mask) +
-            "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>Low<th>High<th>Floor</tr></thead><tbody>\n";
+    std::string html =
+        "<table><caption>" + html_text(chosen.metric + " of target " + chosen.target + " on mask " + chosen.mask) +
+        "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>Low<th>High<th>Floor</tr></thead><tbody>\n";
     const auto cell = [](const std::optional<double>& value) {
         return "<td>" + (value ? json(*value).dump() : "&ndash;");
     };
@@ -75,6 +70,19 @@ std::string static_part(const std::vector<std::string>& warnings, std::span<cons
         html += "<tr><td>" + html_text(e->shot) + "<td>" + html_text(e->variant) + "<td>" + html_text(e->point) +
                 cell(e->value) + cell(e->low) + cell(e->high) + cell(e->floor) + "</tr>\n";
     return html + "</tbody></table>\n";
+}
+
+/// What a reader without scripts gets: the warnings, and the relative and the absolute error of each shot.
+std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors,
+                        const PointSet& singles) {
+    std::string html =
+        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in the CSV files beside this page.</p>\n";
+    for (const std::string& warning : warnings) html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
+    const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, "relmse"),
+                                            others = headline_rows(errors, singles, "mse");
+    if (!rows.empty()) html += static_table(rows);
+    if (!others.empty() && others.front()->metric != rows.front()->metric) html += static_table(others);
+    return html;
 }
 
 /// Replaces each {{name}} of the template once; what is put in is not searched again.
@@ -109,6 +117,7 @@ void write_report(const std::filesystem::path& folder) {
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
     data["warnings"] = warnings;
+    data["defaults"] = parameter_defaults(manifest);
     std::string script;
     for (const char* name : scripts) script += part(name);
     std::map<std::string, std::string> values = {

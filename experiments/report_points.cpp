@@ -1,5 +1,9 @@
 #include "experiments/report_points.h"
 
+#include "variants/registry.h"
+
+#include <algorithm>
+
 namespace {
 
 using nlohmann::json;
@@ -45,6 +49,15 @@ std::vector<SingleChange> single_changes(const json& manifest, std::span<const E
         }
     }
     return changes;
+}
+
+json parameter_defaults(const json& manifest) {
+    json defaults = json::object();
+    for (const Point& p : read_points(manifest))
+        if (!defaults.contains(p.variant) &&
+            std::ranges::find(variant_table(), p.variant, &VariantEntry::name) != variant_table().end())
+            defaults[p.variant] = make_variant(p.variant)->params.values();
+    return defaults;
 }
 
 PointSet points_of(std::span<const SingleChange> changes) {

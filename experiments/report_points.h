@@ -18,6 +18,10 @@ struct SingleChange {
 /// versions may lack any key: what is not known to be a single change is none.
 std::vector<SingleChange> single_changes(const nlohmann::json& manifest, std::span<const EffectRow> effects);
 
+/// {variant: {parameter: default}} of the manifest's variants, as this build has them; those that it does not know are
+/// left out.
+nlohmann::json parameter_defaults(const nlohmann::json& manifest);
+
 /// (variant, point) of each.
 using PointSet = std::set<std::pair<std::string, std::string>>;
 PointSet points_of(std::span<const SingleChange> changes);

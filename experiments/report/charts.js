@@ -132,12 +132,36 @@ function drawStages() {
                              .sort((a, b) => points.indexOf(pointLabel(a)) - points.indexOf(pointLabel(b)));
     at("stage-table")
         .replaceChildren(
-            floorNote(),
+            floorNote(), formNote(times),
             h("details", {open: variantTimes.length <= longTable}, h("summary", {}, "All stages as numbers"),
               table(columns, variantTimes.map(row), {groupBy: 0})),
             ...(shared.length ?
                     [h("h3", {}, "Shared by all variants: G-buffer and lit colour"), table(columns, shared.map(row))] :
                     []));
+}
+
+/// What was timed: a point's name does not tell which form of a stage ran. Single changes equal their baseline in all
+/// but what their name says.
+function formNote(times) {
+    const isTimed = v => times.some(t => pointKey(t) === pointKey(v));
+    const lines = list(report.manifest.variants)
+                      .filter(v => isTimed(v) && !isSingleChange(v))
+                      .map(v => [pointLabel(v), formText(v)])
+                      .filter(([, text]) => text);
+    if (!lines.length) return "";
+    const items = lines.map(([label, text]) => h("li", {}, h("b", {}, label), ": " + text));
+    return h("div", {class: "note", id: "forms"}, "What was timed:", h("ul", {}, items));
+}
+
+/// The forms a point chose, and what else it changes of its variant's defaults.
+function formText({variant, parameters}) {
+    const entries = Object.entries(parameters ?? {}), defaults = report.defaults[variant];
+    const show = some => some.map(([name, value]) => `${name} = ${JSON.stringify(value)}`).join(", ");
+    const isForm = ([, value]) => typeof value === "string", forms = show(entries.filter(isForm));
+    if (!defaults || !entries.length) return forms;
+    const changed = entries.filter(([name, value]) => name in defaults && defaults[name] !== value);
+    const others = show(changed.filter(e => !isForm(e)));
+    return [forms, others ? `not at its default: ${others}` : "all else at its default"].filter(Boolean).join("; ");
 }
 
 /// How far two interleaved copies of the same point were apart: smaller differences are none.

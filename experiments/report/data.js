@@ -68,6 +68,7 @@ function readData() {
     return {
         manifest: raw.manifest,
         metrics: raw.metrics,
+        defaults: raw.defaults,  // variant to {parameter: value}, of those that this build knows
         warnings: raw.warnings,
         notes: raw.notes,
         images: raw.images,

@@ -70,6 +70,13 @@ function effectGroups(rows) {
     return [...singles, ...wholes].filter(g => g.rows.length);
 }
 
+/// The ratios by the metric that is read beside the chosen one.
+function otherEffects() {
+    const other = otherMetric(effectChoice.metric, effectsShown());
+    return effectsShown().filter(
+        e => e.target === effectChoice.target && metricKey(e) === other && e.mask === effectChoice.mask);
+}
+
 function drawEffects() {
     const isAll = effectChoice.shot === "all shots", shots = effectShots();
     const rows = effectsShown().filter(
@@ -79,25 +86,31 @@ function drawEffects() {
     const scale = effectScale(rows, !isAll);
     const legend = h("div", {class: "legend"}, shots.map((s, i) => legendEntry(i, s)));
     at("effect-legend").replaceChildren(isAll ? legend : "");
-    const cells = isAll ? pooledCells : group => effectCells(group[0]);
+    const others = otherEffects();
+    const isPair = (a, b) => isSamePoint(a, b) && againstLabel(a) === againstLabel(b);
+    const cells = rows => {
+        const other = others.filter(o => rows.some(e => isPair(o, e)));
+        return isAll ? pooledCells(rows, other) : effectCells(rows[0], other[0]);
+    };
+    const columns = (isAll ? pooledColumns : effectColumns)(others[0]?.metric);
     const lines = effectGroups(rows).map(
         g =>
-            [h("div", {class: "change"}, h("b", {}, g.label), g.doc ? h("small", {}, g.doc) : null),
+            [h("div", {class: "change"}, h("b", {}, g.label), g.doc ? h("small", {}, g.doc) : null, repeatNote(g.rows)),
              strip(scale, g.rows.filter(e => e.value !== null).map(e => effectMark(e, shots, isAll))),
              ...cells(g.rows)]);
     const label = `${metricName(effectChoice.metric)}: change / ${effectChoice.against}, logarithmic`;
-    lines.push(["", stripAxis(scale, label), "", "", "", ""]);
-    at("effect-table").replaceChildren(table(isAll ? pooledColumns : effectColumns, lines));
+    lines.push(["", stripAxis(scale, label), ...columns.slice(2).map(() => "")]);
+    at("effect-table").replaceChildren(table(columns, lines));
 }
 
-const pooledColumns = [
-    {name: "Change"}, {name: "Ratio, one mark per shot"}, {name: "Mean ratio", number: true},
-    {name: "Helps", number: true}, {name: "Harms", number: true}, {name: "Shots", number: true}
-];
-const effectColumns = [
-    {name: "Change"}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true}, {name: "p (Holm)", number: true},
-    {name: "Seeds", number: true}, {name: "Result"}
-];
+const otherColumn = (other, text) => other ? [{name: `${other}: ${text}`, number: true}] : [];
+const pooledColumns = other =>
+    [{name: "Change"}, {name: "Ratio, one mark per shot"}, {name: "Mean ratio (range over shots)", number: true},
+     ...otherColumn(other, "mean ratio (range)"), {name: "Helps", number: true}, {name: "Harms", number: true},
+     {name: "Shots", number: true}];
+const effectColumns = other =>
+    [{name: "Change"}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true}, ...otherColumn(other, "ratio [95 %]"),
+     {name: "p (Holm)", number: true}, {name: "Seeds", number: true}, {name: "Result"}];
 
 /// All ratios fit unless a narrower scale is asked for; an interval of few seeds may reach far beyond them and is cut.
 function effectScale(rows, hasIntervals) {
@@ -110,37 +123,73 @@ function effectScale(rows, hasIntervals) {
     return stripScale([...ratios, ...ends], true, 1, 0.02);
 }
 
-const isSignificant = e => e.holm !== null && e.holm < significant;
+/// Why a ratio has no interval though there are seeds enough; null if it has one. Seeds stand for what differs from
+/// run to run only where the same seed gives the same result again.
+function whyNotRepeatable(e) {
+    if (e.low !== null) return null;
+    const reason = (variant, point) =>
+        list(report.manifest.variants).find(v => v.variant === variant && v.point === point)?.not_repeatable;
+    return reason(e.variant, e.point) || reason(e.againstVariant, e.againstPoint) || null;
+}
+
+const isSignificant = e => e.holm !== null && e.holm < significant && !whyNotRepeatable(e);
+
+function repeatNote(rows) {
+    const reasons = unique(rows.map(whyNotRepeatable).filter(Boolean));
+    return reasons.length ? h("small", {class: "not-repeatable"}, "no interval: " + reasons.join("; ")) : null;
+}
 
 function effectMark(e, shots, isAll) {
     return {
         series: isAll ? shots.indexOf(e.shot) : 0,
         row: isAll ? {value: e.value} : e,
         isHollow: !isSignificant(e),
-        tip: `${e.shot}\n${e.point}\n${e.metric} × ${number(e.value)} ${interval(e)}\np (Holm) ${number(e.holm, 2)}, ${
-            e.seeds} seeds`
+        tip: `${e.shot}\n${e.point}\n${e.metric} × ${number(e.value)} ${interval(e)}\n${
+            whyNotRepeatable(e) ?? `p (Holm) ${number(e.holm, 2)}, ${e.seeds} seeds`}`
     };
 }
 
-/// The geometric mean over the shots, and how many shots the change helps or harms beyond chance.
-function pooledCells(rows) {
-    const told = rows.filter(e => e.value > 0), count = f => rows.filter(f).length;
-    const mean = told.length ? Math.exp(told.reduce((sum, e) => sum + Math.log(e.value), 0) / told.length) : null;
-    const helps = count(e => isSignificant(e) && e.value < 1), harms = count(e => isSignificant(e) && e.value > 1);
+/// The geometric mean over the shots with the least and the largest of them: shots are no sample of anything, so it has
+/// no interval.
+function meanCell(rows) {
+    const ratios = rows.map(e => e.value).filter(v => v > 0);
+    if (!ratios.length) return cell(null, "–");
+    const mean = Math.exp(ratios.reduce((sum, v) => sum + Math.log(v), 0) / ratios.length);
+    const range = `(${number(Math.min(...ratios), 3)} to ${number(Math.max(...ratios), 3)})`;
+    return cell(mean, number(mean), " ", h("small", {}, ratios.length > 1 ? range : ""));
+}
+
+/// How many shots the change helps or harms beyond chance.
+function pooledCells(rows, others) {
+    const countCell = n => cell(n, n ? h("b", {}, String(n)) : "0"), count = f => rows.filter(f).length;
+    const told = count(e => e.value > 0);
     return [
-        cell(mean, number(mean)), cell(helps, helps ? h("b", {}, String(helps)) : "0"),
-        cell(harms, harms ? h("b", {}, String(harms)) : "0"), cell(told.length, String(told.length))
+        meanCell(rows), ...(others.length ? [meanCell(others)] : []),
+        countCell(count(e => isSignificant(e) && e.value < 1)), countCell(count(e => isSignificant(e) && e.value > 1)),
+        cell(told, String(told))
     ];
 }
 
-function effectCells(e) {
-    const result = e.value === null                              ? "an error is not above 0" :
+/// Why there is no ratio: no pairs, an error without a value, or one that is 0 or that the reference's noise hides.
+function whyNoRatio(e) {
+    if (!e.seeds) return "no seed in common";
+    const error = (variant, point) => report.errors.find(
+        r => r.shot === e.shot && r.variant === variant && r.point === point && r.target === e.target &&
+            metricKey(r) === metricKey(e) && r.mask === e.mask);
+    const untold = [error(e.variant, e.point), error(e.againstVariant, e.againstPoint)].find(r => r?.value === null);
+    return untold ? `no value for ${untold.point}: ${whyMissing(untold)}` : "an error is not above 0";
+}
+
+function effectCells(e, other) {
+    const result = e.value === null                              ? whyNoRatio(e) :
+        whyNotRepeatable(e)                                      ? "not repeatable: no interval" :
         e.low === e.value && e.high === e.value && e.value === 1 ? "changes nothing" :
         !isSignificant(e)                                        ? "not told from chance" :
         e.value < 1                                              ? `${number(100 * (1 - e.value), 2)} % less error` :
                                                                    `${number(100 * (e.value - 1), 2)} % more error`;
+    const ratioCell = r => cell(r.value, number(r.value), " ", h("small", {}, interval(r)));
     return [
-        cell(e.value, number(e.value), " ", h("small", {}, interval(e))), cell(e.holm, number(e.holm, 2)),
-        cell(e.seeds, String(e.seeds)), isSignificant(e) ? h("b", {}, result) : result
+        ratioCell(e), ...(otherEffects().length ? [other ? ratioCell(other) : "–"] : []),
+        cell(e.holm, number(e.holm, 2)), cell(e.seeds, String(e.seeds)), isSignificant(e) ? h("b", {}, result) : result
     ];
 }

@@ -1,4 +1,5 @@
-// All shots at a glance: the chosen error of every point. A short table is its own overview.
+// All shots at a glance: the chosen error of every point, and the one that is read beside it. A short table is its own
+// overview.
 
 const longTable = 20;  // rows
 
@@ -6,7 +7,14 @@ function showOverview() {
     const rows = chosenRows().filter(r => r.value !== null);
     at("overview").hidden = rows.length <= longTable;
     if (at("overview").hidden) return;
-    const name = choice.metric.split("|")[0], isLog = better(name) === "lower";
+    const others = otherRows().filter(r => r.value !== null);
+    at("overview").replaceChildren(pointLegend(), ...[rows, others].filter(own => own.length).map(own => {
+        return h("div", {class: "scroll strips"}, overviewTable(own));
+    }));
+}
+
+function overviewTable(rows) {
+    const name = rows[0].metric, isLog = better(name) === "lower";
     const reference = {near_zero: 0, near_one: 1}[better(name)] ?? null;
     const shown = chartedRows(rows);
     const scale = stripScale(shown.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value]), isLog, reference);
@@ -26,8 +34,8 @@ function showOverview() {
     });
     const label = `${name}${unitText(name)} of ${choice.target}, ${choice.mask} pixels${isLog ? ", logarithmic" : ""}`;
     lines.push(["", stripAxis(scale, label), ...charted.map(() => "")]);
-    const columns = [{name: "Shot"}, {name: "95 % intervals"}, ...charted.map(name => ({name, number: true}))];
-    at("overview").replaceChildren(pointLegend(), h("div", {class: "scroll strips"}, table(columns, lines)));
+    const columns = [{name: "Shot"}, {name: `${name}, 95 % intervals`}, ...charted.map(name => ({name, number: true}))];
+    return table(columns, lines);
 }
 
 const overviewCell = (row, best) => row ? h(best.has(row) ? "b" : "span", {}, number(row.value, 3)) : "–";

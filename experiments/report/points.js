@@ -24,10 +24,22 @@ function pointLegend() {
 
 const headlineMetric = rows =>
     preferred(unique(rows.map(metricKey)), unique(rows.map(metricKey)).find(m => m.startsWith("relmse|")));
+/// The metric that is read beside it: relative errors weigh dark places, absolute ones bright places, and either can
+/// hide how large a gain is. Undefined if `rows` have none.
+const otherMetric = (key, rows) => {
+    const other = {relmse: "mse", mse: "relmse"}[key.split("|")[0]];
+    return unique(rows.map(metricKey)).find(k => other && k.startsWith(other + "|"));
+};
 const metricName = key => {
     const [metric, formula] = key.split("|");
     return metric === formula || !formula ? metric : `${metric} (${formula})`;
 };
+/// Which frames a row of errors speaks for; empty for a shot of one frame.
+function framesText(row) {
+    const frames = list(manifestShots().find(s => s.shot === row.shot)?.frames);
+    if (frames.length < 2) return "";
+    return row.frame === "all" ? "mean over frames" : `frame ${row.frame} alone`;
+}
 const unitText = metric => {
     const unit = report.metrics[metric]?.unit;
     return unit && unit !== "1" ? ` (${unit.replace("^2", "²")})` : "";

@@ -47,5 +47,14 @@ function roughnessChart(shot, rows, isLog, yLabel) {
                             }))
         };
     });
-    return lineChart({title: shot, xLabel: "perceptual roughness", yLabel, ticks, lines, isLog, spread: true});
+    const frames = unique(rows.map(framesText)).filter(Boolean).join("; ");
+    return lineChart({
+        title: frames ? `${shot}: ${frames}` : shot,
+        xLabel: "perceptual roughness",
+        yLabel,
+        ticks,
+        lines,
+        isLog,
+        spread: true
+    });
 }

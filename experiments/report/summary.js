@@ -12,9 +12,12 @@ const better = metric => report.metrics[metric]?.better;
 const metricKey = row => `${row.metric}|${row.formula}`;
 const totalTime = row => report.times.find(
     t => t.shot === row.shot && t.variant === row.variant && t.point === row.point && t.stage === "total");
-const chosenRows = () => report.errors.filter(
-    r => r.target === choice.target && metricKey(r) === choice.metric && r.mask === choice.mask &&
+const rowsOfMetric = metric => report.errors.filter(
+    r => r.target === choice.target && metricKey(r) === metric && r.mask === choice.mask &&
         (choice.hasSingleChanges || !isSingleChange(r)));
+const chosenRows = () => rowsOfMetric(choice.metric);
+const otherRows = () => rowsOfMetric(otherMetric(choice.metric, report.errors));
+const isSamePoint = (a, b) => a.shot === b.shot && pointKey(a) === pointKey(b);
 
 /// The value if it is present, else the first one.
 const preferred = (values, value) => values.includes(value) ? value : values[0];
@@ -104,10 +107,12 @@ function valueCell(row, isBest) {
         h("small", {}, [interval(row), ...notes].join(" ")));
 }
 
-function summaryRow(row, rows, best) {
-    const ratio = againstNone(row, rows), time = totalTime(row);
+function summaryRow(row, rows, best, others, otherBest) {
+    const ratio = againstNone(row, rows), time = totalTime(row), other = others.find(o => isSamePoint(o, row));
     return [
-        row.shot, row.variant, row.point, valueCell(row, best.has(row)), cell(row.floor, number(row.floor)),
+        row.shot, row.variant, row.point, valueCell(row, best.has(row)),
+        ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
+        cell(row.floor, number(row.floor)),
         cell(
             ratio?.value ?? null, ratio ? number(ratio.value, 3) : "", " ",
             h("small", {}, ratio ? interval({low: ratio.low, high: ratio.high}) : "")),
@@ -121,16 +126,17 @@ function summaryRow(row, rows, best) {
 }
 
 function showSummary() {
-    const rows = chosenRows();
-    const best = clearlyBestRows(rows);
+    const rows = chosenRows(), others = otherRows();
+    const best = clearlyBestRows(rows), otherBest = clearlyBestRows(others);
     const name = choice.metric.split("|")[0];
     const columns = [
         {name: "Shot"}, {name: "Variant"}, {name: "Point"}, {name: name, number: true},
-        {name: "Noise floor", number: true}, {name: "× none", number: true}, {name: "Total ms", number: true},
-        {name: "Seeds", number: true}, {name: "Pixels", number: true},
-        ...(rows.some(r => r.nonFinite) ? [{name: "Non-finite", number: true}] : [])
+        ...(others.length ? [{name: others[0].metric, number: true}] : []), {name: "Noise floor", number: true},
+        {name: "× none", number: true}, {name: "Total ms", number: true}, {name: "Seeds", number: true},
+        {name: "Pixels", number: true}, ...(rows.some(r => r.nonFinite) ? [{name: "Non-finite", number: true}] : [])
     ];
-    const whole = table(columns, rows.map(r => summaryRow(r, rows, best)), {sortable: true, groupBy: 0});
+    const whole =
+        table(columns, rows.map(r => summaryRow(r, rows, best, others, otherBest)), {sortable: true, groupBy: 0});
     const isOpen = at("summary").querySelector("details")?.open || choice.hasSingleChanges;
     const title = `All ${rows.length} values, with noise floors, times and seeds`;
     at("summary").replaceChildren(
@@ -148,6 +154,9 @@ function showSummary() {
         "The reference's noise cannot be subtracted from this metric: compare with the noise floor.";
     at("summary-note").textContent = [
         about?.doc && about.doc + ".", direction, corrected,
+        others.length &&
+            `${others[0].metric} stands beside it: relative errors weigh dark places, absolute ones bright places. ` +
+                `Noise floor and × none are those of ${name}.`,
         "Brackets: 95 % interval. ± after the seeds: their standard deviation."
     ].filter(Boolean).join(" ").replaceAll("..", ".");
 }

@@ -61,7 +61,7 @@ function temporalTable({title, metrics, hasDisoccluded}, all) {
                           return own.length ?
                               [
                                   shot, point, ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
-                                  ...(disoccluded.length ? [temporalCell(disoccluded.find(isOwn))] : [])
+                                  ...(disoccluded.length ? [disoccludedCell(disoccluded.find(isOwn))] : [])
                               ] :
                               null;
                       }))
@@ -78,6 +78,9 @@ function temporalCell(row) {
     if (row.value === null) return cell(null, h("small", {}, whyMissing(row)));
     return cell(row.value, number(row.value), " ", h("small", {}, interval(row)));
 }
+
+/// A shot may have no pixel under a mask.
+const disoccludedCell = row => row?.pixels ? temporalCell(row) : cell(null, h("small", {}, "no such pixel"));
 
 /// The reason, from the manifest's notes: "<shot>: <variant> <point>: no <metric>: <reason> (<masks>)".
 function whyMissing(row) {

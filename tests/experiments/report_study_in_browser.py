@@ -13,6 +13,7 @@ import tempfile
 from report_browser import By, Select, check, equal, open_browser
 from selenium.webdriver.support.ui import WebDriverWait
 
+RACING = "first race=true"
 STEP, MOVING = "step.main.160x90.f29-44.w8", "moving.main.160x90.f3-6.w4"
 
 
@@ -53,7 +54,17 @@ def test_results(page, folder):
     shown = table_of(page, "#summary")
     compared = [r for r in speaking if not is_single_change(r)]
     equal([float(c[3][1]) for c in shown], [float(r["value"]) for r in compared], "the table of results")
-    equal(values(page, "#overview .point"), [float(r["value"]) for r in compared], "the overview")
+    absolute = [
+        r
+        for r in rows_of(folder, "summary.csv", target="specular", metric="mse", mask="reflective")
+        if not is_single_change(r)
+    ]
+    equal([float(c[4][1]) for c in shown], [float(r["value"]) for r in absolute], "the absolute errors beside them")
+    intervals = page.execute_script(
+        "return [...document.querySelectorAll('#summary tbody tr')].map(r => r.cells[4].textContent.includes('['))"
+    )
+    check(all(intervals) and intervals, f"absolute errors have intervals: {intervals}")
+    equal(values(page, "#overview .point"), [float(r["value"]) for r in compared + absolute], "the overview")
     page.find_element(By.ID, "single-changes").click()
     equal(
         [float(c[3][1]) for c in table_of(page, "#summary")],
@@ -80,6 +91,16 @@ def test_roughness(page, folder):
     equal(values(page, "#roughness .point"), expected, "errors and biases by roughness")
     titles = page.execute_script("return [...document.querySelectorAll('#roughness h3')].map(t => t.innerText)")
     equal(len(titles), 2, f"charts of error and of bias: {titles}")
+    captions = page.execute_script(
+        "return [...document.querySelectorAll('#roughness figcaption')].map(c => c.innerText)"
+    )
+    for shot, last in ((MOVING, "6"), (STEP, "44")):
+        equal(
+            [c for c in captions if shot in c],
+            [f"{shot}: mean over frames", f"{shot}: frame {last} alone"],
+            "which frames the charts of errors and of biases show",
+        )
+    check(all("frame" not in c for c in captions if "still" in c), f"frames of shots of one frame: {captions}")
 
 
 def test_splits(page, folder):
@@ -115,63 +136,98 @@ def test_stages(page):
     text = page.find_element(By.ID, "stage-table").text
     for part in ("1.12 % (sssr · first, 6.2 ms)", "A/A floor of the study: 2 %"):
         check(part in text, f"the A/A floor: {text!r}")
+    equal(page.find_element(By.ID, "forms").text.split("\n")[1:], ['sssr · first: form = "fast"'], "what was timed")
     check(
         page.execute_script("return document.querySelector('#stage-table details').open"), "11 rows need not be folded"
     )
 
 
+def mean_ratio(rows, point):
+    ratios = [float(r["ratio"]) for r in rows if r["point"] == point]
+    return math.exp(sum(math.log(r) for r in ratios) / len(ratios)), min(ratios), max(ratios)
+
+
 def test_effects(page, folder):
-    rows = rows_of(
-        folder,
-        "effects.csv",
-        target="specular",
-        metric="relmse",
-        mask="reflective",
-        against_point="first",
-        variant="sssr",
+    relative, absolute = (
+        rows_of(
+            folder,
+            "effects.csv",
+            target="specular",
+            metric=metric,
+            mask="reflective",
+            against_point="first",
+            variant="sssr",
+        )
+        for metric in ("relmse", "mse")
     )
-    points = ["first float_histories=true", "first round_up_tiles=true", "mended"]
+    rows = relative
+    points = ["first float_histories=true", "first round_up_tiles=true", RACING, "mended"]
     shown = table_of(page, "#effect-table")[:-1]
     equal(
         [c[0][0].split("\n")[0] for c in shown],
-        ["float_histories = true", "round_up_tiles = true", "sssr · mended"],
+        ["float_histories = true", "round_up_tiles = true", "race = true", "sssr · mended"],
         "changes",
     )
     equal(shown[0][0][0].split("\n")[1], "keeps <b>32</b> bits & drifts less", "what the parameter means, as text")
     for cells, point in zip(shown, points):
-        ratios = [float(r["ratio"]) for r in rows if r["point"] == point]
-        mean = math.exp(sum(math.log(r) for r in ratios) / len(ratios))
-        check(abs(float(cells[2][1]) - mean) < 1e-12 * mean, f"mean ratio of {point}: {cells[2]}, expected {mean}")
+        for cell, ratios in ((cells[2], relative), (cells[3], absolute)):
+            mean, least, largest = mean_ratio(ratios, point)
+            check(abs(float(cell[1]) - mean) < 1e-12 * mean, f"mean ratio of {point}: {cell}, expected {mean}")
+            shown_range = [float(x) for x in cell[0].split("(")[1].rstrip(")").split(" to ")]
+            check(  # three digits are shown
+                all(abs(a - b) <= 5.1e-3 * b for a, b in zip(shown_range, (least, largest))),
+                f"range over shots of {point}: {cell[0]}, expected {least} to {largest}",
+            )
         helped = [
             r
             for r in rows
             if r["point"] == point and r["p_holm"] and float(r["p_holm"]) < 0.05 and float(r["ratio"]) < 1
         ]
-        equal([int(cells[i][1]) for i in (3, 4, 5)], [len(helped), 0, 7], f"shots that {point} helps, harms, and all")
+        equal([int(cells[i][1]) for i in (4, 5, 6)], [len(helped), 0, 7], f"shots that {point} helps, harms, and all")
     choose(page, "effects", "Shot", STEP)
     for cells, point in zip(table_of(page, "#effect-table"), points):
         row = next(r for r in rows if r["point"] == point and r["shot"] == STEP)
         equal(float(cells[2][1]), float(row["ratio"]), f"ratio of {point}")
-        equal(cells[3][1], "null" if not row["p_holm"] else cells[3][1], "p")
+        other = next(r for r in absolute if r["point"] == point and r["shot"] == STEP)
+        equal(float(cells[3][1]), float(other["ratio"]), f"ratio of absolute errors of {point}")
+        equal("[" in cells[2][0], row["low"] != "", f"whether the ratio of {point} has an interval")
+        equal(cells[4][1] == "null", row["p_holm"] == "", f"whether {point} has a p")
         is_significant = row["p_holm"] and float(row["p_holm"]) < 0.05
-        result = "less error" if is_significant else "changes nothing"
-        check(result in cells[5][0], f"result of {point}: {cells[5][0]!r}, expected {result!r}")
+        result = "not repeatable" if point == RACING else "less error" if is_significant else "changes nothing"
+        check(result in cells[6][0], f"result of {point}: {cells[6][0]!r}, expected {result!r}")
     marks = values(page, "#effect-table .point")
     equal(
         marks,
         [float(r["ratio"]) for p in points for r in rows if r["point"] == p and r["shot"] == STEP],
         "marks of a shot",
     )
+    racing = page.execute_script(
+        """const row = document.querySelectorAll('#effect-table tbody tr')[arguments[0]];
+        const mark = row.querySelector('.point');
+        return [mark.querySelectorAll('path').length, mark.querySelector('[fill]').getAttribute('fill'),
+            row.querySelector('.not-repeatable').textContent, mark.getAttribute('aria-label').includes('it races')]""",
+        points.index(RACING),
+    )
+    equal(racing, [0, "var(--card)", "no interval: it races", True], "a hollow mark without interval, and why")
     choose(page, "effects", "Scale", "0.91 to 1.1")
     arrows = page.execute_script(
         "return [...document.querySelectorAll('#effect-table .point text')].map(t => t.textContent)"
     )
-    equal(arrows, ["◀", "◀"], "ratios beyond the scale")
+    equal(arrows, ["◀"] * 3, "ratios beyond the scale")
+    for metric, point, reason in (
+        ("settling_length", "sssr · mended", "no value for mended: not within the first half of 15 frames"),
+        ("ghost_length", "round_up_tiles = true", "an error is not above 0"),
+    ):
+        options = page.find_elements(By.XPATH, "//section[@id='effects']//label[starts-with(., 'Metric')]//option")
+        choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith(metric)))
+        row = next(c for c in table_of(page, "#effect-table") if c[0][0].split("\n")[0] == point)
+        equal(row[-1][0], reason, f"why {point} has no ratio of {metric}")
 
 
 def test_temporal(page, folder):
     text = page.find_element(By.ID, "temporal-tables").text
     check("not within the first half of 15 frames" in text, f"why a value is missing: {text}")
+    equal(text.count("no such pixel"), 3, "points of the shot that has no disoccluded pixel")
     for metric in ("flicker_relative", "frame_difference_relative", "ghost_length"):
         rows = [r for r in rows_of(folder, "summary.csv", metric=metric) if not is_single_change(r)]
         shown = page.execute_script(

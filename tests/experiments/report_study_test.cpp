@@ -30,13 +30,25 @@ TEST_F(StudyReport, TellsSingleChangesFromPresets) {
     const auto manifest = read_json(folder / "manifest.json");
     const ReportTables tables = read_report_tables(folder);
     const std::vector<SingleChange> changes = single_changes(manifest, tables.effects);
-    ASSERT_EQ(changes.size(), 2u);
+    ASSERT_EQ(changes.size(), 3u);
     EXPECT_EQ(changes[0].point, "first float_histories=true");
     EXPECT_EQ(changes[0].parameter, "float_histories");
     EXPECT_EQ(changes[0].value, true);
     EXPECT_EQ(changes[1].parameter, "round_up_tiles");
     EXPECT_TRUE(single_changes(manifest, {}).empty());  // without a baseline nothing is a change of one
     EXPECT_TRUE(single_changes(nlohmann::json::object(), tables.effects).empty());
+}
+
+TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredVariants) {
+    const nlohmann::json manifest = {
+        {"variants",
+         {{{"variant", "amd_sssr"}, {"point", "slides"}, {"parameters", {{"march", "slides"}}}},
+          {{"variant", "of another build"}, {"point", "default"}, {"parameters", nlohmann::json::object()}}}}};
+    const nlohmann::json defaults = parameter_defaults(manifest);
+    ASSERT_EQ(defaults.size(), 1u);
+    EXPECT_EQ(defaults["amd_sssr"]["denoiser_form"], "fast");
+    EXPECT_EQ(defaults["amd_sssr"]["march"], "sdk");
+    EXPECT_TRUE(parameter_defaults(nlohmann::json::object()).empty());
 }
 
 TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
@@ -48,8 +60,8 @@ TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
         EXPECT_EQ(e->frame, has_frames ? "all" : "0") << e->shot;
         ++(has_frames ? over_frames : of_last);
     }
-    EXPECT_EQ(over_frames, 2u * 5u);
-    EXPECT_EQ(of_last, 5u * 5u);
+    EXPECT_EQ(over_frames, 2u * 6u);
+    EXPECT_EQ(of_last, 5u * 6u);
 }
 
 TEST_F(StudyReport, CarriesEachFrameOfPresetsAlone) {
@@ -57,7 +69,7 @@ TEST_F(StudyReport, CarriesEachFrameOfPresetsAlone) {
     const auto changes = single_changes(read_json(folder / "manifest.json"), tables.effects);
     const nlohmann::json data = report_data(tables, changes);
     EXPECT_EQ(data["effects"].size(), tables.effects.size());
-    EXPECT_EQ(data["splits"].size(), 7u * 4u);
+    EXPECT_EQ(data["splits"].size(), 7u * 5u);
     size_t frames = 0;
     for (const auto& row : data["frames"]) {
         const std::string point = data["texts"][row[2].get<size_t>()];
@@ -82,5 +94,5 @@ TEST_F(StudyReport, ShowsReadersWithoutScriptsPresetsAlone) {
     EXPECT_EQ(part.find("float_histories=true"), std::string::npos);
     size_t rows = 0;
     for (size_t at = 0; (at = part.find("<tr><td>", at)) != std::string::npos; ++at) ++rows;
-    EXPECT_EQ(rows, 7u * 3u);
+    EXPECT_EQ(rows, 2u * 7u * 3u);  // of the relative and of the absolute error
 }
