@@ -121,6 +121,17 @@ class Results:
     def shots(self):
         return list(dict.fromkeys(row["shot"] for row in self.errors))
 
+    def frames_text(self, rows):
+        """Which frames rows of one shot speak for, one text each; empty for a shot of one frame."""
+        frames = next(
+            (s.get("frames") or [] for s in self.manifest.get("shots", []) if s.get("shot") == rows[0]["shot"]), []
+        )
+        if len(frames) < 2:
+            return []
+        return list(
+            dict.fromkeys("mean over frames" if r["frame"] == "all" else f"frame {r['frame']} alone" for r in rows)
+        )
+
     def headline_metric(self):
         found = list(dict.fromkeys(r["metric"] for r in self.errors))
         return "relmse" if "relmse" in found or not found else found[0]

@@ -37,7 +37,7 @@ def _draw(results, target, metric, is_log):
         axes.set_xticks(range(len(masks)), texts, rotation=30, ha="right", rotation_mode="anchor")
         axes.set_xlim(-0.6, len(masks) - 0.4)
         axes.grid(axis="x", visible=False)
-        axes.set_title(style.shot_title(shot))
+        axes.set_title("\n".join([style.shot_title(shot), *results.frames_text(own)]))
         axes.set_ylabel(f"{metric}, {target}" + ("" if is_log else " (radiance)"))
         axes.set_xlabel("perceptual roughness")
     style.draw_legend(legend, panels, [label(*k) for k in results.points()])
