@@ -153,7 +153,8 @@ TEST(Effects, OfWhatVariesFromRunToRunAreRatiosAlone) {
             const bool can_tell = e.point == "third" && varies == std::string("better");
             for (const auto& number : {e.low, e.high, e.p, e.p_holm})
                 EXPECT_EQ(number.has_value(), can_tell) << e.point << " while " << varies << " varies";
-            if (can_tell) EXPECT_EQ(e.p_holm, e.p) << "the other is not of its family";
+            if (!can_tell) continue;
+            EXPECT_EQ(e.p_holm, e.p) << "the other is not of its family";
         }
     }
 }
