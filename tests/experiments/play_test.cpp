@@ -5,7 +5,7 @@
 #include "experiments/frame_source.h"
 #include "tests/experiments/study_fixture.h"
 
-TEST_F(Study, AHeldPoseDoesNotFlickerAndHasOneReference) {
+TEST_F(StudyTest, AHeldPoseDoesNotFlickerAndHasOneReference) {
     const std::string shot = R"({"scene": "passing_pillars", "resolution": [96, 54])";
     const std::string rest =
         R"(], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}})";
@@ -32,7 +32,7 @@ TEST_F(Study, AHeldPoseDoesNotFlickerAndHasOneReference) {
     EXPECT_EQ(equal, once.size()) << "a technique without a history measures the same after a warm-up";
 }
 
-TEST_F(Study, EachFrameIsMeasuredAgainstItsOwnTruth) {
+TEST_F(StudyTest, EachFrameIsMeasuredAgainstItsOwnTruth) {
     const std::string shot = R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": )";
     const std::string rest =
         R"(}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": "mse", "timing": {"frames": 0}})";
@@ -64,7 +64,7 @@ TEST_F(Study, EachFrameIsMeasuredAgainstItsOwnTruth) {
     }
 }
 
-TEST_F(Study, AStepGhostsOnlyWhereSomethingRemembers) {
+TEST_F(StudyTest, AStepGhostsOnlyWhereSomethingRemembers) {
     const std::string shot = R"({"shots": [{"scene": "stepping_emitter", "resolution": [96, 54], "frames": )";
     const std::string rest =
         R"("change": 30, "repeat": 12}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "timing": {"frames": 0}})";
@@ -84,7 +84,7 @@ TEST_F(Study, AStepGhostsOnlyWhereSomethingRemembers) {
     EXPECT_THROW(run(moves, "moves"), Error);
 }
 
-TEST_F(Study, AHistoryGhosts) {
+TEST_F(StudyTest, AHistoryGhosts) {
     // Histories of 12 frames that are not clipped. The error against the new state falls until they have forgotten the
     // old one: taken for each other, the two states would leave a ghost as long, and no settling that can be told.
     write_text(folder / "step.json", R"({"shots": [{"scene": "stepping_emitter", "resolution": [96, 54], "warm_up": 8,
@@ -102,7 +102,7 @@ TEST_F(Study, AHistoryGhosts) {
     }
 }
 
-TEST_F(Study, SeedsKnowNothingOfEachOther) {
+TEST_F(StudyTest, SeedsKnowNothingOfEachOther) {
     // A technique with histories: each seed must come out as if it ran alone, from a fresh state. Not with the preset
     // sdk_1_5: its exit of thinly occupied subgroups depends on which rays share one, and so on the order of atomics.
     const std::string shot =
@@ -127,7 +127,7 @@ TEST_F(Study, SeedsKnowNothingOfEachOther) {
     EXPECT_GT(different, 0u) << "seeds must matter, or this test shows nothing";
 }
 
-TEST_F(Study, StoredFramesAreThoseThatAreRendered) {
+TEST_F(StudyTest, StoredFramesAreThoseThatAreRendered) {
     Device device;
     Config config;
     config.direct_lit = true;

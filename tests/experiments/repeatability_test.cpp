@@ -29,7 +29,7 @@ TEST(Repeatability, IsWhatTheOrderOfThreadsCannotChange) {
     EXPECT_EQ(make_variant("mcguire_dda")->not_repeatable(), "");
 }
 
-TEST_F(Study, SaysWhichPointsDifferFromRunToRun) {
+TEST_F(StudyTest, SaysWhichPointsDifferFromRunToRun) {
     write_text(folder / "study.json", R"({"shots": [{"scene": "mirror_pillars", "resolution": [64, 36]}],
         "reference": {"samples": 16}, "metrics": "mse", "targets": "specular", "masks": "reflective", "seeds": 2, "timing": {"frames": 0},
         "variants": [{"variant": "mcguire_dda", "baseline": true},

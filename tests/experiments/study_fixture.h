@@ -9,7 +9,7 @@
 namespace fs = std::filesystem;
 
 /// A temporary folder with a cache, in which small studies run.
-struct Study : testing::Test {
+struct StudyTest : testing::Test {
     fs::path folder =
         fs::temp_directory_path() /
         ("ssrlab_study_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));

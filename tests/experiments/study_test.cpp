@@ -18,7 +18,7 @@ double value_of(const std::vector<ResultRow>& rows, const std::string& variant, 
 
 }  // namespace
 
-TEST_F(Study, RepeatsItselfAndContinues) {
+TEST_F(StudyTest, RepeatsItselfAndContinues) {
     const Config study = config(R"(["mirror_pillars", "floating_holes"])");
     const std::string first = read_text(run(study, "a") / "results.csv");
     EXPECT_EQ(read_text(run(study, "b") / "results.csv"), first);
@@ -33,13 +33,13 @@ TEST_F(Study, RepeatsItselfAndContinues) {
     EXPECT_TRUE(fs::exists(folder / "a/report.html"));
 }
 
-TEST_F(Study, LinearTracingBeatsNothingOnMirrors) {
+TEST_F(StudyTest, LinearTracingBeatsNothingOnMirrors) {
     const auto rows = read_result_rows(run(config(R"("mirror_pillars")"), "a") / "results.csv");
     EXPECT_LT(value_of(rows, "mcguire_dda", "mse", "reflective"), 0.5 * value_of(rows, "none", "mse", "reflective"));
     for (const ResultRow& r : rows) EXPECT_EQ(r.non_finite, 0u);
 }
 
-TEST_F(Study, LeavingOutChangesNothing) {
+TEST_F(StudyTest, LeavingOutChangesNothing) {
     const Config study = config(R"(["all_rough", "sky_only", "fence"])");
     const auto lean = read_result_rows(run(study, "lean") / "results.csv"),
                all = read_result_rows(run(study, "all", true) / "results.csv");
@@ -66,7 +66,7 @@ TEST_F(Study, LeavingOutChangesNothing) {
     }
 }
 
-TEST_F(Study, SkyIsExact) {
+TEST_F(StudyTest, SkyIsExact) {
     const auto rows = read_result_rows(run(config(R"("sky_only")"), "a") / "results.csv");
     ASSERT_FALSE(rows.empty());
     for (const ResultRow& r : rows) {
@@ -75,7 +75,7 @@ TEST_F(Study, SkyIsExact) {
     }
 }
 
-TEST_F(Study, ProcessesShareAFolder) {
+TEST_F(StudyTest, ProcessesShareAFolder) {
     const Config study = config(R"(["mirror_pillars", "fence"])", R"(, "title": "shared")");
     const std::string alone = read_text(run(study, "alone") / "results.csv");
     const std::string command = "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() +
@@ -91,7 +91,7 @@ TEST_F(Study, ProcessesShareAFolder) {
     EXPECT_EQ(cells, 6u) << "two shots of two points, and the times of each";
 }
 
-TEST_F(Study, ANewReferenceMakesNewCells) {
+TEST_F(StudyTest, ANewReferenceMakesNewCells) {
     // The same request may be answered by other pixels: where a time limit stops it, or a file was replaced.
     const Config study = config(R"("fence")");
     run(study, "a");
@@ -109,7 +109,7 @@ TEST_F(Study, ANewReferenceMakesNewCells) {
     EXPECT_EQ(count(), 2 * before);
 }
 
-TEST_F(Study, OtherSeedsMakeNewCells) {
+TEST_F(StudyTest, OtherSeedsMakeNewCells) {
     Config study = config(R"("fence")");
     for (const unsigned seed : {0, 7}) {
         for (VariantConfig& variant : study.variants) variant.seeds = {seed};
@@ -119,7 +119,7 @@ TEST_F(Study, OtherSeedsMakeNewCells) {
     }
 }
 
-TEST_F(Study, TimesEveryStageByTheProvenClock) {
+TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
     Config study = config(R"("fence")");
     study.timing = {.frames = 15, .warm_up = 2};
     const fs::path out = run(study, "a");
@@ -135,7 +135,7 @@ TEST_F(Study, TimesEveryStageByTheProvenClock) {
     EXPECT_GT(clock["empty_submit_ms"].get<double>(), 0.0);
 }
 
-TEST_F(Study, ACaptureIsMeasuredAsItsScene) {
+TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
     // The G-buffer and the reference of a scene, saved and loaded back in its place, must give the same numbers.
     const std::string common =
         "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() + "' '" SSRLAB_PROGRAM "' ";
