@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "metrics/ghost.h"
 #include "metrics/masks.h"
 #include "metrics/metric.h"
 #include "variants/registry.h"
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int max_side = 16384;  // pixels; what Vulkan devices commonly allow for an image
 constexpr unsigned max_frames = 100000, max_seed = 100000;
-constexpr size_t min_frames_after_change = 8;  // of ghost_scores()
 
 const std::vector<std::string> all_targets = {"specular", "image", "incident"};
 
@@ -116,9 +116,9 @@ void read_timeline(JsonObject& shot, ShotConfig& config) {
     const size_t after =
         size_t(std::ranges::count_if(config.frames, [&](unsigned frame) { return frame >= *config.change; })) +
         config.repeat - 1;
-    if (after < min_frames_after_change)
+    if (after < least_ghost_frames)
         fail(shot.where(), ": 'change' = ", *config.change, " is followed by ", after, " frames; at least ",
-             min_frames_after_change, " must show how it fades: add 'frames', or a 'repeat' of the last");
+             least_ghost_frames, " must show how it fades: add 'frames', or a 'repeat' of the last");
 }
 
 /// scene x camera; frames stay together, since a history runs through them.
@@ -184,7 +184,8 @@ std::vector<nlohmann::json> single_changes(nlohmann::json axes, const ParameterS
     if (axes.empty()) fail(where, ": 'each' is empty; name parameters with the values to try");
     for (const Parameter& parameter : declared)
         if (axes.contains(parameter.name)) add(parameter.name), axes.erase(parameter.name);
-    for (const auto& [name, values] : axes.items()) points.push_back({{name, values}});  // unknown: refused by the variant
+    for (const auto& [name, values] : axes.items())
+        points.push_back({{name, values}});  // unknown: refused by the variant
     return points;
 }
 
@@ -194,7 +195,8 @@ std::vector<nlohmann::json> read_points(JsonObject& entry, const std::string& va
             fail(entry.where(), ": '", key, "' must be an object, not ", entry.any(key).dump());
     if (entry.has("sweep") && entry.has("each"))
         fail(entry.where(), ": 'sweep' and 'each' exclude one another; write two entries");
-    if (entry.has("each")) return single_changes(entry.any("each"), make_checked(entry, variant)->params, entry.where());
+    if (entry.has("each"))
+        return single_changes(entry.any("each"), make_checked(entry, variant)->params, entry.where());
     return grid_points(entry.has("sweep") ? entry.any("sweep") : nlohmann::json::object(), entry.where());
 }
 
@@ -203,8 +205,7 @@ void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, st
     make_checked(entry, name);
     const std::vector<std::string> presets = one_or_more(entry, "preset", "");
     const nlohmann::json parameters = entry.has("parameters") ? entry.any("parameters") : nlohmann::json::object();
-    if (!parameters.is_object())
-        fail(entry.where(), ": 'parameters' must be an object, not ", parameters.dump());
+    if (!parameters.is_object()) fail(entry.where(), ": 'parameters' must be an object, not ", parameters.dump());
     const std::vector<nlohmann::json> points = read_points(entry, name);
     const std::vector<unsigned> seeds = numbers(entry, "seeds", max_seed, study_seeds);
     const bool is_baseline = entry.boolean("baseline", false), is_timed = entry.boolean("timing", true);

@@ -22,9 +22,10 @@ std::string cell_hash(const Study& study, const ShotRun& run, const std::string&
         hash.add(list.size());
         for (const std::string& name : list) hash.add(name);
     }
-    for (const auto& list : {shot.frames,
-                             seeds,
-                             {shot.warm_up, shot.repeat, shot.change.value_or(0), unsigned(shot.measures_last_only), shot.measure_from}}) {
+    for (const auto& list :
+         {shot.frames,
+          seeds,
+          {shot.warm_up, shot.repeat, shot.change.value_or(0), unsigned(shot.measures_last_only), shot.measure_from}}) {
         hash.add(list.size());
         for (const unsigned number : list) hash.add(number);
     }

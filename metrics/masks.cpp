@@ -99,6 +99,14 @@ std::optional<float> take_edge(std::string_view& text) {
     return edge;
 }
 
+std::vector<uint8_t> disoccluded_reflective(const MaskInputs& inputs) {
+    std::vector<uint8_t> inside = disoccluded(inputs.view_depth, inputs.normal, inputs.material_id, *inputs.previous);
+    const std::vector<uint8_t> reflective =
+        inside_pixels(inputs.view_depth.extent, [&](glm::uvec2 p) { return is_inside("reflective", inputs, p); });
+    for (size_t i = 0; i < inside.size(); ++i) inside[i] = inside[i] && reflective[i];
+    return inside;
+}
+
 }  // namespace
 
 std::optional<RoughnessClass> roughness_class(const std::string& name) {
@@ -124,18 +132,6 @@ void check_mask_name(const std::string& name) {
     known.push_back("roughness_FROM_BELOW");
     fail("no mask named '", name, "'", suggestion(name, known));
 }
-
-namespace {
-
-std::vector<uint8_t> disoccluded_reflective(const MaskInputs& inputs) {
-    std::vector<uint8_t> inside = disoccluded(inputs.view_depth, inputs.normal, inputs.material_id, *inputs.previous);
-    const std::vector<uint8_t> reflective = inside_pixels(
-        inputs.view_depth.extent, [&](glm::uvec2 p) { return is_inside("reflective", inputs, p); });
-    for (size_t i = 0; i < inside.size(); ++i) inside[i] = inside[i] && reflective[i];
-    return inside;
-}
-
-}  // namespace
 
 Mask make_mask(const std::string& name, const MaskInputs& inputs) {
     check_mask_name(name);

@@ -121,13 +121,6 @@ SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, std::span
     return facts;
 }
 
-SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count) {
-    std::vector<unsigned> frames;
-    if (first_frame > 0) frames.push_back(first_frame - 1);
-    for (unsigned i = 0; i < frame_count; ++i) frames.push_back(first_frame + i);
-    return derive_facts(scene, camera, frames);
-}
-
 std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
     const auto yes = [](bool value) { return value ? "yes" : "no"; };
     const std::string roughness = f.has_reflective ? "perceptual roughness of reflective surfaces is " +

@@ -20,11 +20,8 @@ struct SceneFacts {
     bool has_unlit = false, has_single_sided = false, has_double_sided = false;
 };
 
-/// The facts of frames first_frame ... first_frame + frame_count - 1 of one camera. Frame 0 has no predecessor, so
-/// nothing moves in it.
-SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, unsigned first_frame, unsigned frame_count);
-
-/// The facts of these frames, rendered in this order; the first of them has no predecessor.
+/// The facts of these frames of one camera, rendered in this order; the first of them has no predecessor, so nothing
+/// moves in it.
 SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, std::span<const unsigned> frames);
 
 /// The same without what depends on a shot: nothing moves.

@@ -62,7 +62,8 @@ TEST(Timeline, MeasuresFromAFrameOn) {
     EXPECT_EQ(measured, (std::vector<unsigned>{6, 7}));
 
     // A change is measured between two frames that both are.
-    Shot shot{.config = {.frames = {4, 5, 6, 7}, .measure_from = 6}, .scene = {}, .camera = {}, .facts = {}, .steps = {}};
+    Shot shot{
+        .config = {.frames = {4, 5, 6, 7}, .measure_from = 6}, .scene = {}, .camera = {}, .facts = {}, .steps = {}};
     std::vector<unsigned> compared;
     for (const FrameStep& step : timeline(shot.config))
         if (measures_difference(shot, step)) compared.push_back(step.frame);
