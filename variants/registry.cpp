@@ -53,11 +53,12 @@ const std::vector<VariantEntry> table = {
         .presets =
             {{"slides", "distances in the traversal loop as the slides of 2020 print them", {{"march", "slides"}}},
              {"sdk_1_5",
-              "the shaders of FidelityFX SDK 1.1.4 with the defaults of its sample; of what its host code binds wrongly, "
+              "the shaders of FidelityFX SDK 1.1.4 with the defaults of its sample; of what its host code binds "
+              "wrongly, "
               "the stale sample count is kept, as in version 1.3, the stale averages and the pyramid's are not",
               nlohmann::json::object()},
              {"repeatable",
-              "as sdk_1_5, but subgroups do not give up their last rays, so that every run and device gives one image",
+              "as sdk_1_5, but subgroups do not give up their last rays: runs repeat, whatever the size of subgroups",
               {{"min_traversal_occupancy", 0}}},
              {"corrected",
               "every correction, and no early exit of thinly occupied subgroups",
