@@ -142,13 +142,16 @@ HostImage composited_image(const PoseTruth& truth, const CompositedImages& resul
     return sum(truth.direct, result.specular);
 }
 
+const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image) {
+    return target == "specular" ? result.specular : target == "incident" ? result.incident : image;
+}
+
 std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result,
                                        std::span<const Mask> masks, const ResultRow& row) {
     const HostImage image = composited_image(truth, result);
     std::vector<ResultRow> rows;
     for (const auto& [target, reference] : truth.targets) {
-        const HostImage& test = target == "specular" ? result.specular : target == "incident" ? result.incident : image;
-        add_rows(rows, reference, target, test, masks, row);
+        add_rows(rows, reference, target, tested_image(target, result, image), masks, row);
     }
     return rows;
 }

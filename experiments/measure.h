@@ -60,3 +60,6 @@ std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows);
 
 /// direct + specular.
 HostImage composited_image(const PoseTruth& truth, const CompositedImages& result);
+
+/// What a target compares with the truth; `image` is composited_image() of the same result.
+const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image);

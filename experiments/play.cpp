@@ -76,17 +76,13 @@ size_t seeds_at_once(glm::uvec2 extent) {
     return std::max<size_t>(1, pixels / (size_t(extent.x) * extent.y));
 }
 
-const HostImage& image_of(const std::string& target, const CompositedImages& images, const HostImage& image) {
-    return target == "specular" ? images.specular : target == "incident" ? images.incident : image;
-}
-
 /// The full measure of the shot's last frame, its images, and its part in the split over seeds.
 void measure_last(Play& play, const FrameTruth& truth, const CompositedImages& images, const ResultRow& row,
                   std::span<const Mask> masks) {
     for (ResultRow& r : measure_targets(*truth.pose, images, masks, row)) play.cell.rows.push_back(std::move(r));
     const HostImage image = composited_image(*truth.pose, images);
     for (const auto& [target, reference] : truth.pose->targets)
-        play.splits.try_emplace(target, reference).first->second.add(image_of(target, images, image));
+        play.splits.try_emplace(target, reference).first->second.add(tested_image(target, images, image));
 }
 
 /// Whether the full measure of the last frame holds this row already.
