@@ -15,8 +15,7 @@ bool is_final(float alpha) { return fresh_neighborhood && !is_glossy(alpha); }
 
 // `pixel`: inside of the image.
 vec3 filtered_color(ivec2 pixel) {
-    if (fresh_neighborhood && !is_glossy(texelFetch(roughness, pixel, 0).r))
-        return texelFetch(traced_radiance, pixel, 0).rgb;
+    if (is_final(texelFetch(roughness, pixel, 0).r)) return texelFetch(traced_radiance, pixel, 0).rgb;
     return texelFetch(prefiltered_radiance, pixel, 0).rgb;
 }
 
