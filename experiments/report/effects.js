@@ -98,7 +98,7 @@ function drawEffects() {
             [h("div", {class: "change"}, h("b", {}, g.label), g.doc ? h("small", {}, g.doc) : null, repeatNote(g.rows)),
              strip(scale, g.rows.filter(e => e.value !== null).map(e => effectMark(e, shots, isAll))),
              ...cells(g.rows)]);
-    const label = `${metricName(effectChoice.metric)}: change / ${effectChoice.against}, logarithmic`;
+    const label = `${metricName(effectChoice.metric)}: ratio, logarithmic`;
     lines.push(["", stripAxis(scale, label), ...columns.slice(2).map(() => "")]);
     at("effect-table").replaceChildren(table(columns, lines));
 }
