@@ -106,11 +106,12 @@ function drawEffects() {
 const otherColumn = (other, text) => other ? [{name: `${other}: ${text}`, number: true}] : [];
 const pooledColumns = other =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio, one mark per shot"},
-     {name: "Mean ratio (range over shots)", number: true}, ...otherColumn(other, "mean ratio (range)"), {name: "Helps", number: true}, {name: "Harms", number: true},
-     {name: "Shots", number: true}];
+     {name: "Mean ratio (range over shots)", number: true}, ...otherColumn(other, "mean ratio (range)"),
+     {name: "Helps", number: true}, {name: "Harms", number: true}, {name: "Shots", number: true}];
 const effectColumns = other =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true},
-     ...otherColumn(other, "ratio [95 %]"), {name: "p (Holm)", number: true}, {name: "Seeds", number: true}, {name: "Result"}];
+     ...otherColumn(other, "ratio [95 %]"), {name: "p (Holm)", number: true}, {name: "Seeds", number: true},
+     {name: "Result"}];
 
 /// All ratios fit unless a narrower scale is asked for; an interval of few seeds may reach far beyond them and is cut.
 function effectScale(rows, hasIntervals) {
