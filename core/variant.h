@@ -11,6 +11,7 @@
 struct Reflections {
     Image radiance;    ///< mean incident radiance over the specular lobe, before the BRDF (rgb, W sr^-1 m^-2)
     Image confidence;  ///< 0 where the fallback should be used, 1 where `radiance` should
+    unsigned confidence_channel = 0;  ///< of `confidence`, which may be `radiance` itself
 };
 
 /// One screen-space reflection technique: its parameters and its passes in order.

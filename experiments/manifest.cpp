@@ -198,7 +198,8 @@ CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, cons
     const HostImage radiance = graph.download(reflections.radiance), fallback = graph.download(gbuffer.fallback);
     CompositedImages images{.specular = channels_of(graph.download(composite.specular), 0, 3),
                             .incident = HostImage(radiance.extent, 3),
-                            .confidence = graph.download(reflections.confidence)};
+                            .confidence = channels_of(graph.download(reflections.confidence),
+                                                      reflections.confidence_channel, 1)};
     for (size_t i = 0; i < images.incident.pixel_count(); ++i) {
         if (!reflectance.values.empty() && reflectance.rgb(i) == glm::vec3(0.0f)) continue;
         for (size_t c = 0; c < 3; ++c) {

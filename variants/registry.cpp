@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "variants/amd_sssr/amd_sssr.h"
+#include "variants/diligent_ssr/diligent_ssr.h"
 #include "variants/mcguire_dda/mcguire_dda.h"
 #include "variants/none/none.h"
 
@@ -71,6 +72,50 @@ const std::vector<VariantEntry> table = {
                {"relative_depth_weight", true}, {"reproject_history_depth", true}, {"finite_neighborhood", true},
                {"fresh_neighborhood", true},    {"float_histories", true}}}},
         .create = create<AmdSssr>,
+    },
+    {
+        .name = "diligent_ssr",
+        .title = "DiligentFX screen-space reflections, for machines without compute shaders",
+        .source = "DiligentFX (2024-04 and 2026-07), Apache-2.0 licence, Copyright Diligent Graphics LLC",
+        .description =
+            "An adaptation of FidelityFX SSSR to fragment shaders: one ray per pixel through a hierarchy of depths, "
+            "with a "
+            "confidence in place of an environment; neighbours' rays are reused by ratio estimators, history is "
+            "accumulated, and what stays noisy is filtered.",
+        .needs = {"has_reflective", "min_roughness"},
+        .presets = {{"documented",
+                     "April 2024, as its document describes it",
+                     {{"mask", "stencil"},
+                      {"spatial_kernel", "double_gaussian"},
+                      {"distribution_floor", false},
+                      {"history_search", "device_depth"}}},
+                    {"current", "July 2026, with its defaults", nlohmann::json::object()},
+                    {"corrected",
+                     "every correction, and history that averages",
+                     {{"temporal_radiance_stability_factor", 0.9},
+                      {"clamp_partial_texels", true},
+                      {"unproject_jitter", true},
+                      {"bias_towards_mirror", true},
+                      {"clip_ray_to_near_plane", true},
+                      {"relative_ray_step", true},
+                      {"above_horizon", true},
+                      {"stop_outside_screen", true},
+                      {"reject_unfinished", true},
+                      {"accept_contact_hits", true},
+                      {"independent_noise_shifts", true},
+                      {"float_roughness", true},
+                      {"float_rays", true},
+                      {"premultiply_confidence", true},
+                      {"own_ray", true},
+                      {"scale_radius", true},
+                      {"axial_hit_depth", true},
+                      {"linear_hit_depth", true},
+                      {"centered_search", true},
+                      {"guard_previous_clip", true},
+                      {"finite_weights", true},
+                      {"clear_targets", true},
+                      {"float_histories", true}}}},
+        .create = create<DiligentSsr>,
     },
 };
 

@@ -40,6 +40,7 @@ Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
         pass.read(image);
     pass.read(reflections.radiance.as("radiance"))
         .read(reflections.confidence.as("confidence"))
+        .set("confidence_channel", reflections.confidence_channel)
         .write(result.image)
         .write(result.specular)
         .run();

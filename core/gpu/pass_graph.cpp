@@ -41,19 +41,21 @@ Buffer PassGraph::buffer(const std::string& name, size_t bytes) {
     return entry->second;
 }
 
+Image PassGraph::image_black_at_first(const std::string& name, Format format, glm::uvec2 extent) {
+    const auto known = impl_->images.find(name);
+    const std::shared_ptr<ImageStorage> before = known == impl_->images.end() ? nullptr : known->second.storage;
+    const Image image = image_of(name, format, extent);
+    if (image.storage != before) clear(image, glm::vec4(0.0f));
+    return image;
+}
+
 PassGraph::History PassGraph::history(const std::string& name, Format format) {
     return history(name, format, impl_->extent);
 }
 
 PassGraph::History PassGraph::history(const std::string& name, Format format, glm::uvec2 extent) {
-    const auto side = [&](unsigned parity) {
-        const std::string full_name = name + "#" + std::to_string(parity);
-        const bool is_new = !impl_->images.contains(full_name);
-        const Image image = image_of(full_name, format, extent);
-        if (is_new) clear(image, glm::vec4(0.0f));
-        return image;
-    };
-    const Image sides[2] = {side(0), side(1)};
+    const Image sides[2] = {image_black_at_first(name + "#0", format, extent),
+                            image_black_at_first(name + "#1", format, extent)};
     return {sides[impl_->parity].as(name), sides[1 - impl_->parity].as("previous_" + name)};
 }
 

@@ -83,6 +83,8 @@ public:
     /// count makes a new one.
     Image image(const std::string& name, Format format, unsigned mips = 1, unsigned divisor = 1);
     Image image_of(const std::string& name, Format format, glm::uvec2 extent, unsigned mips = 1);
+    /// The same, with zeros at first.
+    Image image_black_at_first(const std::string& name, Format format, glm::uvec2 extent);
     /// The storage buffer of that name, with zeros at first; `bytes` a multiple of 4.
     Buffer buffer(const std::string& name, size_t bytes);
 

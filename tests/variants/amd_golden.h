@@ -8,8 +8,8 @@
 /// The parameters of all passes, for tests that run them one by one.
 struct AmdParameters {
     ParameterSet params;
-    TracingParameters tracing{params};
-    DenoiserParameters denoiser{params};
+    AmdTracingParameters tracing{params};
+    AmdDenoiserParameters denoiser{params};
 };
 
 /// The inputs of one recorded set as our G-buffer holds them: every surface is a metal, so that all reflect. The

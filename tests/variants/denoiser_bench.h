@@ -15,8 +15,8 @@ struct DenoiserInputs {
 struct DenoiserBench {
     PassGraph graph;
     ParameterSet params;
-    TracingParameters tracing{params};
-    DenoiserParameters denoiser{params};
+    AmdTracingParameters tracing{params};
+    AmdDenoiserParameters denoiser{params};
     GBuffer gbuffer;
     AmdWork work;
     AmdHistories histories;

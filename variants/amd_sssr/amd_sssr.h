@@ -15,8 +15,8 @@ public:
     std::string not_repeatable() const override;
 
 private:
-    TracingParameters tracing_{params};
-    DenoiserParameters denoiser_{params};
+    AmdTracingParameters tracing_{params};
+    AmdDenoiserParameters denoiser_{params};
     BlueNoise noise_;
     bool is_left_out_ = false;
 };

@@ -19,7 +19,7 @@ Image reprojected_image(PassGraph& graph, const AmdHistories& histories) {
 }
 
 /// The averages that prefilter and resolve read.
-Image average_image(const AmdHistories& histories, const DenoiserParameters& parameters) {
+Image average_image(const AmdHistories& histories, const AmdDenoiserParameters& parameters) {
     const PassGraph::History& average = histories.average_radiance;
     return (parameters.stale_average ? average.previous : average.current).as("average_radiance");
 }
@@ -27,7 +27,7 @@ Image average_image(const AmdHistories& histories, const DenoiserParameters& par
 }  // namespace
 
 void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
-                   const DenoiserParameters& parameters) {
+                   const AmdDenoiserParameters& parameters) {
     const Image reprojected = reprojected_image(graph, histories);
     if (parameters.fresh_neighborhood)
         for (const Image& image :
@@ -51,7 +51,7 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
 }
 
 void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
-                   const DenoiserParameters& parameters) {
+                   const AmdDenoiserParameters& parameters) {
     const bool is_fast = parameters.denoiser_form.is("fast");
     PassGraph::Pass pass = denoiser_pass(graph, "prefilter", is_fast);
     pass.read(histories.radiance.current.as("radiance"))
@@ -64,7 +64,7 @@ void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& hi
 }
 
 void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
-                          const DenoiserParameters& parameters) {
+                          const AmdDenoiserParameters& parameters) {
     const PassGraph::History& samples = histories.sample_count;
     const bool is_fast = parameters.denoiser_form.is("fast");
     PassGraph::Pass pass = denoiser_pass(graph, "resolve_temporal", is_fast);
@@ -81,7 +81,7 @@ void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistor
 }
 
 void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
-                 const DenoiserParameters& parameters) {
+                 const AmdDenoiserParameters& parameters) {
     amd_reproject(graph, gbuffer, work, histories, parameters);
     amd_prefilter(graph, work, histories, parameters);
     amd_resolve_temporal(graph, work, histories, parameters);

@@ -3,7 +3,7 @@
 
 /// Parameters of the three denoiser passes. "Denoiser 1.3" is the effect in FidelityFX SDK 1.1.4 (reflections); its
 /// constants are parameters here. Switches under "corrections" mend one defect each.
-struct DenoiserParameters {
+struct AmdDenoiserParameters {
     ParameterSet& params;
 
     // clang-format off

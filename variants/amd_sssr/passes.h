@@ -50,12 +50,12 @@ void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Image& pyrami
 /// current sides, `reprojected_radiance` and average_radiance.current; prefilter then overwrites radiance.previous and
 /// variance.previous; resolve overwrites radiance.current and variance.current, which the next frame sees as history.
 void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
-                 const DenoiserParameters& parameters);
+                 const AmdDenoiserParameters& parameters);
 
 // Its three passes, in their order.
 void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
-                   const DenoiserParameters& parameters);
+                   const AmdDenoiserParameters& parameters);
 void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
-                   const DenoiserParameters& parameters);
+                   const AmdDenoiserParameters& parameters);
 void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
-                          const DenoiserParameters& parameters);
+                          const AmdDenoiserParameters& parameters);

@@ -3,7 +3,7 @@
 
 /// Parameters of pyramid, classification, noise and intersection, under the original's names. "SSSR 1.5" is the effect
 /// in FidelityFX SDK 1.1.4; its defaults are those of AMD's sample. Switches under "corrections" mend one defect each.
-struct TracingParameters {
+struct AmdTracingParameters {
     ParameterSet& params;
 
     // clang-format off

@@ -12,6 +12,7 @@ constexpr glm::uvec2 table_extent{128, 128};
 glm::uvec2 shift_per_frame(NoiseShift shift) {
     switch (shift) {
         case NoiseShift::golden_diagonal:
+        case NoiseShift::golden_diagonal_from_half:
             return glm::uvec2(0.61803398875 * 0x1p32);
         case NoiseShift::r2:
             return {0.7548776662466928 * 0x1p32, 0.5698402909980533 * 0x1p32};
@@ -32,7 +33,7 @@ HostImage blue_noise_table() {
     return table;
 }
 
-Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision precision) {
+Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision precision, NoiseStage stage) {
     const Image table = graph.image_of("blue_noise_table", Format::rg8, table_extent);
     if (uploaded_table_.lock() != table.storage) {
         graph.upload(table, blue_noise_table());
@@ -41,6 +42,7 @@ Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision preci
     const bool is_8_bit = precision == NoisePrecision::bits_8;
     const Image noise = graph.image_of("blue_noise", is_8_bit ? Format::rg8 : Format::rg32f, table_extent);
     const glm::uvec2 per_frame = shift_per_frame(shift);
+    (void)stage;
     graph.compute("common/blue_noise.comp")
         .read(table)
         .write(noise)

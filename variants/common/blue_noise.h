@@ -6,10 +6,14 @@
 /// How a texel's two numbers move from frame to frame: both by the golden ratio, so that their difference never changes
 /// and the texel stays on one wrapped diagonal of the unit square (AMD FidelityFX SSSR 1.5), or along the R2 sequence,
 /// which covers the square (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
-enum class NoiseShift { golden_diagonal, r2 };
+/// golden_diagonal_from_half: as golden_diagonal, 1/2 later (DiligentFX).
+enum class NoiseShift { golden_diagonal, golden_diagonal_from_half, r2 };
 
 /// How they are stored: as k / 255, so that exact 0 and 1 occur (as SSSR 1.5), or in float32, in [0, 1).
 enum class NoisePrecision { bits_8, float_32 };
+
+/// What runs the pass: techniques for machines without compute shaders draw it.
+enum class NoiseStage { compute, fragment };
 
 /// Random numbers for the samples of one frame: 128x128 pairs, blue over the image plane, uniform over the unit square.
 /// One per variant; it uploads the table that all frames derive from when a graph has none yet.
@@ -20,7 +24,8 @@ public:
     /// their period is 256 frames; a seed other than 0 moves the table by whole texels and all numbers by a rotation of
     /// the unit square (Cranley and Patterson 1976), so that every pixel's numbers are independent between seeds. Fails
     /// with Error if the file of the table is missing or not of its size.
-    Image render(PassGraph& graph, NoiseShift shift, NoisePrecision precision = NoisePrecision::bits_8);
+    Image render(PassGraph& graph, NoiseShift shift, NoisePrecision precision = NoisePrecision::bits_8,
+                 NoiseStage stage = NoiseStage::compute);
 
 private:
     std::weak_ptr<ImageStorage> uploaded_table_;

@@ -14,6 +14,7 @@ uniform sampler2D fallback;
 uniform sampler2D radiance;
 uniform sampler2D confidence;
 uniform sampler2D split_sum;
+layout(push_constant) uniform Confidence { uint confidence_channel; };
 layout(rgba32f) uniform writeonly image2D specular;
 layout(rgba32f) uniform writeonly image2D image;
 
@@ -39,7 +40,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(image)))) return;
     vec3 reflected = vec3(0.0);
     if (!is_background(texelFetch(depth, pixel, 0).r)) {
-        vec3 incident = mix(texelFetch(fallback, pixel, 0).rgb, texelFetch(radiance, pixel, 0).rgb, texelFetch(confidence, pixel, 0).r);
+        vec3 incident = mix(texelFetch(fallback, pixel, 0).rgb, texelFetch(radiance, pixel, 0).rgb, texelFetch(confidence, pixel, 0)[confidence_channel]);
         reflected = specular_reflectance(pixel) * incident;
     }
     imageStore(specular, pixel, vec4(reflected, 0.0));

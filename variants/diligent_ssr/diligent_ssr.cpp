@@ -1,0 +1,54 @@
+#include "variants/diligent_ssr/diligent_ssr.h"
+
+#include "variants/diligent_ssr/passes.h"
+
+#include <utility>
+
+namespace {
+
+constexpr unsigned alpha = 3;  // channel of `reflections` that holds the confidence
+
+}  // namespace
+
+Image DiligentSsr::hit_color(PassGraph& graph, const GBuffer& gbuffer) {
+    if (!tracing_.previous_frame) return gbuffer.lit;
+    const PassGraph::History color = graph.history("hit_color", gbuffer.lit.format);
+    graph.fragment("diligent_ssr/keep_color.frag").read(gbuffer.lit).write(color.current).run();
+    return std::exchange(has_previous_color_, true) ? color.previous : gbuffer.lit;
+}
+
+Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
+    if (is_left_out_) {
+        const Image nothing = graph.image("reflections", Format::rgba16f);
+        graph.clear(nothing, {});
+        return {nothing, nothing, alpha};
+    }
+    const Image noise =
+        tracing_.independent_noise_shifts
+            ? noise_.render(graph, NoiseShift::r2, NoisePrecision::float_32, NoiseStage::fragment)
+            : noise_.render(graph, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8, NoiseStage::fragment);
+    const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
+    const Image hierarchy = diligent_depth_hierarchy(graph, gbuffer, tracing_);
+    const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_);
+    const Image color = hit_color(graph, gbuffer);
+    const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, noise, color, mask, tracing_);
+    const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, tracing_, filter_);
+    const DiligentHistories histories = diligent_histories(graph, filter_);
+    diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter_);
+    const Image reflections =
+        diligent_cleanup(graph, gbuffer, histories.radiance.current, histories.variance.current, mask, filter_);
+    return {reflections, reflections, alpha};
+}
+
+std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
+    is_left_out_ = !facts.has_reflective || facts.min_roughness > tracing_.roughness_threshold;
+    if (!is_left_out_) return {};
+    const std::string fact =
+        facts.has_reflective ? "no reflective surface as smooth as roughness_threshold" : "nothing reflective";
+    std::vector<LeftOut> left_out;
+    for (const char* stage : {"common/blue_noise", "diligent_ssr/reprojected_depth", "diligent_ssr/depth_hierarchy",
+                              "diligent_ssr/mask", "diligent_ssr/intersection", "diligent_ssr/spatial_reconstruction",
+                              "diligent_ssr/temporal_accumulation", "diligent_ssr/bilateral_cleanup"})
+        left_out.push_back({stage, fact, "no pixel would start a ray"});
+    return left_out;
+}

@@ -1,0 +1,24 @@
+#pragma once
+#include "core/variant.h"
+#include "variants/common/blue_noise.h"
+#include "variants/diligent_ssr/filter_parameters.h"
+#include "variants/diligent_ssr/tracing_parameters.h"
+
+/// DiligentFX's screen-space reflection (Apache-2.0 licence), an adaptation of AMD FidelityFX SSSR to machines without
+/// compute shaders. Defaults are those of the effect as of July 2026.
+///
+/// README.md explains the passes, lists the deviations, and names the parameter that mends each defect of the original.
+class DiligentSsr final : public Variant {
+public:
+    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
+    std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
+
+private:
+    /// The lit image that hits show; this frame's own in the first.
+    Image hit_color(PassGraph& graph, const GBuffer& gbuffer);
+
+    DiligentTracingParameters tracing_{params};
+    DiligentFilterParameters filter_{params};
+    BlueNoise noise_;
+    bool is_left_out_ = false, has_previous_color_ = false;
+};

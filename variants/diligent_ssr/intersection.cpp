@@ -1,0 +1,20 @@
+#include "variants/diligent_ssr/targets.h"
+
+DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Image& hierarchy, const Image& noise,
+                            const Image& color, const DiligentMask& mask, const DiligentTracingParameters& parameters) {
+    const Format format = parameters.float_rays ? Format::rgba32f : Format::rgba16f;
+    const DiligentRays rays{.radiance = diligent_target(graph, "ray_radiance", format, mask.traced.extent, true),
+                            .direction = diligent_target(graph, "ray_direction", format, mask.traced.extent, true)};
+    auto pass = graph.fragment("diligent_ssr/intersection.frag");
+    pass.read(hierarchy)
+        .read(noise)
+        .read(color.as("hit_color"))
+        .read(mask.roughness)
+        .read(gbuffer.normal)
+        .read(gbuffer.geometric_normal)
+        .read(gbuffer.motion)
+        .write(rays.radiance)
+        .write(rays.direction);
+    draw_masked(pass, mask.traced);
+    return rays;
+}
