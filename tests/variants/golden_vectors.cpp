@@ -35,6 +35,12 @@ glm::dmat4 matrix(const nlohmann::json& rows) {
     return m;
 }
 
+glm::dmat4 flip(glm::dvec3 signs) {
+    glm::dmat4 m(1.0);
+    for (int axis = 0; axis < 3; ++axis) m[axis][axis] = signs[axis];
+    return m;
+}
+
 }  // namespace
 
 std::filesystem::path golden_folder() {
@@ -87,22 +93,24 @@ const HostImage& golden_layer(const LayeredImage& image, const std::string& name
 nlohmann::json golden_meta(const std::string& set) { return read_json(golden_folder() / set / "meta.json"); }
 
 CameraData golden_camera(const nlohmann::json& meta, const nlohmann::json& camera, unsigned index) {
-    const glm::dmat4 y_flip(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, -1, 0, 0), glm::dvec4(0, 0, 1, 0),
-                            glm::dvec4(0, 0, 0, 1));
-    const glm::dmat4 projection = matrix(camera["projection"]);
+    // The column of z holds what clip w takes from it: -1 where the view looks along -z as ours does, else 1.
+    const double forward = matrix(camera["projection"])[2][3];
+    const glm::dmat4 y_flip = flip({1, -1, 1}), z_flip = flip({1, 1, -forward});
+    const glm::dmat4 projection = matrix(camera["projection"]) * z_flip, view = z_flip * matrix(camera["view"]),
+                     previous_view = z_flip * matrix(camera["prev_view"]);
     const float width = meta["width"], height = meta["height"];
     const float near = meta["conventions"]["near"], far = meta["conventions"]["far"];
     const bool is_reversed = projection[2][2] > -0.5;  // -far / (far - near) of standard depth is at most -1
 
     CameraData data{};
     data.clip_from_view = y_flip * projection;
-    data.view_from_clip = matrix(camera["inverse_projection"]) * y_flip;
-    data.view_from_world = matrix(camera["view"]);
-    data.world_from_view = matrix(camera["inverse_view"]);
-    data.clip_from_world = y_flip * projection * matrix(camera["view"]);
+    data.view_from_clip = z_flip * matrix(camera["inverse_projection"]) * y_flip;
+    data.view_from_world = view;
+    data.world_from_view = matrix(camera["inverse_view"]) * z_flip;
+    data.clip_from_world = y_flip * projection * view;
     data.previous_clip_from_world = y_flip * matrix(camera["prev_view_projection"]);
-    data.previous_view_from_world = matrix(camera["prev_view"]);
-    data.previous_world_from_view = inverse(matrix(camera["prev_view"]));
+    data.previous_view_from_world = previous_view;
+    data.previous_world_from_view = inverse(previous_view);
     data.previous_view_from_clip = data.view_from_clip;
     data.extent = {width, height, 1 / width, 1 / height};
     data.depth = {near, far, is_reversed ? 0 : 1, is_reversed};

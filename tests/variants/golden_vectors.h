@@ -22,8 +22,8 @@ const HostImage& golden_layer(const LayeredImage& image, const std::string& name
 
 nlohmann::json golden_meta(const std::string& set);
 
-/// The camera block of a recorded camera. The recorded clip space has y up, ours has y down. `index`: number of frames
-/// rendered before.
+/// The camera block of a recorded camera. The recorded clip space has y up, ours has y down; the recorded view may look
+/// along z, ours looks along -z. `index`: number of frames rendered before.
 CameraData golden_camera(const nlohmann::json& meta, const nlohmann::json& camera, unsigned index);
 
 /// A set's name with all but letters and digits replaced, as GoogleTest wants its parameters named.
