@@ -1,6 +1,7 @@
 #include "variants/amd_sssr/amd_sssr.h"
 
 #include "variants/amd_sssr/passes.h"
+#include "variants/common/depth_pyramid.h"
 
 Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
     const Image confidence = graph.image("confidence", Format::r8);
@@ -9,7 +10,7 @@ Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
         for (const Image& image : {histories.radiance.current, confidence}) graph.clear(image, {});
         return {histories.radiance.current, confidence};
     }
-    const Image pyramid = amd_depth_pyramid(graph, gbuffer.depth, tracing_.pyramid_mips);
+    const Image pyramid = nearest_depth_pyramid(graph, gbuffer.depth, tracing_.pyramid_mips);
     const AmdWork work = amd_classify(graph, gbuffer, pyramid, histories, confidence);
     const Image noise = tracing_.independent_noise_shifts
                             ? noise_.render(graph, NoiseShift::r2, NoisePrecision::float_32)
@@ -26,7 +27,7 @@ std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
     if (!is_left_out_) return {};
     const std::string fact =
         facts.has_reflective ? "no reflective surface below roughness_threshold_alpha" : "nothing reflective";
-    std::vector<std::string> stages = {"amd_sssr/depth_pyramid", "amd_sssr/classify", "common/blue_noise",
+    std::vector<std::string> stages = {"common/depth_pyramid", "amd_sssr/classify", "common/blue_noise",
                                        "amd_sssr/prepare_arguments", "amd_sssr/intersect"};
     if (denoiser_.denoise)
         stages.insert(stages.end(), {"amd_sssr/reproject", "amd_sssr/prefilter", "amd_sssr/resolve_temporal"});

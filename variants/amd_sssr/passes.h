@@ -30,10 +30,6 @@ struct AmdWork {
     Buffer indirect_arguments;
 };
 
-/// Mip 0 is `depth`, each following texel the nearest of 2x2: min, or max for reversed depth. `mips` at least 2, capped
-/// by the extent. One dispatch (AMD's Single Pass Downsampler).
-Image amd_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips);
-
 /// Lists rays and tiles; writes alpha, clears histories.radiance.current (environment where too rough) and writes
 /// `confidence`: 1 where the technique is responsible.
 AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& pyramid, const AmdHistories& histories,

@@ -2,20 +2,11 @@
 
 #include "variants/diligent_ssr/passes.h"
 
-#include <utility>
-
 namespace {
 
 constexpr unsigned alpha = 3;  // channel of `reflections` that holds the confidence
 
 }  // namespace
-
-Image DiligentSsr::hit_color(PassGraph& graph, const GBuffer& gbuffer) {
-    if (!tracing_.previous_frame) return gbuffer.lit;
-    const PassGraph::History color = graph.history("hit_color", gbuffer.lit.format);
-    graph.fragment("diligent_ssr/keep_color.frag").read(gbuffer.lit).write(color.current).run();
-    return std::exchange(has_previous_color_, true) ? color.previous : gbuffer.lit;
-}
 
 Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
     if (is_left_out_) {
@@ -30,7 +21,7 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
     const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
     const Image hierarchy = diligent_depth_hierarchy(graph, gbuffer, tracing_);
     const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_);
-    const Image color = hit_color(graph, gbuffer);
+    const Image color = tracing_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
     const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, noise, color, mask, tracing_);
     const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, tracing_, filter_);
     const DiligentHistories histories = diligent_histories(graph, filter_);

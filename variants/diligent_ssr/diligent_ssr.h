@@ -1,6 +1,7 @@
 #pragma once
 #include "core/variant.h"
 #include "variants/common/blue_noise.h"
+#include "variants/common/lit_history.h"
 #include "variants/diligent_ssr/filter_parameters.h"
 #include "variants/diligent_ssr/tracing_parameters.h"
 
@@ -14,11 +15,9 @@ public:
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
 
 private:
-    /// The lit image that hits show; this frame's own in the first.
-    Image hit_color(PassGraph& graph, const GBuffer& gbuffer);
-
     DiligentTracingParameters tracing_{params};
     DiligentFilterParameters filter_{params};
     BlueNoise noise_;
-    bool is_left_out_ = false, has_previous_color_ = false;
+    LitHistory lit_;
+    bool is_left_out_ = false;
 };

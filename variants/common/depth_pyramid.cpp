@@ -1,14 +1,14 @@
-#include "variants/amd_sssr/passes.h"
+#include "variants/common/depth_pyramid.h"
 
 #include <algorithm>
 #include <bit>
 
-Image amd_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips) {
+Image nearest_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips) {
     const glm::uvec2 extent = depth.extent;
     mips = std::min(mips, unsigned(std::bit_width(std::max(extent.x, extent.y))));
     const Image pyramid = graph.image_of("depth_pyramid", Format::r32f, extent, mips);
     const glm::uvec2 groups = (extent + 63u) / 64u;
-    PassGraph::Pass pass = graph.compute("amd_sssr/depth_pyramid.comp");
+    PassGraph::Pass pass = graph.compute("common/depth_pyramid.comp");
     pass.read(depth).use(graph.buffer("depth_pyramid_counter", 4));
     pass.set("level_count", mips).set("group_count", groups.x * groups.y);
     // A shader's bindings must all exist; what stands for levels that the pyramid lacks is never written.

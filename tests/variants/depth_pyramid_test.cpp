@@ -17,7 +17,7 @@ std::vector<HostImage> pyramid_of(Device& device, const HostImage& depth, bool i
     std::vector<HostImage> levels;
     for (int frame = 0; frame < 2; ++frame) {  // the second finds out whether the counter has been rewound
         graph.begin_frame(camera, parameters.params, std::span(&image, 1));
-        const Image pyramid = amd_depth_pyramid(graph, image, mips);
+        const Image pyramid = nearest_depth_pyramid(graph, image, mips);
         levels.clear();
         for (unsigned level = 0; level < pyramid.mips; ++level) levels.push_back(graph.download(pyramid.mip(level)));
         graph.clear(pyramid, glm::vec4(0.5f));
@@ -53,9 +53,9 @@ void expect_pyramid(Device& device, const HostImage& depth, bool is_reversed, un
     }
 }
 
-struct AmdPyramid : VariantTest {};
+struct DepthPyramid : VariantTest {};
 
-TEST_F(AmdPyramid, HoldsTheNearestOfEachBlockAtAnySize) {
+TEST_F(DepthPyramid, HoldsTheNearestOfEachBlockAtAnySize) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> value(0.0f, 1.0f);
     for (const glm::uvec2 extent :
@@ -68,7 +68,7 @@ TEST_F(AmdPyramid, HoldsTheNearestOfEachBlockAtAnySize) {
         }
 }
 
-TEST_F(AmdPyramid, HasNoMoreLevelsThanAskedFor) {
+TEST_F(DepthPyramid, HasNoMoreLevelsThanAskedFor) {
     EXPECT_EQ(pyramid_of(device(), HostImage({300, 200}, 1, 0.25f), false, 7).size(), 7u);
     EXPECT_EQ(pyramid_of(device(), HostImage({300, 200}, 1, 0.25f), false, 3).size(), 3u);
     EXPECT_EQ(pyramid_of(device(), HostImage({300, 200}, 1, 0.25f), false, 13).size(), 9u);  // 300 halves 8 times

@@ -1,0 +1,12 @@
+#pragma once
+#include "core/gpu/pass_graph.h"
+
+/// Keeps the lit image for the next frame, for techniques whose hits show the previous one. One per variant.
+class LitHistory {
+public:
+    /// Adds a draw that keeps `lit`; returns what was kept in the frame before, in the first frame `lit` itself.
+    Image previous(PassGraph& graph, const Image& lit);
+
+private:
+    bool is_kept_ = false;
+};

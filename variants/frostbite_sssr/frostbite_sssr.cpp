@@ -1,0 +1,36 @@
+#include "variants/frostbite_sssr/frostbite_sssr.h"
+
+#include "variants/common/depth_pyramid.h"
+#include "variants/common/lit_history.h"
+#include "variants/frostbite_sssr/passes.h"
+
+Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
+    constexpr unsigned alpha = 3, pyramid_mips = 7;
+    if (is_left_out_) {
+        const Image nothing = graph.image("reflections", Format::rgba32f);
+        graph.clear(nothing, {});
+        return {nothing, nothing, alpha};
+    }
+    const Image depth_pyramid = nearest_depth_pyramid(graph, gbuffer.depth, pyramid_mips);
+    const Image color = resolve_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
+    const Image color_pyramid = frostbite_color_pyramid(graph, color);
+    const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depth_pyramid, color, ray_);
+    const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, ray_);
+    const FrostbiteRays rays = frostbite_trace(graph, gbuffer, depth_pyramid, work, ray_);
+    const FrostbiteResolved resolved = frostbite_resolve(graph, gbuffer, color_pyramid, work, rays, ray_, resolve_);
+    const Image reflections = frostbite_accumulate(graph, gbuffer, resolved, resolve_);
+    return {reflections, reflections, alpha};
+}
+
+std::vector<LeftOut> FrostbiteSssr::leave_out(const SceneFacts& facts) {
+    is_left_out_ = !facts.has_reflective || facts.min_roughness > ray_.max_roughness;
+    if (!is_left_out_) return {};
+    const std::string fact =
+        facts.has_reflective ? "no reflective surface as smooth as max_roughness" : "nothing reflective";
+    std::vector<LeftOut> left_out;
+    for (const char* stage :
+         {"common/depth_pyramid", "frostbite_sssr/color_pyramid", "frostbite_sssr/classify", "frostbite_sssr/allocate",
+          "frostbite_sssr/trace", "frostbite_sssr/resolve", "frostbite_sssr/temporal"})
+        left_out.push_back({stage, fact, "no pixel would start a ray"});
+    return left_out;
+}

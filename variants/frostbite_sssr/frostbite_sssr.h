@@ -1,0 +1,20 @@
+#pragma once
+#include "core/variant.h"
+#include "variants/common/lit_history.h"
+#include "variants/frostbite_sssr/ray_parameters.h"
+#include "variants/frostbite_sssr/resolve_parameters.h"
+
+/// Stochastic screen-space reflections as Frostbite's authors presented them: Stachowiak and Uludag 2015, "Stochastic
+/// Screen-Space Reflections", SIGGRAPH course Advances in Real-Time Rendering. Much of it was never published; README.md
+/// says what is theirs and what is ours.
+class FrostbiteSssr final : public Variant {
+public:
+    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
+    std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
+
+private:
+    FrostbiteRayParameters ray_{params};
+    FrostbiteResolveParameters resolve_{params};
+    LitHistory lit_;
+    bool is_left_out_ = false;
+};

@@ -1,0 +1,62 @@
+#pragma once
+#include "core/gbuffer/gbuffer.h"
+#include "core/gpu/pass_graph.h"
+#include "variants/frostbite_sssr/ray_parameters.h"
+#include "variants/frostbite_sssr/resolve_parameters.h"
+
+// The passes of Frostbite's stochastic reflections in their order. Each adds its dispatches to the graph; tests run
+// them one by one. Names of images and buffers are those that the shaders of this folder use.
+
+/// Size of a tile of the classification and distance of its probes (pixels).
+inline constexpr unsigned frostbite_tile = 32, frostbite_probe_spacing = 8;
+
+/// How many rays each tile gets.
+struct FrostbiteTiles {
+    Image ray_count;  ///< r32f, one texel per tile, rounded up: rays of each of its traced pixels, 0: skipped
+};
+
+/// Rays to trace, by tracer, and the indirect arguments that start both.
+struct FrostbiteWork {
+    Buffer hierarchical_list, linear_list;  ///< index of the ray: (y * width + x) * max_rays + k, in traced pixels
+    Buffer counters;                        ///< lengths of both
+    Buffer indirect_arguments;              ///< groups of 64 rays: hierarchical (3 words), linear (at byte 12)
+    glm::uvec2 extent;                      ///< traced pixels: of the screen, or half of it, rounded up
+};
+
+/// What the rays found, by index of the ray. In 32 bits: densities overflow halves below a roughness of 0.033.
+struct FrostbiteRays {
+    Buffer directions;  ///< vec4: xyz view space, unit, w 1 / density of the direction (sr); w = 0: no ray
+    Buffer hits;        ///< uvec4: x pixel (x | y << 16) or a marker of ray.glsl; y, z bits of: length (m), confidence
+};
+
+/// What each pixel makes of its own and its neighbours' rays.
+struct FrostbiteResolved {
+    Image radiance;          ///< rgba32f: rgb incident radiance (times reflectance without reflectance_after_filter), a
+                             ///< confidence
+    Image reflection_depth;  ///< r32f: length of the resolved rays (m); 0: none
+};
+
+/// Mips of `color`, each texel the mean of the 2x2 below: `color_pyramid`, rgba32f.
+Image frostbite_color_pyramid(PassGraph& graph, const Image& color);
+
+/// Probes and the decision per tile.
+FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& depth_pyramid,
+                                  const Image& color, const FrostbiteRayParameters& parameters);
+
+/// Lists the rays of every traced pixel, and prepares the arguments.
+FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteTiles& tiles,
+                                 const FrostbiteRayParameters& parameters);
+
+/// Both tracers.
+FrostbiteRays frostbite_trace(PassGraph& graph, const GBuffer& gbuffer, const Image& depth_pyramid,
+                              const FrostbiteWork& work, const FrostbiteRayParameters& parameters);
+
+/// `color_pyramid`: of the lit image that hits show.
+FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color_pyramid,
+                                    const FrostbiteWork& work, const FrostbiteRays& rays,
+                                    const FrostbiteRayParameters& ray_parameters,
+                                    const FrostbiteResolveParameters& parameters);
+
+/// The image `reflections`, rgba32f: rgb incident radiance, a confidence.
+Image frostbite_accumulate(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteResolved& resolved,
+                           const FrostbiteResolveParameters& parameters);

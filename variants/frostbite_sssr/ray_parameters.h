@@ -1,0 +1,53 @@
+#pragma once
+#include "core/parameters.h"
+
+/// Parameters of classification, sampling and tracing. "Slides" are those of Stachowiak and Uludag 2015, "Stochastic
+/// Screen-Space Reflections" (SIGGRAPH, Advances in Real-Time Rendering), as quoted by others: what they leave open is
+/// ours and says so.
+struct FrostbiteRayParameters {
+    ParameterSet& params;
+
+    // clang-format off
+    Switch half_resolution{params, "half_resolution", true,
+        {"", "starts rays in one of each 2x2 pixels, another one every frame; otherwise in every pixel", "slides, resolve; "
+         "that the pixel changes is ours"}};
+    Param<float> max_roughness{params, "max_roughness", 0.6f, {0.0f, 1.0f},
+        {"perceptual", "rougher surfaces are left to the fallback", "ssrlab"}};
+
+    // Rays per tile.
+    Switch classification{params, "classification", true,
+        {"", "a probe ray per 8x8 pixels decides how many rays each tile of 32x32 pixels gets; otherwise all tiles get "
+         "max_rays", "slides: probes at 1/8 resolution; the size of a tile is ours"}};
+    Param<unsigned> min_rays{params, "min_rays", 1, {1, 4},
+        {"rays", "of each traced pixel in a tile whose probes agree", "ssrlab"}, Use::constant};
+    Param<unsigned> max_rays{params, "max_rays", 1, {1, 4},
+        {"rays", "of each traced pixel in a tile whose probes differ", "slides measure 1 and 4"}, Use::constant};
+    Param<float> variance_scale{params, "variance_scale", 0.5f, {1e-3f, 1e3f},
+        {"of the mean", "standard deviation of the probes' compressed luminance at which a tile gets max_rays", "ssrlab"}};
+    Switch dilate_tiles{params, "dilate_tiles", true,
+        {"", "a tile is skipped only if its eight neighbours' probes miss, too; probes alone overlook thin objects, and "
+         "tiles pop", "ssrlab"}};
+    Param<unsigned> hysteresis{params, "hysteresis", 4, {0, 255},
+        {"frames", "for which a tile keeps its rays after its probes last hit", "ssrlab"}};
+
+    // Directions.
+    Choice lobe{params, "lobe", "normals", {"normals", "visible_normals"},
+        {"", "the distribution that half vectors are drawn from: the GGX distribution of normals, or of normals visible "
+         "from the viewer", "slides: normals; visible normals (Heitz 2018) are listed as to be tried"}};
+    Param<float> importance_bias{params, "importance_bias", 0.7f, {0.0f, 0.99f},
+        {"of the lobe", "share of the lobe that is cut off: its tail", "slides: 0.7"}};
+    Param<unsigned> max_regenerations{params, "max_regenerations", 4, {0, 16},
+        {"", "times that a ray below the horizon is drawn again", "slides: a few times; the number is ours"}};
+
+    // The two tracers.
+    Param<float> hierarchical_below{params, "hierarchical_below", 0.2f, {0.0f, 1.0f},
+        {"perceptual", "roughness below which rays march through the depth pyramid; rougher ones take linear steps",
+         "slides: 20 %, of which roughness they do not say"}};
+    Param<unsigned> max_hierarchical_steps{params, "max_hierarchical_steps", 128, {1, 4096},
+        {"steps", "cells of the depth pyramid that one ray may visit", "ssrlab"}};
+    Param<unsigned> linear_steps{params, "linear_steps", 32, {1, 4096},
+        {"steps", "into which a rough surface's ray is divided between its start and the border of the screen", "ssrlab"}};
+    Param<float> thickness{params, "thickness", 0.05f, {1e-6f, 10.0f},
+        {"of the depth", "depth behind the visible surface that counts as solid", "ssrlab"}};
+    // clang-format on
+};

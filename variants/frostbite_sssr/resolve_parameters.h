@@ -1,0 +1,52 @@
+#pragma once
+#include "core/parameters.h"
+
+/// Parameters of colour, resolve and temporal filter; see ray_parameters.h.
+struct FrostbiteResolveParameters {
+    ParameterSet& params;
+
+    // clang-format off
+    Switch previous_frame{params, "previous_frame", true,
+        {"", "hits take their colour from the previous frame's lit image, where they were then", "slides"}};
+    Switch filtered_sampling{params, "filtered_sampling", true,
+        {"", "hits take their colour from a mip level as wide as the ray's share of the lobe", "slides; Colbert and "
+         "Krivanek 2007, 'GPU-Based Importance Sampling', GPU Gems 3, chapter 20"}};
+    Param<float> cone_scale{params, "cone_scale", 1.0f, {0.0f, 8.0f},
+        {"", "tangent of the cone's half angle over that of the truncated lobe, alpha sqrt(1 - importance_bias)",
+         "ssrlab; the slides' fit is not published"}};
+    Switch grazing_cone{params, "grazing_cone", true,
+        {"", "narrows the cone towards grazing views: times mix(saturate(2 cos), 1, sqrt(roughness))", "slides"}};
+
+    // Reuse of neighbours' rays.
+    Choice taps{params, "taps", "4", {"1", "4", "16"},
+        {"", "traced pixels whose rays a pixel resolves; 1: its own", "slides: 4 and 1; Stachowiak 2018: 16"}};
+    Choice pattern{params, "pattern", "rotated", {"rotated", "quad_shared", "interleaved"},
+        {"", "which neighbours. rotated: a spread pattern turned per pixel and frame; quad_shared: 2x2 pixels resolve the "
+         "same rays; interleaved: four pixels of a 4x4 block, two pixels apart, resolve the same rays",
+         "slides describe the sharing; offsets and phases are ours"}};
+    Choice neighbor_ray{params, "neighbor_ray", "hit_point", {"hit_point", "direction"},
+        {"", "how a neighbour's ray is seen from the pixel that reuses it: aimed at the point that it hit, or in its own "
+         "direction", "slides: hit_point"}};
+    Switch reuse_jacobian{params, "reuse_jacobian", false,
+        {"", "with hit_point, converts the neighbour's density to the pixel's solid angle", "ssrlab; the slides ignore it"}};
+    Choice estimator{params, "estimator", "a", {"a", "b", "c"},
+        {"", "a: sum L f / p over sum f / p, times the integral of f; b: sum L f / p over sum q / p; c: as a with q in "
+         "place of f. f is the pixel's BRDF times cosine, q its own density of directions, p the ray's",
+         "a: slides; b: Stachowiak's kajiya; c: Blender's EEVEE"}};
+    Choice misses{params, "misses", "weight", {"weight", "fallback"},
+        {"", "what a ray without a hit contributes. weight: only less confidence; fallback: the environment in its "
+         "direction", "slides: weight; fallback: Blender's EEVEE"}};
+
+    // Temporal filter.
+    Switch temporal_filter{params, "temporal_filter", true, {"", "blends with history", "slides"}};
+    Param<float> history_weight{params, "history_weight", 0.9f, {0.0f, 1.0f}, {"", "share of history", "ssrlab"}};
+    Choice reflection_depth{params, "reflection_depth", "average", {"average", "min", "max"},
+        {"", "length that the resolved rays are given for reprojection", "slides: average; others: EEVEE, Wicked Engine"}};
+    Switch neighborhood_clamp{params, "neighborhood_clamp", true,
+        {"", "clamps history to the box of the 3x3 neighbours' colours", "slides; Karis 2014"}};
+    Param<float> clamp_scale{params, "clamp_scale", 2.0f, {0.0f, 100.0f},
+        {"", "by which that box is expanded about its centre", "slides: expanded; the factor is ours"}};
+    Switch reflectance_after_filter{params, "reflectance_after_filter", true,
+        {"", "multiplies by the integral of the BRDF after the temporal filter; otherwise before it", "slides"}};
+    // clang-format on
+};
