@@ -8,39 +8,18 @@
 
 HostGBuffer amd_golden_gbuffer(const std::string& set) {
     const nlohmann::json meta = golden_meta(set);
-    const LayeredImage inputs = read_golden(set + "/gbuffer.exr");
-    const HostImage &normal = golden_layer(inputs, "normal"), &color = golden_layer(inputs, "color");
-    HostGBuffer gbuffer;
-    gbuffer.camera = golden_camera(meta, meta["camera"], 0);
-    gbuffer.depth = golden_layer(inputs, "depth");
-    gbuffer.motion = golden_layer(inputs, "motion");
-    for (float& value : gbuffer.motion.values) value = -value;  // recorded from now to before
-    const glm::uvec2 extent = gbuffer.depth.extent;
+    const glm::vec2 from_now_to_before(-1.0f);
+    HostGBuffer gbuffer = golden_gbuffer(read_golden(set + "/gbuffer.exr"), golden_camera(meta, meta["camera"], 0),
+                                         from_now_to_before);
     const std::vector<float> constant = meta["env"]["color_encoding"];
-    for (HostImage* image : {&gbuffer.geometric_normal, &gbuffer.normal, &gbuffer.base_color, &gbuffer.emission,
-                             &gbuffer.lit, &gbuffer.fallback})
-        *image = HostImage(extent, 4, 1.0f);
-    gbuffer.material_id = HostImage(extent, 1, 1.0f);
-    for (size_t i = 0; i < color.pixel_count(); ++i) {
-        gbuffer.normal.set_rgb(i, normal.rgb(i));
-        gbuffer.geometric_normal.set_rgb(i, normal.rgb(i));
-        gbuffer.normal.values[4 * i + 3] = golden_layer(inputs, "roughness").values[i];
-        gbuffer.lit.set_rgb(i, color.rgb(i));
+    for (size_t i = 0; i < gbuffer.fallback.pixel_count(); ++i)
         gbuffer.fallback.set_rgb(i, {constant[0], constant[1], constant[2]});
-    }
-    gbuffer.previous_depth = gbuffer.depth;
-    gbuffer.previous_normal = gbuffer.normal;
     return gbuffer;
 }
 
 HostGBuffer amd_golden_hit_gbuffer(const std::string& set) {
     HostGBuffer gbuffer = amd_golden_gbuffer(set);
-    const glm::uvec2 extent = gbuffer.extent();
-    gbuffer.fallback = HostImage(extent, 4);
-    for (unsigned y = 0; y < extent.y; ++y)
-        for (unsigned x = 0; x < extent.x; ++x)
-            gbuffer.lit.set_rgb(size_t(y) * extent.x + x,
-                                {(float(x) + 0.5f) / float(extent.x), (float(y) + 0.5f) / float(extent.y), 1.0f});
+    encode_hits(gbuffer);
     return gbuffer;
 }
 
@@ -69,7 +48,7 @@ struct TracedFrame {
         graph.begin_frame(host.camera, parameters.params, gbuffer.images());
         histories = amd_histories(graph, true, parameters.tracing.float_roughness);
         confidence = graph.image("confidence", Format::r8);
-        pyramid = amd_depth_pyramid(graph, gbuffer.depth, parameters.tracing.pyramid_mips);
+        pyramid = nearest_depth_pyramid(graph, gbuffer.depth, parameters.tracing.pyramid_mips);
     }
 
     void classify() { work = amd_classify(graph, gbuffer, pyramid, histories, confidence); }
