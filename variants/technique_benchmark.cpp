@@ -1,0 +1,86 @@
+#include "core/gpu/device.h"
+#include "tests/variants/synthetic_gbuffer.h"
+#include "variants/registry.h"
+
+#include <benchmark/benchmark.h>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <map>
+
+// Whole frames of the stochastic techniques, and their stages, on one G-buffer: a floor of metal in strips of growing
+// roughness, all of which both trace, before a checkered wall, seen by a camera at rest. Times are those of the pass
+// graph (ms per frame, submissions included); cpu_ms is the time of all processors, which other programs disturb less.
+// Run with --benchmark_enable_random_interleaving=true --benchmark_repetitions=9 and compare the medians.
+
+namespace {
+
+SyntheticHit strips_before_wall(const CameraRay& ray) {
+    const float to_wall = (-6.0f - ray.origin.z) / ray.direction.z;
+    const float to_floor =
+        ray.direction.y < 0.0f ? (-1.0f - ray.origin.y) / ray.direction.y : std::numeric_limits<float>::infinity();
+    const glm::vec3 hit = ray.origin + std::min(to_wall, to_floor) * ray.direction;
+    if (to_floor < to_wall) {
+        const float strip = std::clamp(std::floor(hit.x + 4.0f), 0.0f, 7.0f);
+        return {.distance = to_floor, .normal = {0, 1, 0}, .roughness = 0.055f * strip, .metalness = 1, .specular = 1};
+    }
+    const bool is_bright = int(std::floor(2.0f * hit.x) + std::floor(2.0f * hit.y)) % 2 == 0;
+    return {.distance = to_wall, .normal = {0, 0, 1}, .lit = glm::vec3(is_bright ? 1.0f : 0.1f)};
+}
+
+/// One frame after `index` others.
+std::vector<PassTime> run(PassGraph& graph, Variant& variant, const GBuffer& gbuffer, CameraData camera,
+                          unsigned index) {
+    camera.frame = {index, 0, 0, index > 0 ? 1 : 0};
+    graph.begin_frame(camera, variant.params, gbuffer.images());
+    variant.render(graph, gbuffer);
+    return graph.times();
+}
+
+void frames(benchmark::State& state, const char* name, const char* preset, const nlohmann::json& parameters) {
+    static Device device;
+    const glm::uvec2 extent(state.range(0), state.range(1));
+    PassGraph graph(device, extent);
+    const CameraPose pose;
+    const CameraData camera = camera_data(pose, nullptr, {.extent = extent});
+    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, strips_before_wall);
+    const std::unique_ptr<Variant> variant = make_variant(name, parameters, preset);
+
+    unsigned index = 0;
+    while (index < 8) run(graph, *variant, gbuffer, camera, index++);  // compiles the shaders, fills the histories
+    std::map<std::string, double> sums;
+    double cpu_ms = 0;
+    for (auto _ : state) {
+        const std::clock_t start = std::clock();
+        const std::vector<PassTime> stages = run(graph, *variant, gbuffer, camera, index++);
+        cpu_ms += 1e3 * double(std::clock() - start) / CLOCKS_PER_SEC;
+        double total = 0;
+        for (const PassTime& stage : stages) {
+            sums[stage.stage] += stage.milliseconds;
+            total += stage.milliseconds;
+        }
+        state.SetIterationTime(total * 1e-3);
+    }
+    for (const auto& [stage, sum] : sums)
+        state.counters[stage + "_ms"] = benchmark::Counter(sum, benchmark::Counter::kAvgIterations);
+    state.counters["cpu_ms"] = benchmark::Counter(cpu_ms, benchmark::Counter::kAvgIterations);
+}
+
+void at_both_sizes(benchmark::internal::Benchmark* registered) {
+    registered->Args({640, 384})->Args({1920, 1080})->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+
+// AMD's default threshold, alpha < 0.2.
+const nlohmann::json full = {{"roughness_threshold", 0.447}},
+                     half = {{"roughness_threshold", 0.447}, {"half_resolution", true}},
+                     as_is = nlohmann::json::object();
+
+}  // namespace
+
+BENCHMARK_CAPTURE(frames, amd_repeatable, "amd_sssr", "repeatable", as_is)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(frames, diligent_documented, "diligent_ssr", "documented", full)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(frames, diligent_current, "diligent_ssr", "current", full)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(frames, diligent_current_half, "diligent_ssr", "current", half)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(frames, diligent_corrected, "diligent_ssr", "corrected", full)->Apply(at_both_sizes);
+
+BENCHMARK_MAIN();
