@@ -23,7 +23,7 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
     const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_);
     const Image color = tracing_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
     const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, noise, color, mask, tracing_);
-    const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, tracing_, filter_);
+    const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter_);
     const DiligentHistories histories = diligent_histories(graph, filter_);
     diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter_);
     const Image reflections =

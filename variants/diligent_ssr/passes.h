@@ -53,8 +53,7 @@ DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Imag
                             const Image& color, const DiligentMask& mask, const DiligentTracingParameters& parameters);
 
 DiligentResolved diligent_reconstruct(PassGraph& graph, const GBuffer& gbuffer, const DiligentRays& rays,
-                                      const DiligentMask& mask, const DiligentTracingParameters& tracing,
-                                      const DiligentFilterParameters& parameters);
+                                      const DiligentMask& mask, const DiligentFilterParameters& parameters);
 
 /// Writes the current sides of the histories.
 void diligent_accumulate(PassGraph& graph, const GBuffer& gbuffer, const Image& reprojected_depth,

@@ -1,0 +1,77 @@
+// Second pass of DiligentFX's denoising, after the rays: each pixel reuses the rays of eight neighbours.
+#include "diligent_ssr/neighbor_rays.glsl"
+#include "diligent_ssr/reuse.glsl"
+
+layout(location = 0) out vec4 resolved_radiance;
+layout(location = 1) out float resolved_variance;
+layout(location = 2) out float hit_depth;
+
+// Where history is missing, too, the original takes a variance of 1: as much as there can be.
+const float unknown_variance = 1.0;
+
+// Weighted mean and variance, one ray after the other (West 1979, "Updating Mean and Variance Estimates").
+struct Reuse {
+    vec4 radiance;
+    float weight, mean_luminance, squares, hit_distance;
+};
+
+Ray ray_at(ivec2 texel) {
+    vec4 direction = texelFetch(ray_direction, texel, 0);
+    return Ray(texelFetch(ray_radiance, texel, 0), direction.xyz, direction.w);
+}
+
+float luminance(vec3 color) { return dot(color, vec3(0.299, 0.587, 0.114)); }
+
+void add(inout Reuse reuse, Ray ray, float weight) {
+    if (weight == 0.0) return;
+    reuse.radiance += weight * ray.radiance;
+    reuse.weight += weight;
+    float from_old_mean = luminance(ray.radiance.rgb) - reuse.mean_luminance;
+    reuse.mean_luminance += weight / reuse.weight * from_old_mean;
+    reuse.squares += weight * from_old_mean * (luminance(ray.radiance.rgb) - reuse.mean_luminance);
+    if (weight > least_weight) reuse.hit_distance = max(reuse.hit_distance, length(ray.ws_direction));
+}
+
+Reuse reuse_neighbors(ivec2 pixel, Receiver receiver) {
+    float radius = disk_radius(texelFetch(roughness, pixel, 0).r);
+    mat2 rotation = disk_rotation(pixel);
+    Reuse reuse = Reuse(vec4(0.0), 0.0, 0.0, 0.0, 0.0);
+    for (int i = 0; i < neighbor_count; ++i) {
+        Ray ray = ray_at(neighbor_ray(pixel, rotation * disk[i].xy * radius));
+        add(reuse, ray, reuse_weight(receiver, ray, disk[i].z));
+    }
+    if (own_ray) {
+        Ray ray = ray_at(own_ray_of(pixel));
+        add(reuse, ray, reuse_weight(receiver, ray, 0.0));
+    }
+    return reuse;
+}
+
+float device_depth(float camera_depth) {
+    vec4 clip = camera.clip_from_view * vec4(0.0, 0.0, -camera_depth, 1.0);
+    return clip.z / clip.w;
+}
+
+// Of the mirrored point: as far behind the surface as the hit is before it.
+float mirrored_depth(Receiver receiver, float hit_distance) {
+    float camera_depth = axial_hit_depth ? -(receiver.vs_position + receiver.vs_view_ray * hit_distance).z
+                                         : length(receiver.vs_position) + hit_distance;
+    return linear_hit_depth ? camera_depth : device_depth(camera_depth);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    Receiver receiver = receiver_at(pixel);
+    if (!spatial_reconstruction) {
+        Ray ray = ray_at(own_ray_of(pixel));
+        resolved_radiance = ray.radiance;
+        resolved_variance = unknown_variance;
+        hit_depth = mirrored_depth(receiver, length(ray.ws_direction));
+        return;
+    }
+    Reuse reuse = reuse_neighbors(pixel, receiver);
+    float weight = max(reuse.weight, 1e-6);
+    resolved_radiance = reuse.radiance / weight;
+    resolved_variance = reuse.squares / weight;
+    hit_depth = mirrored_depth(receiver, reuse.hit_distance);
+}
