@@ -6,6 +6,7 @@
 #include "variants/registry.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <set>
 
 namespace fs = std::filesystem;
@@ -67,6 +68,29 @@ TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
         EXPECT_EQ(variant.seeds.size(), variant.variant == "none" ? 1u : is_alone ? 4u : 16u) << variant.point;
         EXPECT_EQ(variant.seeds.front(), 0u);
     }
+}
+
+TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
+    std::set<std::string> scenes, points;
+    for (const char* file : {"experiments/configs/diligent.json", "experiments/configs/diligent_stress.json"}) {
+        const Config config = read_config(source / file);
+        for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
+        for (const VariantConfig& variant : config.variants) points.insert(variant.point);
+    }
+    EXPECT_GE(scenes.size(), 6u);
+    const nlohmann::json plain = make_variant("diligent_ssr", {}, "current")->params.values();
+    unsigned changes = 0;
+    for (const std::string preset : {"documented", "corrected"}) {
+        const nlohmann::json changed = make_variant("diligent_ssr", {}, preset)->params.values();
+        for (const auto& [name, value] : changed.items()) {
+            if (value == plain[name] || name == "mask") continue;  // either mask leaves out the same pixels
+            ++changes;
+            const std::string change = " " + name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+            EXPECT_TRUE(std::ranges::any_of(points, [&](const std::string& point) { return point.ends_with(change); }))
+                << change;
+        }
+    }
+    EXPECT_GT(changes, 20u);
 }
 
 TEST(Configs, EachChangesOneParameterAtATime) {
