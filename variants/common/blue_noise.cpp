@@ -42,10 +42,12 @@ Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision preci
     const bool is_8_bit = precision == NoisePrecision::bits_8;
     const Image noise = graph.image_of("blue_noise", is_8_bit ? Format::rg8 : Format::rg32f, table_extent);
     const glm::uvec2 per_frame = shift_per_frame(shift);
-    (void)stage;
-    graph.compute("common/blue_noise.comp")
-        .read(table)
+    const bool is_drawn = stage == NoiseStage::fragment;
+    PassGraph::Pass pass =
+        is_drawn ? graph.fragment("common/blue_noise.frag") : graph.compute("common/blue_noise.comp");
+    pass.read(table)
         .write(noise)
+        .set("start", shift == NoiseShift::golden_diagonal_from_half ? 1u << 31 : 0u)
         .set("shift_x", per_frame.x)
         .set("shift_y", per_frame.y)
         .set("is_8_bit", unsigned(is_8_bit))

@@ -6,13 +6,24 @@
 namespace {
 
 constexpr unsigned max_mips = 7;
+const std::string stage = "diligent_ssr/depth_hierarchy";
 
-/// Draws one level of `target` from the level below it in `source`; level 0 from the depth buffer.
-void draw_level(PassGraph& graph, const Image& source, const Image& target, unsigned level) {
-    graph.fragment("diligent_ssr/depth_hierarchy.frag")
-        .read(source.as("finer_depth"))
-        .write(target.mip(level).as("nearest_depth"))
+void copy_level(PassGraph& graph, const Image& source, const Image& target, unsigned level) {
+    graph.fragment("diligent_ssr/copy_level.frag")
+        .label(stage)
+        .read(source.as("copied"))
+        .write(target.mip(level).as("copied_depth"))
         .set("level", int(level))
+        .run();
+}
+
+/// `finer_level`: of the image `finer`, which is that level alone or the whole chain.
+void draw_level(PassGraph& graph, const Image& finer, unsigned finer_level, const Image& target) {
+    graph.fragment("diligent_ssr/depth_hierarchy.frag")
+        .label(stage)
+        .read(finer.as("finer_depth"))
+        .write(target.as("nearest_depth"))
+        .set("finer_level", int(finer_level))
         .run();
 }
 
@@ -22,6 +33,17 @@ Image diligent_depth_hierarchy(PassGraph& graph, const GBuffer& gbuffer, const D
     const glm::uvec2 extent = gbuffer.depth.extent;
     const unsigned mips = std::min(max_mips, unsigned(std::bit_width(std::max(extent.x, extent.y))));
     const Image hierarchy = graph.image_of("depth_hierarchy", Format::r32f, extent, mips);
-    (void)parameters, (void)draw_level;
+    copy_level(graph, gbuffer.depth, hierarchy, 0);
+    if (parameters.hierarchy.is("mip_views")) {
+        for (unsigned level = 1; level < mips; ++level)
+            draw_level(graph, hierarchy.mip(level - 1), 0, hierarchy.mip(level));
+        return hierarchy;
+    }
+    // The original copies the last level, too, which nothing reads.
+    const Image intermediate = graph.image_of("depth_hierarchy_intermediate", Format::r32f, extent, mips);
+    for (unsigned level = 1; level < mips; ++level) {
+        copy_level(graph, hierarchy, intermediate, level - 1);
+        draw_level(graph, intermediate, level - 1, hierarchy.mip(level));
+    }
     return hierarchy;
 }

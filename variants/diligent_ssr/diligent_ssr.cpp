@@ -20,7 +20,7 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
             : noise_.render(graph, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8, NoiseStage::fragment);
     const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
     const Image hierarchy = diligent_depth_hierarchy(graph, gbuffer, tracing_);
-    const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_);
+    const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_, filter_);
     const Image color = tracing_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
     const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, noise, color, mask, tracing_);
     const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter_);

@@ -1,9 +1,35 @@
 #include "variants/diligent_ssr/targets.h"
 
-DiligentMask diligent_mask(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& parameters) {
-    const Format format = parameters.mask.is("stencil") ? Format::d32f_s8 : Format::d16;
-    (void)gbuffer;
-    return {.roughness = graph.image("roughness", parameters.float_roughness ? Format::r32f : Format::r8),
-            .full = graph.image("mask", format),
-            .traced = graph.image("mask", format)};
+namespace {
+
+Image cleared_mask(PassGraph& graph, const std::string& name, const DiligentTracingParameters& parameters,
+                   unsigned divisor) {
+    const Image mask = graph.image(name, parameters.mask.is("stencil") ? Format::d32f_s8 : Format::d16, 1, divisor);
+    graph.clear(mask, {});
+    return mask;
+}
+
+Image roughness_target(PassGraph& graph, bool is_float, bool is_cleared) {
+    const Image roughness =
+        graph.image_black_at_first("roughness", is_float ? Format::r32f : Format::r8, graph.extent());
+    if (is_cleared) graph.clear(roughness, glm::vec4(1.0f));  // what is left out counts as rough
+    return roughness;
+}
+
+}  // namespace
+
+DiligentMask diligent_mask(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& tracing,
+                           const DiligentFilterParameters& filter) {
+    const Image roughness = roughness_target(graph, tracing.float_roughness, filter.clear_targets);
+    const Image full = cleared_mask(graph, "mask", tracing, 1);
+    auto pass = graph.fragment("diligent_ssr/mask.frag");
+    pass.read(gbuffer.depth).read(gbuffer.normal).read(gbuffer.base_color).read(gbuffer.emission).write(roughness);
+    draw_mask(pass, full);
+    if (!tracing.half_resolution) return {roughness, full, full};
+
+    const Image half = cleared_mask(graph, "half_mask", tracing, 2);
+    auto half_pass = graph.fragment("diligent_ssr/half_mask.frag");
+    half_pass.label("diligent_ssr/mask").read(gbuffer.depth).read(roughness);
+    draw_mask(half_pass, half);
+    return {roughness, full, half};
 }

@@ -11,7 +11,8 @@
 /// Which pixels later passes draw: a depth or stencil buffer per resolution. Pixels that it leaves out keep what their
 /// targets held.
 struct DiligentMask {
-    Image roughness;  ///< perceptual, of the pixels kept; r8, or r32f with float_roughness
+    Image roughness;  ///< perceptual, of the pixels kept; r8, or r32f with float_roughness. Elsewhere older frames'
+                      ///< (0 at first), or 1 with clear_targets
     Image full;       ///< d16 or d32f_s8, of the screen
     Image traced;     ///< of the resolution of the rays; `full` without half_resolution
 };
@@ -37,7 +38,8 @@ struct DiligentHistories {
 
 DiligentHistories diligent_histories(PassGraph& graph, const DiligentFilterParameters& parameters);
 
-/// Device depth of each pixel's point as the previous camera saw it: `reprojected_depth`, r32f.
+/// Device depth of each pixel's point as the previous camera saw it: `reprojected_depth`, r32f. With
+/// guard_previous_clip that of the near plane for points that were behind the camera.
 Image diligent_reprojected_depth(PassGraph& graph, const GBuffer& gbuffer);
 
 /// Mip 0 is gbuffer.depth, each following texel the nearest of the 2x2 below, or of three where the level below is odd:
@@ -45,7 +47,8 @@ Image diligent_reprojected_depth(PassGraph& graph, const GBuffer& gbuffer);
 Image diligent_depth_hierarchy(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& parameters);
 
 /// Keeps surfaces that reflect and are no rougher than roughness_threshold.
-DiligentMask diligent_mask(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& parameters);
+DiligentMask diligent_mask(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& tracing,
+                           const DiligentFilterParameters& filter);
 
 /// One ray per kept pixel of mask.traced. `noise`: 128x128, two channels in [0, 1]. `color`: lit image that hits show;
 /// of the previous frame with previous_frame.
