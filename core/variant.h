@@ -31,4 +31,5 @@ public:
     virtual std::string not_repeatable() const { return {}; }
 
     ParameterSet params;
+    Limits limits = Limits::none;  ///< of the passes that render() adds; who calls it opens a LimitScope with them
 };

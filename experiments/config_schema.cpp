@@ -26,6 +26,11 @@ json counts(unsigned max) {
     return {{"anyOf", {integer(1, int(max)), {{"type", "array"}, {"items", integer(0, int(max))}}}}};
 }
 
+std::string description_of(const VariantEntry& entry) {
+    const std::string limits = limits_text(entry.limits);
+    return entry.title + " (" + entry.source + ")" + (limits.empty() ? "" : "; enforced limits: " + limits);
+}
+
 json variant_schema(const VariantEntry& entry) {
     const json parameters = make_variant(entry.name)->params.schema();
     json axes = parameters;
@@ -33,7 +38,7 @@ json variant_schema(const VariantEntry& entry) {
         schema = {{"description", schema["description"]}, {"type", "array"}, {"items", schema}, {"minItems", 1}};
     std::vector<std::string> presets = {""};
     for (const Preset& preset : entry.presets) presets.push_back(preset.name);
-    return object({{"variant", {{"const", entry.name}, {"description", entry.title + " (" + entry.source + ")"}}},
+    return object({{"variant", {{"const", entry.name}, {"description", description_of(entry)}}},
                    {"preset", list_of(presets)},
                    {"parameters", parameters},
                    {"sweep", axes},

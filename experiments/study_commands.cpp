@@ -60,6 +60,8 @@ void describe_command(const DescribeOptions& options) {
         if (!options.variant.empty() && entry.name != options.variant) continue;
         std::cout << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source
                   << "\n";
+        if (const std::string limits = limits_text(entry.limits); !limits.empty())
+            std::cout << "  Enforced limits: " << limits << '\n';
         const std::string parameters = make_variant(entry.name)->params.help();
         std::cout << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
         if (!entry.presets.empty()) std::cout << "\nPresets:\n";

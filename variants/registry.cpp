@@ -115,6 +115,7 @@ const std::vector<VariantEntry> table = {
                       {"finite_weights", true},
                       {"clear_targets", true},
                       {"float_histories", true}}}},
+        .limits = {.api = Limits::webgl2, .lifted_by = {{"hierarchy", "mip_views"}}},
         .create = create<DiligentSsr>,
     },
 };
@@ -130,11 +131,25 @@ const T& find_named(std::span<const T> entries, const std::string& name, const s
     fail("unknown ", what, " '", name, "'", suggestion(name, names));
 }
 
+bool are_lifted(const VariantLimits& limits, const nlohmann::json& parameters) {
+    for (const auto& [name, value] : limits.lifted_by.items())
+        if (parameters.at(name) == value) return true;
+    return false;
+}
+
 }  // namespace
 
 std::span<const VariantEntry> variant_table() { return table; }
 
 const VariantEntry& find_variant(const std::string& name) { return find_named<VariantEntry>(table, name, "variant"); }
+
+std::string limits_text(const VariantLimits& limits) {
+    if (limits.api == Limits::none) return "";
+    std::string text = "WebGL 2 with EXT_color_buffer_float";
+    for (const auto& [name, value] : limits.lifted_by.items())
+        text += ", unless " + name + " = " + (value.is_string() ? value.get<std::string>() : value.dump());
+    return text;
+}
 
 std::unique_ptr<Variant> make_variant(const std::string& name, const nlohmann::json& parameters,
                                       const std::string& preset) {
@@ -148,5 +163,6 @@ std::unique_ptr<Variant> make_variant(const std::string& name, const nlohmann::j
     } catch (const Error& error) {
         fail("variant '", name, "': ", error.what());
     }
+    variant->limits = are_lifted(entry.limits, variant->params.values()) ? Limits::none : entry.limits.api;
     return variant;
 }

@@ -10,12 +10,20 @@ struct Preset {
     nlohmann::json parameters;
 };
 
+/// The API that a technique keeps to, so that it runs there. `lifted_by` holds values of parameters; each of them asks
+/// for more than the API has and lifts the limits.
+struct VariantLimits {
+    Limits api = Limits::none;
+    nlohmann::json lifted_by = nlohmann::json::object();
+};
+
 /// One row of the table of techniques.
 struct VariantEntry {
     std::string name, title, source, description;
     std::vector<std::string>
         needs;  ///< names of scene facts (core/gbuffer/scene_facts.h) without which it leaves stages out
     std::vector<Preset> presets;
+    VariantLimits limits{};
     std::function<std::unique_ptr<Variant>()> create;
 };
 
@@ -25,8 +33,12 @@ std::span<const VariantEntry> variant_table();
 /// Fails with a near miss if there is none of that name.
 const VariantEntry& find_variant(const std::string& name);
 
-/// The variant with its defaults, changed by the preset ("": none), changed by `parameters`. Unknown names and values
-/// out of range are Errors that begin with the variant's name.
+/// "WebGL 2 with EXT_color_buffer_float, unless hierarchy = mip_views"; "" where there are none.
+std::string limits_text(const VariantLimits& limits);
+
+/// The variant with its defaults, changed by the preset ("": none), changed by `parameters`; its limits are those of
+/// the table, unless a parameter lifts them. Unknown names and values out of range are Errors that begin with the
+/// variant's name.
 std::unique_ptr<Variant> make_variant(const std::string& name,
                                       const nlohmann::json& parameters = nlohmann::json::object(),
                                       const std::string& preset = "");

@@ -78,6 +78,7 @@ void PassGraph::clear(const Image& image, glm::vec4 value) {
 }
 
 void PassGraph::clear(const Buffer& buffer, uint32_t value) {
+    impl_->check_limits(buffer);
     impl_->execute("clear", [&](const auto& commands) {
         commands.fillBuffer(*buffer.storage->buffer.buffer, 0, VK_WHOLE_SIZE, value);
     });
@@ -88,6 +89,7 @@ void PassGraph::upload(const Image& image, const HostImage& pixels) {
     if (pixels.extent != image.extent || pixels.channels != layout.channels)
         fail("image '", image.name, "' is ", image.extent.x, "x", image.extent.y, " with ", layout.channels,
              " channels and cannot take ", pixels.extent.x, "x", pixels.extent.y, " with ", pixels.channels);
+    impl_->check_upload_limits(image);
     std::vector<std::byte> texels(pixels.pixel_count() * layout.bytes);
     encode_texels(image.format, pixels.values, texels.data());
     impl_->flush();
@@ -103,6 +105,7 @@ void PassGraph::upload_rgba8(const Image& image, std::span<const uint8_t> texels
 }
 
 void PassGraph::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
+    impl_->check_limits(buffer);
     if (bytes.size() > buffer.size)
         fail("buffer '", buffer.name, "' holds ", buffer.size, " bytes, not ", bytes.size());
     impl_->flush();

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/gpu/image.h"
+#include "core/gpu/limits.h"
 #include "core/host_image.h"
 #include "core/parameters.h"
 #include "core/shared/camera.h"
@@ -127,6 +128,7 @@ public:
     struct Impl;
 
 private:
+    friend class LimitScope;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 // The inside of PassGraph: pass_graph.cpp makes resources, frame.cpp submits and times, pass.cpp describes and runs
-// passes, binding.cpp finds what their shaders ask for.
+// passes, binding.cpp finds what their shaders ask for, limits.cpp refuses what an API does not have.
 
 // The uniform buffer: the camera block, then the parameters at an offset that suits every device's alignment (256 at
 // most).
@@ -28,6 +28,7 @@ struct PassGraph::Impl {
     const ParameterSet no_parameters;  ///< until the first begin_frame()
     const ParameterSet* params = &no_parameters;
     std::map<std::array<int, 3>, vk::raii::Sampler> samplers;
+    Limits limits = Limits::none;
 
     std::vector<PassTime> times;
     double frame_milliseconds = 0;
@@ -48,6 +49,9 @@ struct PassGraph::Impl {
     void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
     void check(const Pass& pass, const ShaderInterface& interface);
     void check_features(const Image& image, ShaderInterface::Kind kind, const Sampling& sampling);
+    void check_limits(const Pass& pass, const Shader& shader, const std::vector<Image>& targets);
+    void check_limits(const Buffer& buffer);
+    void check_upload_limits(const Image& image);
     void bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw, const Pipeline& pipeline);
     void draw(const vk::raii::CommandBuffer& commands, const Pass& pass, const Pipeline& pipeline,
               const std::vector<Image>& attachments);

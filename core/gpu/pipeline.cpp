@@ -126,6 +126,13 @@ const Shader& PipelineCache::shader(const std::string& file, const std::string& 
     return entry->second;
 }
 
+/// Once per shader: values of constants do not decide what is valid.
+void PipelineCache::require_webgl2(const Shader& shader, const std::string& file, const ParameterSet& params) {
+    if (webgl2_shaders_.contains(&shader)) return;
+    compile(file, "", camera_block + params.glsl(true), ShaderLanguage::webgl2);
+    webgl2_shaders_.insert(&shader);
+}
+
 Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                                   const PipelineState& state) {
     const Shader& shader = this->shader(file, vertex_file, params);

@@ -30,11 +30,14 @@ public:
     /// `params`: the variant's; their declarations are part of the shader, the values of constants part of the
     /// pipeline.
     const Shader& shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params);
+    /// Fails with Error unless the fragment shader, which shader() gave for `file`, is valid as GLSL ES 3.00.
+    void require_webgl2(const Shader& shader, const std::string& file, const ParameterSet& params);
     Pipeline& pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                        const PipelineState& state);
 
 private:
     Device::Impl& gpu_;
-    std::map<std::string, Shader> shaders_;
+    std::map<std::string, Shader> shaders_;  // nodes keep their addresses
+    std::set<const Shader*> webgl2_shaders_;
     std::map<std::string, Pipeline> pipelines_;
 };

@@ -16,6 +16,15 @@ namespace {
 const char* const fullscreen_triangle =
     "void main() { gl_Position = vec4(vec2(gl_VertexIndex << 1 & 2, gl_VertexIndex & 2) * 2.0 - 1.0, 0.0, 1.0); }\n";
 
+/// GLSL ES 3.00 gives samplers low or no default precision, and knows no push constants: a uniform block takes their
+/// place, in which floats, ints and vec4 lie at the same offsets.
+const char* const webgl2_preamble =
+    "precision highp float;\n"
+    "precision highp int;\n"
+    "precision highp sampler2D;\n"
+    "precision highp usampler2D;\n"
+    "#define push_constant std140\n";
+
 std::string read_shader(const std::string& name) {
     for (const auto& root : shader_roots())
         if (std::ifstream in(root / name); in) return {std::istreambuf_iterator<char>(in), {}};
@@ -140,7 +149,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         shader.setEnvInput(glslang::EShSourceGlsl, stage, webgl2 ? glslang::EShClientOpenGL : glslang::EShClientVulkan,
                            100);
         if (webgl2) {
-            shader.setPreamble("precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
+            shader.setPreamble(webgl2_preamble);
         } else {
             // Vulkan 1.3 would make glslang emit LocalSizeId, which asks for a maintenance4 that 1.2 does without.
             shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
@@ -154,10 +163,10 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         if (!shader.parse(GetDefaultResources(), webgl2 ? 300 : 460, webgl2 ? EEsProfile : ECoreProfile, true, false,
                           rules))
             fail("cannot compile ", is_vertex ? vertex_file : file, ":\n", with_file_names(shader.getInfoLog(), files));
-        if (webgl2) return {};
         program.addShader(&shader);
-        if (!program.link(rules) || !program.mapIO())
+        if (!program.link(rules) || (!webgl2 && !program.mapIO()))
             fail("cannot link ", is_vertex ? vertex_file : file, ":\n", with_file_names(program.getInfoLog(), files));
+        if (webgl2) return {};
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO |
                                 EShReflectionSeparateBuffers);
         reflect(program, is_vertex, result.interface);

@@ -1,0 +1,154 @@
+#include "core/gpu/limits.h"
+
+#include "core/gpu/pass_graph_impl.h"
+
+#include <algorithm>
+
+namespace {
+
+// Least values that every implementation supports: OpenGL ES 3.0.6, tables of implementation-dependent values in
+// section 6.2.
+constexpr size_t max_draw_buffers = 4, max_texture_image_units = 16, max_uniform_block_size = 16384;
+static_assert(uniforms_size <= max_uniform_block_size);
+
+/// A format as WebGL 2 knows it.
+struct Webgl2Format {
+    const char* name;  ///< OpenGL's
+    bool is_color_renderable, is_filterable;
+};
+
+/// OpenGL ES 3.0.6, section 3.8.3: the tables of sized internal formats and the completeness of depth textures
+/// (3.8.13); targets of floats: EXT_color_buffer_float.
+Webgl2Format webgl2_format(Format format) {
+    switch (format) {
+        case Format::r8:
+            return {"R8", true, true};
+        case Format::rg8:
+            return {"RG8", true, true};
+        case Format::rgba8:
+            return {"RGBA8", true, true};
+        case Format::rgba8_srgb:
+            return {"SRGB8_ALPHA8", true, true};
+        case Format::r16f:
+            return {"R16F", true, true};
+        case Format::rg16f:
+            return {"RG16F", true, true};
+        case Format::rgba16f:
+            return {"RGBA16F", true, true};
+        case Format::r32f:
+            return {"R32F", true, false};
+        case Format::rg32f:
+            return {"RG32F", true, false};
+        case Format::rgba32f:
+            return {"RGBA32F", true, false};
+        case Format::r11g11b10f:
+            return {"R11F_G11F_B10F", true, true};
+        case Format::r32ui:
+            return {"R32UI", true, false};
+        case Format::d32f:
+            return {"DEPTH_COMPONENT32F", false, false};
+        case Format::d24:
+            return {"DEPTH_COMPONENT24", false, false};
+        case Format::d16:
+            return {"DEPTH_COMPONENT16", false, false};
+        case Format::d32f_s8:
+            return {"DEPTH32F_STENCIL8", false, false};
+    }
+    fail("no OpenGL format for Format ", int(format));
+}
+
+std::string formats_that(bool Webgl2Format::*can) {
+    std::string names;
+    for (int i = 0; i <= int(Format::d32f_s8); ++i)
+        if (const Webgl2Format format = webgl2_format(Format(i)); format.*can)
+            names += (names.empty() ? "" : ", ") + std::string(format.name);
+    return names;
+}
+
+/// `fact`: what WebGL 2 does in its place.
+template <class... Parts>
+[[noreturn]] void refuse(const std::string& pass, const std::string& fact, const Parts&... parts) {
+    fail("pass ", pass, " ", parts..., ", outside the limits of WebGL 2, which ", fact);
+}
+
+void check_targets(const std::string& pass, const std::vector<Image>& targets) {
+    if (targets.size() > max_draw_buffers)
+        refuse(pass, "guarantees " + std::to_string(max_draw_buffers), "draws to ", targets.size(),
+               " colour targets, the last of them '", targets.back().name, "'");
+    for (const Image& target : targets)
+        if (const Webgl2Format format = webgl2_format(target.format); !format.is_color_renderable)
+            refuse(pass, "with EXT_color_buffer_float has " + formats_that(&Webgl2Format::is_color_renderable),
+                   "has the colour target '", target.name, "' of format ", format.name);
+}
+
+void check_texture(const std::string& pass, const Image& texture, const Sampling& sampling,
+                   const std::vector<Image>& drawn) {
+    for (const Image& image : drawn)
+        if (image.storage == texture.storage)
+            refuse(pass, "reads no image while it is drawn to", "reads '", texture.name, "' and draws to it as '",
+                   image.name, "'");
+    const size_t mips = texture.storage->mips.size();
+    if (texture.mips != mips)
+        refuse(pass, "has no views of textures and reads all mips", "reads ", texture.mips, " of the ", mips,
+               " mips of '", texture.name, "'");
+    if (const Webgl2Format format = webgl2_format(texture.format); sampling.is_linear && !format.is_filterable)
+        refuse(pass, "filters " + formats_that(&Webgl2Format::is_filterable), "filters '", texture.name, "' of format ",
+               format.name, " linearly");
+}
+
+}  // namespace
+
+LimitScope::LimitScope(PassGraph& graph, Limits limits) : graph_(graph) { graph_.impl_->limits = limits; }
+LimitScope::~LimitScope() { graph_.impl_->limits = Limits::none; }
+
+void PassGraph::Impl::check_limits(const Pass& pass, const Shader& shader, const std::vector<Image>& targets) {
+    if (limits == Limits::none) return;
+    if (pass.is_compute_) refuse(pass.label_, "has vertex and fragment shaders only", "is a compute shader");
+    if (!pass.vertex_shader_.empty())
+        refuse(pass.label_, "has no such buffers", "draws meshes, whose vertices lie in storage buffers");
+    check_targets(pass.label_, targets);
+
+    std::vector<Image> drawn = targets;
+    for (const Image* image : {&pass.depth_.image, &pass.stencil_.image})
+        if (image->storage) drawn.push_back(*image);
+    if (pass.depth_.image.storage && pass.stencil_.image.storage &&
+        pass.depth_.image.storage != pass.stencil_.image.storage)
+        refuse(pass.label_, "keeps both in one image", "tests depth in '", pass.depth_.image.name, "' and stencil in '",
+               pass.stencil_.image.name, "'");
+
+    using Kind = ShaderInterface::Kind;
+    size_t textures = 0;
+    for (const ShaderInterface::Resource& r : shader.interface.resources) {
+        if (r.kind == Kind::storage)
+            refuse(pass.label_, "has no such buffers", "uses the storage buffer '", r.name, "'");
+        if (r.kind == Kind::image)
+            refuse(pass.label_, "writes to colour targets only", "uses the storage image '", r.name, "'");
+        if (r.kind != Kind::sampler) continue;
+        Sampling sampling;
+        const Image* texture = find_image(pass, nullptr, r.name, sampling);
+        if (!texture) fail_missing(pass, r.name);
+        check_texture(pass.label_, *texture, sampling, drawn);
+        ++textures;
+    }
+    if (textures > max_texture_image_units)
+        refuse(pass.label_, "guarantees " + std::to_string(max_texture_image_units), "reads ", textures, " textures");
+
+    try {
+        pipelines.require_webgl2(shader, pass.shader_, *params);
+    } catch (const Error& error) {
+        refuse(pass.label_, std::string("takes GLSL ES 3.00: ") + error.what(), "has a shader of another language");
+    }
+}
+
+void PassGraph::Impl::check_limits(const Buffer& buffer) {
+    if (limits == Limits::webgl2)
+        fail("the storage buffer '", buffer.name, "' lies outside the limits of WebGL 2, which has no such buffers");
+}
+
+/// Depth with stencil has a type of texels for which WebGL 2 takes no data (WebGL 2.0, section 3.7.6).
+void PassGraph::Impl::check_upload_limits(const Image& image) {
+    if (limits == Limits::webgl2 && image.format == Format::d32f_s8)
+        fail("the upload to '", image.name,
+             "' of format DEPTH32F_STENCIL8 lies outside the limits of WebGL 2, which only draws and clears such "
+             "images");
+}
