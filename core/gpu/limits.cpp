@@ -98,8 +98,10 @@ void check_texture(const std::string& pass, const Image& texture, const Sampling
 
 }  // namespace
 
-LimitScope::LimitScope(PassGraph& graph, Limits limits) : graph_(graph) { graph_.impl_->limits = limits; }
-LimitScope::~LimitScope() { graph_.impl_->limits = Limits::none; }
+LimitScope::LimitScope(PassGraph& graph, Limits limits) : graph_(graph), before_(graph.impl_->limits) {
+    graph_.impl_->limits = limits;
+}
+LimitScope::~LimitScope() { graph_.impl_->limits = before_; }
 
 void PassGraph::Impl::check_limits(const Pass& pass, const Shader& shader, const std::vector<Image>& targets) {
     if (limits == Limits::none) return;

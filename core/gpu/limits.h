@@ -29,4 +29,5 @@ public:
 
 private:
     PassGraph& graph_;
+    const Limits before_;
 };

@@ -29,6 +29,34 @@ TEST(Shader, WebGl2RefusesWhatItDoesNotHave) {
     EXPECT_NE(error_of("image_store.frag", ShaderLanguage::webgl2).find("image_store.frag:"), std::string::npos);
 }
 
+/// Constructs that Vulkan's GLSL has and GLSL ES 3.00 has not, and what stands for push constants.
+TEST(Shader, WebGl2HasItsOwnLanguage) {
+    const auto is_accepted = [](const char* text, ShaderLanguage language) {
+        try {
+            compile("empty.frag", "", std::string(text) + "\n", language);
+        } catch (const Error&) {
+            return false;
+        }
+        return true;
+    };
+    for (const char* text :
+         {"float f() { return 1; }", "uint f(int i) { return uint(1) + i; }",
+          "uniform sampler2D image; vec4 f() { return textureGather(image, vec2(0.5)); }",
+          "uniform sampler2D image; int f() { return textureQueryLevels(image); }",
+          "float f(float x) { return fma(x, x, x); }", "layout(early_fragment_tests) in;", "out vec4 a; out vec4 b;"}) {
+        EXPECT_TRUE(is_accepted(text, ShaderLanguage::vulkan)) << text;
+        EXPECT_FALSE(is_accepted(text, ShaderLanguage::webgl2)) << text;
+    }
+    for (const char* text : {"layout(push_constant) uniform Push { float a; uint b; vec4 c; };",
+                             "uniform usampler2D ids; uint f() { return texelFetch(ids, ivec2(0), 0).x; }",
+                             "layout(location = 0) out vec4 a; layout(location = 1) out float b;",
+                             "#include \"core/shared/camera.h\"\n"
+                             "layout(std140) uniform Camera { CameraData camera; };\n"
+                             "#include \"core/shaders/view.glsl\""})
+        for (const ShaderLanguage language : {ShaderLanguage::vulkan, ShaderLanguage::webgl2})
+            EXPECT_TRUE(is_accepted(text, language)) << text;
+}
+
 /// The formulas that the path tracer, the rasteriser and the variants share compile in every language they are meant
 /// for.
 TEST(Shader, SharedHeadersCompileInBothLanguages) {

@@ -1,0 +1,3 @@
+buffer counts { uint count[]; };
+layout(location = 0) out vec4 color;
+void main() { color = vec4(float(count[0])); }
