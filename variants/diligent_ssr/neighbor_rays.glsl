@@ -21,7 +21,7 @@ mat2 disk_rotation(ivec2 pixel) {
     int frame = rotate_kernel ? int(camera.frame.x & 15u) : 0;
     int turns = (turns_of_pixel[4 * (pixel.x & 3) + (pixel.y & 3)] + frame) & 15;
     float angle = 2.0 * pi * float(turns) / 16.0;
-    return mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
+    return mat2(cos(angle), -sin(angle), sin(angle), cos(angle));
 }
 
 // Pixels. Mirrors have no disk: all eight points are the pixel itself.
