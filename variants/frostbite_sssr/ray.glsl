@@ -1,0 +1,60 @@
+// The pixels that rays start from, and what is kept of each ray: FrostbiteRays of passes.h.
+#ifndef FROSTBITE_SSSR_RAY_GLSL
+#define FROSTBITE_SSSR_RAY_GLSL
+#include "common/mirror_ray.glsl"
+
+buffer directions { vec4 direction_of_ray[]; };
+buffer hits { uvec4 hit_of_ray[]; };
+
+// In place of the hit pixel. A ray that meets nothing on the screen; one whose every draw went below the horizon, and
+// which nothing can meet: only estimator b counts those.
+const uint ray_missed = 0xffffffffu, ray_below_horizon = 0xfffffffeu;
+
+// Of rays that hit, miss or go below the horizon alike, `direction` and its density are those of the last draw.
+struct TracedRay {
+    vec3 direction;         // view space, unit
+    float inverse_density;  // of the lobe without regeneration (sr); 0: there is no such ray
+    uint target;            // pixel x | y << 16, or a marker from above
+    float length;           // from the surface to the hit (m)
+    float confidence;       // of a hit, [0, 1]
+    uint discarded_draws;   // that went below the horizon before the last one
+};
+
+uint target_of_pixel(ivec2 pixel) { return uint(pixel.x) | uint(pixel.y) << 16; }
+ivec2 pixel_of_target(uint target) { return ivec2(target & 0xffffu, target >> 16); }
+bool is_hit(TracedRay ray) { return ray.target < ray_below_horizon; }
+
+ivec2 traced_extent() {
+    ivec2 screen = ivec2(camera.extent.xy);
+    return half_resolution ? (screen + 1) / 2 : screen;
+}
+
+// Which of its 2x2 pixels a traced pixel of half resolution is: all four in four frames, diagonals first; another one
+// first for each seed. Beyond the border there are none.
+ivec2 pixel_of_traced(ivec2 traced) {
+    if (!half_resolution) return traced;
+    const ivec2 order[4] = ivec2[4](ivec2(0, 0), ivec2(1, 1), ivec2(1, 0), ivec2(0, 1));
+    return min(2 * traced + order[(camera.frame.x + camera.frame.y) & 3u], ivec2(camera.extent.xy) - 1);
+}
+
+ivec2 traced_of_pixel(ivec2 pixel) { return half_resolution ? pixel / 2 : pixel; }
+
+// `k` below max_rays.
+uint index_of_ray(ivec2 traced, uint k) { return uint(traced.y * traced_extent().x + traced.x) * max_rays + k; }
+ivec2 traced_of_ray(uint index) {
+    int traced = int(index / max_rays), width = traced_extent().x;
+    return ivec2(traced % width, traced / width);
+}
+
+void store_ray(uint index, TracedRay ray) {
+    direction_of_ray[index] = vec4(ray.direction, ray.inverse_density);
+    hit_of_ray[index] =
+        uvec4(ray.target, floatBitsToUint(ray.length), floatBitsToUint(ray.confidence), ray.discarded_draws);
+}
+
+TracedRay load_ray(uint index) {
+    vec4 direction = direction_of_ray[index];
+    uvec4 hit = hit_of_ray[index];
+    return TracedRay(direction.xyz, direction.w, hit.x, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), hit.w);
+}
+#endif
