@@ -15,7 +15,7 @@ struct TracedRay {
     vec3 direction;         // view space, unit
     float inverse_density;  // of the lobe without regeneration (sr); 0: there is no such ray
     uint target;            // pixel x | y << 16, or a marker from above
-    float length;           // from the surface to the hit (m)
+    float ray_length;       // from the surface to the hit (m)
     float confidence;       // of a hit, [0, 1]
     uint discarded_draws;   // that went below the horizon before the last one
 };
@@ -49,7 +49,7 @@ ivec2 traced_of_ray(uint index) {
 void store_ray(uint index, TracedRay ray) {
     direction_of_ray[index] = vec4(ray.direction, ray.inverse_density);
     hit_of_ray[index] =
-        uvec4(ray.target, floatBitsToUint(ray.length), floatBitsToUint(ray.confidence), ray.discarded_draws);
+        uvec4(ray.target, floatBitsToUint(ray.ray_length), floatBitsToUint(ray.confidence), ray.discarded_draws);
 }
 
 TracedRay load_ray(uint index) {
