@@ -1,14 +1,16 @@
-// The pixels that rays start from, and what is kept of each ray: FrostbiteRays of passes.h.
+// What is kept of each ray: FrostbiteRays of passes.h. Needs the `camera` block.
 #ifndef FROSTBITE_SSSR_RAY_GLSL
 #define FROSTBITE_SSSR_RAY_GLSL
-#include "common/mirror_ray.glsl"
+#include "frostbite_sssr/traced_pixel.glsl"
 
 buffer directions { vec4 direction_of_ray[]; };
 buffer hits { uvec4 hit_of_ray[]; };
 
-// In place of the hit pixel. A ray that meets nothing on the screen; one whose every draw went below the horizon, and
-// which nothing can meet: only estimator b counts those.
-const uint ray_missed = 0xffffffffu, ray_below_horizon = 0xfffffffeu;
+// In place of the hit pixel. A ray that meets nothing on the screen; one whose every draw went below the horizon of the
+// shading normal, and which nothing can meet: only estimator b counts those; one above that horizon, but into the
+// geometric surface that it starts from: it is known to bring no light, as in the path-traced reference, and so counts as
+// a black hit of length 0 and full confidence.
+const uint ray_missed = 0xffffffffu, ray_below_horizon = 0xfffffffeu, ray_into_surface = 0xfffffffdu;
 
 // Of rays that hit, miss or go below the horizon alike, `direction` and its density are those of the last draw.
 struct TracedRay {
@@ -22,20 +24,7 @@ struct TracedRay {
 
 uint target_of_pixel(ivec2 pixel) { return uint(pixel.x) | uint(pixel.y) << 16; }
 ivec2 pixel_of_target(uint target) { return ivec2(target & 0xffffu, target >> 16); }
-bool is_hit(TracedRay ray) { return ray.target < ray_below_horizon; }
-
-ivec2 traced_extent() {
-    ivec2 screen = ivec2(camera.extent.xy);
-    return half_resolution ? (screen + 1) / 2 : screen;
-}
-
-// Which of its 2x2 pixels a traced pixel of half resolution is: all four in four frames, diagonals first; another one
-// first for each seed. Beyond the border there are none.
-ivec2 pixel_of_traced(ivec2 traced) {
-    if (!half_resolution) return traced;
-    const ivec2 order[4] = ivec2[4](ivec2(0, 0), ivec2(1, 1), ivec2(1, 0), ivec2(0, 1));
-    return min(2 * traced + order[(camera.frame.x + camera.frame.y) & 3u], ivec2(camera.extent.xy) - 1);
-}
+bool is_hit(TracedRay ray) { return ray.target < ray_into_surface; }
 
 ivec2 traced_of_pixel(ivec2 pixel) { return half_resolution ? pixel / 2 : pixel; }
 
