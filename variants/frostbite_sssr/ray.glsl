@@ -26,7 +26,7 @@ uint target_of_pixel(ivec2 pixel) { return uint(pixel.x) | uint(pixel.y) << 16; 
 ivec2 pixel_of_target(uint target) { return ivec2(target & 0xffffu, target >> 16); }
 bool is_hit(TracedRay ray) { return ray.target < ray_into_surface; }
 
-ivec2 traced_of_pixel(ivec2 pixel) { return half_resolution ? pixel / 2 : pixel; }
+ivec2 traced_of_pixel(ivec2 pixel) { return half_resolution ? pixel >> 1 : pixel; }
 
 // `k` below max_rays.
 uint index_of_ray(ivec2 traced, uint k) { return uint(traced.y * traced_extent().x + traced.x) * max_rays + k; }
