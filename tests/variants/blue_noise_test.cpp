@@ -58,7 +58,8 @@ uint32_t hash(uint32_t x) {
 std::vector<uint64_t> expected_numbers(unsigned frame, unsigned seed, NoiseShift shift) {
     const HostImage table = blue_noise_table();
     const double plastic = 1.32471795724474602596, golden = 1.61803398875;
-    const bool is_diagonal = shift == NoiseShift::golden_diagonal;
+    const bool is_diagonal = shift != NoiseShift::r2;
+    const uint64_t start = shift == NoiseShift::golden_diagonal_from_half ? 1u << 31 : 0;
     const double shifts[2] = {is_diagonal ? golden - 1 : 1 / plastic, is_diagonal ? golden - 1 : 1 / plastic / plastic};
     std::vector<uint64_t> numbers;
     for (unsigned y = 0; y < 128; ++y)
@@ -68,7 +69,7 @@ std::vector<uint64_t> expected_numbers(unsigned frame, unsigned seed, NoiseShift
             for (int d = 0; d < 2; ++d) {
                 const uint64_t per_frame = uint64_t(shifts[d] * 4294967296.0);
                 const uint64_t rotation = seed ? hash(3 * seed + unsigned(d)) : 0;
-                numbers.push_back(((2 * code[d] + 1) * uint64_t(1 << 23) + frame % 256 * per_frame + rotation) %
+                numbers.push_back(((2 * code[d] + 1) * uint64_t(1 << 23) + start + frame % 256 * per_frame + rotation) %
                                   4294967296u);
             }
         }
@@ -76,7 +77,7 @@ std::vector<uint64_t> expected_numbers(unsigned frame, unsigned seed, NoiseShift
 }
 
 TEST_F(BlueNoisePass, MatchesTheFormulaExactly) {
-    for (const NoiseShift shift : {NoiseShift::golden_diagonal, NoiseShift::r2})
+    for (const NoiseShift shift : {NoiseShift::golden_diagonal, NoiseShift::golden_diagonal_from_half, NoiseShift::r2})
         for (const unsigned frame : {0u, 1u, 100u, 255u, 256u, 70001u})
             for (const unsigned seed : {0u, 1u, 2u, 0xfffffff0u}) {
                 SCOPED_TRACE(testing::Message() << "frame " << frame << ", seed " << seed);
@@ -99,6 +100,21 @@ TEST_F(BlueNoisePass, FloatNumbersLieBelowOneAndEightBitNumbersReachIt) {
     EXPECT_EQ(std::ranges::max(fine.values), 255.5f / 256);
     EXPECT_EQ(std::ranges::max(coarse.values), 1.0f);
     EXPECT_EQ(std::ranges::min(coarse.values), 0.0f);
+}
+
+TEST_F(BlueNoisePass, GivesTheSameNumbersAsADraw) {
+    for (const NoiseShift shift : {NoiseShift::golden_diagonal_from_half, NoiseShift::r2})
+        for (const NoisePrecision precision : {NoisePrecision::bits_8, NoisePrecision::float_32})
+            for (const unsigned seed : {0u, 3u}) {
+                begin(77, seed);
+                const HostImage computed = graph.download(noise.render(graph, shift, precision, NoiseStage::compute));
+                graph.clear(
+                    graph.image_of("blue_noise", precision == NoisePrecision::bits_8 ? Format::rg8 : Format::rg32f,
+                                   {128, 128}),
+                    {});
+                const HostImage drawn = graph.download(noise.render(graph, shift, precision, NoiseStage::fragment));
+                EXPECT_EQ(drawn.values, computed.values) << int(shift) << ", seed " << seed;
+            }
 }
 
 TEST_F(BlueNoisePass, ServesSeveralGraphs) {

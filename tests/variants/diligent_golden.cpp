@@ -25,16 +25,16 @@ nlohmann::json our_names(const nlohmann::json& recorded, const std::string& set)
     return parameters;
 }
 
-std::vector<std::string> sets_where(bool is_sequence) {
+}  // namespace
+
+std::vector<std::string> diligent_sets_with(const std::string& file) {
     std::vector<std::string> sets = golden_sets("diligent/");
-    std::erase_if(sets, [&](const std::string& set) { return is_sequence != is_golden(set + "/f0/gbuffer.exr"); });
+    std::erase_if(sets, [&](const std::string& set) { return !is_golden(set + "/" + file); });
     return sets;
 }
 
-}  // namespace
-
-std::vector<std::string> diligent_still_sets() { return sets_where(false); }
-std::vector<std::string> diligent_sequences() { return sets_where(true); }
+std::vector<std::string> diligent_still_sets() { return diligent_sets_with("gbuffer.exr"); }
+std::vector<std::string> diligent_sequences() { return diligent_sets_with("f0/gbuffer.exr"); }
 
 unsigned diligent_frame_count(const std::string& sequence) { return unsigned(golden_meta(sequence)["frames"].size()); }
 

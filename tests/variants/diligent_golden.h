@@ -14,6 +14,8 @@ struct DiligentParameters {
     DiligentFilterParameters filter{params};
 };
 
+/// Sets that hold that file: "gbuffer.exr", "f0/aux.exr". A set in the index need not be whole.
+std::vector<std::string> diligent_sets_with(const std::string& file);
 /// Sets that hold a single frame, and sets that hold a sequence.
 std::vector<std::string> diligent_still_sets();
 std::vector<std::string> diligent_sequences();

@@ -32,14 +32,18 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
 }
 
 std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
-    is_left_out_ = !facts.has_reflective || facts.min_roughness > tracing_.roughness_threshold;
+    const float min_roughness =
+        tracing_.float_roughness ? facts.min_roughness : diligent_roughness_of_8_bits(facts.min_roughness);
+    is_left_out_ = !facts.has_reflective || min_roughness > tracing_.roughness_threshold;
     if (!is_left_out_) return {};
     const std::string fact =
         facts.has_reflective ? "no reflective surface as smooth as roughness_threshold" : "nothing reflective";
     std::vector<LeftOut> left_out;
-    for (const char* stage : {"common/blue_noise", "diligent_ssr/reprojected_depth", "diligent_ssr/depth_hierarchy",
-                              "diligent_ssr/mask", "diligent_ssr/intersection", "diligent_ssr/spatial_reconstruction",
-                              "diligent_ssr/temporal_accumulation", "diligent_ssr/bilateral_cleanup"})
-        left_out.push_back({stage, fact, "no pixel would start a ray"});
+    for (const std::string stage :
+         {"common/blue_noise", "diligent_ssr/reprojected_depth", "diligent_ssr/depth_hierarchy", "diligent_ssr/mask",
+          "diligent_ssr/half_resolution_mask", "diligent_ssr/intersection", "diligent_ssr/spatial_reconstruction",
+          "diligent_ssr/temporal_accumulation", "diligent_ssr/bilateral_cleanup"})
+        if (tracing_.half_resolution || stage != "diligent_ssr/half_resolution_mask")
+            left_out.push_back({stage, fact, "no pixel would start a ray"});
     return left_out;
 }

@@ -1,5 +1,7 @@
 #include "variants/diligent_ssr/targets.h"
 
+#include <cmath>
+
 namespace {
 
 Image cleared_mask(PassGraph& graph, const std::string& name, const DiligentTracingParameters& parameters,
@@ -27,9 +29,13 @@ DiligentMask diligent_mask(PassGraph& graph, const GBuffer& gbuffer, const Dilig
     draw_mask(pass, full);
     if (!tracing.half_resolution) return {roughness, full, full};
 
-    const Image half = cleared_mask(graph, "half_mask", tracing, 2);
-    auto half_pass = graph.fragment("diligent_ssr/half_mask.frag");
-    half_pass.label("diligent_ssr/mask").read(gbuffer.depth).read(roughness);
+    const Image half = cleared_mask(graph, "half_resolution_mask", tracing, 2);
+    auto half_pass = graph.fragment("diligent_ssr/half_resolution_mask.frag");
+    half_pass.read(gbuffer.depth).read(roughness);
     draw_mask(half_pass, half);
     return {roughness, full, half};
+}
+
+float diligent_roughness_of_8_bits(float perceptual) {
+    return std::floor(perceptual * 255.0f + 0.5f) * (1.0f / 255.0f);  // as mask.frag
 }

@@ -50,6 +50,9 @@ Image diligent_depth_hierarchy(PassGraph& graph, const GBuffer& gbuffer, const D
 DiligentMask diligent_mask(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& tracing,
                            const DiligentFilterParameters& filter);
 
+/// The perceptual roughness that the mask compares with the threshold, unless float_roughness is on.
+float diligent_roughness_of_8_bits(float perceptual);
+
 /// One ray per kept pixel of mask.traced. `noise`: 128x128, two channels in [0, 1]. `color`: lit image that hits show;
 /// of the previous frame with previous_frame.
 DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Image& hierarchy, const Image& noise,
