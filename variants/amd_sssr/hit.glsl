@@ -3,8 +3,6 @@
 #define AMD_SSSR_HIT_GLSL
 #include "amd_sssr/screen.glsl"
 
-const float border_share = 0.05;  // of the screen's height, over which hits fade out towards its border
-
 // The tested depth: of the level that the march ended on, or of the nearest of 2x2 pixels.
 float surface_at(vec2 uv, int finest) {
     int level = thickness_at_hit_mip ? finest : 1;
@@ -14,12 +12,6 @@ float surface_at(vec2 uv, int finest) {
 bool is_own_pixel(vec2 origin, vec2 hit) {
     if (accept_contact_hits) return ivec2(camera.extent.xy * hit) == ivec2(camera.extent.xy * origin);
     return all(lessThan(abs(hit - origin), 2.0 * camera.extent.zw));
-}
-
-float border_fade(vec2 uv) {
-    vec2 width = border_share * vec2(camera.extent.y * camera.extent.z, 1.0);
-    vec2 fade = smoothstep(vec2(0.0), width, uv) * (1.0 - smoothstep(1.0 - width, vec2(1.0), uv));
-    return fade.x * fade.y;
 }
 
 // Share of the hit's colour in the ray's; the rest is environment. `origin`, `hit`: image; `vs_ray`: from one to the

@@ -14,7 +14,8 @@ DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Imag
         .read(gbuffer.geometric_normal)
         .read(gbuffer.motion)
         .write(rays.radiance)
-        .write(rays.direction);
+        .write(rays.direction)
+        .set("coarsest_level", int(hierarchy.mips) - 1);
     draw_masked(pass, mask.traced);
     return rays;
 }

@@ -1,0 +1,24 @@
+// Positions on the screen as marches use them: uv of the G-buffer's images, whose texels hold what the samples saw,
+// and device depth. With TAA jitter the samples lie beside the pixel centres, and so does this screen.
+#ifndef COMMON_IMAGE_SPACE_GLSL
+#define COMMON_IMAGE_SPACE_GLSL
+#include "core/shaders/view.glsl"
+
+vec2 jitter_uv() { return camera.jitter.xy * camera.extent.zw; }
+
+vec3 image_from_view(vec3 vs_position) { return screen_from_view(vs_position) - vec3(jitter_uv(), 0.0); }
+vec3 view_from_image(vec3 position) { return view_from_screen(position.xy + jitter_uv(), position.z); }
+
+bool is_reversed() { return camera.depth.w == 1.0; }
+bool is_farther(float a, float b) { return is_reversed() ? a < b : a > b; }
+
+bool is_outside(vec2 uv) { return any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0))); }
+
+const float border_share = 0.05;  // of the screen's height, over which hits fade out towards its border
+
+float border_fade(vec2 uv) {
+    vec2 width = border_share * vec2(camera.extent.y * camera.extent.z, 1.0);
+    vec2 fade = smoothstep(vec2(0.0), width, uv) * (1.0 - smoothstep(1.0 - width, vec2(1.0), uv));
+    return fade.x * fade.y;
+}
+#endif
