@@ -110,6 +110,11 @@ HostImage split_sum_table(unsigned size) {
     return table;
 }
 
+const HostImage& default_split_sum_table() {
+    static const HostImage table = split_sum_table();
+    return table;
+}
+
 glm::vec2 read_split_sum(const HostImage& table, float mu_o, float roughness) {
     const SplitSumTap tap = split_sum_tap(mu_o, roughness, table.extent.x);
     const auto texel = [&](unsigned x, unsigned y) {

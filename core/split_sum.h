@@ -12,5 +12,8 @@ glm::dvec2 split_sum(double mu_o, double alpha);
 /// reaches 6e-3.
 HostImage split_sum_table(unsigned size = 64);
 
+/// That of the default size, made once.
+const HostImage& default_split_sum_table();
+
 /// A, B from such a table. mu_o in (0, 1], perceptual roughness in [0, 1].
 glm::vec2 read_split_sum(const HostImage& table, float mu_o, float roughness);

@@ -6,11 +6,6 @@
 
 namespace {
 
-const HostImage& table() {
-    static const HostImage table = split_sum_table();
-    return table;
-}
-
 /// Unit, world space, from the camera through the pixel's sample: pixel.glsl.
 glm::vec3 pixel_direction(const CameraData& camera, unsigned x, unsigned y) {
     if (camera.frame.z == 1u) return -glm::normalize(glm::vec3(camera.world_from_view[2]));
@@ -28,15 +23,10 @@ void check_extent(const HostGBuffer& gbuffer, const HostImage& image, const char
 
 }  // namespace
 
-Compositor::Compositor(PassGraph& graph)
-    : graph_(graph), split_sum_(graph.image_of("split_sum", Format::rg32f, table().extent)) {
-    graph.upload(split_sum_, table());
-}
-
 Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
     const Composite result{graph_.image("specular", Format::rgba32f), graph_.image("image", Format::rgba32f)};
     auto pass = graph_.compute("gbuffer/composite.comp");
-    for (const Image& image : {g.depth, g.normal, g.base_color, g.emission, g.lit, g.fallback, split_sum_})
+    for (const Image& image : {g.depth, g.normal, g.base_color, g.emission, g.lit, g.fallback, split_sum_.on(graph_)})
         pass.read(image);
     pass.read(reflections.radiance.as("radiance"))
         .read(reflections.confidence.as("confidence"))
@@ -56,7 +46,7 @@ HostImage specular_reflectance(const HostGBuffer& g) {
             const float specular = g.emission.pixel(x, y)[3];
             const float mu_o = -glm::dot(glm::vec3(n[0], n[1], n[2]), pixel_direction(g.camera, x, y));
             if (mu_o <= 0) continue;
-            const glm::vec2 ab = read_split_sum(table(), mu_o, n[3]);
+            const glm::vec2 ab = read_split_sum(default_split_sum_table(), mu_o, n[3]);
             const glm::vec3 f0 = specular_f0({c[0], c[1], c[2]}, c[3], specular);
             result.set_rgb(size_t(y) * g.extent().x + x, f0 * ab.x + specular_f90(c[3], specular) * ab.y);
         }

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/gbuffer/gbuffer_file.h"
+#include "core/gbuffer/split_sum_image.h"
 #include "core/variant.h"
 
 /// What a technique's result makes of the image.
@@ -12,14 +13,14 @@ struct Composite {
 /// BRDF).
 class Compositor {
 public:
-    explicit Compositor(PassGraph& graph);  ///< `graph` must outlive it
+    explicit Compositor(PassGraph& graph) : graph_(graph) {}  ///< `graph` must outlive it
 
     /// A pass of the graph's current frame.
     Composite render(const GBuffer& gbuffer, const Reflections& reflections);
 
 private:
     PassGraph& graph_;
-    Image split_sum_;
+    SplitSumImage split_sum_;
 };
 
 /// F0 A + F90 B of every pixel, RGB; 0 in the background, for unlit materials, and where the shading normal faces away.

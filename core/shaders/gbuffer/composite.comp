@@ -1,8 +1,8 @@
 // specular = (F0 A + F90 B) mix(fallback, radiance, confidence); image = lit + specular. The same as composite() in
 // core/gbuffer/composite.cpp.
 #include "core/shaders/gbuffer/pixel.glsl"
+#include "core/shaders/gbuffer/split_sum.glsl"
 #include "core/shared/brdf.h"
-#include "core/shared/split_sum_tap.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D depth;
@@ -13,17 +13,9 @@ uniform sampler2D lit;
 uniform sampler2D fallback;
 uniform sampler2D radiance;
 uniform sampler2D confidence;
-uniform sampler2D split_sum;
 layout(push_constant) uniform Confidence { uint confidence_channel; };
 layout(rgba32f) uniform writeonly image2D specular;
 layout(rgba32f) uniform writeonly image2D image;
-
-vec2 split_sum_factors(float mu_o, float roughness) {
-    SplitSumTap tap = split_sum_tap(mu_o, roughness, uint(textureSize(split_sum, 0).x));
-    vec2 low = mix(texelFetch(split_sum, ivec2(tap.first), 0).rg, texelFetch(split_sum, ivec2(tap.last.x, tap.first.y), 0).rg, tap.fraction.x);
-    vec2 high = mix(texelFetch(split_sum, ivec2(tap.first.x, tap.last.y), 0).rg, texelFetch(split_sum, ivec2(tap.last), 0).rg, tap.fraction.x);
-    return mix(low, high, tap.fraction.y);
-}
 
 vec3 specular_reflectance(ivec2 pixel) {
     vec4 normal_roughness = texelFetch(normal, pixel, 0);

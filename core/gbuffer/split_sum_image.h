@@ -1,0 +1,14 @@
+#pragma once
+#include "core/gpu/pass_graph.h"
+
+#include <memory>
+
+/// split_sum_table() on the GPU, for shaders that include core/shaders/gbuffer/split_sum.glsl.
+class SplitSumImage {
+public:
+    /// The image `split_sum`, rg32f; uploaded when the graph has none yet.
+    Image on(PassGraph& graph);
+
+private:
+    std::weak_ptr<ImageStorage> uploaded_;
+};
