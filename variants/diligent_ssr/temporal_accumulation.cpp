@@ -9,5 +9,21 @@ DiligentHistories diligent_histories(PassGraph& graph, const DiligentFilterParam
 void diligent_accumulate(PassGraph& graph, const GBuffer& gbuffer, const Image& reprojected_depth,
                          const DiligentResolved& resolved, const DiligentHistories& histories, const DiligentMask& mask,
                          const DiligentFilterParameters& parameters) {
-    (void)graph, (void)gbuffer, (void)reprojected_depth, (void)resolved, (void)histories, (void)mask, (void)parameters;
+    if (parameters.clear_targets) {
+        graph.clear(histories.radiance.current, {});
+        graph.clear(histories.variance.current, {});
+    }
+    const Sampling between_texels{.is_linear = !parameters.float_histories};
+    auto pass = graph.fragment("diligent_ssr/temporal_accumulation.frag");
+    pass.read(gbuffer.motion)
+        .read(gbuffer.previous_depth)
+        .read(reprojected_depth)
+        .read(resolved.radiance)
+        .read(resolved.variance)
+        .read(resolved.hit_depth)
+        .read(histories.radiance.previous, between_texels)
+        .read(histories.variance.previous, between_texels)
+        .write(histories.radiance.current)
+        .write(histories.variance.current);
+    draw_masked(pass, mask.full);
 }

@@ -1,0 +1,47 @@
+#include "tests/variants/accumulation_bench.h"
+
+AccumulationBench::AccumulationBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides)
+    : graph(device, extent) {
+    parameters.params.assign(overrides);
+}
+
+Image AccumulationBench::upload(const std::string& name, Format format, const HostImage& pixels) {
+    const Image image = graph.image_of(name, format, pixels.extent);
+    graph.upload(image, pixels);
+    return image;
+}
+
+DiligentMask AccumulationBench::upload_mask(const HostImage& kept, const HostImage& roughness) {
+    const Image full = upload("mask", Format::d16, kept);
+    return {.roughness = upload("roughness", Format::r32f, roughness), .full = full, .traced = full};
+}
+
+Filtered AccumulationBench::accumulate(const AccumulationInputs& inputs) {
+    GBuffer gbuffer;
+    gbuffer.motion = upload("motion", Format::rg32f, inputs.motion);
+    gbuffer.previous_depth = upload("previous_depth", Format::r32f, inputs.previous_depth);
+    const Image reprojected_depth = upload("reprojected_depth", Format::r32f, inputs.reprojected_depth);
+    const DiligentResolved resolved{
+        .radiance = upload("resolved_radiance", colors(), inputs.resolved.radiance),
+        .variance = upload("resolved_variance", numbers(), inputs.resolved.variance),
+        .hit_depth = upload("hit_depth", parameters.filter.linear_hit_depth ? Format::r32f : Format::r16f, inputs.hit_depth)};
+    const DiligentMask mask = upload_mask(inputs.mask, HostImage(inputs.mask.extent, 1));
+    graph.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.motion, gbuffer.previous_depth});
+    const DiligentHistories histories = diligent_histories(graph, parameters.filter);
+    graph.upload(histories.radiance.previous, inputs.history.radiance);
+    graph.upload(histories.variance.previous, inputs.history.variance);
+    diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, parameters.filter);
+    return {.radiance = graph.download(histories.radiance.current),
+            .variance = graph.download(histories.variance.current)};
+}
+
+HostImage AccumulationBench::clean_up(const CleanupInputs& inputs) {
+    GBuffer gbuffer;
+    gbuffer.depth = upload("depth", Format::r32f, inputs.depth);
+    gbuffer.normal = upload("normal", Format::rgba32f, inputs.normal);
+    const Image radiance = upload("radiance", colors(), inputs.accumulated.radiance);
+    const Image variance = upload("variance", numbers(), inputs.accumulated.variance);
+    const DiligentMask mask = upload_mask(inputs.mask, inputs.roughness);
+    graph.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.depth, gbuffer.normal});
+    return graph.download(diligent_cleanup(graph, gbuffer, radiance, variance, mask, parameters.filter));
+}

@@ -1,0 +1,59 @@
+// Last pass of DiligentFX's denoising: where the variance is high, an average over neighbours of the same surface,
+// with the edge-stopping functions of Schied et al. 2017 ("Spatiotemporal Variance-Guided Filtering", section 4.4).
+#include "core/shaders/view.glsl"
+#include "diligent_ssr/background.glsl"
+
+layout(location = 0) out vec4 reflections;
+
+uniform sampler2D depth, normal, roughness, accumulated_radiance, accumulated_variance;
+
+const float noisy_variance = 1e-3;
+const float widest_radius = 2.0;  // pixels
+const float normal_exponent = 128.0;
+
+float camera_depth(ivec2 pixel) { return -view_from_screen(vec2(0.5), texelFetch(depth, pixel, 0).r).z; }
+
+// Pixels; mirrors need none.
+int kernel_radius(ivec2 pixel) {
+    bool is_noisy = texelFetch(accumulated_variance, pixel, 0).r > noisy_variance;
+    float radius = is_noisy ? widest_radius * clamp(8.0 * texelFetch(roughness, pixel, 0).r, 0.0, 1.0) : 0.0;
+    return int(min(2.0 * bilateral_cleanup_spatial_sigma_factor, radius));
+}
+
+bool is_kept(ivec2 pixel) {
+    return texelFetch(roughness, pixel, 0).r <= roughness_threshold && !is_far_plane(texelFetch(depth, pixel, 0).r);
+}
+
+// `depth_change`: of the camera depth over the offset, if the surface is flat (m).
+float edge_stop(ivec2 pixel, ivec2 neighbor, float depth_change) {
+    vec3 ws_normal = texelFetch(normal, pixel, 0).xyz, ws_neighbor_normal = texelFetch(normal, neighbor, 0).xyz;
+    float same_normal = pow(max(dot(ws_normal, ws_neighbor_normal), 0.0), normal_exponent);
+    float difference = abs(camera_depth(pixel) - camera_depth(neighbor));
+    return same_normal * exp(-difference / (abs(depth_change) + 1e-6));
+}
+
+vec4 filtered(ivec2 pixel, int radius, vec2 depth_gradient) {
+    float sigma = bilateral_cleanup_spatial_sigma_factor, weight_sum = 0.0;
+    vec4 sum = vec4(0.0);
+    for (int y = -radius; y <= radius; ++y)
+        for (int x = -radius; x <= radius; ++x) {
+            ivec2 neighbor = pixel + ivec2(x, y);
+            if (neighbor != clamp(neighbor, ivec2(0), ivec2(camera.extent.xy) - 1) || !is_kept(neighbor)) continue;
+            vec2 offset = vec2(ivec2(x, y));
+            float weight = exp(-dot(offset, offset) / (2.0 * sigma * sigma)) *
+                           edge_stop(pixel, neighbor, dot(offset, depth_gradient));
+            sum += weight * texelFetch(accumulated_radiance, neighbor, 0);
+            weight_sum += weight;
+        }
+    return sum / max(weight_sum, 1e-6);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float pixel_depth = camera_depth(pixel);
+    vec2 depth_gradient = vec2(dFdx(pixel_depth), dFdy(pixel_depth));
+    int radius = bilateral_cleanup ? kernel_radius(pixel) : 0;
+    vec4 radiance = radius > 0 ? filtered(pixel, radius, depth_gradient) : texelFetch(accumulated_radiance, pixel, 0);
+    if (premultiply_confidence) radiance.rgb = radiance.a > 0.0 ? radiance.rgb / radiance.a : vec3(0.0);
+    reflections = vec4(radiance.rgb, radiance.a * alpha_interpolation);
+}
