@@ -6,8 +6,8 @@
 /// How a texel's two numbers move from frame to frame: both by the golden ratio, so that their difference never changes
 /// and the texel stays on one wrapped diagonal of the unit square (AMD FidelityFX SSSR 1.5), or along the R2 sequence,
 /// which covers the square (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
-/// golden_diagonal_from_half: as golden_diagonal, 1/2 later (DiligentFX, whose pass fills a second image, too, with an R2
-/// sequence along a Hilbert curve for other effects than reflections; it is left out).
+/// golden_diagonal_from_half: as golden_diagonal, 1/2 later (DiligentFX, whose pass fills a second image, too, with an
+/// R2 sequence along a Hilbert curve for other effects than reflections; it is left out).
 enum class NoiseShift { golden_diagonal, golden_diagonal_from_half, r2 };
 
 /// How they are stored: as k / 255, so that exact 0 and 1 occur (as SSSR 1.5), or in float32, in [0, 1).
