@@ -88,6 +88,7 @@ const std::vector<VariantEntry> table = {
                      {{"mask", "stencil"},
                       {"spatial_kernel", "double_gaussian"},
                       {"distribution_floor", false},
+                      {"short_ray_guard", false},
                       {"history_search", "device_depth"}}},
                     {"current", "July 2026, with its defaults", nlohmann::json::object()},
                     {"corrected",
@@ -144,8 +145,7 @@ std::span<const VariantEntry> variant_table() { return table; }
 const VariantEntry& find_variant(const std::string& name) { return find_named<VariantEntry>(table, name, "variant"); }
 
 std::string limits_text(const VariantLimits& limits) {
-    if (limits.api == Limits::none) return "";
-    std::string text = "WebGL 2 with EXT_color_buffer_float";
+    std::string text = name_of(limits.api);
     for (const auto& [name, value] : limits.lifted_by.items())
         text += ", unless " + name + " = " + (value.is_string() ? value.get<std::string>() : value.dump());
     return text;

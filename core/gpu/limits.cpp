@@ -98,6 +98,16 @@ void check_texture(const std::string& pass, const Image& texture, const Sampling
 
 }  // namespace
 
+const char* name_of(Limits limits) {
+    switch (limits) {
+        case Limits::none:
+            return "";
+        case Limits::webgl2:
+            return "WebGL 2 with EXT_color_buffer_float";
+    }
+    fail("no name for Limits ", int(limits));
+}
+
 LimitScope::LimitScope(PassGraph& graph, Limits limits) : graph_(graph), before_(graph.impl_->limits) {
     graph_.impl_->limits = limits;
 }

@@ -18,6 +18,9 @@ class PassGraph;
 /// (Khronos).
 enum class Limits { none, webgl2 };
 
+/// "WebGL 2 with EXT_color_buffer_float"; "" for none.
+const char* name_of(Limits limits);
+
 /// Holds the passes, clears and uploads of a graph to the limits while it lives; what lies outside is an Error that
 /// names pass, resource, and what is allowed.
 class LimitScope {

@@ -4,9 +4,6 @@
 
 namespace {
 
-const std::string camera_block =
-    "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n";
-
 vk::DescriptorType descriptor_type(ShaderInterface::Kind kind) {
     switch (kind) {
         case ShaderInterface::Kind::sampler:
@@ -115,7 +112,7 @@ vk::raii::Pipeline make_graphics_pipeline(Device::Impl& gpu, const Stages& stage
 
 const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file,
                                     const ParameterSet& params) {
-    const std::string prelude = camera_block + params.glsl();
+    const std::string prelude = shader_prelude(params);
     const auto [entry, is_new] = shaders_.try_emplace(file + '\n' + vertex_file + '\n' + prelude);
     if (is_new) try {
             entry->second = compile(file, vertex_file, prelude);
@@ -129,7 +126,7 @@ const Shader& PipelineCache::shader(const std::string& file, const std::string& 
 /// Once per shader: values of constants do not decide what is valid.
 void PipelineCache::require_webgl2(const Shader& shader, const std::string& file, const ParameterSet& params) {
     if (webgl2_shaders_.contains(&shader)) return;
-    compile(file, "", camera_block + params.glsl(true), ShaderLanguage::webgl2);
+    compile(file, "", shader_prelude(params, ShaderLanguage::webgl2), ShaderLanguage::webgl2);
     webgl2_shaders_.insert(&shader);
 }
 

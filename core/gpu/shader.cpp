@@ -1,6 +1,7 @@
 #include "core/gpu/shader.h"
 
 #include "core/error.h"
+#include "core/parameters.h"
 
 #include <SPIRV/GlslangToSpv.h>
 #include <glslang/Public/ResourceLimits.h>
@@ -114,6 +115,11 @@ const std::vector<std::filesystem::path>& shader_roots() {
     static const std::vector<std::filesystem::path> roots = {root / "variants", root / "core/shaders",
                                                              root / "tests/shaders", root};
     return roots;
+}
+
+std::string shader_prelude(const ParameterSet& params, ShaderLanguage language) {
+    return "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n" +
+           params.glsl(language == ShaderLanguage::webgl2);
 }
 
 Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,

@@ -1,5 +1,6 @@
 #include "core/gpu/shader.h"
 #include "core/error.h"
+#include "core/parameters.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>
@@ -33,7 +34,7 @@ TEST(Shader, WebGl2RefusesWhatItDoesNotHave) {
 TEST(Shader, WebGl2HasItsOwnLanguage) {
     const auto is_accepted = [](const char* text, ShaderLanguage language) {
         try {
-            compile("empty.frag", "", std::string(text) + "\n", language);
+            compile("empty.frag", "", shader_prelude({}, language) + text + "\n", language);
         } catch (const Error&) {
             return false;
         }
@@ -50,8 +51,6 @@ TEST(Shader, WebGl2HasItsOwnLanguage) {
     for (const char* text : {"layout(push_constant) uniform Push { float a; uint b; vec4 c; };",
                              "uniform usampler2D ids; uint f() { return texelFetch(ids, ivec2(0), 0).x; }",
                              "layout(location = 0) out vec4 a; layout(location = 1) out float b;",
-                             "#include \"core/shared/camera.h\"\n"
-                             "layout(std140) uniform Camera { CameraData camera; };\n"
                              "#include \"core/shaders/view.glsl\""})
         for (const ShaderLanguage language : {ShaderLanguage::vulkan, ShaderLanguage::webgl2})
             EXPECT_TRUE(is_accepted(text, language)) << text;

@@ -55,15 +55,13 @@ TEST(Registry, DescribesEveryVariantInFull) {
 
 /// All parameter sets of one variant share its folder's shaders.
 TEST(Registry, CompilesEveryShaderOfEveryVariant) {
-    const std::string camera =
-        "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n";
     size_t count = 0;
     for (const VariantEntry& entry : variant_table())
         for (const auto& file :
              std::filesystem::recursive_directory_iterator(SSRLAB_SOURCE_DIR "/variants/" + entry.name)) {
             if (file.path().extension() != ".comp" && file.path().extension() != ".frag") continue;
             const std::string name = std::filesystem::relative(file.path(), SSRLAB_SOURCE_DIR "/variants");
-            EXPECT_NO_THROW(compile(name, "", camera + entry.create()->params.glsl())) << name;
+            EXPECT_NO_THROW(compile(name, "", shader_prelude(entry.create()->params))) << name;
             ++count;
         }
     EXPECT_GE(count, 2u);

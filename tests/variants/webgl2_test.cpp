@@ -1,0 +1,103 @@
+// Techniques that keep to the limits of WebGL 2.
+#include "core/error.h"
+#include "core/gpu/shader.h"
+#include "tests/variants/amd_scenes.h"
+#include "tests/variants/variant_fixture.h"
+
+#include <filesystem>
+
+namespace {
+
+std::vector<std::string> fragment_shaders(const std::string& folder) {
+    std::vector<std::string> files;
+    for (const auto& file : std::filesystem::directory_iterator(SSRLAB_SOURCE_DIR "/variants/" + folder)) {
+        EXPECT_NE(file.path().extension(), ".comp") << file.path();
+        if (file.path().extension() == ".frag") files.push_back(folder + "/" + file.path().filename().string());
+    }
+    return files;
+}
+
+struct Webgl2Variant : VariantTest {
+    CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
+    FrameView view{.extent = {67, 45}};
+
+    /// Frames of a camera that moves sideways, each within `limits`.
+    void render(Variant& variant, Limits limits, unsigned count = 3) {
+        PassGraph graph(device(), view.extent);
+        CameraPose before;
+        for (view.frame = 0; view.frame < count; ++view.frame) {
+            pose.world_from_view[3].x = 0.05f * float(view.frame);
+            const CameraData camera = camera_data(pose, view.frame > 0 ? &before : nullptr, view);
+            const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, glossy_floor);
+            graph.begin_frame(camera, variant.params, gbuffer.images());
+            const LimitScope scope(graph, limits);
+            variant.render(graph, gbuffer);
+            before = pose;
+        }
+    }
+};
+
+std::vector<std::string> presets_of(const VariantEntry& entry) {
+    std::vector<std::string> names;
+    for (const Preset& preset : entry.presets) names.push_back(preset.name);
+    return names;
+}
+
+}  // namespace
+
+TEST_F(Webgl2Variant, IsNamedInTheTable) {
+    EXPECT_EQ(limits_text(find_variant("diligent_ssr").limits),
+              "WebGL 2 with EXT_color_buffer_float, unless hierarchy = mip_views");
+    for (const VariantEntry& entry : variant_table()) {
+        SCOPED_TRACE(entry.name);
+        EXPECT_EQ(entry.limits.api == Limits::webgl2, entry.name == "diligent_ssr");
+        for (const std::string& preset : presets_of(entry))
+            EXPECT_EQ(make_variant(entry.name, {}, preset)->limits, entry.limits.api) << preset;
+        for (const auto& [name, value] : entry.limits.lifted_by.items())
+            EXPECT_EQ(make_variant(entry.name, {{name, value}})->limits, Limits::none) << name;
+    }
+}
+
+TEST_F(Webgl2Variant, HasShadersInGlslEs) {
+    const std::vector<std::string> files = fragment_shaders("diligent_ssr");
+    EXPECT_FALSE(files.empty());
+    for (const std::string& preset : presets_of(find_variant("diligent_ssr"))) {
+        const auto variant = make_variant("diligent_ssr", {}, preset);
+        const std::string prelude = shader_prelude(variant->params, ShaderLanguage::webgl2);
+        for (const std::string& file : files)
+            EXPECT_NO_THROW(compile(file, "", prelude, ShaderLanguage::webgl2)) << file << ", " << preset;
+    }
+}
+
+/// Every pass of whole frames, those of variants/common among them; the graph compiles their shaders as GLSL ES, too.
+TEST_F(Webgl2Variant, RendersWithinTheLimits) {
+    for (const std::string& preset : presets_of(find_variant("diligent_ssr")))
+        for (const bool half_resolution : {false, true})
+            for (const bool previous_frame : {false, true}) {
+                const auto variant = make_variant(
+                    "diligent_ssr", {{"half_resolution", half_resolution}, {"previous_frame", previous_frame}}, preset);
+                EXPECT_NO_THROW(render(*variant, variant->limits))
+                    << preset << (half_resolution ? ", half resolution" : "")
+                    << (previous_frame ? ", previous frame" : "");
+            }
+}
+
+TEST_F(Webgl2Variant, MayLiftThem) {
+    const auto variant = make_variant("diligent_ssr", {{"hierarchy", "mip_views"}});
+    EXPECT_NO_THROW(render(*variant, variant->limits, 1));
+    try {
+        render(*variant, Limits::webgl2, 1);
+        ADD_FAILURE() << "mip_views needs no lifted limits";
+    } catch (const Error& error) {
+        EXPECT_STREQ(
+            error.what(),
+            "pass diligent_ssr/depth_hierarchy reads 'finer_depth' and draws to it as 'nearest_depth', outside "
+            "the limits of WebGL 2, which reads no image while it is drawn to");
+    }
+}
+
+/// The same frame drawn by its ancestor, with compute shaders.
+TEST_F(Webgl2Variant, LeaveComputeOut) {
+    const auto variant = make_variant("amd_sssr");
+    EXPECT_THROW(render(*variant, Limits::webgl2, 1), Error);
+}
