@@ -74,6 +74,8 @@ void read_matrices(JsonObject& object, CameraData& c) {
     c.world_from_view =
         matrix(object, "world_from_view", checked_inverse(c.view_from_world, object, "view_from_world"));
     c.clip_from_world = matrix(object, "clip_from_world", c.clip_from_view * c.view_from_world);
+    c.world_from_clip =
+        matrix(object, "world_from_clip", glm::mat4(glm::dmat4(c.world_from_view) * glm::dmat4(c.view_from_clip)));
 
     const std::string clip = "previous_clip_from_view", view = "previous_view_from_world";
     if (object.has(clip) != object.has(view))
@@ -113,6 +115,7 @@ void write_camera(const std::filesystem::path& file, const CameraFile& f) {
         {"view_from_world", json_matrix(c.view_from_world)},
         {"world_from_view", json_matrix(c.world_from_view)},
         {"clip_from_world", json_matrix(c.clip_from_world)},
+        {"world_from_clip", json_matrix(c.world_from_clip)},
     };
     if (c.frame.w == 1) {
         object["previous_clip_from_view"] = json_matrix(glm::inverse(c.previous_view_from_clip));

@@ -51,8 +51,8 @@ struct HostGBuffer {
 /// space: y down, z in [0, 1]; without jitter). Optional: "frame" and "seed" (0), "is_orthographic" (false), "jitter"
 /// and "previous_jitter" (pixels, [0, 0]), "previous_clip_from_view" and "previous_view_from_world" (of the frame
 /// before; both or none), and what is derived from them: "view_from_clip", "world_from_view", "clip_from_world",
-/// "previous_clip_from_world", "previous_world_from_view", "previous_view_from_clip", which ssrlab writes so that its
-/// own files come back bit by bit.
+/// "world_from_clip", "previous_clip_from_world", "previous_world_from_view", "previous_view_from_clip", which ssrlab
+/// writes so that its own files come back bit by bit.
 void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffer);
 
 struct LoadedGBuffer {

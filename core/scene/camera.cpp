@@ -88,6 +88,7 @@ CameraData camera_data(const CameraPose& pose, const CameraPose* previous, const
             .view_from_world = glm::mat4(view_from_world),
             .world_from_view = pose.world_from_view,
             .clip_from_world = glm::mat4(clip_from_view * view_from_world),
+            .world_from_clip = glm::mat4(glm::dmat4(pose.world_from_view) * glm::inverse(clip_from_view)),
             .previous_clip_from_world = glm::mat4(previous_clip_from_view * previous_view_from_world),
             .previous_view_from_world = glm::mat4(previous_view_from_world),
             .previous_world_from_view = before.world_from_view,

@@ -7,7 +7,7 @@
 struct CameraData {
     mat4 clip_from_view, view_from_clip;    ///< without TAA jitter
     mat4 view_from_world, world_from_view;
-    mat4 clip_from_world;
+    mat4 clip_from_world, world_from_clip;  ///< the second one inverted in double precision
     mat4 previous_clip_from_world;          ///< of the frame before, without jitter; this frame's own in the first frame
     mat4 previous_view_from_world, previous_world_from_view, previous_view_from_clip;
     vec4 extent;                            ///< width, height, 1 / width, 1 / height (pixels)

@@ -79,8 +79,8 @@ TEST_F(gbuffer_file, a_capture_of_another_engine_may_leave_out_the_optional) {
     file.layers.push_back({"beauty", "RGB", HostImage(g.extent(), 3, 1)});
     write_exr(folder_ / "gbuffer.exr", file);
     nlohmann::json camera = read_json(folder_ / "camera.json");
-    for (const char* key : {"view_from_clip", "world_from_view", "clip_from_world", "frame", "seed", "jitter",
-                            "previous_jitter", "is_orthographic"})
+    for (const char* key : {"view_from_clip", "world_from_view", "clip_from_world", "world_from_clip", "frame", "seed",
+                            "jitter", "previous_jitter", "is_orthographic"})
         camera.erase(key);
     write_text(folder_ / "camera.json", camera.dump());
 
@@ -92,8 +92,11 @@ TEST_F(gbuffer_file, a_capture_of_another_engine_may_leave_out_the_optional) {
         ASSERT_EQ(loaded.gbuffer.geometric_normal.rgb(i), g.normal.rgb(i));
         ASSERT_EQ(loaded.gbuffer.emission.values[4 * i + 3], g.depth.values[i] == 0 ? 0 : 1);
     }
-    const glm::mat4 product = loaded.gbuffer.camera.view_from_clip * g.camera.clip_from_view;
-    for (int i = 0; i < 4; ++i) EXPECT_NEAR(glm::length(product[i] - glm::mat4(1)[i]), 0, 1e-4f);  // a float32 inverse
+    const CameraData& derived = loaded.gbuffer.camera;
+    for (const glm::mat4& product :
+         {derived.view_from_clip * g.camera.clip_from_view, derived.world_from_clip * g.camera.clip_from_world})
+        for (int i = 0; i < 4; ++i)
+            EXPECT_NEAR(glm::length(product[i] - glm::mat4(1)[i]), 0, 1e-4f);  // a float32 inverse
 }
 
 TEST_F(gbuffer_file, errors_name_file_and_layer) {

@@ -108,6 +108,10 @@ CameraData golden_camera(const nlohmann::json& meta, const nlohmann::json& camer
     data.view_from_world = view;
     data.world_from_view = matrix(camera["inverse_view"]) * z_flip;
     data.clip_from_world = y_flip * projection * view;
+    data.world_from_clip = (camera.contains("inverse_view_projection")
+                                ? matrix(camera["inverse_view_projection"])
+                                : matrix(camera["inverse_view"]) * matrix(camera["inverse_projection"])) *
+                           y_flip;
     data.previous_clip_from_world = y_flip * matrix(camera["prev_view_projection"]);
     data.previous_view_from_world = previous_view;
     data.previous_world_from_view = inverse(previous_view);
