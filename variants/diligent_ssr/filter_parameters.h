@@ -35,6 +35,9 @@ struct DiligentFilterParameters {
     Switch distribution_floor{params, "distribution_floor", true,
         {"", "keeps the denominator of the GGX distribution above 1e-9, which flattens the peak of roughness below 0.065",
          "DiligentFX; not in 2024"}};
+    Switch short_ray_guard{params, "short_ray_guard", true,
+        {"", "rays shorter than 1e-6 m, those of pixels that trace none among them, count as little as can be. Without it "
+         "their direction is 0 times infinity", "DiligentFX; not in 2024"}};
     Choice history_search{params, "history_search", "camera_depth", {"camera_depth", "device_depth"},
         {"", "how history that moved behind something is looked for nearby. camera_depth: by distances from the camera "
          "plane, among single texels; device_depth: by filtered values of the depth buffer", "DiligentFX; device_depth in 2024"}};

@@ -2,7 +2,6 @@
 // Screen-Space Reflections"): the lobe of the pixel over the density with which the neighbour drew the ray.
 #ifndef DILIGENT_SSR_REUSE_GLSL
 #define DILIGENT_SSR_REUSE_GLSL
-#include "core/shaders/view.glsl"
 #include "diligent_ssr/distribution.glsl"
 
 uniform sampler2D depth, normal, roughness;
@@ -10,9 +9,8 @@ uniform sampler2D depth, normal, roughness;
 const float least_weight = 1e-6;
 
 struct Receiver {
-    vec3 vs_position, vs_view_ray;  // unit ray from the camera
-    vec3 ws_to_camera, ws_normal;   // unit
-    float mu_camera, alpha;
+    vec3 ws_position, ws_to_camera, ws_normal;  // the latter two unit
+    float camera_distance, mu_camera, alpha;
 };
 
 // A ray as its pixel stored it.
@@ -22,14 +20,21 @@ struct Ray {
     float density;      // sr^-1
 };
 
+vec3 ws_eye() { return camera.world_from_view[3].xyz; }
+vec3 ws_backward() { return camera.world_from_view[2].xyz; }
+
 Receiver receiver_at(ivec2 pixel) {
     vec2 uv = (vec2(pixel) + 0.5 + camera.jitter.xy) * camera.extent.zw;
+    // Not by view space: the rounding of this matrix, 1e-5 of the distance, shows in the results for smooth surfaces.
+    vec4 world = camera.world_from_clip * vec4(uv * 2.0 - 1.0, texelFetch(depth, pixel, 0).r, 1.0);
     float perceptual_roughness = texelFetch(roughness, pixel, 0).r;
+    bool is_orthographic = camera.frame.z == 1u;
+
     Receiver receiver;
-    receiver.vs_position = view_from_screen(uv, texelFetch(depth, pixel, 0).r);
-    receiver.vs_view_ray = view_direction(receiver.vs_position);
-    receiver.ws_to_camera = -(mat3(camera.world_from_view) * receiver.vs_view_ray);
+    receiver.ws_position = world.xyz / world.w;
+    receiver.ws_to_camera = is_orthographic ? ws_backward() : normalize(ws_eye() - receiver.ws_position);
     receiver.ws_normal = texelFetch(normal, pixel, 0).xyz;
+    receiver.camera_distance = distance(ws_eye(), receiver.ws_position);
     receiver.mu_camera = clamp(dot(receiver.ws_normal, receiver.ws_to_camera), 0.0, 1.0);
     receiver.alpha = perceptual_roughness * perceptual_roughness;
     return receiver;
@@ -45,19 +50,22 @@ float lobe(Receiver receiver, vec3 ws_direction) {
 }
 
 // Share by the distance from the centre of the disk, in [0, 1].
-float kernel(float distance) {
+float kernel(float radius) {
     const uint double_gaussian = 1u;
     const float deviation = 0.9;  // of the disk's radius
-    float gaussian = exp(-distance * distance / (2.0 * deviation * deviation));
+    float gaussian = exp(-radius * radius / (2.0 * deviation * deviation));
     return spatial_kernel == double_gaussian ? exp(-0.66 * gaussian * gaussian) : gaussian;
 }
 
 // Every ray counts a little, so that pixels whose lobe none of them meets have a colour; with finite_weights 0 for those
 // that are not numbers.
-float reuse_weight(Receiver receiver, Ray ray, float distance) {
+float reuse_weight(Receiver receiver, Ray ray, float radius) {
     float hit_distance = length(ray.ws_direction);
-    if (hit_distance < 1e-6) return least_weight;
-    float weight = kernel(distance) * lobe(receiver, ray.ws_direction / hit_distance) / max(ray.density, 1e-5);
+    if (short_ray_guard && hit_distance < 1e-6) return least_weight;
+    // Both as their year rounds, which shows in the weights of smooth surfaces.
+    vec3 ws_direction = short_ray_guard ? ray.ws_direction / hit_distance
+                                        : ray.ws_direction * inversesqrt(dot(ray.ws_direction, ray.ws_direction));
+    float weight = kernel(radius) * lobe(receiver, ws_direction) / max(ray.density, 1e-5);
     if (finite_weights && (isnan(weight) || isinf(weight))) return 0.0;
     return max(weight, least_weight);
 }

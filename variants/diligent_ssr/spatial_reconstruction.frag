@@ -54,8 +54,9 @@ float device_depth(float camera_depth) {
 
 // Of the mirrored point: as far behind the surface as the hit is before it.
 float mirrored_depth(Receiver receiver, float hit_distance) {
-    float camera_depth = axial_hit_depth ? -(receiver.vs_position + receiver.vs_view_ray * hit_distance).z
-                                         : length(receiver.vs_position) + hit_distance;
+    vec3 ws_mirrored = receiver.ws_position - receiver.ws_to_camera * hit_distance;
+    float camera_depth = axial_hit_depth ? dot(ws_eye() - ws_mirrored, ws_backward())
+                                         : receiver.camera_distance + hit_distance;
     return linear_hit_depth ? camera_depth : device_depth(camera_depth);
 }
 
