@@ -43,6 +43,7 @@ nlohmann::json variant_entries(const Config& config) {
                            {"title", entry.title},
                            {"source", entry.source},
                            {"parameters", variant->params.values()}});
+        if (variant->limits != Limits::none) entries.back()["limits"] = name_of(variant->limits);
         if (const std::string why = variant->not_repeatable(); !why.empty()) entries.back()["not_repeatable"] = why;
     }
     return entries;

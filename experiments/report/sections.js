@@ -105,6 +105,14 @@ function showNeeds() {
     }
 }
 
+/// Names the points if others of the variant have no limits.
+function limitsNote(points) {
+    const limited = points.filter(p => p.limits);
+    if (!limited.length) return null;
+    const names = limited.length < points.length ? ": " + limited.map(p => p.point).join(", ") : "";
+    return `Held to the limits of ${limited[0].limits}${names}`;
+}
+
 function showParameters() {
     for (const name of unique(list(report.manifest.variants).map(v => v.variant))) {
         const points = report.manifest.variants.filter(v => v.variant === name && !isSingleChange(v));
@@ -112,7 +120,8 @@ function showParameters() {
         const first = points[0],
               stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
         at("parameters").append(h("h3", {}, first.title ?? name), h("p", {class: "note"}, [
-                                    first.source, stages.length && "Stages: " + stages.join(", ")
+                                    first.source, stages.length && "Stages: " + stages.join(", "),
+                                    limitsNote(points)
                                 ].filter(Boolean).join(". ").replaceAll("..", ".")));
         const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
         if (!keys.length) continue;

@@ -115,6 +115,8 @@ TEST_F(CommandLine, EveryCommandExplainsItself) {
         EXPECT_GT(o.text.size(), 100u) << command;
     }
     EXPECT_NE(ssrlab("describe mcguire_dda").text.find("thickness"), std::string::npos);
+    EXPECT_NE(ssrlab("describe diligent_ssr").text.find("Enforced limits: WebGL 2"), std::string::npos);
+    EXPECT_EQ(ssrlab("describe amd_sssr").text.find("Enforced limits"), std::string::npos);
     EXPECT_NE(ssrlab("describe --schema").text.find("\"max_steps\""), std::string::npos);
 }
 

@@ -189,6 +189,7 @@ json manifest_head() {
                             {"title", p.variant == "none" ? "No reflections" : "McGuire & Mara 2014"},
                             {"source", p.variant == "none" ? "" : "JCGT 3(4)"},
                             {"parameters", parameters}});
+        if (p.point == "stride=1") variants.back()["limits"] = "WebGL 2";
     }
     return {{"ssrlab",
              {{"version", "0.1.0"},
