@@ -1,6 +1,6 @@
 // Each correction of the tracer, on a G-buffer that shows what it mends.
 #include "tests/variants/amd_golden.h"
-#include "tests/variants/amd_scenes.h"
+#include "tests/variants/mirror_scenes.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <cmath>
@@ -13,11 +13,7 @@ struct AmdCorrections : VariantTest {
     FrameView view{.extent = {96, 120}};
     HostImage noise{{128, 128}, 2, 0.5f};
 
-    HostGBuffer gbuffer_of(const SyntheticScene& scene) {
-        PassGraph graph(device(), view.extent);
-        const CameraData camera = camera_data(pose, nullptr, view);
-        return download_gbuffer(graph, upload_gbuffer(graph, pose, camera, scene), camera, DepthFormat::d32f);
-    }
+    HostGBuffer gbuffer_of(const SyntheticScene& scene) { return host_gbuffer(device(), pose, view, scene); }
 
     /// rgb: (lit at the hit, blended by its confidence with a black environment); w: length (m).
     HostImage trace(const HostGBuffer& gbuffer, nlohmann::json parameters) {
@@ -37,18 +33,6 @@ double sum_of(const HostImage& radiance) {
     return sum;
 }
 
-SyntheticHit floor_before_white(const CameraRay& ray) {
-    SyntheticHit hit = mirror_floor(ray);
-    hit.lit = glm::vec3(hit.metalness == 0);
-    return hit;
-}
-
-SyntheticHit ceiling_before_white(const CameraRay& ray) {
-    SyntheticHit hit = floor_before_white({ray.origin * glm::vec3(1, -1, 1), ray.direction * glm::vec3(1, -1, 1)});
-    hit.normal.y = -hit.normal.y;
-    return hit;
-}
-
 /// 120 rows are 7.5 texels of the pyramid's fourth level, as 1080 are 67.5: it has no texels for the last 8 rows, to
 /// which the ceiling's rays go.
 TEST_F(AmdCorrections, StopOutsideScreenFindsWhatOddLevelsLackWithReversedDepth) {
@@ -59,15 +43,6 @@ TEST_F(AmdCorrections, StopOutsideScreenFindsWhatOddLevelsLackWithReversedDepth)
     const double mended = sum_of(trace(ceiling_before_white, {{"stop_outside_screen", true}}));
     EXPECT_LT(reversed, 0.9 * standard);
     EXPECT_NEAR(mended, standard, 0.01 * standard);
-}
-
-/// A mirror half a metre before the camera, and a wall beside it that reaches from the mirror to the camera. Steps of
-/// one metre along the mirrored rays end behind the camera.
-SyntheticHit mirror_beside_wall(const CameraRay& ray) {
-    const float to_mirror = -0.5f / ray.direction.z;
-    const float to_wall = ray.direction.x > 0 ? 0.3f / ray.direction.x : std::numeric_limits<float>::infinity();
-    if (to_wall < to_mirror) return {.distance = to_wall, .normal = {-1, 0, 0}, .lit = glm::vec3(1)};
-    return {.distance = to_mirror, .normal = {0, 0, 1}, .roughness = 0, .metalness = 1, .specular = 1};
 }
 
 TEST_F(AmdCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {

@@ -1,5 +1,4 @@
 #include "tests/variants/diligent_trace.h"
-#include "tests/variants/variant_fixture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,3 +19,9 @@ DiligentTraced diligent_trace_frame(Device& device, const HostGBuffer& gbuffer, 
     const DiligentRays rays = diligent_trace(graph, frame.gbuffer, hierarchy, numbers, shown, frame.mask(), tracing);
     return {graph.download(rays.radiance), graph.download(rays.direction)};
 }
+
+double confidence_of(const DiligentTraced& traced) {
+    double sum = 0;
+    for (size_t i = 3; i < traced.radiance.values.size(); i += 4) sum += traced.radiance.values[i];
+    return sum;
+}

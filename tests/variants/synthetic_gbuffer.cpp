@@ -48,6 +48,12 @@ GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraDat
     return gbuffer;
 }
 
+HostGBuffer host_gbuffer(Device& device, const CameraPose& pose, const FrameView& view, const SyntheticScene& scene) {
+    PassGraph graph(device, view.extent);
+    const CameraData camera = camera_data(pose, nullptr, view);
+    return download_gbuffer(graph, upload_gbuffer(graph, pose, camera, scene), camera, DepthFormat::d32f);
+}
+
 SyntheticHit mirror_floor(const CameraRay& ray) {
     const float to_wall = (-6.0f - ray.origin.z) / ray.direction.z;
     const float to_floor =

@@ -1,6 +1,5 @@
 #pragma once
-#include "core/gbuffer/gbuffer.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gbuffer/gbuffer_transfer.h"
 #include "core/scene/camera.h"
 
 #include <functional>
@@ -17,6 +16,9 @@ using SyntheticScene = std::function<SyntheticHit(const CameraRay&)>;
 
 /// The images that variants read, filled at the pixel centres (moved by the jitter) and uploaded.
 GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraData& camera, const SyntheticScene& scene);
+
+/// The same on the CPU.
+HostGBuffer host_gbuffer(Device& device, const CameraPose& pose, const FrameView& view, const SyntheticScene& scene);
 
 /// A mirror floor at y = -1 before a wall at z = -6 that is white above y = 1 and grey (0.25) below, seen from the
 /// origin.
