@@ -2,6 +2,7 @@
 // with the edge-stopping functions of Schied et al. 2017 ("Spatiotemporal Variance-Guided Filtering", section 4.4).
 #include "core/shaders/view.glsl"
 #include "diligent_ssr/background.glsl"
+#include "diligent_ssr/camera_depth.glsl"
 
 layout(location = 0) out vec4 reflections;
 
@@ -11,7 +12,7 @@ const float noisy_variance = 1e-3;
 const float widest_radius = 2.0;  // pixels
 const float normal_exponent = 128.0;
 
-float camera_depth(ivec2 pixel) { return -view_from_screen(vec2(0.5), texelFetch(depth, pixel, 0).r).z; }
+float camera_depth_at(ivec2 pixel) { return camera_depth(texelFetch(depth, pixel, 0).r); }
 
 // Pixels; mirrors need none.
 int kernel_radius(ivec2 pixel) {
@@ -28,7 +29,7 @@ bool is_kept(ivec2 pixel) {
 float edge_stop(ivec2 pixel, ivec2 neighbor, float depth_change) {
     vec3 ws_normal = texelFetch(normal, pixel, 0).xyz, ws_neighbor_normal = texelFetch(normal, neighbor, 0).xyz;
     float same_normal = pow(max(dot(ws_normal, ws_neighbor_normal), 0.0), normal_exponent);
-    float difference = abs(camera_depth(pixel) - camera_depth(neighbor));
+    float difference = abs(camera_depth_at(pixel) - camera_depth_at(neighbor));
     return same_normal * exp(-difference / (abs(depth_change) + 1e-6));
 }
 
@@ -37,8 +38,8 @@ vec4 filtered(ivec2 pixel, int radius, vec2 depth_gradient) {
     vec4 sum = vec4(0.0);
     for (int y = -radius; y <= radius; ++y)
         for (int x = -radius; x <= radius; ++x) {
-            ivec2 neighbor = pixel + ivec2(x, y);
-            if (neighbor != clamp(neighbor, ivec2(0), ivec2(camera.extent.xy) - 1) || !is_kept(neighbor)) continue;
+            ivec2 neighbor = clamp(pixel + ivec2(x, y), ivec2(0), ivec2(camera.extent.xy) - 1);
+            if (!is_kept(neighbor)) continue;
             vec2 offset = vec2(ivec2(x, y));
             float weight = exp(-dot(offset, offset) / (2.0 * sigma * sigma)) *
                            edge_stop(pixel, neighbor, dot(offset, depth_gradient));
@@ -50,7 +51,7 @@ vec4 filtered(ivec2 pixel, int radius, vec2 depth_gradient) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float pixel_depth = camera_depth(pixel);
+    float pixel_depth = camera_depth_at(pixel);
     vec2 depth_gradient = vec2(dFdx(pixel_depth), dFdy(pixel_depth));
     int radius = bilateral_cleanup ? kernel_radius(pixel) : 0;
     vec4 radiance = radius > 0 ? filtered(pixel, radius, depth_gradient) : texelFetch(accumulated_radiance, pixel, 0);

@@ -1,5 +1,6 @@
 // What the previous frame knew of a surface, unless something else was in front of it then: near its position, too.
 #include "diligent_ssr/history_taps.glsl"
+#include "diligent_ssr/camera_depth.glsl"
 
 uniform sampler2D previous_depth;
 
@@ -15,8 +16,6 @@ struct History {
     vec2 position;  // pixels of the previous frame
     bool is_found;
 };
-
-float camera_depth(float device_depth) { return -view_from_screen(vec2(0.5), device_depth).z; }
 
 float camera_depth_before(float device_depth) {
     vec4 view = camera.previous_view_from_clip * vec4(0.0, 0.0, device_depth, 1.0);
@@ -84,7 +83,7 @@ History taps_that_show(vec2 position, float now) {
         depth_sum += weight_of(taps, i) * before;
         weight += weight_of(taps, i);
     }
-    float total = max(weight, 1e-3);
+    float total = max(weight, 1e-6);
     return History(sum / total, position, is_alike(now, depth_sum / total, alike));
 }
 
@@ -92,7 +91,7 @@ History taps_that_show(vec2 position, float now) {
 History search_by_device_depth(vec2 position, float now) {
     vec2 best = position;
     float best_likeness = 0.0;
-    for (int i = 0; i < 9 && best_likeness <= alike; ++i) {
+    for (int i = 0; i < 9; ++i) {
         vec2 shifted = position + shift_of(i);
         float found = likeness(now, camera_depth_before(filtered(previous_depth, shifted).r));
         if (found <= best_likeness) continue;

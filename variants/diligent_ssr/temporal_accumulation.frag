@@ -19,13 +19,13 @@ struct Neighborhood {
 Neighborhood neighborhood_of(ivec2 pixel) {
     vec4 sum = vec4(0.0), squares = vec4(0.0);
     for (int i = 0; i < 9; ++i) {
-        ivec2 texel = clamped_to_screen(pixel + ivec2(i % 3, i / 3) - 1);
+        ivec2 texel = clamped_to_screen(pixel + ivec2(i / 3, i % 3) - 1);
         vec4 radiance = texelFetch(resolved_radiance, texel, 0);
         sum += radiance;
         squares += radiance * radiance;
     }
-    vec4 mean = sum / 9.0;
-    return Neighborhood(mean, sqrt(max(squares / 9.0 - mean * mean, 0.0)));
+    vec4 mean = sum * (1.0 / 9.0);
+    return Neighborhood(mean, sqrt(max(squares * (1.0 / 9.0) - mean * mean, 0.0)));
 }
 
 // Pixels of the previous frame, as all that follows. Both take the pixels for unjittered, now and then: what was seen
