@@ -81,6 +81,15 @@ void check_targets(const std::string& pass, const std::vector<Image>& targets) {
                    "has the colour target '", target.name, "' of format ", format.name);
 }
 
+/// Adds the images of the tests, which count as drawn to even where they are not written.
+void add_tested(const std::string& pass, const DepthTest& depth, const Stencil& stencil, std::vector<Image>& drawn) {
+    if (depth.image.storage && stencil.image.storage && depth.image.storage != stencil.image.storage)
+        refuse(pass, "keeps both in one image", "tests depth in '", depth.image.name, "' and stencil in '",
+               stencil.image.name, "'");
+    for (const Image* image : {&depth.image, &stencil.image})
+        if (image->storage) drawn.push_back(*image);
+}
+
 void check_texture(const std::string& pass, const Image& texture, const Sampling& sampling,
                    const std::vector<Image>& drawn) {
     for (const Image& image : drawn)
@@ -119,18 +128,21 @@ void PassGraph::Impl::check_limits(const Pass& pass, const Shader& shader, const
     if (!pass.vertex_shader_.empty())
         refuse(pass.label_, "has no such buffers", "draws meshes, whose vertices lie in storage buffers");
     check_targets(pass.label_, targets);
-
     std::vector<Image> drawn = targets;
-    for (const Image* image : {&pass.depth_.image, &pass.stencil_.image})
-        if (image->storage) drawn.push_back(*image);
-    if (pass.depth_.image.storage && pass.stencil_.image.storage &&
-        pass.depth_.image.storage != pass.stencil_.image.storage)
-        refuse(pass.label_, "keeps both in one image", "tests depth in '", pass.depth_.image.name, "' and stencil in '",
-               pass.stencil_.image.name, "'");
+    add_tested(pass.label_, pass.depth_, pass.stencil_, drawn);
+    check_resources(pass, shader.interface, drawn);
+    try {
+        pipelines.require_webgl2(shader, pass.shader_, *params);
+    } catch (const Error& error) {
+        refuse(pass.label_, std::string("takes GLSL ES 3.00: ") + error.what(), "has a shader of another language");
+    }
+}
 
+void PassGraph::Impl::check_resources(const Pass& pass, const ShaderInterface& interface,
+                                      const std::vector<Image>& drawn) {
     using Kind = ShaderInterface::Kind;
     size_t textures = 0;
-    for (const ShaderInterface::Resource& r : shader.interface.resources) {
+    for (const ShaderInterface::Resource& r : interface.resources) {
         if (r.kind == Kind::storage)
             refuse(pass.label_, "has no such buffers", "uses the storage buffer '", r.name, "'");
         if (r.kind == Kind::image)
@@ -144,12 +156,6 @@ void PassGraph::Impl::check_limits(const Pass& pass, const Shader& shader, const
     }
     if (textures > max_texture_image_units)
         refuse(pass.label_, "guarantees " + std::to_string(max_texture_image_units), "reads ", textures, " textures");
-
-    try {
-        pipelines.require_webgl2(shader, pass.shader_, *params);
-    } catch (const Error& error) {
-        refuse(pass.label_, std::string("takes GLSL ES 3.00: ") + error.what(), "has a shader of another language");
-    }
 }
 
 void PassGraph::Impl::check_limits(const Buffer& buffer) {

@@ -50,6 +50,7 @@ struct PassGraph::Impl {
     void check(const Pass& pass, const ShaderInterface& interface);
     void check_features(const Image& image, ShaderInterface::Kind kind, const Sampling& sampling);
     void check_limits(const Pass& pass, const Shader& shader, const std::vector<Image>& targets);
+    void check_resources(const Pass& pass, const ShaderInterface& interface, const std::vector<Image>& drawn);
     void check_limits(const Buffer& buffer);
     void check_upload_limits(const Image& image);
     void bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw, const Pipeline& pipeline);
