@@ -14,6 +14,12 @@ vec3 view_from_screen(vec2 uv, float device_depth) {
     return view.xyz / view.w;
 }
 
+// View-space z, which is negative, of a device depth.
+float view_z(float device_depth) {
+    vec4 view = camera.view_from_clip * vec4(0.0, 0.0, device_depth, 1.0);
+    return view.z / view.w;
+}
+
 vec3 world_from_screen(vec2 uv, float device_depth) {
     return (camera.world_from_view * vec4(view_from_screen(uv, device_depth), 1.0)).xyz;
 }

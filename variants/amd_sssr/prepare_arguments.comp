@@ -1,11 +1,9 @@
 // Numbers of groups for the passes that work through the lists.
 #include "amd_sssr/lists.glsl"
+#include "common/indirect_groups.glsl"
 
 layout(local_size_x = 1) in;
 buffer indirect_arguments { uint ray_groups[3], tile_groups[3], tile_octet_groups[3]; };
-
-// Every device takes 65535 groups along an axis; beyond, they are spread over two.
-uint[3] spread(uint groups) { return uint[](min(groups, 65535u), (groups + 65534u) / 65535u, 1u); }
 
 void main() {
     ray_count = rays_being_listed;

@@ -48,11 +48,6 @@ float outside_share(vec2 a, vec2 b) {
     return share;
 }
 
-float view_z(float device_depth) {
-    vec4 view = camera.view_from_clip * vec4(0.0, 0.0, device_depth, 1.0);
-    return view.z / view.w;
-}
-
 // Depth behind the visible surface that counts as solid (m).
 float solid_depth(float scene_z) { return thickness + relative_thickness * -scene_z; }
 

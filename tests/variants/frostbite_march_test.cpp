@@ -1,0 +1,173 @@
+#include "tests/variants/pixel_march.h"
+#include "tests/variants/variant_fixture.h"
+#include "variants/common/depth_pyramid.h"
+#include "variants/frostbite_sssr/passes.h"
+
+#include <random>
+
+// The two tracers against marches on the CPU, ray by ray.
+
+namespace {
+
+struct Found {
+    bool is_hit;
+    glm::ivec2 pixel;
+    float distance;
+};
+
+struct FrostbiteMarch : VariantTest {
+    glm::uvec2 extent{193, 131};  // odd on three levels
+    CameraPose pose{.vertical_fov = 1.0f, .near = 0.1f, .far = 100.0f};
+    FrameView view;
+    CameraData camera{};
+    HostImage depth, normal;
+    ParameterSet params;
+    FrostbiteRayParameters parameters{params};
+
+    float device_depth(float distance) const {
+        const glm::vec4 clip = camera.clip_from_view * glm::vec4(0, 0, -distance, 1);
+        return clip.z / clip.w;
+    }
+
+    /// Hills with boxes before them, posts one pixel wide and holes of background.
+    void make_depth() {
+        view.extent = extent;
+        camera = camera_data(pose, nullptr, view);
+        depth = HostImage(extent, 1, camera.depth.z);
+        normal = HostImage(extent, 4);
+        for (unsigned y = 0; y < extent.y; ++y)
+            for (unsigned x = 0; x < extent.x; ++x) {
+                float distance =
+                    6.0f + 1.5f * std::sin(0.13f * float(x)) * std::cos(0.21f * float(y)) - 0.02f * float(y);
+                if ((x / 12 + y / 16) % 5 == 0) distance = 2.0f + 0.01f * float(x);
+                if (x % 37 == 3) distance = 1.5f;
+                if ((x / 9 + y / 7) % 7 != 0) *depth.pixel(x, y) = device_depth(distance);
+            }
+        std::mt19937 random(3);
+        std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+        for (size_t i = 0; i < normal.pixel_count(); ++i)
+            normal.set_rgb(i, glm::normalize(glm::vec3(uniform(random), uniform(random), 1.2f)));
+    }
+
+    glm::vec3 position(glm::uvec2 pixel) const {
+        const glm::vec2 screen = (glm::vec2(pixel) + 0.5f + glm::vec2(camera.jitter)) / glm::vec2(extent);
+        const glm::vec4 v = camera.view_from_clip * glm::vec4(screen * 2.0f - 1.0f, *depth.pixel(pixel.x, pixel.y), 1);
+        return glm::vec3(v) / v.w;
+    }
+
+    PixelRay ray_from(glm::uvec2 pixel, glm::vec3 direction) const {
+        return {glm::ivec2(pixel), position(pixel), glm::normalize(direction),
+                normal.rgb(size_t(pixel.y) * extent.x + pixel.x)};
+    }
+
+    /// From all over the image, to all sides of the surface but the inner.
+    std::vector<PixelRay> random_rays(size_t count) const {
+        std::mt19937 random(1);
+        std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+        std::vector<PixelRay> rays;
+        while (rays.size() < count) {
+            const glm::uvec2 pixel(random() % extent.x, random() % extent.y);
+            const glm::vec3 d(uniform(random), uniform(random), uniform(random));
+            if (*depth.pixel(pixel.x, pixel.y) == camera.depth.z || dot(d, d) > 1 || dot(d, d) < 1e-2f) continue;
+            PixelRay ray = ray_from(pixel, d);
+            ray.jitter = 0.5f + 0.5f * uniform(random);
+            if (dot(ray.direction, ray.normal) > 0 && ray.jitter < 1) rays.push_back(ray);
+        }
+        return rays;
+    }
+
+    std::vector<Found> march(const std::vector<PixelRay>& rays, bool is_linear) {
+        PassGraph graph(device(), extent);
+        const glm::uvec2 line(unsigned(rays.size()), 1);
+        HostImage starts(line, 2), directions(line, 4);
+        for (unsigned i = 0; i < line.x; ++i) {
+            const PixelRay& ray = rays[i];
+            *reinterpret_cast<glm::vec2*>(starts.pixel(i, 0)) = glm::vec2(ray.pixel);
+            *reinterpret_cast<glm::vec4*>(directions.pixel(i, 0)) = glm::vec4(ray.direction, ray.jitter);
+        }
+        const auto upload = [&](const char* name, Format format, const HostImage& pixels) {
+            const Image image = graph.image_of(name, format, pixels.extent);
+            graph.upload(image, pixels);
+            return image;
+        };
+        const std::vector<Image> inputs{upload("depth", Format::r32f, depth),
+                                        upload("geometric_normal", Format::rgba32f, normal)};
+        graph.begin_frame(camera, params, inputs);
+        const Image found = graph.image_of("found", Format::rgba32f, line);
+        graph.compute("frostbite_rays.comp")
+            .read(nearest_depth_pyramid(graph, inputs[0], 7))
+            .read(upload("ray_start", Format::rg32f, starts))
+            .read(upload("ray_direction", Format::rgba32f, directions))
+            .write(found)
+            .set("is_linear", unsigned(is_linear))
+            .run();
+        const HostImage pixels = graph.download(found);
+        std::vector<Found> result;
+        for (unsigned i = 0; i < line.x; ++i) {
+            const float* p = pixels.pixel(i, 0);
+            result.push_back({p[3] > 0, glm::ivec2(int(p[0]), int(p[1])), p[2]});
+        }
+        return result;
+    }
+
+    Found march(const PixelRay& ray) { return march(std::vector{ray}, false).front(); }
+
+    PixelMarchResult truth(const PixelRay& ray) const {
+        return march_every_pixel(depth, camera, ray, parameters.thickness);
+    }
+
+    /// No ray may differ but where float cannot decide, and that must be rare.
+    void expect_agreement(bool is_linear) {
+        params.assign({{"max_hierarchical_steps", 4096}});
+        const std::vector<PixelRay> rays = random_rays(6000);
+        const std::vector<Found> found = march(rays, is_linear);
+        size_t hits = 0, close_calls = 0;
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const PixelMarchResult expected =
+                is_linear ? march_equal_steps(depth, camera, rays[i], parameters.thickness, parameters.linear_steps)
+                          : truth(rays[i]);
+            hits += expected.is_hit;
+            // Depth is affine on the screen to a few 1e-7 of its range, and a ray's length is found from its place
+            // there.
+            const bool agrees = found[i].is_hit == expected.is_hit &&
+                                (!expected.is_hit ||
+                                 (found[i].pixel == expected.pixel &&
+                                  std::abs(found[i].distance - expected.distance) < 2e-3 * expected.distance + 1e-3));
+            if (agrees) continue;
+            ++close_calls;
+            EXPECT_TRUE(expected.is_close_call)
+                << "ray " << i << " from " << rays[i].pixel.x << ", " << rays[i].pixel.y << ": hit " << found[i].is_hit
+                << " at " << found[i].pixel.x << ", " << found[i].pixel.y << ", " << found[i].distance << " m; truth "
+                << expected.is_hit << " at " << expected.pixel.x << ", " << expected.pixel.y << ", "
+                << expected.distance << " m";
+        }
+        EXPECT_LE(double(close_calls), 0.002 * double(rays.size()));
+        EXPECT_GT(double(hits), 0.1 * double(rays.size()));
+    }
+};
+
+TEST_F(FrostbiteMarch, ThroughTheHierarchyFindsWhatEveryPixelHolds) {
+    make_depth();
+    expect_agreement(false);
+}
+
+TEST_F(FrostbiteMarch, ThroughTheHierarchyWorksForReversedDepthAndJitter) {
+    view.depth_direction = DepthDirection::reversed;
+    view.jitter = {0.3f, -0.4f};
+    make_depth();
+    expect_agreement(false);
+}
+
+TEST_F(FrostbiteMarch, ThroughTheHierarchyWorksForOrthographicCameras) {
+    pose.is_orthographic = true;
+    pose.orthographic_height = 8.0f;
+    make_depth();
+    expect_agreement(false);
+}
+
+TEST_F(FrostbiteMarch, TakesTheStepsThatItSays) {
+    make_depth();
+    expect_agreement(true);
+}
+
+}  // namespace

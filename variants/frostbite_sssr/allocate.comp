@@ -1,0 +1,45 @@
+// Lists the rays of every traced pixel for the tracer that its roughness asks for. The order of the lists changes from
+// run to run; each ray has a place of its own to write to, so that nothing else does.
+#include "frostbite_sssr/counters.glsl"
+#include "frostbite_sssr/draw_ray.glsl"
+#include "frostbite_sssr/ray.glsl"
+#include "frostbite_sssr/tile.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D ray_count;
+buffer hierarchical_list { uint hierarchical_ray[]; };
+buffer linear_list { uint linear_ray[]; };
+
+uint rays_of(ivec2 pixel) {
+    return starts_rays(pixel) ? uint(texelFetch(ray_count, pixel / tile_width, 0).r) : 0u;
+}
+
+// One addition to the counters of all groups per group.
+shared uint group_counts[2], group_first[2];
+
+void main() {
+    ivec2 traced = ivec2(gl_GlobalInvocationID.xy);
+    if (gl_LocalInvocationIndex < 2u) group_counts[gl_LocalInvocationIndex] = 0u;
+    barrier();
+
+    bool is_traced = all(lessThan(traced, traced_extent()));
+    ivec2 pixel = traced_pixel(is_traced ? traced : ivec2(0), camera.frame.x);
+    uint count = is_traced ? rays_of(pixel) : 0u;
+    uint tracer = is_hierarchical(pixel) ? 0u : 1u;
+    uint first = count > 0u ? atomicAdd(group_counts[tracer], count) : 0u;
+    barrier();
+
+    if (gl_LocalInvocationIndex == 0u) {
+        group_first[0] = atomicAdd(hierarchical_count, group_counts[0]);
+        group_first[1] = atomicAdd(linear_count, group_counts[1]);
+    }
+    barrier();
+
+    for (uint k = 0u; k < count; ++k) {
+        uint place = group_first[tracer] + first + k, index = index_of_ray(traced, k);
+        if (tracer == 0u)
+            hierarchical_ray[place] = index;
+        else
+            linear_ray[place] = index;
+    }
+}

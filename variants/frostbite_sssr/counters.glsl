@@ -1,0 +1,11 @@
+// How many rays are listed, and how the tracers go through them; see FrostbiteWork of passes.h.
+#ifndef FROSTBITE_SSSR_COUNTERS_GLSL
+#define FROSTBITE_SSSR_COUNTERS_GLSL
+
+buffer counters { uint hierarchical_count, linear_count; };
+
+// For groups of 64 that indirect_arguments started.
+uint place_in_list() {
+    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+}
+#endif

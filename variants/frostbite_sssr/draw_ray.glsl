@@ -1,0 +1,46 @@
+// Directions of rays.
+#ifndef FROSTBITE_SSSR_DRAW_RAY_GLSL
+#define FROSTBITE_SSSR_DRAW_RAY_GLSL
+#include "common/ggx_lobe.h"
+#include "common/halton.h"
+#include "common/mirror_ray.glsl"
+
+// Dimensions of random numbers: a ray's draws, of which there are at most 17, and the start of its march. Those of
+// probes follow.
+const uint march_dimension = 17u, probe_dimension = 18u;
+
+// Point k of pixel and frame. At half resolution a pixel has its turn once in four frames, and takes the sequence's
+// points one after the other all the same: a point in four would leave out three quarters of the first coordinate.
+vec2 random_pair(ivec2 pixel, uint k, uint dimension) {
+    uint turn = half_resolution ? camera.frame.x / 4u : camera.frame.x;
+    return rotated_halton(turn * max_rays + k, uvec2(pixel), camera.frame.y, dimension);
+}
+
+// A surface with a specular term that is smooth enough and whose shading normal faces the viewer.
+bool starts_rays(ivec2 pixel) {
+    return reflects(pixel, max_roughness) && dot(view_direction(view_position(pixel)), view_normal(pixel)) < 0.0;
+}
+
+bool is_hierarchical(ivec2 pixel) { return texelFetch(normal, pixel, 0).w < hierarchical_below; }
+
+struct DrawnRay {
+    vec3 direction;  // view space, unit
+    float inverse_density;
+    bool is_above_horizon;  // of the shading normal
+    uint discarded_draws;
+};
+
+// Ray k of a pixel that starts rays, drawn again while it goes below the horizon.
+DrawnRay draw_ray(ivec2 pixel, vec3 towards_surface, uint k, uint first_dimension) {
+    mat3 view_from_local = basis_from_normal(view_normal(pixel));
+    vec3 o = -towards_surface * view_from_local;
+    float alpha = ggx_alpha(texelFetch(normal, pixel, 0).w);
+    LobeSample drawn;
+    uint draw = 0u;
+    for (;; ++draw) {
+        drawn = sample_lobe(lobe, o, alpha, importance_bias, random_pair(pixel, k, first_dimension + draw));
+        if (drawn.direction.z > 0.0 || draw == max_regenerations) break;
+    }
+    return DrawnRay(view_from_local * drawn.direction, drawn.inverse_density, drawn.direction.z > 0.0, draw);
+}
+#endif

@@ -1,0 +1,41 @@
+// What a ray meets within a pixel: the surface that the pixel shows and, for want of knowledge, as much behind it as
+// `thickness` says.
+#ifndef FROSTBITE_SSSR_SOLID_GLSL
+#define FROSTBITE_SSSR_SOLID_GLSL
+#include "frostbite_sssr/screen_line.glsl"
+
+// Where a march ended.
+struct March {
+    bool is_hit;
+    ivec2 pixel;
+    float t;
+};
+
+const March miss = March(false, ivec2(0), 0.0);
+
+bool is_nearer(float a, float b) { return camera.depth.w == 1.0 ? a > b : a < b; }
+float nearer_of(float a, float b) { return is_nearer(a, b) ? a : b; }
+float farther_of(float a, float b) { return is_nearer(a, b) ? b : a; }
+
+// Samples are steps where the surface is smooth, and a ray at a grazing angle would meet the next step of the plane that
+// it leaves. Ours: what lies less than half as high above that plane as the ray does is not what the ray meets.
+bool is_below_ray(ScreenLine line, ivec2 pixel, float t) {
+    float height = dot(view_position(pixel) - line.vs_origin, line.vs_normal);
+    return height < 0.5 * line.rise * distance_at(line, t);
+}
+
+// The place between two t that comes nearest to the depth of a surface.
+float closest_t(ScreenLine line, float surface, float t_in, float t_out) {
+    return line.slope.z == 0.0 ? t_in : clamp(t_of_depth(line, surface), t_in, t_out);
+}
+
+// The part of the line from t_in to t_out, whose device depth there comes to `farthest` at most, against what `pixel`
+// shows. `surface`: its device depth.
+March meet(ScreenLine line, ivec2 pixel, float surface, float t_in, float t_out, float farthest) {
+    if (is_background(surface) || is_nearer(farthest, surface)) return miss;
+    float nearest = nearer_of(depth_at(line, t_in), depth_at(line, t_out));
+    if (view_z(nearest) < view_z(surface) * (1.0 + thickness)) return miss;
+    float t = closest_t(line, surface, t_in, t_out);
+    return is_below_ray(line, pixel, t) ? miss : March(true, pixel, t);
+}
+#endif

@@ -1,0 +1,32 @@
+// One ray from its draw to its end. Whoever includes this says how it marches.
+#ifndef FROSTBITE_SSSR_TRACE_RAY_GLSL
+#define FROSTBITE_SSSR_TRACE_RAY_GLSL
+#include "frostbite_sssr/draw_ray.glsl"
+#include "frostbite_sssr/ray.glsl"
+#include "frostbite_sssr/solid.glsl"
+
+// To be defined. `random` in [0, 1).
+March march(ScreenLine line, float random);
+
+// Ray k of a pixel that starts rays.
+TracedRay trace_ray(ivec2 pixel, uint k, uint first_dimension) {
+    vec3 origin = view_position(pixel), vs_normal = view_geometric_normal(pixel);
+    DrawnRay drawn = draw_ray(pixel, view_direction(origin), k, first_dimension);
+    TracedRay ray = TracedRay(drawn.direction, drawn.inverse_density, ray_missed, 0.0, 0.0, drawn.discarded_draws);
+    if (!drawn.is_above_horizon) {
+        ray.target = ray_below_horizon;
+    } else if (dot(drawn.direction, vs_normal) <= 0.0) {
+        ray.target = ray_into_surface;
+        ray.confidence = 1.0;
+    } else {
+        ScreenLine line = screen_line(pixel, origin, drawn.direction, vs_normal);
+        March end = march(line, random_pair(pixel, k, first_dimension + march_dimension).x);
+        if (end.is_hit) {
+            ray.target = target_of_pixel(end.pixel);
+            ray.ray_length = distance_at(line, end.t);
+            ray.confidence = 1.0;
+        }
+    }
+    return ray;
+}
+#endif
