@@ -13,11 +13,12 @@ Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
     }
     const Image depth_pyramid = nearest_depth_pyramid(graph, gbuffer.depth, pyramid_mips);
     const Image color = resolve_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
-    const Image color_pyramid = frostbite_color_pyramid(graph, color);
+    const Image filtered = resolve_.filtered_sampling ? frostbite_color_pyramid(graph, color) : color;
     const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depth_pyramid, color, ray_);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, ray_);
     const FrostbiteRays rays = frostbite_trace(graph, gbuffer, depth_pyramid, work, ray_);
-    const FrostbiteResolved resolved = frostbite_resolve(graph, gbuffer, color_pyramid, work, rays, ray_, resolve_);
+    const FrostbiteResolved resolved =
+        frostbite_resolve(graph, gbuffer, filtered, split_sum_.on(graph), rays, resolve_);
     const Image reflections = frostbite_accumulate(graph, gbuffer, resolved, resolve_);
     return {reflections, reflections, alpha};
 }

@@ -1,12 +1,13 @@
 #pragma once
+#include "core/gbuffer/split_sum_image.h"
 #include "core/variant.h"
 #include "variants/common/lit_history.h"
 #include "variants/frostbite_sssr/ray_parameters.h"
 #include "variants/frostbite_sssr/resolve_parameters.h"
 
 /// Stochastic screen-space reflections as Frostbite's authors presented them: Stachowiak and Uludag 2015, "Stochastic
-/// Screen-Space Reflections", SIGGRAPH course Advances in Real-Time Rendering. Much of it was never published; README.md
-/// says what is theirs and what is ours.
+/// Screen-Space Reflections", SIGGRAPH course Advances in Real-Time Rendering. Much of it was never published;
+/// README.md says what is theirs and what is ours.
 class FrostbiteSssr final : public Variant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
@@ -16,5 +17,6 @@ private:
     FrostbiteRayParameters ray_{params};
     FrostbiteResolveParameters resolve_{params};
     LitHistory lit_;
+    SplitSumImage split_sum_;
     bool is_left_out_ = false;
 };

@@ -26,7 +26,8 @@ struct FrostbiteWork {
 /// What the rays found, by index of the ray. In 32 bits: densities overflow halves below a roughness of 0.033.
 struct FrostbiteRays {
     Buffer directions;  ///< vec4: xyz view space, unit, w 1 / density of the direction (sr); w = 0: no ray
-    Buffer hits;        ///< uvec4: x pixel (x | y << 16) or a marker of ray.glsl; y, z bits of: length (m), confidence
+    Buffer hits;        ///< uvec4: x pixel (x | y << 16) or a marker of ray.glsl; y, z bits of: length (m), confidence;
+                        ///< w draws that were thrown away
 };
 
 /// What each pixel makes of its own and its neighbours' rays.
@@ -36,7 +37,7 @@ struct FrostbiteResolved {
     Image reflection_depth;  ///< r32f: length of the resolved rays (m); 0: none
 };
 
-/// Mips of `color`, each texel the mean of the 2x2 below: `color_pyramid`, rgba32f.
+/// `color` and all its mips, each texel the mean over its area, also where sizes are odd: `color_pyramid`, rgba32f.
 Image frostbite_color_pyramid(PassGraph& graph, const Image& color);
 
 /// Probes and the decision per tile.
@@ -51,10 +52,9 @@ FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const
 FrostbiteRays frostbite_trace(PassGraph& graph, const GBuffer& gbuffer, const Image& depth_pyramid,
                               const FrostbiteWork& work, const FrostbiteRayParameters& parameters);
 
-/// `color_pyramid`: of the lit image that hits show.
-FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color_pyramid,
-                                    const FrostbiteWork& work, const FrostbiteRays& rays,
-                                    const FrostbiteRayParameters& ray_parameters,
+/// `color`: the lit image that hits show, with its mips for filtered_sampling. `split_sum`: of SplitSumImage.
+FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color,
+                                    const Image& split_sum, const FrostbiteRays& rays,
                                     const FrostbiteResolveParameters& parameters);
 
 /// The image `reflections`, rgba32f: rgb incident radiance, a confidence.

@@ -1,0 +1,36 @@
+#include "tests/variants/frostbite_bench.h"
+
+#include <bit>
+
+FrostbiteBench::FrostbiteBench(Device& device, const CameraPose& pose, const FrameView& view,
+                               const SyntheticScene& scene, const nlohmann::json& parameters)
+    : graph(device, view.extent),
+      camera(camera_data(pose, nullptr, view)),
+      gbuffer(upload_gbuffer(graph, pose, camera, scene)) {
+    params.assign(parameters);
+}
+
+glm::uvec2 FrostbiteBench::traced_extent() const {
+    return ray_parameters.half_resolution ? (graph.extent() + 1u) / 2u : graph.extent();
+}
+
+ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const HostImage& color) {
+    std::vector<glm::vec4> directions;
+    std::vector<glm::uvec4> hits;
+    for (const StoredRay& ray : rays) {
+        directions.emplace_back(ray.direction, ray.inverse_density);
+        hits.emplace_back(ray.target, std::bit_cast<unsigned>(ray.length), std::bit_cast<unsigned>(ray.confidence),
+                          ray.discarded_draws);
+    }
+    graph.begin_frame(camera, params, gbuffer.images());
+    const FrostbiteRays stored{graph.buffer("directions", directions.size() * sizeof directions[0]),
+                               graph.buffer("hits", hits.size() * sizeof hits[0])};
+    graph.upload(stored.directions, std::as_bytes(std::span(directions)));
+    graph.upload(stored.hits, std::as_bytes(std::span(hits)));
+    const Image lit = graph.image("shown_by_hits", Format::rgba32f);
+    graph.upload(lit, color);
+    const Image shown = resolve_parameters.filtered_sampling ? frostbite_color_pyramid(graph, lit) : lit;
+    const FrostbiteResolved resolved =
+        frostbite_resolve(graph, gbuffer, shown, split_sum_.on(graph), stored, resolve_parameters);
+    return {graph.download(resolved.radiance), graph.download(resolved.reflection_depth)};
+}

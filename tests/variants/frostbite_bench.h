@@ -1,0 +1,42 @@
+#pragma once
+#include "core/gbuffer/split_sum_image.h"
+#include "tests/variants/synthetic_gbuffer.h"
+#include "variants/frostbite_sssr/passes.h"
+
+/// A ray as ray.glsl stores it.
+struct StoredRay {
+    glm::vec3 direction{0};     ///< view space
+    float inverse_density = 0;  ///< sr
+    unsigned target = 0;        ///< pixel x | y << 16, or one of the markers below
+    float length = 0;           ///< m
+    float confidence = 1;
+    unsigned discarded_draws = 0;
+};
+inline constexpr unsigned ray_missed = 0xffffffff, ray_below_horizon = 0xfffffffe;
+
+struct ResolvedFrame {
+    HostImage radiance, length;
+};
+
+/// Frostbite's resolve over a synthetic G-buffer, with rays that a test makes up.
+class FrostbiteBench {
+public:
+    FrostbiteBench(Device& device, const CameraPose& pose, const FrameView& view, const SyntheticScene& scene,
+                   const nlohmann::json& parameters);
+
+    /// `rays`: max_rays for each traced pixel. `color`: 4 channels, of the screen's extent.
+    ResolvedFrame resolve(const std::vector<StoredRay>& rays, const HostImage& color);
+
+    glm::uvec2 traced_extent() const;
+    void set_frame(unsigned index, unsigned seed) { camera.frame.x = index, camera.frame.y = seed; }
+
+    ParameterSet params;
+    FrostbiteRayParameters ray_parameters{params};
+    FrostbiteResolveParameters resolve_parameters{params};
+    PassGraph graph;
+    CameraData camera;
+    GBuffer gbuffer;
+
+private:
+    SplitSumImage split_sum_;
+};

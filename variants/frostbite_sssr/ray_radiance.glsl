@@ -1,0 +1,45 @@
+// What a reused ray sees.
+#ifndef FROSTBITE_SSSR_RAY_RADIANCE_GLSL
+#define FROSTBITE_SSSR_RAY_RADIANCE_GLSL
+#include "core/shaders/gbuffer/environment.glsl"
+#include "frostbite_sssr/reuse.glsl"
+
+uniform sampler2D color_pyramid;
+
+// Tangent of half the angle of the cone that one ray stands for: that of the truncated lobe of half vectors.
+float cone_tangent(Surface surface) {
+    float alpha = surface.roughness * surface.roughness;  // not ggx_alpha(): mirrors are not blurred
+    float tangent = cone_scale * alpha * sqrt(1.0 - importance_bias);
+    if (!grazing_cone) return tangent;
+    return tangent * mix(clamp(2.0 * surface.o.z, 0.0, 1.0), 1.0, sqrt(surface.roughness));
+}
+
+// Pixels of the screen per metre across the view at a view-space position.
+float pixels_per_metre(vec3 position) {
+    float w = (camera.clip_from_view * vec4(position, 1.0)).w;
+    return 0.5 * camera.extent.y * abs(camera.clip_from_view[1][1]) / max(w, 1e-6);
+}
+
+// A texel of level n stands for 2^n pixels, and reading it between texels widens it to twice as many.
+float color_level(Surface surface, OwnRay own) {
+    if (!filtered_sampling) return 0.0;
+    vec3 position = surface.position + own.ray_length * own.direction;
+    float diameter = 2.0 * own.ray_length * cone_tangent(surface) * pixels_per_metre(position);
+    return log2(max(diameter, 2.0)) - 1.0;
+}
+
+struct Seen {
+    vec3 radiance;
+    float confidence;  // share of it that is known
+};
+
+Seen seen_along(ivec2 pixel, Surface surface, ReusedRay ray, OwnRay own) {
+    const bool misses_see_environment = misses == 1u;
+    float confidence = is_hit(ray.traced) ? ray.traced.confidence : 0.0;
+    vec3 hit = vec3(0.0);
+    if (confidence > 0.0) hit = textureLod(color_pyramid, ray.color_uv, color_level(surface, own)).rgb;
+    if (!misses_see_environment) return Seen(hit, confidence);
+    vec3 environment = environment_along_ray(pixel, mat3(camera.world_from_view) * own.direction);
+    return Seen(mix(environment, hit, confidence), 1.0);
+}
+#endif

@@ -1,0 +1,64 @@
+// A traced ray as the pixels see it that resolve it.
+#ifndef FROSTBITE_SSSR_REUSE_GLSL
+#define FROSTBITE_SSSR_REUSE_GLSL
+#include "frostbite_sssr/ray.glsl"
+#include "frostbite_sssr/surface.glsl"
+
+uniform sampler2D motion;
+
+// All of a ray that does not depend on who resolves it. View space.
+struct ReusedRay {
+    TracedRay traced;
+    vec3 origin, hit_normal;
+    vec2 color_uv;  // of the hit in the image that it takes its colour from
+};
+
+// Where the lit image shows what `pixel` shows: as `motion` is without jitter, both frames' are added.
+vec2 color_uv_of(ivec2 pixel) {
+    vec2 uv = (vec2(pixel) + 0.5) * camera.extent.zw;
+    if (!previous_frame || camera.frame.w == 0u) return uv;
+    return uv - texelFetch(motion, pixel, 0).xy + (camera.jitter.xy - camera.jitter.zw) * camera.extent.zw;
+}
+
+ReusedRay reused_ray(vec3 origin, TracedRay traced) {
+    ReusedRay ray = ReusedRay(traced, origin, vec3(0.0), vec2(0.0));
+    if (!is_hit(traced)) return ray;
+    ivec2 pixel = pixel_of_target(traced.target);
+    if (reuse_jacobian) ray.hit_normal = view_geometric_normal(pixel);
+    ray.color_uv = color_uv_of(pixel);
+    bool had_left_screen = any(lessThan(ray.color_uv, vec2(0.0))) || any(greaterThan(ray.color_uv, vec2(1.0)));
+    if (had_left_screen) ray.traced.confidence = 0.0;
+    return ray;
+}
+
+// A ray as if the pixel had traced it.
+struct OwnRay {
+    vec3 direction;         // view space, unit
+    float inverse_density;  // of that direction (sr)
+    float ray_length;       // m; 0: nothing was hit
+};
+
+// dA = d^2 dw / |cos|, of the same area of the hit surface for both origins.
+float solid_angle_ratio(ReusedRay ray, OwnRay own) {
+    const float least_cosine = 1e-3;  // a pixel's normal says no more about surfaces seen edge-on
+    float from = max(abs(dot(ray.hit_normal, ray.traced.direction)), least_cosine);
+    float to = max(abs(dot(ray.hit_normal, own.direction)), least_cosine);
+    float lengths = ray.traced.ray_length / own.ray_length;
+    return lengths * lengths * to / from;
+}
+
+OwnRay as_own_ray(Surface surface, ReusedRay ray) {
+    OwnRay own = OwnRay(ray.traced.direction, ray.traced.inverse_density, 0.0);
+    if (!is_hit(ray.traced)) return own;
+    own.ray_length = ray.traced.ray_length;
+    bool is_reaimed = neighbor_ray == 0u;
+    // In this order the pixel's own ray keeps its direction to the last bits, as narrow lobes need.
+    vec3 to_hit = (ray.origin - surface.position) + ray.traced.ray_length * ray.traced.direction;
+    float to_hit_length = length(to_hit);
+    if (!is_reaimed || to_hit_length == 0.0) return own;
+    own.direction = to_hit / to_hit_length;
+    own.ray_length = to_hit_length;
+    if (reuse_jacobian) own.inverse_density *= solid_angle_ratio(ray, own);
+    return own;
+}
+#endif
