@@ -163,7 +163,7 @@ void PassGraph::Impl::check_limits(const Buffer& buffer) {
         fail("the storage buffer '", buffer.name, "' lies outside the limits of WebGL 2, which has no such buffers");
 }
 
-/// Depth with stencil has a type of texels for which WebGL 2 takes no data (WebGL 2.0, section 3.7.6).
+/// The texels of depth with stencil, FLOAT_32_UNSIGNED_INT_24_8_REV, are a type for which WebGL 2 takes no data.
 void PassGraph::Impl::check_upload_limits(const Image& image) {
     if (limits == Limits::webgl2 && image.format == Format::d32f_s8)
         fail("the upload to '", image.name,
