@@ -28,6 +28,7 @@ COUNTS = {
     "firefly_moving": (3 * 2 + 3 * 2 + 16 * 4 * 2, 6, 7),
     "contact_hardening": (3 * 2 + 12 * 12, 5, 15),
     "glossy_stretch": (4 * 2 + 8 * 2 * 48 * 23 + 24 * 4 * 2, 7, 13),
+    "metal_corner": (8 * 2 + 7 * 12 + 24 * 4 * 2, 4 + 4 + 7 + 2, 8 + 7 + 1),
     "normal_mapped": (3 * 2 + 7 * 12 + 20 * 6 * 2, 12, 11),
     "all_rough": (2 + 12 * 12, 13, 13),
     "all_rough_mirror_tile": (2 + 12 * 12 + 2, 14, 14),
@@ -41,6 +42,7 @@ COUNTS = {
     "passing_pillars": (3 * 2 + (7 + 13 + 21) * 12 + 50 * 6 * 2, 8, 3 + 41 + 1),
     "moving_emitter": (3 * 2 + 3 * 12 + 32 * 7 * 2, 6, 7),
     "stepping_emitter": (3 * 2 + 3 * 12 + 32 * 7 * 2, 6, 7),
+    "thin_pole": (3 * 2 + 3 * 12 + 16 * 4 * 2, 6, 3 + 3 + 1),
     "rotating_mirror": (2 + 3 * 64 + 9 * 12 + 32 * 8 * 2, 15, 14),
 }
 
@@ -60,6 +62,7 @@ CAMERAS = {
     "depth_range/main": ((0, 0, 0), (0, -0.2, -1), 40),
     "normal_mapped/main": ((0, 1.4, 5), (0, 0.6, -5), 45),
     "contact_hardening/main": ((0, 1.3, 3), (0, 0.3, -2.2), 45),
+    "metal_corner/main": ((0, 1.5, 3), (1.2, 0.5, -3), 50),
     "axis_parallel/tele": ((0, 1, 60), (0, 1, -5), 3.8),
     "axis_parallel/persp": ((0, 1, 2), (0, 1, -5), 45),
     "glossy_stretch/pitch3": ((0, 0.9, 3), (0, 0.45, -6), 40),
@@ -71,6 +74,7 @@ CAMERAS = {
     "passing_pillars/main": ((0, 0.5, 0), (0, -0.4, -10), 55),
     "moving_emitter/main": ((0, 1.4, 2.5), (0, 0.2, -4), 45),
     "stepping_emitter/main": ((0, 1.4, 2.5), (0, 0.2, -4), 45),
+    "thin_pole/main": ((0, 1.4, 2.5), (0, 0.2, -3), 45),
     "rotating_mirror/main": ((0, 2.2, 3.6), (0, 1, -1.6), 45),
     "all_rough/main": ((0, 1.6, 4), (0, 0.8, -5), 50),
     "furnace/main": ((0, 1.7, 3), (0, 1.3, -5), 50),
@@ -204,7 +208,7 @@ class Structure(unittest.TestCase):
 
     def test_animations_run_as_long_as_their_scenes(self):
         for scene in ("firefly_moving", "disocclusion_moving_column", "moving_objects", "moving_emitter",
-                      "rotating_mirror"):
+                      "thin_pole", "rotating_mirror"):
             glb, scene_json = Glb(SCENES / scene / "scene.glb"), description(scene)
             (animation,) = glb.gltf["animations"]
             last = (scene_json["frame_count"] - 1) / scene_json["frame_rate"]
@@ -222,6 +226,36 @@ class Structure(unittest.TestCase):
             before, after = glb.read(sampler["output"])
             self.assertAlmostEqual(after[0] - before[0], 1.2, places=6)  # float32
             self.assertEqual(after[1:], before[1:])
+
+    def test_poles_of_thin_pole_are_one_to_two_pixels_wide_and_move_less_than_one(self):
+        (camera,) = description("thin_pole")["cameras"]
+        glb = Glb(SCENES / "thin_pole/scene.glb")
+        pixels_per_radian = 90 / math.tan(math.radians(camera["vfov_deg"] / 2))  # of an image 180 high
+        # All stand at z = -3, within 1 pixel in 10 of the depth along the view.
+        distance = camera["position"][2] + 3
+        widths = [2 * node["scale"][0] for node in glb.gltf["nodes"] if node["name"].startswith("pole")]
+        self.assertEqual(len(widths), 3)
+        for width in widths:
+            self.assertTrue(1 < width * pixels_per_radian / distance < 2)
+        (animation,) = glb.gltf["animations"]
+        for sampler in animation["samplers"]:
+            start, end = glb.read(sampler["output"])
+            self.assertAlmostEqual(end[0] - start[0], 1, places=6)  # float32
+            self.assertTrue(0.5 < 1 / 59 * pixels_per_radian / distance < 1)
+
+    def test_floor_and_wall_of_metal_corner_touch_and_differ_in_roughness(self):
+        glb = Glb(SCENES / "metal_corner/scene.glb")
+        roughness = {m["name"]: m["pbrMetallicRoughness"].get("roughnessFactor") for m in glb.gltf["materials"]}
+        names = [m["name"] for m in glb.gltf["materials"]]
+        parts = {}
+        for node, primitive in glb.drawn():
+            if node["name"][:-1] in ("floor", "wall"):
+                points = glb.read(primitive["attributes"]["POSITION"])
+                parts[node["name"]] = (points, roughness[names[primitive["material"]]])
+        for i in range(4):
+            (on_floor, floor_roughness), (on_wall, wall_roughness) = parts[f"floor{i}"], parts[f"wall{i}"]
+            self.assertEqual({p for p in on_floor if p[0] == 2}, {p for p in on_wall if p[1] == 0})
+            self.assertGreater(abs(floor_roughness - wall_roughness), 0.2)
 
     def test_the_normal_map_holds_unit_vectors(self):
         glb = Glb(SCENES / "normal_mapped/scene.glb")

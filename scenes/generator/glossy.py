@@ -81,6 +81,26 @@ def glossy_stretch():
                               camera("pitch30", (0, 6, 2), (0, 0, -8), 40)])
 
 
+def metal_corner():
+    """Floor and side wall meet along the view; each changes its roughness at the same depths, never to that of the
+    other, so that neighbouring pixels differ in normal, in roughness, or in both."""
+    model = Model()
+    copper, silver = (0.95, 0.64, 0.54), SILVER
+    z_ends = (2, -1, -3, -6, -11)
+    for i, (floor_roughness, wall_roughness) in enumerate(((0.05, 0.3), (0.4, 0.1), (0.1, 0.4), (0.3, 0.05))):
+        z_max, z_min = z_ends[i], z_ends[i + 1]
+        half = (z_max - z_min) / 2
+        metal = model.surface(f"floor_r{round(100 * floor_roughness):02}", copper, 1.0, floor_roughness)
+        model.add(f"floor{i}", floor(-8, 2, z_min, z_max), metal)
+        metal = model.surface(f"wall_r{round(100 * wall_roughness):02}", silver, 1.0, wall_roughness)
+        model.add(f"wall{i}", rectangle((2, 1.2, z_min + half), (0, 0, half), (0, 1.2, 0)), metal)
+    posts = ((1.3, -1.8), (-0.2, -2.4), (1.1, -4.2), (-0.9, -4.8), (0.4, -6.5), (1.4, -8), (-1.4, -8.5))
+    for i, (x, z) in enumerate(posts):
+        add_box(model, f"post{i}", hue(i / 7, value=2.0), (x, 0.5, z), (0.1, 0.5, 0.1))
+    add_checker_wall(model, 24, 4, z=-11, cell=1, light=(0.6, 0.6, 0.6), dark=DIM_DARK)
+    return model, scene_json([camera("main", (0, 1.5, 3), (1.2, 0.5, -3), 50)])
+
+
 def normal_mapped():
     model = Model()
     steepest = 0.3

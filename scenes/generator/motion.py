@@ -124,6 +124,20 @@ def stepping_emitter():
     return model, scene_json([EMITTER_CAMERA | {"frames": 94}], frame_count=94, frame_rate=30)
 
 
+def thin_pole():
+    """Where the image is 320 x 180 the poles are 1.6 pixels wide and move by 0.7 pixels per frame."""
+    model = Model()
+    pole = model.flat("pole", (12, 9, 5))
+    for i, roughness in enumerate((0.05, 0.15, 0.3)):
+        x = 2 * (i - 1)
+        model.add(f"floor_r{round(100 * roughness):02}", floor(x - 1, x + 1, -7, 2), reflector(model, roughness))
+        node = model.add(f"pole{i}", BOX, pole, at=(x - 0.5, 0.6, -3), scale=(0.02, 0.6, 0.02))
+        model.animate(node, "translation", (0, 59 / 30), [(x - 0.5, 0.6, -3), (x + 0.5, 0.6, -3)])
+    add_checker_wall(model, 16, 4, z=-7, cell=1, light=(0.05, 0.05, 0.05), dark=(0.03, 0.03, 0.03))
+    main = camera("main", (0, 1.4, 2.5), (0, 0.2, -3), 45, frames=60)
+    return model, scene_json([main], frame_count=60, frame_rate=30)
+
+
 def rotating_mirror():
     model = Model()
     model.add("ground", floor(-6, 6, -7, 2, y=-0.15), model.flat("ground", (0.06, 0.06, 0.06)))

@@ -58,6 +58,8 @@ const std::vector<Case> procedural_cases = {
     {"passing_pillars", "yaw", {54.0, 61.4, 0.0, 3.5, 0.0, 35.1}},
     {"moving_emitter", "main", {52.6, 65.5, 2.7, 6.4, 0.0, 25.4}},
     {"stepping_emitter", "main", {52.6, 65.5, 2.7, 6.4, 0.0, 25.4}},
+    {"metal_corner", "main", {63.8, 60.5, 1.6, 8.5, 0.0, 29.4}},
+    {"thin_pole", "main", {50.9, 53.5, 0.0, 22.4, 0.0, 24.0}},
     {"rotating_mirror", "main", {19.3, 73.1, 0.7, 3.6, 0.0, 22.5}},
     {"all_rough", "main", {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}},
     {"sky_only", "main", {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}},
