@@ -1,5 +1,7 @@
 #include "tests/variants/reconstruction_bench.h"
 
+#include "core/scene/camera.h"
+
 ReconstructionBench::ReconstructionBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides)
     : graph(device, extent) {
     parameters.params.assign(overrides);
@@ -25,4 +27,28 @@ Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs) {
     return {.radiance = graph.download(resolved.radiance),
             .variance = graph.download(resolved.variance),
             .hit_depth = graph.download(resolved.hit_depth)};
+}
+
+ReconstructionInputs reflecting_wall(const ReflectingWall& wall) {
+    const CameraPose pose{.is_orthographic = wall.is_orthographic, .vertical_fov = glm::radians(60.0f)};
+    const CameraData camera = camera_data(pose, nullptr, {.extent = wall.extent});
+    const glm::vec4 clip = camera.clip_from_view * glm::vec4(0, 0, -wall.distance, 1);
+    ReconstructionInputs inputs{.camera = camera,
+                                .depth = HostImage(wall.extent, 1, clip.z / clip.w),
+                                .normal = HostImage(wall.extent, 4),
+                                .mask = HostImage(wall.extent, 1, 1.0f),
+                                .roughness = HostImage(wall.extent, 1, wall.roughness),
+                                .ray_radiance = HostImage(wall.ray_extent, 4),
+                                .ray_direction = HostImage(wall.ray_extent, 4)};
+    for (size_t i = 0; i < inputs.normal.pixel_count(); ++i) inputs.normal.set_rgb(i, {0, 0, 1});
+    for (unsigned y = 0; y < wall.ray_extent.y; ++y)
+        for (unsigned x = 0; x < wall.ray_extent.x; ++x) {
+            const StoredRay ray = wall.ray(x, y);
+            const size_t i = size_t(y) * wall.ray_extent.x + x;
+            inputs.ray_radiance.set_rgb(i, ray.radiance);
+            inputs.ray_radiance.values[4 * i + 3] = ray.confidence;
+            inputs.ray_direction.set_rgb(i, ray.direction);
+            inputs.ray_direction.values[4 * i + 3] = ray.density;
+        }
+    return inputs;
 }

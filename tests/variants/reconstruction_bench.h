@@ -1,6 +1,8 @@
 #pragma once
 #include "tests/variants/diligent_golden.h"
 
+#include <functional>
+
 /// What DiligentFX's spatial reconstruction reads in one frame.
 struct ReconstructionInputs {
     CameraData camera;
@@ -21,3 +23,21 @@ struct ReconstructionBench {
     ReconstructionBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides);
     Reconstruction run(const ReconstructionInputs& inputs);
 };
+
+/// One ray as intersection stores it; the default goes back towards an orthographic camera.
+struct StoredRay {
+    glm::vec3 radiance{0.5f};
+    float confidence = 1;
+    glm::vec3 direction{0, 0, 1};  ///< times length (m)
+    float density = 1;             ///< sr^-1
+};
+
+/// A wall across the whole view, facing the camera at the origin, with rays per texel.
+struct ReflectingWall {
+    glm::uvec2 extent{32, 32}, ray_extent = extent;
+    bool is_orthographic = true;  ///< else 60 degrees high
+    float distance = 4;           ///< m
+    float roughness = 0.5f;       ///< perceptual
+    std::function<StoredRay(unsigned x, unsigned y)> ray = [](unsigned, unsigned) { return StoredRay{}; };
+};
+ReconstructionInputs reflecting_wall(const ReflectingWall& wall);

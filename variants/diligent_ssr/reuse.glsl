@@ -57,6 +57,12 @@ float kernel(float radius) {
     return spatial_kernel == double_gaussian ? exp(-0.66 * gaussian * gaussian) : gaussian;
 }
 
+// Clamps turn what is not a number into one, so that the weight alone does not tell.
+bool is_finite_weight(float weight, vec3 ws_direction, float density) {
+    float sum = weight + ws_direction.x + ws_direction.y + ws_direction.z;
+    return !isnan(sum) && !isinf(sum) && !isnan(density);
+}
+
 // Every ray counts a little, so that pixels whose lobe none of them meets have a colour; with finite_weights 0 for those
 // that are not numbers.
 float reuse_weight(Receiver receiver, Ray ray, float radius) {
@@ -66,7 +72,7 @@ float reuse_weight(Receiver receiver, Ray ray, float radius) {
     vec3 ws_direction = short_ray_guard ? ray.ws_direction / hit_distance
                                         : ray.ws_direction * inversesqrt(dot(ray.ws_direction, ray.ws_direction));
     float weight = kernel(radius) * lobe(receiver, ws_direction) / max(ray.density, 1e-5);
-    if (finite_weights && (isnan(weight) || isinf(weight))) return 0.0;
+    if (finite_weights && !is_finite_weight(weight, ws_direction, ray.density)) return 0.0;
     return max(weight, least_weight);
 }
 #endif

@@ -1,4 +1,5 @@
 // Second pass of DiligentFX's denoising, after the rays: each pixel reuses the rays of eight neighbours.
+#include "diligent_ssr/luminance.glsl"
 #include "diligent_ssr/neighbor_rays.glsl"
 #include "diligent_ssr/reuse.glsl"
 
@@ -19,8 +20,6 @@ Ray ray_at(ivec2 texel) {
     vec4 direction = texelFetch(ray_direction, texel, 0);
     return Ray(texelFetch(ray_radiance, texel, 0), direction.xyz, direction.w);
 }
-
-float luminance(vec3 color) { return dot(color, vec3(0.299, 0.587, 0.114)); }
 
 void add(inout Reuse reuse, Ray ray, float weight) {
     if (weight == 0.0) return;
