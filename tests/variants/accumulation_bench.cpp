@@ -24,7 +24,8 @@ Filtered AccumulationBench::accumulate(const AccumulationInputs& inputs) {
     const DiligentResolved resolved{
         .radiance = upload("resolved_radiance", colors(), inputs.resolved.radiance),
         .variance = upload("resolved_variance", numbers(), inputs.resolved.variance),
-        .hit_depth = upload("hit_depth", parameters.filter.linear_hit_depth ? Format::r32f : Format::r16f, inputs.hit_depth)};
+        .hit_depth =
+            upload("hit_depth", parameters.filter.linear_hit_depth ? Format::r32f : Format::r16f, inputs.hit_depth)};
     const DiligentMask mask = upload_mask(inputs.mask, HostImage(inputs.mask.extent, 1));
     graph.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.motion, gbuffer.previous_depth});
     const DiligentHistories histories = diligent_histories(graph, parameters.filter);

@@ -11,7 +11,7 @@ struct AccumulationInputs {
     CameraData camera;
     HostImage motion, previous_depth;  ///< as in GBuffer
     HostImage reprojected_depth;
-    HostImage mask;                    ///< 1 for each pixel kept
+    HostImage mask;  ///< 1 for each pixel kept
     Filtered resolved;
     HostImage hit_depth;
     Filtered history;

@@ -29,12 +29,17 @@ struct Recorded {
 };
 void PrintTo(const Recorded& recorded, std::ostream* out) { *out << recorded.file; }
 
-std::vector<Recorded> recorded_outputs(const std::string& stage) {
+/// Those whose frame holds what the stage before wrote, too.
+std::vector<Recorded> recorded_outputs(const std::string& stage, const std::string& stage_before) {
     const std::regex form("(.*)/f([0-9]+)/" + stage + "_(head|seed)_([0-9.]+)\\.exr");
     std::vector<Recorded> all;
-    for (const std::string& file : golden_files("diligent/"))
-        if (std::smatch part; std::regex_match(file, part, form))
-            all.push_back({file, part[1], part[3], part[4], unsigned(std::stoul(part[2]))});
+    for (const std::string& file : golden_files("diligent/")) {
+        std::smatch part;
+        if (!std::regex_match(file, part, form)) continue;
+        const Recorded recorded{file, part[1], part[3], part[4], unsigned(std::stoul(part[2]))};
+        const std::string read = recorded.folder(recorded.frame) + stage_before + "_" + recorded.variant;
+        if (is_golden(read + ".exr") || is_golden(read + "_" + recorded.factor + ".exr")) all.push_back(recorded);
+    }
     return all;
 }
 
@@ -46,8 +51,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentCleanupOf);
 AccumulationInputs accumulation_inputs(const Recorded& recorded) {
     const HostGBuffer gbuffer = diligent_golden_frame(recorded.sequence, recorded.frame);
     const LayeredImage aux = read_golden(recorded.folder(recorded.frame) + "aux.exr");
-    const LayeredImage spatial =
-        read_golden(recorded.folder(recorded.frame) + "spatial_" + recorded.variant + ".exr");
+    const LayeredImage spatial = read_golden(recorded.folder(recorded.frame) + "spatial_" + recorded.variant + ".exr");
     const glm::uvec2 extent = gbuffer.extent();
     return {.camera = gbuffer.camera,
             .motion = gbuffer.motion,
@@ -91,8 +95,8 @@ TEST_P(DiligentCleanupOf, RecordedFrame) {
 std::string name_of(const testing::TestParamInfo<Recorded>& info) { return golden_test_name(info.param.file); }
 
 INSTANTIATE_TEST_SUITE_P(golden_diligent_temporal, DiligentAccumulationOf,
-                         testing::ValuesIn(recorded_outputs("temporal")), name_of);
+                         testing::ValuesIn(recorded_outputs("temporal", "spatial")), name_of);
 INSTANTIATE_TEST_SUITE_P(golden_diligent_bilateral, DiligentCleanupOf,
-                         testing::ValuesIn(recorded_outputs("bilateral")), name_of);
+                         testing::ValuesIn(recorded_outputs("bilateral", "temporal")), name_of);
 
 }  // namespace
