@@ -3,6 +3,7 @@
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace {
 
@@ -13,42 +14,49 @@ float depth_at(const CameraPose& pose, float distance) {
     return pose.far / (pose.far - pose.near) * (1 - pose.near / distance);
 }
 
-/// Looks at a wall across the view, `distance` m before the camera, which came `approach` m nearer since the frame
-/// before.
-HostImage wall_seen_before(Device& device, float distance, float approach, const FrameView& view,
-                           const nlohmann::json& parameters) {
+/// A wall across the view, seen by a camera that stood elsewhere the frame before.
+struct SeenWall {
     CameraPose before, now;
-    now.world_from_view[3] = glm::vec4(0, 0, -approach, 1);
-    const CameraData camera = camera_data(now, &before, view);
-    DiligentFrames frames(device, view.extent, parameters);
-    const GBuffer gbuffer = upload_gbuffer(frames.graph, now, camera, [&](const CameraRay& ray) {
-        SyntheticHit hit;
-        hit.distance = -distance / ray.direction.z;
-        return hit;
-    });
-    frames.graph.begin_frame(camera, frames.parameters.params, gbuffer.images());
-    return frames.graph.download(diligent_reprojected_depth(frames.graph, gbuffer));
-}
+    float distance;  ///< from now's plane (m)
+    FrameView view{.extent = {33, 17}, .frame = 1};
 
-TEST_F(DiligentReprojectedDepth, IsThatOfTheFrameBefore) {
-    for (const float approach : {0.0f, 1.5f, -2.0f}) {
-        const FrameView view{.extent = {33, 17}, .frame = 1, .jitter = {0.4f, -0.3f}};
-        for (const float found : wall_seen_before(device(), 5.0f, approach, view, nlohmann::json::object()).values)
-            EXPECT_NEAR(found, depth_at({}, 5.0f + approach), 1e-6f) << approach;  // the rounding of float32
+    SyntheticHit hit(const CameraRay& ray) const {
+        SyntheticHit hit;
+        hit.distance = distance / dot(ray.direction, -glm::vec3(now.world_from_view[2]));
+        return hit;
     }
+    HostImage reprojected(Device& device, const nlohmann::json& parameters) const {
+        const CameraData camera = camera_data(now, &before, view);
+        DiligentFrames frames(device, view.extent, parameters);
+        const GBuffer gbuffer =
+            upload_gbuffer(frames.graph, now, camera, [&](const CameraRay& ray) { return hit(ray); });
+        frames.graph.begin_frame(camera, frames.parameters.params, gbuffer.images());
+        return frames.graph.download(diligent_reprojected_depth(frames.graph, gbuffer));
+    }
+};
+
+/// The camera turns, so that depth before depends on where a pixel's sample lies, and on its jitter.
+TEST_F(DiligentReprojectedDepth, IsThatOfTheFrameBefore) {
+    SeenWall wall{.before = {}, .now = {}, .distance = 5.0f};
+    wall.before.world_from_view = rotate(glm::mat4(1), 0.4f, glm::vec3(0, 1, 0));
+    wall.before.world_from_view[3] = glm::vec4(0.3f, -0.2f, 1.5f, 1);
+    wall.view.jitter = {0.4f, -0.3f};
+    const HostImage found = wall.reprojected(device(), nlohmann::json::object());
+    for (unsigned y = 0; y < 17; ++y)
+        for (unsigned x = 0; x < 33; ++x) {
+            const CameraRay ray = camera_ray(wall.now, wall.view.extent, glm::vec2(x, y) + 0.5f + wall.view.jitter);
+            const glm::vec3 point = ray.origin + wall.hit(ray).distance * ray.direction;
+            const float distance = -(inverse(wall.before.world_from_view) * glm::vec4(point, 1)).z;
+            EXPECT_NEAR(*found.pixel(x, y), depth_at(wall.before, distance), 1e-6f);  // the rounding of float32
+        }
 }
 
 TEST_F(DiligentReprojectedDepth, OfPointsBehindThePreviousCameraIsTheNearPlaneIfGuarded) {
-    const FrameView view{.extent = {33, 17}, .frame = 1};
-    for (const bool is_guarded : {false, true}) {
-        // The camera has backed away through the wall, which was 2 m behind it.
-        const HostImage depth = wall_seen_before(device(), 3.0f, -5.0f, view, {{"guard_previous_clip", is_guarded}});
-        for (const float found : depth.values)
-            if (is_guarded)
-                EXPECT_EQ(found, 0.0f);
-            else
-                EXPECT_NEAR(found, depth_at({}, -2.0f), 1e-5f);  // the mirrored point: beyond the far plane
-    }
+    SeenWall wall{.before = {}, .now = {}, .distance = 3.0f};
+    wall.now.world_from_view[3].z = 5.0f;  // backed away through the wall, which was 2 m behind the camera
+    for (const float found : wall.reprojected(device(), {{"guard_previous_clip", true}}).values) EXPECT_EQ(found, 0.0f);
+    for (const float found : wall.reprojected(device(), {{"guard_previous_clip", false}}).values)
+        EXPECT_NEAR(found, depth_at(wall.before, -2.0f), 1e-5f);  // mirrored: beyond the far plane
 }
 
 struct DiligentReprojectedDepthOf : VariantTest, testing::WithParamInterface<std::string> {};
