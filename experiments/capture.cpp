@@ -24,8 +24,12 @@ std::string capture_name(const std::filesystem::path& gbuffer) {
     return std::filesystem::absolute(gbuffer / "").lexically_normal().parent_path().filename().string();
 }
 
-Reference read_capture_reference(const std::filesystem::path& file, const HostGBuffer& gbuffer) {
+Reference read_capture_reference(const std::filesystem::path& file, const HostGBuffer& gbuffer, bool needs_ladder) {
     Reference reference = read_reference(file);
+    if (needs_ladder && reference.ladder.is_empty())
+        fail(file.string(),
+             " has no truth ladder, which the targets 'camera_radiance' and 'on_screen' need; render it ",
+             "with `ssrlab reference --ladder`, or leave them out of 'targets'");
     if (reference.extent != gbuffer.extent())
         fail(file.string(), " is ", reference.extent.x, "x", reference.extent.y, ", but the G-buffer is ",
              gbuffer.extent().x, "x", gbuffer.extent().y);

@@ -6,5 +6,5 @@
 std::string capture_name(const std::filesystem::path& gbuffer);
 
 /// The reference of a capture. Fails if it has another size, or was evidently made from another place: its first hits
-/// must lie at the G-buffer's depths but for a few pixels at edges.
-Reference read_capture_reference(const std::filesystem::path& file, const HostGBuffer& gbuffer);
+/// must lie at the G-buffer's depths but for a few pixels at edges; or if it lacks the truth ladder that is needed.
+Reference read_capture_reference(const std::filesystem::path& file, const HostGBuffer& gbuffer, bool needs_ladder);

@@ -15,8 +15,6 @@ namespace {
 constexpr int max_side = 16384;  // pixels; what Vulkan devices commonly allow for an image
 constexpr unsigned max_frames = 100000, max_seed = 100000;
 
-const std::vector<std::string> all_targets = {"specular", "image", "incident"};
-
 /// A text, or an array of texts.
 std::vector<std::string> one_or_more(JsonObject& object, const std::string& key, const std::string& fallback) {
     if (!object.has(key)) return {fallback};
@@ -259,6 +257,15 @@ void refuse_repetition(const std::vector<VariantConfig>& variants, const std::st
 
 }  // namespace
 
+const std::vector<std::string>& target_names() {
+    static const std::vector<std::string> names = {"specular", "image", "incident", "camera_radiance", "on_screen"};
+    return names;
+}
+
+bool is_ladder_rung(const std::string& target) { return target == "camera_radiance" || target == "on_screen"; }
+
+bool needs_ladder(const Config& config) { return std::ranges::any_of(config.targets, is_ladder_rung); }
+
 Config read_config(const std::filesystem::path& file) {
     Config config;
     config.source = read_json(file);
@@ -296,7 +303,7 @@ Config read_config(const std::filesystem::path& file) {
         } catch (const Error& e) {
             fail(file.string(), ": 'masks': ", e.what());
         }
-    config.targets = known_names(object, "targets", all_targets, {"specular", "image", "incident"});
+    config.targets = known_names(object, "targets", target_names(), {"specular", "image", "incident"});
     config.frame_metrics = known_names(object, "frame_metrics", metric_names(), {"mse", "relmse", "bias"}, true);
     config.frame_masks = known_names(object, "frame_masks", config.masks, default_frame_masks(config.masks));
     config.reflective_max_roughness =

@@ -65,6 +65,14 @@ struct Config {
     nlohmann::json source;                     ///< as read, for the manifest
 };
 
+/// What results can be compared with: `specular`, `image`, `incident`, and the rungs of the truth ladder
+/// (truth_ladder.h) that are means over the lobe like `incident`: `camera_radiance`, `on_screen`. The second rung is
+/// `incident` itself.
+const std::vector<std::string>& target_names();
+bool is_ladder_rung(const std::string& target);
+/// Whether the reference of each shot's last frame must have a truth ladder.
+bool needs_ladder(const Config& config);
+
 /// Reads and checks a config; its keys are in experiments/README.md. Every mistake is an Error that names file and key.
 /// Scenes are only looked up later; variants, parameters, metrics and masks are checked here, before any work starts.
 Config read_config(const std::filesystem::path& file);

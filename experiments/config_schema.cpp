@@ -1,5 +1,6 @@
 #include "experiments/config_schema.h"
 
+#include "experiments/config.h"
 #include "metrics/masks.h"
 #include "metrics/metric.h"
 #include "variants/registry.h"
@@ -97,7 +98,7 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"masks", masks()},
                 {"frame_metrics", {{"anyOf", {list_of(metric_names()), {{"type", "array"}, {"maxItems", 0}}}}}},
                 {"frame_masks", masks()},
-                {"targets", list_of({"specular", "image", "incident"})},
+                {"targets", list_of(target_names())},
                 {"reflective_max_roughness", number(0, 1)},
                 {"reflective_min_reflectance", number(0, 1)}},
                {"shots", "variants"});

@@ -215,8 +215,13 @@ CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, cons
 std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot,
                                                   unsigned frame, const Reference& reference, float exposure_ev) {
     std::vector<nlohmann::json> entries;
-    for (const auto& [target, output] :
-         {std::pair("image", &reference.image), {"specular", &reference.specular}, {"incident", &reference.incident}})
+    std::vector<std::pair<const char*, const ReferenceOutput*>> outputs = {
+        {"image", &reference.image}, {"specular", &reference.specular}, {"incident", &reference.incident}};
+    if (!reference.ladder.is_empty()) {
+        outputs.push_back({"camera_radiance", &reference.ladder.camera_radiance});
+        outputs.push_back({"on_screen", &reference.ladder.on_screen});
+    }
+    for (const auto& [target, output] : outputs)
         entries.push_back(save_image(
             out, shot, "reference." + reference.hash.substr(0, 8) + "." + target, output->mean, exposure_ev,
             {{"shot", shot}, {"frame", frame}, {"variant", "reference"}, {"kind", "reference"}, {"target", target}}));
@@ -244,11 +249,6 @@ std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out,
     save("result", "incident", images.incident, exposure_ev);
     save("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
     for (const auto& [target, reference] : truth.targets)
-        save("error", target.c_str(),
-             relative_error_map(target == "image"      ? image
-                                : target == "incident" ? images.incident
-                                                       : images.specular,
-                                reference.image),
-             0.0f);
+        save("error", target.c_str(), relative_error_map(tested_image(target, images, image), reference.image), 0.0f);
     return entries;
 }

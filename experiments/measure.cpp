@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gbuffer/composite.h"
+#include "groundtruth/truth_ladder.h"
 
 #include <cmath>
 #include <span>
@@ -26,6 +27,10 @@ std::string content_hash(const Reference& reference) {
          {&reference.image, &reference.diffuse, &reference.specular, &reference.incident})
         for (const HostImage* image : {&output->mean, &output->half_a, &output->half_b})
             hash.add(std::as_bytes(std::span(image->values)));
+    if (!reference.ladder.is_empty())
+        for (const ReferenceOutput* output : {&reference.ladder.camera_radiance, &reference.ladder.on_screen})
+            for (const HostImage* image : {&output->half_a, &output->half_b})
+                hash.add(std::as_bytes(std::span(image->values)));
     for (const HostImage* image : {&reference.highlights, &reference.depth, &reference.normal, &reference.material_id})
         hash.add(std::as_bytes(std::span(image->values)));
     return hash.hex();
@@ -40,9 +45,25 @@ FlipExposures exposures_of(const Reference& reference, const MetricSettings& set
     }
 }
 
+const ReferenceOutput& target_output(const std::string& target, const Reference& reference) {
+    if (target == "incident") return reference.incident;
+    if (!is_ladder_rung(target)) return reference.specular;
+    if (reference.ladder.is_empty())
+        fail("the target '", target,
+             "' needs a reference with a truth ladder, and this one has none; `ssrlab reference ",
+             "--ladder` renders one");
+    return target == "on_screen" ? reference.ladder.on_screen : reference.ladder.camera_radiance;
+}
+
+RungHalves rung_halves(const std::string& rung, const Reference& reference) {
+    const ReferenceOutput& incident = target_output(rung, reference);
+    ReferenceOutput specular = reflected(reference, incident);
+    return {rung, {incident.half_a, incident.half_b}, {std::move(specular.half_a), std::move(specular.half_b)}};
+}
+
 MetricReference target_reference(const std::string& target, const Reference& reference,
                                  const std::vector<std::string>& metrics, const MetricSettings& settings) {
-    const ReferenceOutput& output = target == "incident" ? reference.incident : reference.specular;
+    const ReferenceOutput& output = target_output(target, reference);
     HostImage mean = output.mean;
     ReferenceHalves halves{output.half_a, output.half_b};
     if (target == "image") {
@@ -97,6 +118,7 @@ PoseTruth pose_truth(const Reference& reference, const Config& config, float exp
     PoseTruth truth{.diffuse = reference.diffuse.mean,
                     .direct = sum(reference.diffuse.mean, reference.highlights),
                     .targets = {},
+                    .rungs = {},
                     .view_depth = reference.depth,
                     .normal = reference.normal,
                     .material_id = reference.material_id,
@@ -106,8 +128,10 @@ PoseTruth pose_truth(const Reference& reference, const Config& config, float exp
     truth.flip_exposures = exposures_of(reference, settings);
     settings.flip_exposures = truth.flip_exposures;
     if (use.has_targets)
-        for (const std::string& target : config.targets)
+        for (const std::string& target : config.targets) {
             truth.targets.emplace(target, target_reference(target, reference, config.metrics, settings));
+            if (is_ladder_rung(target)) truth.rungs.push_back(rung_halves(target, reference));
+        }
     if (use.has_frame_reference)
         truth.frame_reference = target_reference("specular", reference, config.frame_metrics, settings);
     return truth;
@@ -143,7 +167,7 @@ HostImage composited_image(const PoseTruth& truth, const CompositedImages& resul
 }
 
 const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image) {
-    return target == "specular" ? result.specular : target == "incident" ? result.incident : image;
+    return target == "specular" ? result.specular : target == "image" ? image : result.incident;
 }
 
 std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result,

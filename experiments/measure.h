@@ -17,6 +17,12 @@ struct CompositedImages {
     HostImage confidence;  ///< one channel
 };
 
+/// A rung of the truth ladder as an output: what is composited where `incident` is known only so far.
+struct RungHalves {
+    std::string name;
+    ReferenceHalves incident, specular;
+};
+
 /// What all frames of one pose are measured against: made once, used for every variant, point and seed.
 struct PoseTruth {
     HostImage diffuse;  ///< the truth's own: the lit colour that variants read
@@ -24,6 +30,7 @@ struct PoseTruth {
     std::map<std::string, MetricReference> targets;  ///< by name, with all metrics; where everything is measured
     std::optional<MetricReference>
         frame_reference;  ///< `specular` with Config::frame_metrics; in shots of several frames
+    std::vector<RungHalves> rungs;  ///< those among Config::targets, where everything is measured
     HostImage view_depth, normal, material_id;
     FlipExposures flip_exposures;
     std::string content_hash;  ///< of the reference's pixels
@@ -40,6 +47,7 @@ struct FrameTruth {
 struct PoseUse {
     bool has_targets = false, has_frame_reference = false;
 };
+/// Fails if a target of `use` is a rung of the truth ladder, and the reference has none.
 PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use);
 FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer& gbuffer, const Config& config);
 
@@ -61,5 +69,5 @@ std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows);
 /// direct + specular.
 HostImage composited_image(const PoseTruth& truth, const CompositedImages& result);
 
-/// What a target compares with the truth; `image` is composited_image() of the same result.
+/// What a target compares with the truth: for the rungs of the truth ladder the incident radiance. `image` is composited_image() of the same result.
 const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image);

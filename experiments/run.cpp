@@ -9,6 +9,7 @@
 #include "experiments/manifest.h"
 #include "experiments/report.h"
 #include "experiments/results.h"
+#include "experiments/rung_errors.h"
 #include "experiments/study.h"
 #include "experiments/timing.h"
 #include "groundtruth/reference_cache.h"
@@ -40,11 +41,13 @@ void plan_work(Study& study) {
     }
 }
 
-/// Renders the reference of one frame, or takes it from the cache.
-Reference obtain_reference(Study& study, const Shot& shot, unsigned frame) {
+/// Renders the reference of one frame, or takes it from the cache. Targets are of the last frame, so that only its
+/// reference needs a truth ladder.
+Reference obtain_reference(Study& study, const Shot& shot, unsigned frame, bool is_of_last) {
     const ShotFrame now = shot_frame(shot, frame);
     ReferenceSettings settings = study.config.reference;
     settings.keep_all = study.settings.keep_all;
+    settings.ladder = is_of_last && needs_ladder(study.config);
     ReferenceRun run;
     run.progress = [&](double fraction, double rays_per_second, double) {
         char rate[32];
@@ -71,6 +74,8 @@ void enter_shot(Study& study, ShotRun& run, const std::vector<std::string>& note
     if (run.truth.is_measured()) {
         const FlipExposures& flip = run.truth.pose(last).flip_exposures;
         entry["flip_exposures"] = {flip.start, flip.stop, flip.count};
+        if (needs_ladder(study.config))
+            entry["truth_ladder"] = rung_entries(run.truth.pose(last), run.truth.frame(last)->masks);
     } else {
         entry["lit"] = "file";
         entry["warnings"].push_back(
@@ -99,7 +104,7 @@ void run_scene_shot(Study& study, const ShotConfig& config) {
         .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
     unsigned references = 0;
     run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, bool is_of_last) {
-        Reference reference = obtain_reference(study, shot, frame);
+        Reference reference = obtain_reference(study, shot, frame, is_of_last);
         note_reference(study, run, reference, frame, is_of_last);
         ++references;
         return reference;
@@ -118,7 +123,8 @@ void run_gbuffer_shot(Study& study, const ShotConfig& config) {
     for (const std::string& note : loaded.notes) study.progress.say("note: " + note);
     study.work.plan("reference", -1, reference_guess);  // read, not rendered
     std::optional<Reference> reference;
-    if (!config.reference.empty()) reference = read_capture_reference(config.reference, loaded.gbuffer);
+    if (!config.reference.empty())
+        reference = read_capture_reference(config.reference, loaded.gbuffer, needs_ladder(study.config));
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
     if (reference && !study.config.direct_lit) loaded.gbuffer.lit = {};
     ShotTruth lit_alone =

@@ -92,6 +92,7 @@ ShotTruth truth_of_lit(HostImage lit) {
     PoseTruth pose{.diffuse = lit,
                    .direct = std::move(lit),
                    .targets = {},
+                   .rungs = {},
                    .view_depth = {},
                    .normal = {},
                    .material_id = {},

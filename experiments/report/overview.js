@@ -19,6 +19,7 @@ function overviewTable(rows) {
     const shown = chartedRows(rows);
     const scale = stripScale(shown.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value]), isLog, reference);
     const best = clearlyBestRows(rows);
+    const ladder = ladderRows(metricKey(rows[0])), rungs = unique(ladder.map(r => r.rung));
     const lines = unique(shown.map(r => r.shot)).map(shot => {
         const own = shown.filter(r => r.shot === shot);
         const marks = own.map((r, lane) => ({
@@ -29,12 +30,16 @@ function overviewTable(rows) {
                               }));
         return [
             shot, strip(scale, marks),
-            ...charted.map((_, i) => overviewCell(own.find(r => chartedIndex(r) === i), best))
+            ...charted.map((_, i) => overviewCell(own.find(r => chartedIndex(r) === i), best)),
+            ...rungs.map(rung => overviewCell(ladder.find(r => r.shot === shot && r.rung === rung), best))
         ];
     });
     const label = `${name}${unitText(name)} of ${choice.target}, ${choice.mask} pixels${isLog ? ", logarithmic" : ""}`;
-    lines.push(["", stripAxis(scale, label), ...charted.map(() => "")]);
-    const columns = [{name: "Shot"}, {name: `${name}, 95 % intervals`}, ...charted.map(name => ({name, number: true}))];
+    lines.push(["", stripAxis(scale, label), ...charted.map(() => ""), ...rungs.map(() => "")]);
+    const columns = [
+        {name: "Shot"}, {name: `${name}, 95 % intervals`}, ...charted.map(name => ({name, number: true})),
+        ...rungs.map(name => ({name: `truth ladder · ${name}`, number: true}))
+    ];
     return table(columns, lines);
 }
 

@@ -118,7 +118,7 @@ function summaryRow(row, rows, best, others, otherBest) {
             h("small", {}, ratio ? interval({low: ratio.low, high: ratio.high}) : "")),
         cell(time?.value ?? null, time ? number(time.value) : "–", " ", h("small", {}, time ? interval(time) : "")),
         cell(
-            row.seeds, String(row.seeds),
+            row.seeds, row.seeds === null ? "–" : String(row.seeds),
             row.deviation === null ? "" : h("small", {}, ` (±${number(row.deviation, 2)})`)),
         cell(row.pixels, String(row.pixels)),
         ...(rows.some(r => r.nonFinite) ? [cell(row.nonFinite, String(row.nonFinite))] : [])
@@ -126,8 +126,9 @@ function summaryRow(row, rows, best, others, otherBest) {
 }
 
 function showSummary() {
-    const rows = chosenRows(), others = otherRows();
-    const best = clearlyBestRows(rows), otherBest = clearlyBestRows(others);
+    const chosen = chosenRows(), ladder = ladderRows(choice.metric), rows = besideTheirShots(chosen, ladder);
+    const others = [...otherRows(), ...ladderRows(otherMetric(choice.metric, report.errors))];
+    const best = clearlyBestRows(chosen), otherBest = clearlyBestRows(otherRows());
     const name = choice.metric.split("|")[0];
     const columns = [
         {name: "Shot"}, {name: "Variant"}, {name: "Point"}, {name: name, number: true},
@@ -140,7 +141,7 @@ function showSummary() {
     const isOpen = at("summary").querySelector("details")?.open || choice.hasSingleChanges;
     const title = `All ${rows.length} values, with noise floors, times and seeds`;
     at("summary").replaceChildren(
-        rows.length > longTable ? h("details", {open: isOpen}, h("summary", {}, title), whole) : whole);
+        chosen.length > longTable ? h("details", {open: isOpen}, h("summary", {}, title), whole) : whole);
     const about = report.metrics[name];
     const direction = {
         lower: "Less is better.",
@@ -157,6 +158,8 @@ function showSummary() {
         others.length &&
             `${others[0].metric} stands beside it: relative errors weigh dark places, absolute ones bright places. ` +
                 `Noise floor and × none are those of ${name}.`,
+        ladder.length &&
+            "Truth ladder: the truth with less of its light, see How to read this. Nothing to rank, so never bold.",
         "Brackets: 95 % interval. ± after the seeds: their standard deviation."
     ].filter(Boolean).join(" ").replaceAll("..", ".");
 }

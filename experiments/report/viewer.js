@@ -70,8 +70,10 @@ async function chooseShot(shot) {
 /// Loads all images of the shot and target; the reference comes first.
 async function chooseImages() {
     const {shot, target} = viewer;
-    const wanted =
-        report.images.map((image, index) => ({...image, index})).filter(i => i.shot === shot && i.target === target);
+    const wanted = report.images.map((image, index) => ({...image, index}))
+                       .filter(
+                           i => i.shot === shot &&
+                               i.target === (i.kind === "reference" || !isLadderRung(target) ? target : "incident"));
     wanted.sort((a, b) => (b.kind === "reference") - (a.kind === "reference"));
     const images = await Promise.all(wanted.map(i => loadImage(i.index)));
     if (viewer.shot !== shot || viewer.target !== target) return;  // another choice was made meanwhile

@@ -159,6 +159,17 @@ json study_manifest(const std::vector<StudyShot>& shots) {
     for (const StudyShot& shot : shots) {
         json entry = {{"shot", shot.name}, {"frames", shot.frames}, {"frame", shot.frames.back()}};
         if (shot.name == study_step_shot) entry["change"] = 30;
+        if (shot.name == study_moving_shot || shot.name == shots.front().name)
+            for (const char* mask : {"all", "reflective"})
+                entry["truth_ladder"].push_back({{"rung", "on_screen"},
+                                                 {"target", "specular"},
+                                                 {"metric", "relmse"},
+                                                 {"formula", "relmse_a"},
+                                                 {"mask", mask},
+                                                 {"value", 0.0123},
+                                                 {"low", 0.0113},
+                                                 {"high", 0.0133},
+                                                 {"pixels", 500}});
         manifest["shots"].push_back(entry);
         manifest["clock"]["aa_pairs"].push_back({{"shot", shot.name},
                                                  {"variant", "sssr"},

@@ -13,7 +13,7 @@ import tempfile
 from report_browser import By, Select, check, equal, open_browser
 from selenium.webdriver.support.ui import WebDriverWait
 
-RACING = "first race=true"
+RACING, LADDER = "first race=true", "truth ladder"
 STEP, MOVING = "step.main.160x90.f29-44.w8", "moving.main.160x90.f3-6.w4"
 
 
@@ -51,7 +51,8 @@ def table_of(page, selector):
 def test_results(page, folder):
     rows = rows_of(folder, "summary.csv", target="specular", metric="relmse", mask="reflective")
     speaking = [r for r in rows if r["frame"] in ("0", "all")]
-    shown = table_of(page, "#summary")
+    page.execute_script("document.querySelector('#summary details').open = true")  # else its cells have no innerText
+    shown = [c for c in table_of(page, "#summary") if c[1][0] != LADDER]
     compared = [r for r in speaking if not is_single_change(r)]
     equal([float(c[3][1]) for c in shown], [float(r["value"]) for r in compared], "the table of results")
     absolute = [
@@ -61,17 +62,40 @@ def test_results(page, folder):
     ]
     equal([float(c[4][1]) for c in shown], [float(r["value"]) for r in absolute], "the absolute errors beside them")
     intervals = page.execute_script(
-        "return [...document.querySelectorAll('#summary tbody tr')].map(r => r.cells[4].textContent.includes('['))"
+        "return [...document.querySelectorAll('#summary tbody tr')]"
+        f".filter(r => r.cells[1].textContent !== '{LADDER}').map(r => r.cells[4].textContent.includes('['))"
     )
     check(all(intervals) and intervals, f"absolute errors have intervals: {intervals}")
     equal(values(page, "#overview .point"), [float(r["value"]) for r in compared + absolute], "the overview")
     page.find_element(By.ID, "single-changes").click()
     equal(
-        [float(c[3][1]) for c in table_of(page, "#summary")],
+        [float(c[3][1]) for c in table_of(page, "#summary") if c[1][0] != LADDER],
         [float(r["value"]) for r in speaking],
         "with single changes",
     )
     page.find_element(By.ID, "single-changes").click()
+
+
+def test_truth_ladder(page):
+    """What bounds the techniques stands below them, is never the best, and says which frames it speaks of."""
+    rungs = [c for c in table_of(page, "#summary") if c[1][0] == LADDER]
+    equal([c[0][0].split(".")[0] for c in rungs], ["still_a", "moving"], "shots with a ladder")
+    equal([c[2][0] for c in rungs], ["on_screen", "on_screen, last frame"], "rungs")
+    for cells in rungs:
+        equal(float(cells[3][1]), 0.0123, "the limit")
+        check("[0.0113, 0.0133]" in cells[3][0], f"its interval: {cells[3][0]}")
+        equal(cells[8][0], "–", "seeds of the truth")
+    shots = [c[0][0] for c in table_of(page, "#summary")]
+    equal(len([i for i, s in enumerate(shots) if i == 0 or s != shots[i - 1]]), len(set(shots)), "shots stay together")
+    bold = page.execute_script(
+        "return [...document.querySelectorAll('#summary b')].map(b => b.closest('tr').cells[1].textContent)"
+    )
+    check(bold and LADDER not in bold, f"best values are those of techniques: {bold}")
+    heads = [e.text for e in page.find_elements(By.CSS_SELECTOR, "#overview th")]
+    check("truth ladder · on_screen" in heads, f"columns of the overview: {heads}")
+    choose(page, "results", "Target", "incident")
+    check(all(c[1][0] != LADDER for c in table_of(page, "#summary")), "no limit where none was measured")
+    choose(page, "results", "Target", "specular")
 
 
 def test_roughness(page, folder):
@@ -276,6 +300,7 @@ def main():
                 lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
             )
             test_results(page, folder)
+            test_truth_ladder(page)
             test_roughness(page, folder)
             test_splits(page, folder)
             test_stages(page)

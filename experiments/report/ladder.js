@@ -1,0 +1,27 @@
+// Rungs of the truth ladder: where targets, and their own errors, which bound what techniques can reach.
+
+const isLadderRung = target => target === "camera_radiance" || target === "on_screen";
+
+/// Errors of the rungs against the chosen target, under the chosen mask, as rows like those of variants; of the last
+/// frame alone.
+function ladderRows(key) {
+    return manifestShots().flatMap(
+        shot => list(shot.truth_ladder)
+                    .filter(r => r.target === choice.target && metricKey(r) === key && r.mask === choice.mask)
+                    .map(
+                        r => ({
+                            ...r,
+                            shot: shot.shot,
+                            variant: "truth ladder",
+                            point: r.rung + (list(shot.frames).length > 1 ? ", last frame" : ""),
+                            floor: null,
+                            corrected: better(r.metric) === "lower",
+                            seeds: null,
+                            deviation: null,
+                            nonFinite: 0
+                        })));
+}
+
+/// The rows of each shot, and then its rungs.
+const besideTheirShots = (rows, ladder) =>
+    unique(rows.map(r => r.shot)).flatMap(shot => [rows, ladder].flatMap(part => part.filter(r => r.shot === shot)));
