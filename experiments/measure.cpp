@@ -11,12 +11,6 @@
 
 namespace {
 
-HostImage sum(const HostImage& a, const HostImage& b) {
-    HostImage total = a;
-    for (size_t i = 0; i < total.values.size(); ++i) total.values[i] += b.values[i];
-    return total;
-}
-
 std::optional<double> if_finite(std::optional<double> value) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
@@ -113,6 +107,12 @@ MaskInputs mask_inputs(const FrameTruth& truth, const HostImage& confidence, con
 }
 
 }  // namespace
+
+HostImage sum(const HostImage& a, const HostImage& b) {
+    HostImage total = a;
+    for (size_t i = 0; i < total.values.size(); ++i) total.values[i] += b.values[i];
+    return total;
+}
 
 PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use) {
     PoseTruth truth{.diffuse = reference.diffuse.mean,

@@ -43,6 +43,9 @@ struct FrameTruth {
     std::vector<Mask> masks;           ///< Config::masks; those of a technique's confidence are made by masks_of()
 };
 
+/// Value by value; of one size.
+HostImage sum(const HostImage& a, const HostImage& b);
+
 /// How much of a pose is to be measured.
 struct PoseUse {
     bool has_targets = false, has_frame_reference = false;

@@ -34,11 +34,6 @@ ErrorMaps bias(const ReferenceHalves& rung, const MetricReference& truth) {
     return maps;
 }
 
-HostImage sum(HostImage a, const HostImage& b) {
-    for (size_t i = 0; i < a.values.size(); ++i) a.values[i] += b.values[i];
-    return a;
-}
-
 /// What the rung is where the target is compared.
 ReferenceHalves tested_halves(const RungHalves& rung, const std::string& target, const HostImage& direct) {
     if (target == "incident") return rung.incident;
