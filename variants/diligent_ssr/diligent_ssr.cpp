@@ -38,12 +38,17 @@ std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
     if (!is_left_out_) return {};
     const std::string fact =
         facts.has_reflective ? "no reflective surface as smooth as roughness_threshold" : "nothing reflective";
+    std::vector<std::string> stages = {"common/blue_noise",
+                                       "diligent_ssr/reprojected_depth",
+                                       "diligent_ssr/depth_hierarchy",
+                                       "diligent_ssr/mask",
+                                       "diligent_ssr/intersection",
+                                       "diligent_ssr/spatial_reconstruction",
+                                       "diligent_ssr/temporal_accumulation",
+                                       "diligent_ssr/bilateral_cleanup"};
+    if (tracing_.half_resolution) stages.push_back("diligent_ssr/half_resolution_mask");
+    if (tracing_.previous_frame) stages.push_back("common/keep_lit");
     std::vector<LeftOut> left_out;
-    for (const std::string stage :
-         {"common/blue_noise", "diligent_ssr/reprojected_depth", "diligent_ssr/depth_hierarchy", "diligent_ssr/mask",
-          "diligent_ssr/half_resolution_mask", "diligent_ssr/intersection", "diligent_ssr/spatial_reconstruction",
-          "diligent_ssr/temporal_accumulation", "diligent_ssr/bilateral_cleanup"})
-        if (tracing_.half_resolution || stage != "diligent_ssr/half_resolution_mask")
-            left_out.push_back({stage, fact, "no pixel would start a ray"});
+    for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
     return left_out;
 }
