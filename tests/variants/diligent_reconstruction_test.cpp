@@ -133,8 +133,8 @@ TEST_F(DiligentReconstruction, IsUnbiasedAmongEqualNeighbors) {
     const Reconstruction found = run(inputs);
     double sum = 0;
     for (size_t i = 0; i < found.variance.pixel_count(); ++i) sum += found.radiance.values[4 * i];
-    // Light's standard deviation over the lobe is 0.41: 0.0016 for the mean of 256^2 rays, of which 2.5 are allowed. The
-    // bias of weights that eight rays normalise is 4e-4 here.
+    // Light's standard deviation over the lobe is 0.41: 0.0016 for the mean of 256^2 rays, of which 2.5 are allowed.
+    // The bias of weights that eight rays normalise is 4e-4 here.
     EXPECT_NEAR(sum / double(found.variance.pixel_count()), lobe_average(to_camera, alpha, light), 4e-3);
 }
 

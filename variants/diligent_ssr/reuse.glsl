@@ -25,7 +25,7 @@ vec3 ws_backward() { return camera.world_from_view[2].xyz; }
 
 Receiver receiver_at(ivec2 pixel) {
     vec2 uv = (vec2(pixel) + 0.5 + camera.jitter.xy) * camera.extent.zw;
-    // Not by view space: the rounding of this matrix, 1e-5 of the distance, shows in the results for smooth surfaces.
+    // As the original, not by view space: this matrix is rounded to 1e-5 of the distance, which shows where it is smooth.
     vec4 world = camera.world_from_clip * vec4(uv * 2.0 - 1.0, texelFetch(depth, pixel, 0).r, 1.0);
     float perceptual_roughness = texelFetch(roughness, pixel, 0).r;
     bool is_orthographic = camera.frame.z == 1u;
