@@ -8,8 +8,8 @@ struct DiligentFilterParameters {
 
     // clang-format off
     Switch spatial_reconstruction{params, "spatial_reconstruction", true,
-        {"", "reuses the rays of eight neighbours; otherwise a pixel has its own ray, and a variance of 1, as without history",
-         "ssrlab, to measure the stage"}};
+        {"", "reuses the rays of eight neighbours; otherwise a pixel has its own ray, and a variance of 1 as without "
+         "history", "ssrlab, to measure the stage"}};
     Switch temporal_accumulation{params, "temporal_accumulation", true,
         {"", "blends with history", "ssrlab, to measure the stage"}};
     Switch bilateral_cleanup{params, "bilateral_cleanup", true,

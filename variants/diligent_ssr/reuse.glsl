@@ -25,7 +25,7 @@ vec3 ws_backward() { return camera.world_from_view[2].xyz; }
 
 Receiver receiver_at(ivec2 pixel) {
     vec2 uv = (vec2(pixel) + 0.5 + camera.jitter.xy) * camera.extent.zw;
-    // As the original, not by view space: this matrix is rounded to 1e-5 of the distance, which shows where it is smooth.
+    // As the original, not by view space: this matrix rounds by 1e-5 of the distance, which shows on smooth surfaces.
     vec4 world = camera.world_from_clip * vec4(uv * 2.0 - 1.0, texelFetch(depth, pixel, 0).r, 1.0);
     float perceptual_roughness = texelFetch(roughness, pixel, 0).r;
     bool is_orthographic = camera.frame.z == 1u;
@@ -63,8 +63,8 @@ bool is_finite_weight(float weight, vec3 ws_direction, float density) {
     return !isnan(sum) && !isinf(sum) && !isnan(density);
 }
 
-// Every ray counts a little, so that pixels whose lobe none of them meets have a colour; with finite_weights 0 for those
-// that are not numbers.
+// Every ray counts a little, so that pixels whose lobe none of them meets have a colour; 0 with finite_weights for what
+// is not a number.
 float reuse_weight(Receiver receiver, Ray ray, float radius) {
     float hit_distance = length(ray.ws_direction);
     if (short_ray_guard && hit_distance < 1e-6) return least_weight;
