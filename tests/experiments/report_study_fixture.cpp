@@ -1,5 +1,6 @@
 #include "tests/experiments/report_study_fixture.h"
 
+#include "core/exr.h"
 #include "core/files.h"
 #include "experiments/effects.h"
 #include "experiments/results.h"
@@ -189,6 +190,18 @@ json study_manifest(const std::vector<StudyShot>& shots) {
     return manifest;
 }
 
+/// A rung of the truth ladder, and what is compared with it.
+void add_rung_images(const std::filesystem::path& folder, const std::string& shot, json& images) {
+    const auto add = [&](json entry, float value) {
+        const std::string exr = "images/" + entry["kind"].get<std::string>() + ".exr";
+        write_exr(folder / exr, HostImage({16, 9}, 3, value));
+        entry["shot"] = shot, entry["exr"] = exr;
+        images.push_back(entry);
+    };
+    add({{"variant", "reference"}, {"kind", "reference"}, {"target", "on_screen"}}, 0.25f);
+    add({{"variant", "sssr"}, {"point", "first"}, {"seed", 0}, {"kind", "result"}, {"target", "incident"}}, 0.5f);
+}
+
 }  // namespace
 
 void write_study_fixture(const std::filesystem::path& folder) {
@@ -220,5 +233,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
     for (EffectRow& e : effects)
         if (e.point == "first race=true") e.low = e.high = e.p = e.p_holm = std::nullopt;
     write_effects(folder, effects);
-    write_text(folder / "manifest.json", study_manifest(shots).dump(1));
+    json manifest = study_manifest(shots);
+    add_rung_images(folder, shots.front().name, manifest["images"]);
+    write_text(folder / "manifest.json", manifest.dump(1));
 }

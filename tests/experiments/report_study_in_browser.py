@@ -98,6 +98,13 @@ def test_truth_ladder(page):
     choose(page, "results", "Target", "specular")
 
 
+def test_images_of_a_rung(page):
+    choose(page, "viewer", "Target", "on_screen")
+    WebDriverWait(page, 20).until(lambda p: len(p.find_elements(By.CSS_SELECTOR, "#panes figcaption")) == 2)
+    captions = [c.text for c in page.find_elements(By.CSS_SELECTOR, "#panes figcaption")]
+    check(captions[0].endswith("reference") and captions[1].endswith("sssr · first"), f"rung and technique: {captions}")
+
+
 def test_roughness(page, folder):
     expected = []
     for target, metric in (("specular", "relmse"), ("incident", "bias")):
@@ -301,6 +308,7 @@ def main():
             )
             test_results(page, folder)
             test_truth_ladder(page)
+            test_images_of_a_rung(page)
             test_roughness(page, folder)
             test_splits(page, folder)
             test_stages(page)
