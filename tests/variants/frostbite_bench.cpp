@@ -15,6 +15,13 @@ glm::uvec2 FrostbiteBench::traced_extent() const {
 }
 
 ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const HostImage& color) {
+    graph.begin_frame(camera, params, gbuffer.images());
+    const Image lit = graph.image("shown_by_hits", Format::rgba32f);
+    graph.upload(lit, color);
+    return resolve(rays, resolve_parameters.filtered_sampling ? frostbite_color_pyramid(graph, lit) : lit);
+}
+
+ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const Image& color) {
     std::vector<glm::vec4> directions;
     std::vector<glm::uvec4> hits;
     for (const StoredRay& ray : rays) {
@@ -27,10 +34,7 @@ ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const 
                                graph.buffer("hits", hits.size() * sizeof hits[0])};
     graph.upload(stored.directions, std::as_bytes(std::span(directions)));
     graph.upload(stored.hits, std::as_bytes(std::span(hits)));
-    const Image lit = graph.image("shown_by_hits", Format::rgba32f);
-    graph.upload(lit, color);
-    const Image shown = resolve_parameters.filtered_sampling ? frostbite_color_pyramid(graph, lit) : lit;
     const FrostbiteResolved resolved =
-        frostbite_resolve(graph, gbuffer, shown, split_sum_.on(graph), stored, resolve_parameters);
+        frostbite_resolve(graph, gbuffer, color, split_sum_.on(graph), stored, resolve_parameters);
     return {graph.download(resolved.radiance), graph.download(resolved.reflection_depth)};
 }

@@ -12,7 +12,7 @@ struct StoredRay {
     float confidence = 1;
     unsigned discarded_draws = 0;
 };
-inline constexpr unsigned ray_missed = 0xffffffff, ray_below_horizon = 0xfffffffe;
+inline constexpr unsigned ray_missed = 0xffffffff, ray_below_horizon = 0xfffffffe, ray_into_surface = 0xfffffffd;
 
 struct ResolvedFrame {
     HostImage radiance, length;
@@ -26,6 +26,8 @@ public:
 
     /// `rays`: max_rays for each traced pixel. `color`: 4 channels, of the screen's extent.
     ResolvedFrame resolve(const std::vector<StoredRay>& rays, const HostImage& color);
+    /// `color`: with mips of the test's own making.
+    ResolvedFrame resolve(const std::vector<StoredRay>& rays, const Image& color);
 
     glm::uvec2 traced_extent() const;
     void set_frame(unsigned index, unsigned seed) { camera.frame.x = index, camera.frame.y = seed; }

@@ -15,7 +15,8 @@ void main() {
         for (int x = begin.x / coarse.x; x * coarse.x < end.x; ++x) {
             ivec2 from = ivec2(x, y) * coarse;
             ivec2 shared_part = min(from + coarse, end) - max(from, begin);
-            sum += float(shared_part.x * shared_part.y) * texelFetch(finer, ivec2(x, y), 0);
+            float share = float(shared_part.x * shared_part.y) / float(fine.x * fine.y);
+            sum += share * texelFetch(finer, ivec2(x, y), 0);
         }
-    imageStore(coarser, texel, sum / float(fine.x * fine.y));
+    imageStore(coarser, texel, sum);
 }

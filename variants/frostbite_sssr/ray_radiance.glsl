@@ -35,6 +35,7 @@ struct Seen {
 
 Seen seen_along(ivec2 pixel, Surface surface, ReusedRay ray, OwnRay own) {
     const bool misses_see_environment = misses == 1u;
+    if (ray.traced.target == ray_into_surface) return Seen(vec3(0.0), 1.0);
     float confidence = is_hit(ray.traced) ? ray.traced.confidence : 0.0;
     vec3 hit = vec3(0.0);
     if (confidence > 0.0) hit = textureLod(color_pyramid, ray.color_uv, color_level(surface, own)).rgb;

@@ -31,7 +31,7 @@ ivec2 pixel_of_group(ivec2 first_pixel, int index) {
 // Sunflower Head"), turned by a random angle. The radius is that of a disk with about three traced pixels per tap.
 ivec2 rotated_offset(ivec2 pixel, int tap) {
     const float golden_turn = 0.38196601, radius = taps == 1u ? 2.0 : 4.0;
-    const uint random_dimension = 64u;  // beyond those of the rays' directions
+    const uint random_dimension = 64u;  // beyond those of draw_ray.glsl
     float turn = rotated_halton(camera.frame.x, uvec2(pixel), camera.frame.y, random_dimension).x;
     float distance = radius * sqrt(float(tap) / float(max(tap_count - 1, 1)));
     return ivec2(round(distance * unit_circle(fract(turn + golden_turn * float(tap)))));

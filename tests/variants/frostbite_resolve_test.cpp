@@ -1,0 +1,213 @@
+#include "core/gbuffer/environment_images.h"
+#include "core/split_sum.h"
+#include "tests/variants/frostbite_reference.h"
+#include "tests/variants/variant_fixture.h"
+#include "variants/common/ggx_lobe.h"
+
+#include <random>
+
+// Every switch of the resolve against sums in double precision, over surfaces and rays made up at random.
+
+namespace {
+
+constexpr glm::uvec2 extent{47, 30};
+
+/// Hills whose normals are not those of their shape, with pieces of sky.
+SyntheticHit hills(const CameraRay& ray) {
+    const glm::vec2 at = glm::vec2(ray.direction) / -ray.direction.z;
+    if (at.y > 0.45f) return {};
+    const glm::vec3 normal(0.4f * std::sin(7 * at.x), 0.4f * std::cos(9 * at.y), 1);
+    return {.distance = 5 + std::sin(3 * at.x) + std::cos(5 * at.y),
+            .normal = normalize(normal),
+            .roughness = 0.45f + 0.2f * std::sin(11 * at.x + 5 * at.y),
+            .metalness = 0.5f + 0.5f * std::sin(4 * at.x),
+            .specular = 0.8f};
+}
+
+glm::dvec3 gradient(glm::dvec2 place) {
+    const glm::dvec2 centre = clamp(place, glm::dvec2(0.5), glm::dvec2(extent) - 0.5);
+    return {0.1 + centre.x / extent.x, 0.3 + centre.y / extent.y, 1.5 - centre.x / extent.x};
+}
+
+HostImage gradient_image() {
+    HostImage image(extent, 4);
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 0; x < extent.x; ++x) image.set_rgb(y * extent.x + x, gradient(glm::dvec2(x, y) + 0.5));
+    return image;
+}
+
+struct FrostbiteResolve : VariantTest {
+    std::mt19937 random{4};
+    const CameraPose pose{.vertical_fov = 1};
+    const FrameView view{.extent = extent, .jitter = {0.3f, -0.2f}, .previous_jitter = {-0.1f, 0.4f}};
+    const Environment environment{.type = Environment::Type::gradient,
+                                  .color = {1, 1.5f, 2},
+                                  .slope = {0.9f, -1.2f, 0.4f},
+                                  .axis = glm::normalize(glm::vec3(0.7f, 0.3f, -0.5f))};
+
+    float uniform() { return float(random() >> 8) * 0x1p-24f; }
+
+    /// Colours, geometric normals and motions of pixels that have nothing to do with each other.
+    void scatter(FrostbiteBench& bench) {
+        HostImage color(extent, 4), normal(extent, 4), motion(extent, 2);
+        const HostImage base_color = bench.graph.download(bench.gbuffer.base_color);
+        for (size_t i = 0; i < color.pixel_count(); ++i) {
+            color.set_rgb(i, {uniform(), uniform(), uniform()});
+            color.values[4 * i + 3] = base_color.values[4 * i + 3];
+            normal.set_rgb(i, normalize(glm::vec3(uniform() - 0.5f, uniform() - 0.5f, uniform())));
+            for (unsigned c = 0; c < 2; ++c) motion.values[2 * i + c] = 0.2f * (uniform() - 0.5f);
+        }
+        bench.graph.upload(bench.gbuffer.base_color, color);
+        bench.graph.upload(bench.gbuffer.geometric_normal, normal);
+        bench.graph.upload(bench.gbuffer.motion, motion);
+        bench.camera.frame.w = 1;
+    }
+
+    /// Rays of all kinds; some pixels have fewer than max_rays.
+    std::vector<StoredRay> some_rays(const FrostbiteBench& bench) {
+        const glm::uvec2 traced = bench.traced_extent();
+        std::vector<StoredRay> rays(size_t(traced.x) * traced.y * bench.ray_parameters.max_rays);
+        for (StoredRay& ray : rays) {
+            if (uniform() < 0.1f) continue;
+            const glm::vec3 n = normalize(glm::vec3(uniform() - 0.5f, uniform() - 0.5f, 1)), o(0, 0, 1);
+            const glm::mat3 view_from_local = basis_from_normal(n);
+            const LobeSample drawn =
+                sample_lobe(uniform() < 0.5f, o * view_from_local, 0.3f, 0.3f, {uniform(), uniform()});
+            ray.direction = view_from_local * drawn.direction;
+            ray.inverse_density = drawn.inverse_density;
+            ray.length = 0.5f * std::exp(3 * uniform());
+            ray.confidence = uniform();
+            ray.target = unsigned(uniform() * float(extent.x)) | unsigned(uniform() * float(extent.y)) << 16;
+            ray.discarded_draws = random() % 3;
+            const float kind = uniform();
+            if (kind < 0.2f) ray.target = ray_missed;
+            if (kind > 0.9f) ray.target = ray_into_surface;
+            if (drawn.direction.z <= 0 || kind > 0.95f) ray.target = ray_below_horizon;
+            if (ray.target >= ray_into_surface) ray.length = 0;
+        }
+        return rays;
+    }
+
+    /// Those of quad_shared with 4 taps.
+    std::vector<glm::uvec2> taps_of(const FrostbiteBench& bench, glm::uvec2 pixel) {
+        const bool is_half = bench.ray_parameters.half_resolution;
+        const glm::uvec2 first = is_half ? pixel / 2u : pixel / 2u * 2u, last = bench.traced_extent() - 1u;
+        std::vector<glm::uvec2> taps;
+        for (unsigned k = 0; k < 4; ++k) {
+            const glm::uvec2 tap = min(first + glm::uvec2(k % 2, k / 2), last);
+            if (std::ranges::find(taps, tap) == taps.end()) taps.push_back(tap);
+        }
+        return taps;
+    }
+
+    void expect_reference(const nlohmann::json& overrides) {
+        nlohmann::json parameters = {{"taps", "4"},   {"pattern", "quad_shared"}, {"filtered_sampling", false},
+                                     {"max_rays", 2}, {"max_roughness", 0.6},     {"importance_bias", 0.3}};
+        parameters.update(overrides);
+        FrostbiteBench bench(device(), pose, view, hills, parameters);
+        const EnvironmentImages images(bench.graph, environment, false);
+        bench.gbuffer.environment = &images;
+        scatter(bench);
+        bench.set_frame(2, 5);
+        const std::vector<StoredRay> rays = some_rays(bench);
+        const ResolvedFrame found = bench.resolve(rays, gradient_image());
+        const FrostbiteReference reference(bench, rays, environment);
+        const HostImage normal = bench.graph.download(bench.gbuffer.normal),
+                        depth = bench.graph.download(bench.gbuffer.depth);
+        unsigned compared = 0, close_calls = 0;
+        for (unsigned y = 0; y < extent.y; ++y)
+            for (unsigned x = 0; x < extent.x; ++x) {
+                const glm::dvec4 pixel(found.radiance.pixel(x, y)[0], found.radiance.pixel(x, y)[1],
+                                       found.radiance.pixel(x, y)[2], found.radiance.pixel(x, y)[3]);
+                if (*depth.pixel(x, y) == 1 || normal.pixel(x, y)[3] > 0.6f) {
+                    ASSERT_EQ(pixel, glm::dvec4(0)) << x << ", " << y;
+                    continue;
+                }
+                auto expected = reference.resolve({x, y}, taps_of(bench, {x, y}), gradient);
+                close_calls += expected.is_close_call;
+                if (expected.is_close_call) continue;
+                ++compared;
+                // Re-aimed over half a metre, positions at six metres turn a direction by 1e-6; the lobes turn that
+                // into 1e-4 of a weight. Filtering rounds places between texels to 1 / 256: 1e-4 of the gradient.
+                const double tolerance = 2e-3 * (1 + length(expected.radiance));
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(pixel[c], expected.radiance[c], tolerance) << x << ", " << y << " of " << parameters;
+                ASSERT_NEAR(pixel.w, expected.confidence, 1e-3) << x << ", " << y << " of " << parameters;
+                ASSERT_NEAR(*found.length.pixel(x, y), expected.length, 1e-3 * (1 + expected.length))
+                    << x << ", " << y << " of " << parameters;
+            }
+        EXPECT_GT(compared, 500u) << parameters;
+        EXPECT_LT(close_calls, 50u) << parameters;
+    }
+};
+
+TEST_F(FrostbiteResolve, EqualsTheSumsOfEachEstimator) {
+    expect_reference(nlohmann::json::object());
+    expect_reference({{"estimator", "c"}, {"lobe", "visible_normals"}});
+    expect_reference({{"estimator", "c"}, {"misses", "fallback"}});
+    // Times the integral of the BRDF b needs no table, whose error would hide others.
+    for (const char* lobe : {"normals", "visible_normals"})
+        expect_reference({{"estimator", "b"}, {"lobe", lobe}, {"reflectance_after_filter", false}});
+    expect_reference({{"estimator", "b"}, {"misses", "fallback"}, {"reflectance_after_filter", false}});
+}
+
+TEST_F(FrostbiteResolve, EqualsTheSumsForEachReuseAndLength) {
+    expect_reference({{"neighbor_ray", "direction"}, {"reflection_depth", "min"}});
+    expect_reference({{"reuse_jacobian", true}, {"reflection_depth", "max"}, {"lobe", "visible_normals"}});
+    expect_reference({{"reuse_jacobian", true}, {"half_resolution", false}});
+    expect_reference({{"half_resolution", false}, {"misses", "fallback"}});
+    expect_reference({{"previous_frame", false}, {"max_rays", 4}});
+}
+
+TEST_F(FrostbiteResolve, NeverExceedsTheBrightestTap) {
+    for (const char* estimator : {"a", "c"})
+        for (const char* taps : {"4", "16"}) {
+            FrostbiteBench bench(device(), pose, view, hills,
+                                 {{"taps", taps}, {"estimator", estimator}, {"previous_frame", false}});
+            HostImage color(extent, 4);
+            for (size_t i = 0; i < color.pixel_count(); ++i) color.set_rgb(i, {uniform(), 2 * uniform(), 7});
+            const HostImage found = bench.resolve(some_rays(bench), color).radiance;
+            for (size_t i = 0; i < found.pixel_count(); ++i) {
+                const glm::vec3 radiance = found.rgb(i);
+                const float rounding = 1 + 1e-5f;
+                ASSERT_TRUE(radiance.x <= rounding && radiance.y <= 2 * rounding && radiance.z <= 7 * rounding) << i;
+                ASSERT_TRUE(radiance.x >= 0 && radiance.y >= 0 && radiance.z >= 0) << i;
+                const float confidence = found.values[4 * i + 3];
+                ASSERT_TRUE(confidence >= 0 && confidence <= rounding) << i;
+            }
+        }
+}
+
+/// The table of the integral divides what b finds, and multiplies what a finds.
+TEST_F(FrostbiteResolve, AppliesTheReflectanceBeforeOrAfterTheFilter) {
+    for (const char* estimator : {"a", "b", "c"}) {
+        HostImage found[2];
+        HostImage normal;
+        for (const bool is_after : {false, true}) {
+            random.seed(6);
+            FrostbiteBench bench(device(), pose, view, hills,
+                                 {{"estimator", estimator}, {"reflectance_after_filter", is_after}});
+            normal = bench.graph.download(bench.gbuffer.normal);
+            found[is_after] = bench.resolve(some_rays(bench), gradient_image()).radiance;
+        }
+        unsigned compared = 0;
+        for (unsigned y = 0; y < extent.y; ++y)
+            for (unsigned x = 0; x < extent.x; ++x) {
+                const float* after = found[true].pixel(x, y);
+                if (after[0] == 0) continue;
+                ++compared;
+                const glm::vec2 screen = glm::vec2(x, y) + 0.5f + view.jitter;
+                const CameraRay ray = camera_ray(pose, extent, screen);
+                const SyntheticHit hit = hills(ray);
+                const glm::vec2 ab =
+                    read_split_sum(default_split_sum_table(), -dot(hit.normal, ray.direction), hit.roughness);
+                const glm::vec3 f0 = specular_f0(glm::vec3(1), hit.metalness, hit.specular);
+                const glm::vec3 reflectance = f0 * ab.x + specular_f90(hit.metalness, hit.specular) * ab.y;
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(found[false].pixel(x, y)[c], after[c] * reflectance[c], 1e-4f * (1 + after[c]));
+            }
+        EXPECT_GT(compared, 500u) << estimator;
+    }
+}
+
+}  // namespace
