@@ -111,26 +111,36 @@ PixelMarchResult march_every_pixel(const HostImage& depth, const CameraData& cam
 }
 
 PixelMarchResult march_equal_steps(const HostImage& depth, const CameraData& camera, const PixelRay& ray,
-                                   double thickness, unsigned steps) {
+                                   double thickness, unsigned steps, unsigned refinements) {
     const Marched marched{depth, camera, ray, thickness};
-    const double reach = reach_of(marched);
-    const glm::dvec2 start = marched.position(0), line = marched.position(reach) - start;
+    const glm::dvec2 start = marched.position(0), line = marched.position(reach_of(marched)) - start;
     const int major = std::abs(line.x) >= std::abs(line.y) ? 0 : 1;
-    const double stride = std::max(std::abs(line[major]) / steps, 1.0);
+    const double length = std::abs(line[major]), sign = line[major] < 0 ? -1 : 1;
     PixelMarchResult result;
-    double from = distance_at(marched, major, start[major] + (line[major] < 0 ? -0.5 : 0.5));
-    for (unsigned step = 0; step < steps; ++step) {
-        const double pixels = (step + double(ray.jitter)) * stride;
-        if (std::abs(pixels - std::abs(line[major])) < 1e-3) result.is_close_call = true;
-        if (pixels >= std::abs(line[major])) break;
-        const double to = distance_at(marched, major, start[major] + (line[major] < 0 ? -pixels : pixels));
+    const auto meets_at_end = [&](double from_pixels, double to_pixels) {
+        const double from = distance_at(marched, major, start[major] + sign * from_pixels),
+                     to = distance_at(marched, major, start[major] + sign * to_pixels);
         const glm::dvec2 position = marched.position(to);
         for (int axis = 0; axis < 2; ++axis)
             if (std::abs(position[axis] - std::round(position[axis])) < 1e-3) result.is_close_call = true;
         const glm::ivec2 pixel(glm::floor(position));
-        if (pixel == ray.pixel) continue;
-        if (meets(marched, pixel, from, to, marched.z(to), result)) break;
-        from = to;
+        return pixel != ray.pixel && meets(marched, pixel, from, to, marched.z(to), result);
+    };
+    const double stride = std::max(length / steps, 1.0);
+    double from = 0.5;
+    for (unsigned step = 0; step < steps && !result.is_hit; ++step) {
+        double to = (step + double(ray.jitter)) * stride;
+        if (std::abs(to - length) < 1e-3) result.is_close_call = true;
+        if (to >= length) break;
+        if (to <= from) continue;  // in its own pixel
+        if (!meets_at_end(from, to)) {
+            from = to;
+            continue;
+        }
+        for (unsigned i = 0; i < refinements; ++i) {
+            const double middle = 0.5 * (from + to);
+            (meets_at_end(from, middle) ? to : from) = middle;
+        }
     }
     return result;
 }

@@ -1,12 +1,12 @@
-// How many rays each tile gets, from its probes: none if none of them hits, else the more the more they differ. That hits
-// and perceptual variance decide is published (slides), the rule is ours.
+// How many rays each tile gets, from its probes: none if none of them hits, else the more the more they differ. That
+// hits and perceptual variance decide is published (slides), the rule is ours.
 #include "frostbite_sssr/tile.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D probes, previous_ray_count, previous_frames_left;
 uniform writeonly image2D ray_count, frames_left;
 
-const uint least_rays = min(min_rays, max_rays);
+float least_rays() { return float(min(min_rays, max_rays)); }
 
 bool is_within(ivec2 texel, ivec2 extent) {
     return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, extent));
@@ -49,7 +49,7 @@ bool is_hit_around(ivec2 tile) {
 
 uint rays_for(TileProbes found) {
     float share = clamp(found.deviation / (variance_scale * (found.mean + 0.05)), 0.0, 1.0);
-    float rays = mix(float(least_rays), float(max_rays), share);
+    float rays = mix(least_rays(), float(max_rays), share);
     return uint(rays + 0.5);
 }
 
@@ -63,7 +63,7 @@ void main() {
     if (is_hit)
         rays = float(rays_for(own));
     else if (left > 0.0)
-        rays = max(texelFetch(previous_ray_count, tile, 0).r, float(least_rays));
+        rays = max(texelFetch(previous_ray_count, tile, 0).r, least_rays());
     if (own.count == 0u) rays = 0.0;  // nothing in the tile reflects
     imageStore(ray_count, tile, vec4(rays));
     imageStore(frames_left, tile, vec4(is_hit ? float(hysteresis) : max(left - 1.0, 0.0)));

@@ -17,9 +17,9 @@ Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
     const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depth_pyramid, color, ray_);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, ray_);
     const FrostbiteRays rays = frostbite_trace(graph, gbuffer, depth_pyramid, work, ray_);
-    const FrostbiteResolved resolved =
-        frostbite_resolve(graph, gbuffer, filtered, split_sum_.on(graph), rays, resolve_);
-    const Image reflections = frostbite_accumulate(graph, gbuffer, resolved, resolve_);
+    const Image split_sum = split_sum_.on(graph);
+    const FrostbiteResolved resolved = frostbite_resolve(graph, gbuffer, filtered, split_sum, rays, resolve_);
+    const Image reflections = frostbite_accumulate(graph, gbuffer, split_sum, resolved, resolve_);
     return {reflections, reflections, alpha};
 }
 
@@ -28,10 +28,14 @@ std::vector<LeftOut> FrostbiteSssr::leave_out(const SceneFacts& facts) {
     if (!is_left_out_) return {};
     const std::string fact =
         facts.has_reflective ? "no reflective surface as smooth as max_roughness" : "nothing reflective";
+    std::vector<std::string> stages = {"common/depth_pyramid", "frostbite_sssr/allocate",
+                                       "frostbite_sssr/trace_hierarchical", "frostbite_sssr/trace_linear",
+                                       "frostbite_sssr/resolve"};
+    if (resolve_.previous_frame) stages.push_back("common/keep_lit");
+    if (resolve_.filtered_sampling) stages.push_back("frostbite_sssr/color_pyramid");
+    if (ray_.classification) stages.push_back("frostbite_sssr/classify");
+    if (resolve_.temporal_filter || !resolve_.reflectance_after_filter) stages.push_back("frostbite_sssr/accumulate");
     std::vector<LeftOut> left_out;
-    for (const char* stage :
-         {"common/depth_pyramid", "frostbite_sssr/color_pyramid", "frostbite_sssr/classify", "frostbite_sssr/allocate",
-          "frostbite_sssr/trace", "frostbite_sssr/resolve", "frostbite_sssr/temporal"})
-        left_out.push_back({stage, fact, "no pixel would start a ray"});
+    for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
     return left_out;
 }

@@ -1,8 +1,8 @@
 // The march of smooth surfaces' rays through the pyramid of nearest depths: from pixel to pixel, a level coarser where
 // the line stays in front of all that a cell shows, a level finer where it does not (slides).
-// Ours, since the slides stop at the first surface that a ray falls behind: a cell is passed over only if the line is in
-// front of it where it enters and where it leaves, which holds for rays towards the camera, too; at the finest level a
-// ray that meets nothing solid goes on behind it. The result is that of looking at every pixel along the line.
+// Ours, since the slides stop at the first surface that a ray falls behind: a cell is passed over only if the line is
+// in front of it where it enters and where it leaves, which holds for rays towards the camera, too; at the finest level
+// a ray that meets nothing solid goes on behind it. The result is that of looking at every pixel along the line.
 #ifndef FROSTBITE_SSSR_MARCH_HIERARCHY_GLSL
 #define FROSTBITE_SSSR_MARCH_HIERARCHY_GLSL
 #include "frostbite_sssr/solid.glsl"

@@ -21,11 +21,13 @@ ivec2 pixel_of_turn(uint turn) {
     return pixel;
 }
 
-// The block's pixel of this frame, or the next one that starts rays; negative if none does, so that a thin reflector is
-// probed as often as a wide one.
+// The block's pixel of this frame, or the next one that starts rays, so that a thin reflector is probed as often as a
+// wide one; negative if none does. Of eight blocks in a row or column no two look at the same row or column of theirs:
+// a line one pixel wide that runs through all of them is met in every frame.
 ivec2 probed_pixel(ivec2 block) {
     for (uint i = 0u; i < 64u; ++i) {
-        ivec2 pixel = block * block_width + pixel_of_turn(camera.frame.x + camera.frame.y + i);
+        ivec2 inside = pixel_of_turn(camera.frame.x + camera.frame.y + i) + 3 * block.yx & block_width - 1;
+        ivec2 pixel = block * block_width + inside;
         if (is_on_screen(pixel) && starts_rays(pixel)) return pixel;
     }
     return ivec2(-1);

@@ -8,8 +8,8 @@ buffer hits { uvec4 hit_of_ray[]; };
 
 // In place of the hit pixel. A ray that meets nothing on the screen; one whose every draw went below the horizon of the
 // shading normal, and which nothing can meet: only estimator b counts those; one above that horizon, but into the
-// geometric surface that it starts from: it is known to bring no light, as in the path-traced reference, and so counts as
-// a black hit of length 0 and full confidence.
+// geometric surface that it starts from: it is known to bring no light, as in the path-traced reference, and so counts
+// as a black hit of length 0 and full confidence.
 const uint ray_missed = 0xffffffffu, ray_below_horizon = 0xfffffffeu, ray_into_surface = 0xfffffffdu;
 
 // Of rays that hit, miss or go below the horizon alike, `direction` and its density are those of the last draw.

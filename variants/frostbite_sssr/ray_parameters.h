@@ -19,7 +19,7 @@ struct FrostbiteRayParameters {
         {"", "a probe ray per 8x8 pixels decides how many rays each tile of 32x32 pixels gets; otherwise all tiles get "
          "max_rays", "slides: probes at 1/8 resolution; the size of a tile is ours"}};
     Param<unsigned> min_rays{params, "min_rays", 1, {1, 4},
-        {"rays", "of each traced pixel in a tile whose probes agree", "ssrlab"}, Use::constant};
+        {"rays", "of each traced pixel in a tile whose probes agree, but at most max_rays", "ssrlab"}, Use::constant};
     Param<unsigned> max_rays{params, "max_rays", 1, {1, 4},
         {"rays", "of each traced pixel in a tile whose probes differ", "slides measure 1 and 4"}, Use::constant};
     Param<float> variance_scale{params, "variance_scale", 0.5f, {1e-3f, 1e3f},
@@ -47,6 +47,14 @@ struct FrostbiteRayParameters {
         {"steps", "cells of the depth pyramid that one ray may visit", "ssrlab"}};
     Param<unsigned> linear_steps{params, "linear_steps", 32, {1, 4096},
         {"steps", "into which a rough surface's ray is divided between its start and the border of the screen", "ssrlab"}};
+    Param<unsigned> linear_refinements{params, "linear_refinements", 4, {0, 8},
+        {"", "times that the last linear step is halved, to find where on it the ray meets the surface", "ssrlab"}};
+    Switch front_faces_only{params, "front_faces_only", true,
+        {"", "a ray that meets a surface from behind counts as a miss: the screen shows the other side of it",
+         "ssrlab; AMD FidelityFX SSSR 1.5 rejects such hits, too"}};
+    Switch leave_own_plane{params, "leave_own_plane", true,
+        {"", "a ray passes over what is less than half as high as itself above the plane that it leaves: samples are "
+         "steps, and at grazing angles the next step of that plane lies in the way", "ssrlab"}};
     Param<float> thickness{params, "thickness", 0.05f, {1e-6f, 10.0f},
         {"of the depth", "depth behind the visible surface that counts as solid", "ssrlab"}};
     // clang-format on

@@ -17,9 +17,8 @@ bool is_nearer(float a, float b) { return camera.depth.w == 1.0 ? a > b : a < b;
 float nearer_of(float a, float b) { return is_nearer(a, b) ? a : b; }
 float farther_of(float a, float b) { return is_nearer(a, b) ? b : a; }
 
-// Samples are steps where the surface is smooth, and a ray at a grazing angle would meet the next step of the plane that
-// it leaves. Ours: what lies less than half as high above that plane as the ray does is not what the ray meets.
-bool is_below_ray(ScreenLine line, ivec2 pixel, float t) {
+// Of the plane that the ray leaves, and so not what it meets.
+bool is_own_plane(ScreenLine line, ivec2 pixel, float t) {
     float height = dot(view_position(pixel) - line.vs_origin, line.vs_normal);
     return height < 0.5 * line.rise * distance_at(line, t);
 }
@@ -36,6 +35,6 @@ March meet(ScreenLine line, ivec2 pixel, float surface, float t_in, float t_out,
     float nearest = nearer_of(depth_at(line, t_in), depth_at(line, t_out));
     if (view_z(nearest) < view_z(surface) * (1.0 + thickness)) return miss;
     float t = closest_t(line, surface, t_in, t_out);
-    return is_below_ray(line, pixel, t) ? miss : March(true, pixel, t);
+    return leave_own_plane && is_own_plane(line, pixel, t) ? miss : March(true, pixel, t);
 }
 #endif
