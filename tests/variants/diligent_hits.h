@@ -23,7 +23,7 @@ struct Mirrored {
     float distance;
 };
 
-/// Share of the hits within 5 % of the screen's height of its border that DiligentFX fades out.
+/// What is left of hits near the border of the screen: DiligentFX fades them out over 5 % of its height.
 inline float fade_at(glm::vec2 uv, glm::vec2 extent) {
     const glm::vec2 width = 0.05f * glm::vec2(extent.y / extent.x, 1);
     const glm::vec2 fade =
