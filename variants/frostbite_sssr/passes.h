@@ -57,6 +57,6 @@ FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, co
                                     const Image& split_sum, const FrostbiteRays& rays,
                                     const FrostbiteResolveParameters& parameters);
 
-/// The image `reflections`, rgba32f: rgb incident radiance, a confidence.
-Image frostbite_accumulate(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteResolved& resolved,
-                           const FrostbiteResolveParameters& parameters);
+/// rgba32f: rgb incident radiance, a confidence. `split_sum`: of SplitSumImage.
+Image frostbite_accumulate(PassGraph& graph, const GBuffer& gbuffer, const Image& split_sum,
+                           const FrostbiteResolved& resolved, const FrostbiteResolveParameters& parameters);

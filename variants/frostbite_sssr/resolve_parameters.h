@@ -42,6 +42,9 @@ struct FrostbiteResolveParameters {
     Param<float> history_weight{params, "history_weight", 0.9f, {0.0f, 1.0f}, {"", "share of history", "ssrlab"}};
     Choice reflection_depth{params, "reflection_depth", "average", {"average", "min", "max"},
         {"", "length that the resolved rays are given for reprojection", "slides: average; others: EEVEE, Wicked Engine"}};
+    Switch reject_without_hits{params, "reject_without_hits", false,
+        {"", "a pixel of which no ray hit anything forgets its history; otherwise it is blended with it as any other, "
+         "and fades. Not with misses = fallback, which always see something", "ssrlab"}};
     Switch neighborhood_clamp{params, "neighborhood_clamp", true,
         {"", "clamps history to the box of the 3x3 neighbours' colours", "slides; Karis 2014"}};
     Param<float> clamp_scale{params, "clamp_scale", 2.0f, {0.0f, 100.0f},
