@@ -40,7 +40,7 @@ vec4 filtered(ivec2 pixel, int radius, vec2 depth_gradient) {
         for (int x = -radius; x <= radius; ++x) {
             ivec2 neighbor = clamp(pixel + ivec2(x, y), ivec2(0), ivec2(camera.extent.xy) - 1);
             if (!is_kept(neighbor)) continue;
-            vec2 offset = vec2(ivec2(x, y));
+            vec2 offset = vec2(float(x), float(y));
             float weight = exp(-dot(offset, offset) / (2.0 * sigma * sigma)) *
                            edge_stop(pixel, neighbor, dot(offset, depth_gradient));
             sum += weight * texelFetch(accumulated_radiance, neighbor, 0);

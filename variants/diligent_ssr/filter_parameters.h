@@ -60,7 +60,7 @@ struct DiligentFilterParameters {
          "20 m", "ssrlab"}};
     Switch centered_search{params, "centered_search", false,
         {"", "looks for lost history at the nearest texels first. The original starts at the upper left and takes the first "
-         "that is good enough", "ssrlab"}};
+         "that is good enough; with device_depth the best, of several the first", "ssrlab"}};
     Switch guard_previous_clip{params, "guard_previous_clip", false,
         {"", "points that were behind the camera have no history. The original divides by their negative w", "ssrlab"}};
     Switch finite_weights{params, "finite_weights", false,
