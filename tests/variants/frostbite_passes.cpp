@@ -27,7 +27,7 @@ FrostbiteTraced trace_frostbite(PassGraph& graph, const GBuffer& gbuffer, const 
     const Image pyramid = nearest_depth_pyramid(graph, gbuffer.depth, 7);
     const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, pyramid, gbuffer.lit, parameters.ray);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
-    const FrostbiteRays rays = frostbite_trace(graph, gbuffer, pyramid, work, parameters.ray);
+    const FrostbiteRays rays = frostbite_trace(graph, pyramid, work, parameters.ray);
     const std::vector<uint32_t> counters = read<uint32_t>(graph, work.counters);
     return {.ray_count = graph.download(tiles.ray_count),
             .hierarchical_list = read_list(graph, work.hierarchical_list, counters[0]),

@@ -197,11 +197,11 @@ SyntheticHit floor_and_post(const CameraRay& ray, float x, float width) {
 }
 
 struct FrostbiteThinObject : FrostbiteProbes {
-    static constexpr unsigned frames = 40;
+    static constexpr unsigned frames = 25;
 
-    /// The post crosses the screen, 1.5 pixels per frame.
+    /// The post crosses the screen, 2.5 pixels per frame.
     GBuffer begin_crossing(unsigned frame) {
-        const float x = -1.8f + 0.08f * float(frame);
+        const float x = -1.8f + 0.13f * float(frame);
         return begin([&](const CameraRay& ray) { return floor_and_post(ray, x, 0.06f); }, frame);
     }
 
@@ -224,14 +224,14 @@ struct FrostbiteThinObject : FrostbiteProbes {
     }
 };
 
-/// Counts tiles that get no rays although some pixel in them reflects the post: 32 of 80 with probes alone, 2 with
-/// dilation, 3 with hysteresis, none with both.
+/// Counts tiles that get no rays although some pixel in them reflects the post: 20 of 50 with probes alone, 1 with
+/// hysteresis, 2 with dilation, none with both.
 TEST_F(FrostbiteThinObject, MakesNoTilePopWithDilationAndHysteresis) {
     std::vector<std::set<unsigned>> truth;
     size_t tiles = 0;
     for (unsigned frame = 0; frame < frames; ++frame)
         tiles += truth.emplace_back(tiles_that_hit(begin_crossing(frame))).size();
-    EXPECT_GT(tiles, 70u);
+    EXPECT_GT(tiles, 40u);
     for (const bool dilates : {false, true})
         for (const unsigned hysteresis : {0u, 4u}) {
             parameters.params.assign({{"dilate_tiles", dilates}, {"hysteresis", hysteresis}});
@@ -247,7 +247,7 @@ TEST_F(FrostbiteThinObject, MakesNoTilePopWithDilationAndHysteresis) {
                                             << ", hysteresis " << hysteresis);
             EXPECT_EQ(popped == 0, dilates && hysteresis > 0);
             if (!dilates && hysteresis == 0) {
-                EXPECT_GT(popped, 20u);
+                EXPECT_GT(popped, 10u);
             }
         }
 }

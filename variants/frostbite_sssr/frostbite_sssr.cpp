@@ -16,7 +16,7 @@ Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
     const Image filtered = resolve_.filtered_sampling ? frostbite_color_pyramid(graph, color) : color;
     const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depth_pyramid, color, ray_);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, ray_);
-    const FrostbiteRays rays = frostbite_trace(graph, gbuffer, depth_pyramid, work, ray_);
+    const FrostbiteRays rays = frostbite_trace(graph, depth_pyramid, work, ray_);
     const Image split_sum = split_sum_.on(graph);
     const FrostbiteResolved resolved = frostbite_resolve(graph, gbuffer, filtered, split_sum, rays, resolve_);
     const Image reflections = frostbite_accumulate(graph, gbuffer, split_sum, resolved, resolve_);

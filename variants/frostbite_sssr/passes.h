@@ -49,8 +49,8 @@ FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const
                                  const FrostbiteRayParameters& parameters);
 
 /// Both tracers.
-FrostbiteRays frostbite_trace(PassGraph& graph, const GBuffer& gbuffer, const Image& depth_pyramid,
-                              const FrostbiteWork& work, const FrostbiteRayParameters& parameters);
+FrostbiteRays frostbite_trace(PassGraph& graph, const Image& depth_pyramid, const FrostbiteWork& work,
+                              const FrostbiteRayParameters& parameters);
 
 /// `color`: the lit image that hits show, with its mips for filtered_sampling. `split_sum`: of SplitSumImage.
 FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color,

@@ -1,6 +1,6 @@
 #include "variants/frostbite_sssr/passes.h"
 
-FrostbiteRays frostbite_trace(PassGraph& graph, const GBuffer&, const Image& depth_pyramid, const FrostbiteWork& work,
+FrostbiteRays frostbite_trace(PassGraph& graph, const Image& depth_pyramid, const FrostbiteWork& work,
                               const FrostbiteRayParameters& parameters) {
     const size_t rays = size_t(work.extent.x) * work.extent.y * parameters.max_rays;
     const FrostbiteRays traced{.directions = graph.buffer("directions", rays * 16),
