@@ -110,6 +110,7 @@ const std::vector<VariantEntry> table = {
                       {"premultiply_confidence", true},
                       {"own_ray", true},
                       {"scale_radius", true},
+                      {"nearest_half_rays", true},
                       {"axial_hit_depth", true},
                       {"linear_hit_depth", true},
                       {"centered_search", true},
@@ -123,33 +124,35 @@ const std::vector<VariantEntry> table = {
     {
         .name = "frostbite_sssr",
         .title = "Frostbite's stochastic screen-space reflections, with ray reuse",
-        .source = "Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections, SIGGRAPH course Advances in Real-Time "
-                  "Rendering, as quoted by others; what they leave open is ours",
+        .source =
+            "Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections, SIGGRAPH course Advances in Real-Time "
+            "Rendering, as quoted by others; what they leave open is ours",
         .description =
             "Probes decide how many rays each tile gets; a hierarchical march serves smooth surfaces and linear steps "
             "rough ones; each pixel weighs its neighbours' rays by its own BRDF, takes their colours from mip levels, "
             "and blends with what it reflected in the frame before.",
         .needs = {"has_reflective", "min_roughness"},
-        .presets = {{"frostbite_2015",
-                     "the configuration whose times were published: 1 ray per half-resolution pixel, 4 taps, 0.7 of the "
-                     "lobe cut off, estimator a; where nothing was published, our defaults",
-                     nlohmann::json::object()},
-                    {"one_ray_one_tap",
-                     "the same without reuse: each pixel shows its own half-resolution pixel's ray (not published)",
-                     {{"taps", "1"}}},
-                    {"four_rays_one_tap",
-                     "the published comparison, which takes twice as long and looks worse: 4 rays per half-resolution "
-                     "pixel in place of reuse",
-                     {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
-                    {"ours",
-                     "16 taps of rays drawn from the whole lobe of visible normals, at their full density; misses see "
-                     "the environment. None of this was published",
-                     {{"lobe", "visible_normals"},
-                      {"importance_bias", 0.0},
-                      {"taps", "16"},
-                      {"pattern", "interleaved"},
-                      {"reuse_jacobian", true},
-                      {"misses", "fallback"}}}},
+        .presets =
+            {{"frostbite_2015",
+              "the configuration whose times were published: 1 ray per half-resolution pixel, 4 taps, 0.7 of the "
+              "lobe cut off, estimator a; where nothing was published, our defaults",
+              nlohmann::json::object()},
+             {"one_ray_one_tap",
+              "the same without reuse: each pixel shows its own half-resolution pixel's ray (not published)",
+              {{"taps", "1"}}},
+             {"four_rays_one_tap",
+              "the published comparison, which takes twice as long and looks worse: 4 rays per half-resolution "
+              "pixel in place of reuse",
+              {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
+             {"ours",
+              "16 taps of rays drawn from the whole lobe of visible normals, at their full density; misses see "
+              "the environment. None of this was published",
+              {{"lobe", "visible_normals"},
+               {"importance_bias", 0.0},
+               {"taps", "16"},
+               {"pattern", "interleaved"},
+               {"reuse_jacobian", true},
+               {"misses", "fallback"}}}},
         .create = create<FrostbiteSssr>,
     },
 };

@@ -76,18 +76,21 @@ TEST_F(DiligentReconstruction, LeavesMirrorsSharp) {
 }
 
 /// At half resolution, where even pixels have the ray of their 2x2, odd ones have, as in the original, that of the
-/// next.
-TEST_F(DiligentReconstruction, RoundsUpAtHalfResolution) {
-    const Reconstruction found =
-        run(reflecting_wall({.ray_extent = {16, 16},
-                             .roughness = 0,
-                             .ray = [](unsigned x, unsigned y) { return StoredRay{.radiance = glm::vec3(x, y, 0)}; }}),
-            {{"half_resolution", true}});
-    for (unsigned y = 0; y < 32; ++y)
-        for (unsigned x = 0; x < 32; ++x) {
-            EXPECT_NEAR(found.radiance.pixel(x, y)[0], float(std::min((x + 1) / 2, 15u)), 16 * float_error);
-            EXPECT_NEAR(found.radiance.pixel(x, y)[1], float(std::min((y + 1) / 2, 15u)), 16 * float_error);
-        }
+/// next; mended their own.
+TEST_F(DiligentReconstruction, RoundsUpAtHalfResolutionUnlessMended) {
+    const ReconstructionInputs inputs =
+        reflecting_wall({.ray_extent = {16, 16}, .roughness = 0, .ray = [](unsigned x, unsigned y) {
+                             return StoredRay{.radiance = glm::vec3(x, y, 0)};
+                         }});
+    for (const bool is_mended : {false, true}) {
+        const Reconstruction found = run(inputs, {{"half_resolution", true}, {"nearest_half_rays", is_mended}});
+        const auto ray_of = [&](unsigned x) { return float(is_mended ? x / 2 : std::min((x + 1) / 2, 15u)); };
+        for (unsigned y = 0; y < 32; ++y)
+            for (unsigned x = 0; x < 32; ++x) {
+                EXPECT_NEAR(found.radiance.pixel(x, y)[0], ray_of(x), 16 * float_error);
+                EXPECT_NEAR(found.radiance.pixel(x, y)[1], ray_of(y), 16 * float_error);
+            }
+    }
 }
 
 /// The nearest point of the disk counts most, the farthest least, or the other way round.

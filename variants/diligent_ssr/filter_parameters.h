@@ -52,6 +52,9 @@ struct DiligentFilterParameters {
     Switch scale_radius{params, "scale_radius", false,
         {"", "with half_resolution, a radius of as many rays; in the original of as many pixels, which is half as many rays",
          "ssrlab; an open issue of DiligentFX"}};
+    Switch nearest_half_rays{params, "nearest_half_rays", false,
+        {"", "with half_resolution, the ray of the 2x2 pixels that a point lies in; the original rounds up, so that odd "
+         "rows and columns take the next one and mirror images shift", "ssrlab"}};
     Switch axial_hit_depth{params, "axial_hit_depth", false,
         {"", "takes the mirrored point's depth along the camera's axis. The original takes its distance from the camera for "
          "it, which is too far by up to half at the corners of the screen", "ssrlab"}};

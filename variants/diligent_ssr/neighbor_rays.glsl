@@ -35,7 +35,8 @@ ivec2 clamped_to_rays(ivec2 texel) { return clamp(texel, ivec2(0), textureSize(r
 // The ray `offset` pixels away.
 ivec2 neighbor_ray(ivec2 pixel, vec2 offset) {
     vec2 corner = vec2(pixel) + offset;
-    return clamped_to_rays(ivec2(half_resolution ? 0.5 * corner + 0.5 : corner + 0.5));
+    if (!half_resolution) return clamped_to_rays(ivec2(corner + 0.5));
+    return clamped_to_rays(ivec2(0.5 * corner + (nearest_half_rays ? 0.25 : 0.5)));
 }
 
 ivec2 own_ray_of(ivec2 pixel) { return clamped_to_rays(half_resolution ? pixel / 2 : pixel); }
