@@ -4,6 +4,7 @@
 #include "tests/variants/variant_fixture.h"
 #include "variants/common/ggx_lobe.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
 // Every switch of the resolve against sums in double precision, over surfaces and rays made up at random.
@@ -12,13 +13,17 @@ namespace {
 
 constexpr glm::uvec2 extent{47, 30};
 
+/// Of the camera: no row or column stands in for another.
+const glm::mat3 world_from_view = glm::mat3(glm::rotate(glm::mat4(1), 0.6f, glm::vec3(0.5f, 1, 0.3f)));
+
 /// Hills whose normals are not those of their shape, with pieces of sky.
 SyntheticHit hills(const CameraRay& ray) {
-    const glm::vec2 at = glm::vec2(ray.direction) / -ray.direction.z;
+    const glm::vec3 direction = transpose(world_from_view) * ray.direction;
+    const glm::vec2 at = glm::vec2(direction) / -direction.z;
     if (at.y > 0.45f) return {};
     const glm::vec3 normal(0.4f * std::sin(7 * at.x), 0.4f * std::cos(9 * at.y), 1);
     return {.distance = 5 + std::sin(3 * at.x) + std::cos(5 * at.y),
-            .normal = normalize(normal),
+            .normal = world_from_view * normalize(normal),
             .roughness = 0.45f + 0.2f * std::sin(11 * at.x + 5 * at.y),
             .metalness = 0.5f + 0.5f * std::sin(4 * at.x),
             .specular = 0.8f};
@@ -38,7 +43,7 @@ HostImage gradient_image() {
 
 struct FrostbiteResolve : VariantTest {
     std::mt19937 random{4};
-    const CameraPose pose{.vertical_fov = 1};
+    const CameraPose pose{.world_from_view = glm::mat4(world_from_view), .vertical_fov = 1};
     const FrameView view{.extent = extent, .jitter = {0.3f, -0.2f}, .previous_jitter = {-0.1f, 0.4f}};
     const Environment environment{.type = Environment::Type::gradient,
                                   .color = {1, 1.5f, 2},
@@ -127,13 +132,14 @@ struct FrostbiteResolve : VariantTest {
                 close_calls += expected.is_close_call;
                 if (expected.is_close_call) continue;
                 ++compared;
-                // Re-aimed over half a metre, positions at six metres turn a direction by 1e-6; the lobes turn that
-                // into 1e-4 of a weight. Filtering rounds places between texels to 1 / 256: 1e-4 of the gradient.
-                const double tolerance = 2e-3 * (1 + length(expected.radiance));
+                // Positions at six metres and normals are known to 3e-7 of them: 1e-5 of a direction re-aimed over half
+                // a metre, which the narrowest lobe (alpha 0.06) turns into 1e-3 of a weight. Filtering rounds places
+                // between texels to 1 / 256: 1e-4 of the gradient.
+                const double tolerance = 3e-3 * (1 + length(expected.radiance));
                 for (int c = 0; c < 3; ++c)
                     ASSERT_NEAR(pixel[c], expected.radiance[c], tolerance) << x << ", " << y << " of " << parameters;
-                ASSERT_NEAR(pixel.w, expected.confidence, 1e-3) << x << ", " << y << " of " << parameters;
-                ASSERT_NEAR(*found.length.pixel(x, y), expected.length, 1e-3 * (1 + expected.length))
+                ASSERT_NEAR(pixel.w, expected.confidence, 3e-3) << x << ", " << y << " of " << parameters;
+                ASSERT_NEAR(*found.length.pixel(x, y), expected.length, 3e-3 * (1 + expected.length))
                     << x << ", " << y << " of " << parameters;
             }
         EXPECT_GT(compared, 500u) << parameters;

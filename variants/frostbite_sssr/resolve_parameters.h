@@ -19,11 +19,13 @@ struct FrostbiteResolveParameters {
 
     // Reuse of neighbours' rays.
     Choice taps{params, "taps", "4", {"1", "4", "16"},
-        {"", "traced pixels whose rays a pixel resolves; 1: its own", "slides: 4 and 1; Stachowiak 2018: 16"}};
+        {"", "traced pixels whose rays a pixel resolves, all of each; 1: its own, whatever the pattern. Those that the "
+         "border or rounding brings together count once", "slides: 4 and 1; Stachowiak 2018: 16"}};
     Choice pattern{params, "pattern", "rotated", {"rotated", "quad_shared", "interleaved"},
-        {"", "which neighbours. rotated: a spread pattern turned per pixel and frame; quad_shared: 2x2 pixels resolve the "
-         "same rays; interleaved: four pixels of a 4x4 block, two pixels apart, resolve the same rays",
-         "slides describe the sharing; offsets and phases are ours"}};
+        {"", "which neighbours. rotated: points of a disk, turned per pixel and frame; quad_shared: 2x2 pixels fetch the "
+         "same rays together; interleaved: four pixels of a 4x4 block, two pixels apart, do, and the blocks move every "
+         "frame. Colours are read by each pixel, as wide as its own lobe", "slides describe the sharing, which is of "
+         "colours, too; offsets and phases are ours"}};
     Choice neighbor_ray{params, "neighbor_ray", "hit_point", {"hit_point", "direction"},
         {"", "how a neighbour's ray is seen from the pixel that reuses it: aimed at the point that it hit, or in its own "
          "direction", "slides: hit_point"}};
@@ -31,7 +33,8 @@ struct FrostbiteResolveParameters {
         {"", "with hit_point, converts the neighbour's density to the pixel's solid angle", "ssrlab; the slides ignore it"}};
     Choice estimator{params, "estimator", "a", {"a", "b", "c"},
         {"", "a: sum L f / p over sum f / p, times the integral of f; b: sum L f / p over sum q / p; c: as a with q in "
-         "place of f. f is the pixel's BRDF times cosine, q its own density of directions, p the ray's",
+         "place of f. f is the pixel's BRDF times cosine, q its own density of directions, p the ray's. Draws below the "
+         "horizon count in b's second sum: exactly without max_regenerations, else as if all were the pixel's own",
          "a: slides; b: Stachowiak's kajiya; c: Blender's EEVEE"}};
     Choice misses{params, "misses", "weight", {"weight", "fallback"},
         {"", "what a ray without a hit contributes. weight: only less confidence; fallback: the environment in its "
@@ -41,7 +44,8 @@ struct FrostbiteResolveParameters {
     Switch temporal_filter{params, "temporal_filter", true, {"", "blends with history", "slides"}};
     Param<float> history_weight{params, "history_weight", 0.9f, {0.0f, 1.0f}, {"", "share of history", "ssrlab"}};
     Choice reflection_depth{params, "reflection_depth", "average", {"average", "min", "max"},
-        {"", "length that the resolved rays are given for reprojection", "slides: average; others: EEVEE, Wicked Engine"}};
+        {"", "length that the resolved rays are given for reprojection; min and max are of rays that the pixel is at least "
+         "a thousandth as likely to draw as their own", "slides: average; min: EEVEE; max and the limit: Wicked Engine"}};
     Switch reject_without_hits{params, "reject_without_hits", false,
         {"", "a pixel of which no ray hit anything forgets its history; otherwise it is blended with it as any other, "
          "and fades. Not with misses = fallback, which always see something", "ssrlab"}};
