@@ -38,23 +38,26 @@ Place reflection_before(ivec2 pixel, float ray_length) {
     return mirror_image_before(pixel, ray_length);
 }
 
-// World space.
+// As the previous camera would see it: positions and the geometric normal in its view space, the shading normal in world
+// space.
 struct Reflector {
-    vec3 position, geometric_normal, normal;
+    vec3 position, geometric_normal, ws_normal;
     float roughness, view_depth;
 };
 
 Reflector reflector_at(ivec2 pixel) {
     vec3 position = view_position(pixel);
     vec4 normal_roughness = texelFetch(normal, pixel, 0);
-    return Reflector((camera.world_from_view * vec4(position, 1.0)).xyz, texelFetch(geometric_normal, pixel, 0).xyz,
+    vec4 ws_position = camera.world_from_view * vec4(position, 1.0);
+    return Reflector((camera.previous_view_from_world * ws_position).xyz,
+                     mat3(camera.previous_view_from_world) * texelFetch(geometric_normal, pixel, 0).xyz,
                      normal_roughness.xyz, normal_roughness.w, -position.z);
 }
 
 vec3 position_before(ivec2 texel, float device_depth) {
     vec2 uv = (vec2(texel) + 0.5 + camera.jitter.zw) * camera.extent.zw;
     vec4 view = camera.previous_view_from_clip * vec4(uv * 2.0 - 1.0, device_depth, 1.0);
-    return (camera.previous_world_from_view * (view / view.w)).xyz;
+    return view.xyz / view.w;
 }
 
 // Whether the texel showed the same plane as rough as now; one that moved has its mirror image elsewhere. The limits are
@@ -64,7 +67,7 @@ bool is_same_reflector(Reflector now, ivec2 texel) {
     if (is_background(device_depth)) return false;
     vec4 before = texelFetch(previous_normal, texel, 0);
     float off_plane = dot(position_before(texel, device_depth) - now.position, now.geometric_normal);
-    return abs(off_plane) <= 0.01 * now.view_depth && dot(before.xyz, now.normal) >= 0.9 &&
+    return abs(off_plane) <= 0.01 * now.view_depth && dot(before.xyz, now.ws_normal) >= 0.9 &&
            abs(before.w - now.roughness) <= 0.1;
 }
 

@@ -1,0 +1,60 @@
+#include "tests/variants/frostbite_filter_bench.h"
+
+FrostbiteFilterBench::FrostbiteFilterBench(Device& device, const FrameView& view, const nlohmann::json& overrides)
+    : view(view), graph(device, view.extent) {
+    parameters.params.assign(overrides);
+}
+
+GBuffer FrostbiteFilterBench::upload(const CameraPose& pose, const SyntheticScene& scene) {
+    camera_ = camera_data(pose, view.frame > 0 ? &pose_before_ : nullptr, view);
+    GBuffer gbuffer = upload_gbuffer(graph, pose, camera_, scene);
+    const HostImage depth = graph.download(gbuffer.depth), normal = graph.download(gbuffer.normal);
+    HostImage motion(view.extent, 2);
+    if (view.frame > 0) {
+        gbuffer.previous_depth = graph.image("previous_depth", Format::r32f);
+        gbuffer.previous_normal = graph.image("previous_normal", Format::rgba32f);
+        graph.upload(gbuffer.previous_depth, depth_before_);
+        graph.upload(gbuffer.previous_normal, normal_before_);
+        for (unsigned y = 0; y < view.extent.y; ++y)
+            for (unsigned x = 0; x < view.extent.x; ++x) {
+                const glm::vec2 sample = glm::vec2(x, y) + 0.5f + view.jitter;
+                const CameraRay ray = camera_ray(pose, view.extent, sample);
+                const float distance = scene(ray).distance;
+                if (std::isinf(distance)) continue;
+                const glm::vec4 clip =
+                    camera_.previous_clip_from_world * glm::vec4(ray.origin + distance * ray.direction, 1);
+                const glm::vec2 before = glm::vec2(clip) / clip.w * 0.5f + 0.5f;
+                for (int i = 0; i < 2; ++i) motion.pixel(x, y)[i] = sample[i] / float(view.extent[i]) - before[i];
+            }
+        graph.upload(gbuffer.motion, motion);
+    }
+    pose_before_ = pose;
+    depth_before_ = depth;
+    normal_before_ = normal;
+    return gbuffer;
+}
+
+HostImage FrostbiteFilterBench::next(
+    const CameraPose& pose, const SyntheticScene& scene,
+    const std::function<ResolvedPixel(glm::uvec2 pixel, const CameraRay& ray)>& resolved) {
+    const GBuffer gbuffer = upload(pose, scene);
+    HostImage radiance(view.extent, 4), ray_length(view.extent, 1);
+    for (unsigned y = 0; y < view.extent.y; ++y)
+        for (unsigned x = 0; x < view.extent.x; ++x) {
+            const ResolvedPixel pixel =
+                resolved({x, y}, camera_ray(pose, view.extent, glm::vec2(x, y) + 0.5f + view.jitter));
+            for (int i = 0; i < 3; ++i) radiance.pixel(x, y)[i] = pixel.radiance[i];
+            radiance.pixel(x, y)[3] = pixel.confidence;
+            *ray_length.pixel(x, y) = pixel.ray_length;
+        }
+    const FrostbiteResolved images{graph.image("resolved_radiance", Format::rgba32f),
+                                   graph.image("resolved_length", Format::r32f)};
+    graph.upload(images.radiance, radiance);
+    graph.upload(images.reflection_depth, ray_length);
+    graph.begin_frame(camera_, parameters.params, gbuffer.images());
+    const Image reflections =
+        frostbite_accumulate(graph, gbuffer, split_sum_.on(graph), images, parameters.resolve);
+    ++view.frame;
+    view.previous_jitter = view.jitter;
+    return graph.download(reflections);
+}
