@@ -1,6 +1,6 @@
 #include "variants/common/ggx_lobe.h"
-#include "tests/variants/variant_fixture.h"
 
+#include <gtest/gtest.h>
 #include <random>
 
 // Truncated lobes: what is drawn against densities written down here once more, in double precision.
