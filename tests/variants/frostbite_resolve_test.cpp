@@ -216,4 +216,65 @@ TEST_F(FrostbiteResolve, AppliesTheReflectanceBeforeOrAfterTheFilter) {
     }
 }
 
+/// Their lobes are narrow, not infinitely so: neighbours' rays weigh in, but next to nothing.
+TEST_F(FrostbiteResolve, MirrorsShowTheirOwnRay) {
+    const SyntheticScene mirror = [](const CameraRay& ray) {
+        SyntheticHit hit = hills(ray);
+        hit.normal = normalize(world_from_view * glm::vec3(0, 0.3f, 1));
+        hit.roughness = 0;
+        return hit;
+    };
+    for (const char* estimator : {"a", "b", "c"}) {
+        FrostbiteBench bench(device(), pose, view, mirror,
+                             {{"half_resolution", false}, {"estimator", estimator}, {"previous_frame", false}});
+        const glm::mat3 view_from_world = glm::mat3(bench.camera.view_from_world);
+        HostImage color(extent, 4);
+        std::vector<StoredRay> rays(color.pixel_count());
+        for (unsigned i = 0; i < rays.size(); ++i) {
+            const glm::vec2 screen = glm::vec2(i % extent.x, i / extent.x) + 0.5f + view.jitter;
+            const CameraRay ray = camera_ray(pose, extent, screen);
+            const glm::vec3 n = view_from_world * mirror(ray).normal;
+            const glm::mat3 view_from_local = basis_from_normal(n);
+            const LobeSample drawn = sample_lobe(lobe_of_normals, -(view_from_world * ray.direction) * view_from_local,
+                                                 ggx_alpha(0), 0.7f, {uniform(), uniform()});
+            rays[i] = {.direction = view_from_local * drawn.direction,
+                       .inverse_density = drawn.inverse_density,
+                       .target = i % extent.x | i / extent.x << 16,
+                       .length = 3 + uniform()};
+            color.set_rgb(i, {uniform(), 1, 1});
+        }
+        const HostImage found = bench.resolve(rays, color).radiance;
+        unsigned own = 0, mirrors = 0;
+        for (size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_TRUE(std::isfinite(found.values[4 * i]) && std::isfinite(found.values[4 * i + 3])) << i;
+            if (found.values[4 * i + 3] == 0) continue;
+            ++mirrors;
+            own += std::abs(found.values[4 * i] - color.values[4 * i]) < 0.02f;
+        }
+        EXPECT_GT(mirrors, 500u);
+        EXPECT_GT(own, mirrors * 9 / 10) << estimator;
+    }
+}
+
+TEST_F(FrostbiteResolve, LeavesPixelsWithoutRaysToTheFallback) {
+    for (const char* estimator : {"a", "b", "c"})
+        for (const bool are_below_horizon : {false, true}) {
+            FrostbiteBench bench(device(), pose, view, hills, {{"estimator", estimator}});
+            const glm::uvec2 traced = bench.traced_extent();
+            std::vector<StoredRay> rays(size_t(traced.x) * traced.y);
+            for (StoredRay& ray : rays)
+                if (are_below_horizon) ray = {{0, 0.2f, -0.98f}, 1, ray_below_horizon};
+            const ResolvedFrame found = bench.resolve(rays, gradient_image());
+            for (size_t i = 0; i < found.length.pixel_count(); ++i) {
+                EXPECT_EQ(found.radiance.rgb(i), glm::vec3(0));
+                EXPECT_EQ(found.length.values[i], 0);
+                // In b such draws are known to bring nothing.
+                const bool is_known = are_below_horizon && estimator == std::string("b");
+                if (!is_known) {
+                    EXPECT_EQ(found.radiance.values[4 * i + 3], 0);
+                }
+            }
+        }
+}
+
 }  // namespace
