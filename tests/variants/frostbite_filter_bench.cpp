@@ -52,8 +52,7 @@ HostImage FrostbiteFilterBench::next(
     graph.upload(images.radiance, radiance);
     graph.upload(images.reflection_depth, ray_length);
     graph.begin_frame(camera_, parameters.params, gbuffer.images());
-    const Image reflections =
-        frostbite_accumulate(graph, gbuffer, split_sum_.on(graph), images, parameters.resolve);
+    const Image reflections = frostbite_accumulate(graph, gbuffer, split_sum_.on(graph), images, parameters.resolve);
     ++view.frame;
     view.previous_jitter = view.jitter;
     return graph.download(reflections);

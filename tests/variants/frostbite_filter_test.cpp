@@ -61,7 +61,8 @@ TEST_F(FrostbiteFilterTest, SwitchedOffOrInTheFirstFramePassesThrough) {
         return ResolvedPixel{.radiance = glm::vec3(float(pixel.x % 3), 1, float(pixel.y)), .ray_length = 2};
     };
     const auto black = [](glm::uvec2, const CameraRay&) { return ResolvedPixel{}; };
-    FrostbiteFilterBench on(device(), view, nlohmann::json::object()), off(device(), view, {{"temporal_filter", false}});
+    FrostbiteFilterBench on(device(), view, nlohmann::json::object()),
+        off(device(), view, {{"temporal_filter", false}});
     off.next(pose, wall_of_mirror, black);
     const HostImage first = on.next(pose, wall_of_mirror, checker), second = off.next(pose, wall_of_mirror, checker);
     EXPECT_EQ(first.values, second.values);
@@ -94,7 +95,8 @@ TEST_F(FrostbiteFilterTest, DividesByReflectanceWhereItWasMultipliedBefore) {
 
 /// What the mirror floor shows at a pixel: a point of the wall plane z = -6.
 glm::vec3 mirrored_point(const CameraRay& ray) {
-    const glm::vec3 p = ray.origin + mirror_floor(ray).distance * ray.direction, d = ray.direction * glm::vec3(1, -1, 1);
+    const glm::vec3 p = ray.origin + mirror_floor(ray).distance * ray.direction,
+                    d = ray.direction * glm::vec3(1, -1, 1);
     return p + (-6 - p.z) / d.z * d;
 }
 
@@ -188,7 +190,9 @@ TEST_F(FrostbiteReprojectionTest, FollowsTheEnvironmentAtInfinity) {
     CameraPose before = pose;
     before.world_from_view = glm::translate(glm::mat4(1), glm::vec3(0.5f, 0.2f, 0)) *
                              glm::rotate(glm::mat4(1), 0.05f, glm::vec3(0, 1, 0.2f));
-    const auto direction = [](glm::uvec2, const CameraRay& ray) { return ResolvedPixel{.radiance = ray.direction + 2.0f}; };
+    const auto direction = [](glm::uvec2, const CameraRay& ray) {
+        return ResolvedPixel{.radiance = ray.direction + 2.0f};
+    };
     bench.next(before, mirror_floor, direction);
     const HostImage found =
         bench.next(pose, mirror_floor, [](glm::uvec2, const CameraRay&) { return ResolvedPixel{}; });
@@ -216,9 +220,8 @@ struct FrostbiteLostHistoryTest : FrostbiteFilterTest {
         bench.next(before, scene_before, [](glm::uvec2, const CameraRay&) {
             return ResolvedPixel{.radiance = glm::vec3(1), .ray_length = 1};
         });
-        const HostImage found = bench.next(pose, scene, [&](glm::uvec2, const CameraRay&) {
-            return ResolvedPixel{.ray_length = ray_length};
-        });
+        const HostImage found = bench.next(
+            pose, scene, [&](glm::uvec2, const CameraRay&) { return ResolvedPixel{.ray_length = ray_length}; });
         float sum = 0, count = 0;
         for (unsigned y = 0; y < view.extent.y; ++y)
             for (unsigned x = 0; x < view.extent.x; ++x) {
@@ -256,7 +259,8 @@ TEST_F(FrostbiteLostHistoryTest, OfOtherSurfaces) {
 TEST_F(FrostbiteLostHistoryTest, WhereAPostStoodBefore) {
     const auto with_post = [](const CameraRay& ray) {
         const float x = -2 * ray.direction.x / ray.direction.z;
-        return std::abs(x) < 0.5f ? SyntheticHit{.distance = -2 / ray.direction.z, .normal = {0, 0, 1}} : wall_of_mirror(ray);
+        return std::abs(x) < 0.5f ? SyntheticHit{.distance = -2 / ray.direction.z, .normal = {0, 0, 1}}
+                                  : wall_of_mirror(ray);
     };
     double covered = 0;
     for (unsigned x = 0; x < view.extent.x; ++x) covered += with_post(ray_of(pose, x, 0)).metalness == 0;
@@ -280,8 +284,9 @@ TEST_F(FrostbiteLostHistoryTest, OutsideThePreviousScreenOrBehindIt) {
 /// It fades by the weight of history where it was, or is forgotten at once.
 TEST_F(FrostbiteLostHistoryTest, WithoutHitsItFadesOrIsRejected) {
     for (const bool is_rejected : {false, true}) {
-        FrostbiteFilterBench bench(device(), view,
-                                   {{"history_weight", 0.75}, {"neighborhood_clamp", false}, {"reject_without_hits", is_rejected}});
+        FrostbiteFilterBench bench(
+            device(), view,
+            {{"history_weight", 0.75}, {"neighborhood_clamp", false}, {"reject_without_hits", is_rejected}});
         bench.next(pose, wall_of_mirror, [](glm::uvec2, const CameraRay&) {
             return ResolvedPixel{.radiance = glm::vec3(5), .confidence = 1, .ray_length = 2};
         });
