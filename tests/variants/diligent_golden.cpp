@@ -70,6 +70,7 @@ nlohmann::json diligent_golden_parameters(const std::string& set, const std::str
 nlohmann::json diligent_sequence_parameters(const std::string& sequence) {
     const nlohmann::json meta = golden_meta(sequence);
     nlohmann::json parameters = our_names(meta["parameters"], sequence);
+    parameters["start_from_black"] = true;
     parameters["temporal_variance_stability_factor"] = meta["TemporalVarianceStabilityFactor"];
     parameters["spatial_reconstruction_radius"] = meta["SpatialReconstructionRadius"];
     parameters["bilateral_cleanup_spatial_sigma_factor"] = meta["BilateralCleanupSpatialSigmaFactor"];

@@ -43,6 +43,11 @@ struct DiligentFilterParameters {
         {"", "how history that moved behind something is looked for nearby. camera_depth: by distances from the camera "
          "plane, among single texels; device_depth: by filtered values of the depth buffer", "DiligentFX; device_depth in 2024"}};
 
+    Switch start_from_black{params, "start_from_black", false,
+        {"", "the first frame blends with black histories, as in an application whose previous depth is then the frame's "
+         "own; with the default weight of history that black fades in hundreds of frames only. Otherwise the first frame "
+         "has no history, as where the previous depth is cleared", "DiligentFX leaves it to the application"}};
+
     // Corrections.
     Switch rotate_kernel{params, "rotate_kernel", true,
         {"", "turns the disk of neighbours from frame to frame. The original's code does, but its applications seldom set "

@@ -40,12 +40,20 @@ Receiver receiver_at(ivec2 pixel) {
     return receiver;
 }
 
+// smith_visibility() with the original's floor under each root, without which perfect mirrors have no number at grazing.
+float floored_visibility(float mu_camera, float mu_light, float alpha) {
+    float a2 = alpha * alpha;
+    float root_camera = sqrt(max(mu_camera * mu_camera * (1.0 - a2) + a2, 1e-7));
+    float root_light = sqrt(max(mu_light * mu_light * (1.0 - a2) + a2, 1e-7));
+    return 0.5 / (mu_light * root_camera + mu_camera * root_light);
+}
+
 // Lobe times cosine, without Fresnel, in the unit direction.
 float lobe(Receiver receiver, vec3 ws_direction) {
     float mu_light = clamp(dot(receiver.ws_normal, ws_direction), 0.0, 1.0);
     vec3 ws_half = normalize(receiver.ws_to_camera + ws_direction);
     float mu_half = clamp(dot(receiver.ws_normal, ws_half), 0.0, 1.0);
-    return smith_visibility(receiver.mu_camera, mu_light, receiver.alpha) *
+    return floored_visibility(receiver.mu_camera, mu_light, receiver.alpha) *
            floored_distribution(mu_half, receiver.alpha) * mu_light;
 }
 

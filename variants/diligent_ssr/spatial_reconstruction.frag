@@ -2,13 +2,11 @@
 #include "diligent_ssr/luminance.glsl"
 #include "diligent_ssr/neighbor_rays.glsl"
 #include "diligent_ssr/reuse.glsl"
+#include "diligent_ssr/unknown_variance.glsl"
 
 layout(location = 0) out vec4 resolved_radiance;
 layout(location = 1) out float resolved_variance;
 layout(location = 2) out float hit_depth;
-
-// Where history is missing, too, the original takes a variance of 1: as much as there can be.
-const float unknown_variance = 1.0;
 
 // Weighted mean and variance, one ray after the other (West 1979, "Updating Mean and Variance Estimates").
 struct Reuse {

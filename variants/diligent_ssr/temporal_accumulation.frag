@@ -2,6 +2,7 @@
 // mirror image was.
 #include "diligent_ssr/history_search.glsl"
 #include "diligent_ssr/luminance.glsl"
+#include "diligent_ssr/unknown_variance.glsl"
 
 layout(location = 0) out vec4 accumulated_radiance;
 layout(location = 1) out float accumulated_variance;
@@ -9,7 +10,6 @@ layout(location = 1) out float accumulated_variance;
 uniform sampler2D motion, reprojected_depth, resolved_radiance, resolved_variance, hit_depth;
 
 const float box_deviations = 2.5;  // half the extent of the box that history is clamped to
-const float unknown_variance = 1.0;
 
 struct Neighborhood {
     vec4 mean, deviation;
@@ -78,7 +78,8 @@ void main() {
     Neighborhood neighborhood = neighborhood_of(pixel);
     History history = history_near(position_before(pixel, neighborhood),
                                    camera_depth(texelFetch(reprojected_depth, pixel, 0).r));
-    if (!history.is_found) {
+    bool is_first_frame = camera.frame.w == 0u;
+    if (!history.is_found || (is_first_frame && !start_from_black)) {
         accumulated_variance = unknown_variance;
         return;
     }
