@@ -93,6 +93,38 @@ TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
     EXPECT_GT(changes, 20u);
 }
 
+/// The issue's question: every combination, on the same seeds.
+TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndFilter) {
+    const Config config = read_config(source / "experiments/configs/frostbite.json");
+    std::set<std::string> scenes;
+    for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
+    EXPECT_EQ(scenes, (std::set<std::string>{"roughness_gradient", "contact_hardening", "glossy_stretch", "firefly",
+                                             "metal_corner"}));
+    std::set<std::string> combinations;
+    for (const VariantConfig& variant : config.variants) {
+        if (variant.variant != "frostbite_sssr") continue;
+        EXPECT_EQ(variant.seeds.size(), 8u);
+        const nlohmann::json& p = variant.parameters;
+        if (!variant.is_baseline)
+            combinations.insert(nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"],
+                                               p["filtered_sampling"]}
+                                    .dump());
+    }
+    EXPECT_EQ(combinations.size(), 3u * 3 * 2 * 2 * 2);
+}
+
+/// Every switch and choice of the technique, alone.
+TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
+    const Config config = read_config(source / "experiments/configs/frostbite_whole.json");
+    std::set<std::string> changed;
+    for (const VariantConfig& variant : config.variants)
+        for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
+    for (const Parameter& parameter : make_variant("frostbite_sssr")->params)
+        if (parameter.glsl_type == "bool" || !parameter.choices.empty()) {
+            EXPECT_TRUE(changed.contains(parameter.name)) << parameter.name;
+        }
+}
+
 TEST(Configs, EachChangesOneParameterAtATime) {
     const fs::path file = fs::path(testing::TempDir()) / "each.json";
     write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [
