@@ -72,7 +72,8 @@ TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
 
 TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
     std::set<std::string> scenes, points;
-    for (const char* file : {"experiments/configs/diligent.json", "experiments/configs/diligent_stress.json"}) {
+    for (const char* file :
+         {"experiments/configs/diligent.json", "experiments/configs/diligent_half_resolution.json"}) {
         const Config config = read_config(source / file);
         for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
         for (const VariantConfig& variant : config.variants) points.insert(variant.point);
@@ -106,9 +107,9 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndFilter) {
         EXPECT_EQ(variant.seeds.size(), 8u);
         const nlohmann::json& p = variant.parameters;
         if (!variant.is_baseline)
-            combinations.insert(nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"],
-                                               p["filtered_sampling"]}
-                                    .dump());
+            combinations.insert(
+                nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"], p["filtered_sampling"]}
+                    .dump());
     }
     EXPECT_EQ(combinations.size(), 3u * 3 * 2 * 2 * 2);
 }
@@ -119,7 +120,8 @@ TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
     std::set<std::string> changed;
     for (const VariantConfig& variant : config.variants)
         for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
-    for (const Parameter& parameter : make_variant("frostbite_sssr")->params)
+    const std::unique_ptr<Variant> variant = make_variant("frostbite_sssr");
+    for (const Parameter& parameter : variant->params)
         if (parameter.glsl_type == "bool" || !parameter.choices.empty()) {
             EXPECT_TRUE(changed.contains(parameter.name)) << parameter.name;
         }
