@@ -33,6 +33,7 @@ std::vector<PassTime> run(PassGraph& graph, Variant& variant, const GBuffer& gbu
                           unsigned index) {
     camera.frame = {index, 0, 0, index > 0 ? 1 : 0};
     graph.begin_frame(camera, variant.params, gbuffer.images());
+    const LimitScope limits(graph, variant.limits);
     variant.render(graph, gbuffer);
     return graph.times();
 }
@@ -72,6 +73,7 @@ void at_both_sizes(benchmark::internal::Benchmark* registered) {
 
 // AMD's default threshold, alpha < 0.2.
 const nlohmann::json full = {{"roughness_threshold", 0.447}},
+                     views = {{"roughness_threshold", 0.447}, {"hierarchy", "mip_views"}},
                      half = {{"roughness_threshold", 0.447}, {"half_resolution", true}},
                      as_is = nlohmann::json::object();
 
@@ -80,6 +82,7 @@ const nlohmann::json full = {{"roughness_threshold", 0.447}},
 BENCHMARK_CAPTURE(frames, amd_repeatable, "amd_sssr", "repeatable", as_is)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_documented, "diligent_ssr", "documented", full)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_current, "diligent_ssr", "current", full)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(frames, diligent_current_mip_views, "diligent_ssr", "current", views)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_current_half, "diligent_ssr", "current", half)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_corrected, "diligent_ssr", "corrected", full)->Apply(at_both_sizes);
 
