@@ -16,7 +16,7 @@ const int pixel_of_block[16] = int[16](0, 1, 2, 3, 3, 2, 1, 0, 1, 0, 3, 2, 2, 3,
 ivec2 pixel_of_ray(ivec2 ray) {
     if (!half_resolution) return ray;
     int place = pixel_of_block[4 * (ray.x & 3) + (ray.y & 3)];
-    return 2 * ray + ivec2(place & 1, place >> 1);
+    return min(2 * ray + ivec2(place & 1, place >> 1), ivec2(camera.extent.xy) - 1);
 }
 
 vec3 color_at(vec2 uv) {
