@@ -16,8 +16,11 @@ struct ReusedRay {
 // Where the lit image shows what `pixel` shows: as `motion` is without jitter, both frames' are added.
 vec2 color_uv_of(ivec2 pixel) {
     vec2 uv = (vec2(pixel) + 0.5) * camera.extent.zw;
-    if (!previous_frame || camera.frame.w == 0u) return uv;
-    return uv - texelFetch(motion, pixel, 0).xy + (camera.jitter.xy - camera.jitter.zw) * camera.extent.zw;
+    if (!previous_frame) return uv;
+    vec2 moved = texelFetch(motion, pixel, 0).xy - (camera.jitter.xy - camera.jitter.zw) * camera.extent.zw;
+    // No branch on whether there is a previous frame: for such a branch lavapipe 22.3 compiles the shader anew at every
+    // dispatch, and never frees it.
+    return uv - float(camera.frame.w) * moved;
 }
 
 ReusedRay reused_ray(vec3 origin, TracedRay traced) {
