@@ -6,6 +6,44 @@
 
 #include <gtest/gtest.h>
 
+namespace {
+
+/// Confidence in an image of its own, or in the alpha channel of the radiance, whose other channels hold numbers that
+/// would do for a confidence.
+void expect_composite_of_the_cpu(Rasterizer& rasterizer, const GBuffer& gbuffer, bool is_in_alpha) {
+    PassGraph& graph = rasterizer.graph();
+    HostImage radiance(graph.extent(), 4), confidence(graph.extent(), 1);
+    for (size_t i = 0; i < radiance.pixel_count(); ++i) {
+        radiance.set_rgb(i, glm::vec3(i % 7, i % 5, i % 3));
+        radiance.values[4 * i + 3] = confidence.values[i] = (i % 11) / 10.0f;
+    }
+    Reflections reflections{graph.image("some_radiance", Format::rgba32f),
+                            graph.image("some_confidence", Format::r32f)};
+    graph.upload(reflections.radiance, radiance);
+    graph.upload(reflections.confidence, confidence);
+    if (is_in_alpha) reflections = {reflections.radiance, reflections.radiance, 3};
+    Compositor compositor(graph);
+    const Composite result = compositor.render(gbuffer, reflections);
+    const HostImage specular = graph.download(result.specular), image = graph.download(result.image);
+    const HostGBuffer g = download_gbuffer(graph, gbuffer, rasterizer.camera(), DepthFormat::d32f);
+    const HostComposite expected = composite(g, radiance, confidence);
+    double largest = 0;
+    for (size_t i = 0; i < specular.pixel_count(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            // Float32 on both sides; the split sum's slope at grazing multiplies the rounding of the cosine.
+            ASSERT_NEAR(specular.rgb(i)[c], expected.specular.rgb(i)[c], 1e-4f);
+            ASSERT_NEAR(image.rgb(i)[c], expected.image.rgb(i)[c], 1e-4f);
+            largest = std::max<double>(largest, specular.rgb(i)[c]);
+            if (g.material_id.values[i] == 0) {
+                ASSERT_EQ(specular.rgb(i)[c], 0.0f);
+                ASSERT_EQ(image.rgb(i)[c], g.lit.rgb(i)[c]);
+            }
+        }
+    EXPECT_GT(largest, 1.0);
+}
+
+}  // namespace
+
 TEST(composite, on_the_gpu_is_the_formula_on_the_cpu) {
     const Scene scene = varied_scene();
     const glm::uvec2 extent(101, 67);
@@ -15,34 +53,10 @@ TEST(composite, on_the_gpu_is_the_formula_on_the_cpu) {
     for (const char* name : {"main", "orthographic"}) {
         const GBuffer gbuffer = rasterizer.render(scene.camera(name), view);
         rasterizer.light_directly(gbuffer);
-        HostImage radiance(extent, 4), confidence(extent, 1);
-        for (size_t i = 0; i < radiance.pixel_count(); ++i) {
-            radiance.set_rgb(i, glm::vec3(i % 7, i % 5, i % 3));
-            confidence.values[i] = (i % 11) / 10.0f;
+        for (const bool is_in_alpha : {false, true}) {
+            SCOPED_TRACE(testing::Message() << name << ", confidence in alpha " << is_in_alpha);
+            expect_composite_of_the_cpu(rasterizer, gbuffer, is_in_alpha);
         }
-        PassGraph& graph = rasterizer.graph();
-        const Reflections reflections{graph.image("some_radiance", Format::rgba32f),
-                                      graph.image("some_confidence", Format::r32f)};
-        graph.upload(reflections.radiance, radiance);
-        graph.upload(reflections.confidence, confidence);
-        Compositor compositor(graph);
-        const Composite result = compositor.render(gbuffer, reflections);
-        const HostImage specular = graph.download(result.specular), image = graph.download(result.image);
-        const HostGBuffer g = download_gbuffer(graph, gbuffer, rasterizer.camera(), DepthFormat::d32f);
-        const HostComposite expected = composite(g, radiance, confidence);
-        double largest = 0;
-        for (size_t i = 0; i < specular.pixel_count(); ++i)
-            for (int c = 0; c < 3; ++c) {
-                // Float32 on both sides; the split sum's slope at grazing multiplies the rounding of the cosine.
-                ASSERT_NEAR(specular.rgb(i)[c], expected.specular.rgb(i)[c], 1e-4f);
-                ASSERT_NEAR(image.rgb(i)[c], expected.image.rgb(i)[c], 1e-4f);
-                largest = std::max<double>(largest, specular.rgb(i)[c]);
-                if (g.material_id.values[i] == 0) {
-                    ASSERT_EQ(specular.rgb(i)[c], 0.0f);
-                    ASSERT_EQ(image.rgb(i)[c], g.lit.rgb(i)[c]);
-                }
-            }
-        EXPECT_GT(largest, 1.0);
     }
 }
 
