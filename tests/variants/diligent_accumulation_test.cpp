@@ -1,94 +1,10 @@
-// DiligentFX's temporal accumulation against closed forms. Histories are ramps, so that the variance that a pixel takes
-// over tells where it was taken from.
-#include "core/scene/camera.h"
-#include "tests/variants/accumulation_bench.h"
-#include "tests/variants/variant_fixture.h"
+// DiligentFX's temporal accumulation against closed forms: what becomes of history, and where the surface or its mirror
+// image was. diligent_history_search_test.cpp asks what happens where something else was.
+#include "tests/variants/accumulation_scene.h"
 
-#include <cmath>
+using namespace accumulation_scene;
 
 namespace {
-
-using Overrides = nlohmann::json;
-
-constexpr glm::uvec2 extent{48, 32};
-const float surface_distance = 5, point_distance = 10;  // m
-const glm::uvec2 middle{24, 16};
-
-HostImage image_of(unsigned channels, const std::function<glm::vec4(unsigned x, unsigned y)>& value) {
-    HostImage image(extent, channels);
-    for (unsigned y = 0; y < extent.y; ++y)
-        for (unsigned x = 0; x < extent.x; ++x)
-            for (unsigned c = 0; c < channels; ++c) image.pixel(x, y)[c] = value(x, y)[int(c)];
-    return image;
-}
-
-float device_depth(const CameraData& camera, float distance) {
-    const glm::vec4 clip = camera.clip_from_view * glm::vec4(0, 0, -distance, 1);
-    return clip.z / clip.w;
-}
-
-float ramp(float position, unsigned size) { return position / float(size); }
-float ramp_x(float x) { return ramp(x, extent.x); }
-
-/// Both candidates are the pixel itself, before a surface that fills the screen; a grey image without noise.
-struct StillScene {
-    CameraPose pose, before;
-    FrameView view{.extent = extent, .frame = 1};
-    AccumulationInputs inputs;
-
-    StillScene() { update(); }
-
-    void update() {
-        inputs.camera = camera_data(pose, &before, view);
-        inputs.motion = HostImage(extent, 2);
-        inputs.previous_depth = inputs.reprojected_depth =
-            HostImage(extent, 1, device_depth(inputs.camera, surface_distance));
-        inputs.hit_depth = HostImage(extent, 1, device_depth(inputs.camera, point_distance));
-        inputs.mask = HostImage(extent, 1, 1.0f);
-        inputs.resolved = {.radiance = HostImage(extent, 4, 0.5f), .variance = HostImage(extent, 1, 0.25f)};
-        inputs.history = inputs.resolved;
-    }
-
-    /// Previous depth by distance (m).
-    void was_at(const std::function<float(unsigned x, unsigned y)>& distance) {
-        inputs.previous_depth =
-            image_of(1, [&](unsigned x, unsigned y) { return glm::vec4(device_depth(inputs.camera, distance(x, y))); });
-    }
-};
-
-struct DiligentAccumulation : VariantTest {
-    StillScene scene;
-
-    Filtered run(Overrides overrides) {
-        overrides.emplace("float_histories", true);
-        return AccumulationBench(device(), extent, overrides).accumulate(scene.inputs);
-    }
-
-    /// Where a pixel takes its history from; NaN: it has none.
-    glm::vec2 position_before(Overrides overrides, glm::uvec2 pixel) {
-        overrides["temporal_variance_stability_factor"] = 1.0;
-        glm::vec2 found;
-        for (unsigned axis : {0u, 1u}) {
-            scene.inputs.history.variance = image_of(1, [&](unsigned x, unsigned y) {
-                return glm::vec4(ramp(float(axis == 0 ? x : y) + 0.5f, 2 * extent[axis]));
-            });
-            const float variance = *run(overrides).variance.pixel(pixel.x, pixel.y);
-            found[axis] = variance == 1 ? NAN : variance * float(2 * extent[axis]);
-        }
-        return found;
-    }
-
-    void expect_position(const Overrides& overrides, glm::uvec2 pixel, glm::vec2 expected, float tolerance = 1e-3f) {
-        const glm::vec2 found = position_before(overrides, pixel);
-        EXPECT_NEAR(found.x, expected.x, tolerance) << overrides;
-        EXPECT_NEAR(found.y, expected.y, tolerance) << overrides;
-    }
-};
-
-glm::vec2 centre(glm::uvec2 pixel) { return glm::vec2(pixel) + 0.5f; }
-
-/// Float32 of colours up to 1, a handful of operations.
-constexpr float rounding = 1e-6f;
 
 // ---- What becomes of history --------------------------------------------------------------------------------------
 
@@ -100,6 +16,23 @@ TEST_F(DiligentAccumulation, BlendsByItsTwoFactors) {
     EXPECT_NEAR(found.radiance.pixel(11, 10)[3], 0.25f * 0.2f + 0.75f * 0.5f, rounding);
     scene.inputs.history.variance = HostImage(extent, 1, 0.75f);
     EXPECT_NEAR(*run({}).variance.pixel(10, 10), 0.1f * 0.25f + 0.9f * 0.75f, rounding);
+}
+
+/// A first frame's previous camera is its own.
+TEST_F(DiligentAccumulation, FirstFrameHasNoHistoryUnlessItStartsFromBlack) {
+    scene.inputs.camera = camera_data(scene.pose, nullptr, {.extent = extent});
+    scene.inputs.resolved.radiance =
+        image_of(4, [](unsigned x, unsigned y) { return glm::vec4((x + y) & 1 ? 0.2f : 0.8f); });
+    scene.inputs.history = {HostImage(extent, 4), HostImage(extent, 1)};
+    const Overrides overrides = {{"temporal_radiance_stability_factor", 0.75}};
+    const Filtered found = run(overrides);
+    EXPECT_EQ(found.radiance.values, scene.inputs.resolved.radiance.values);
+    EXPECT_EQ(found.variance.values, HostImage(extent, 1, 1.0f).values);
+    Overrides from_black = overrides;
+    from_black["start_from_black"] = true;
+    const Filtered blended = run(from_black);
+    EXPECT_NEAR(blended.radiance.pixel(10, 10)[0], 0.25f * 0.8f, rounding);
+    EXPECT_NEAR(*blended.variance.pixel(10, 10), 0.1f * 0.25f, rounding);
 }
 
 /// Of any 3x3 pixels, at the border those that the nearest stand for, whether the mask keeps them or not.
@@ -275,65 +208,6 @@ TEST_F(DiligentAccumulation, JitterMovesNoHistory) {
     scene.view.previous_jitter = {-0.2f, 0.1f};
     scene.update();
     expect_position({}, middle, centre(middle));
-}
-
-// ---- What the previous frame hid ----------------------------------------------------------------------------------
-
-constexpr float occluder_distance = 0.5f;  // exp(-0.9) = 0.41: less alike than any texel may be
-
-/// To the left of a column something else was seen, beside it the surface: the first position of a search that finds it
-/// lies one row above.
-TEST_F(DiligentAccumulation, SearchesForTheSurfaceNearby) {
-    scene.was_at([](unsigned x, unsigned) { return x < middle.x ? occluder_distance : surface_distance; });
-    const glm::uvec2 pixel = middle - glm::uvec2(1, 0);
-    for (const char* search : {"camera_depth", "device_depth"}) {
-        expect_position({{"history_search", search}}, pixel, centre(pixel) + glm::vec2(1, -1));
-        expect_position({{"history_search", search}, {"centered_search", true}}, pixel,
-                        centre(pixel) + glm::vec2(1, 0));
-    }
-}
-
-TEST_F(DiligentAccumulation, WithoutHistoryTheVarianceIsOne) {
-    scene.was_at([](unsigned, unsigned) { return occluder_distance; });
-    scene.inputs.history.radiance = HostImage(extent, 4, 0.7f);
-    scene.inputs.resolved.radiance = image_of(4, [](unsigned x, unsigned y) { return glm::vec4((x + y) & 1); });
-    for (const char* search : {"camera_depth", "device_depth"}) {
-        const Filtered found = run({{"history_search", search}});
-        EXPECT_EQ(found.radiance.pixel(10, 11)[0], 1.0f) << search;
-        EXPECT_EQ(*found.variance.pixel(10, 11), 1.0f) << search;
-    }
-}
-
-/// The surface was seen between columns, half a pixel to the left; the colours of the columns there, in turn dark and
-/// bright, make its history grey as the image is, and the mirror image's not.
-struct DiligentAccumulationBetween : DiligentAccumulation {
-    const glm::uvec2 pixel = middle - glm::uvec2(1, 0);
-
-    void SetUp() override {
-        for (size_t i = 0; i < extent.x * extent.y; ++i) scene.inputs.motion.values[2 * i] = 0.5f / float(extent.x);
-        scene.inputs.resolved.radiance =
-            image_of(4, [](unsigned x, unsigned y) { return glm::vec4(((x + y) & 1) ? 0.05f : 0.95f); });
-        scene.inputs.history.radiance =
-            image_of(4, [](unsigned x, unsigned) { return glm::vec4((x & 1) ? 0.25f : 0.75f); });
-    }
-};
-
-/// A single column shows the surface: half of what lies around the first position that is found.
-TEST_F(DiligentAccumulationBetween, TakesSingleTexelsOfTheSurface) {
-    scene.was_at([](unsigned x, unsigned) { return x == middle.x ? surface_distance : occluder_distance; });
-    for (const char* search : {"camera_depth", "device_depth"})
-        EXPECT_NEAR(run({{"history_search", search}}).radiance.pixel(pixel.x, pixel.y)[0], 0.75f, rounding) << search;
-}
-
-/// Columns at 8 m and 5 m in turn: either is alike enough for a tap, but what 2024 filters, or averages, of their
-/// values in the depth buffer is 6.2 m, which is not.
-TEST_F(DiligentAccumulationBetween, FilteredDeviceDepthRejectsWhatTexelsPass) {
-    scene.was_at([this](unsigned x, unsigned) { return (x & 1) == (pixel.x & 1) ? 8.0f : surface_distance; });
-    const auto variance = [&](const char* search) {
-        return *run({{"history_search", search}}).variance.pixel(pixel.x, pixel.y);
-    };
-    EXPECT_NEAR(variance("camera_depth"), 0.25f, rounding);
-    EXPECT_EQ(variance("device_depth"), 1.0f);
 }
 
 }  // namespace

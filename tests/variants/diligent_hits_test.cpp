@@ -6,6 +6,12 @@
 
 namespace {
 
+/// Of the pixel of a 2x2 block that its ray stands for; bit 0: right, bit 1: lower.
+unsigned place_in_block(unsigned x, unsigned y) {
+    const char* const places[4] = {"0123", "3210", "1032", "2301"};  // [x][y] of the block
+    return unsigned(places[x & 3][y & 3] - '0');
+}
+
 TEST_F(DiligentHits, AreWhereMirrorRaysMeetTheWall) {
     for (const DepthDirection direction : {DepthDirection::standard, DepthDirection::reversed})
         for (const char* preset : {"documented", "current", "corrected"}) {
@@ -30,10 +36,9 @@ TEST_F(DiligentHits, HalfResolutionTracesOnePixelOfEachBlock) {
     for (float& number : noise.values) number = float(random() % 256) / 255;
     const DiligentTraced half = trace(gbuffer, {{"half_resolution", true}});
     ASSERT_EQ(half.radiance.extent, glm::uvec2(63, 60));
-    const char* const place_of_block[4] = {"0123", "3210", "1032", "2301"};  // [x][y] of the block
     HostImage of_pixels({128, 128}, 2);
     const auto pixel_of = [&](unsigned x, unsigned y) {
-        const unsigned place = unsigned(place_of_block[x & 3][y & 3] - '0');
+        const unsigned place = place_in_block(x, y);
         return glm::uvec2(2 * x + (place & 1), 2 * y + (place >> 1));
     };
     for (unsigned y = 0; y < 60; ++y)
@@ -53,6 +58,45 @@ TEST_F(DiligentHits, HalfResolutionTracesOnePixelOfEachBlock) {
             }
         }
     EXPECT_GT(rays, 1000u);
+}
+
+/// A block that shows the floor in one pixel and nothing in the one that its ray stands for.
+TEST_F(DiligentHits, HalfResolutionTracesNothingFromTheBackground) {
+    const HostGBuffer gbuffer = gbuffer_of(floor_below_nothing);
+    const HostImage found = trace(gbuffer, {{"half_resolution", true}}).direction;
+    const auto is_floor = [&](unsigned x, unsigned y) { return *gbuffer.depth.pixel(x, y) < 1 - 1e-6f; };
+    unsigned blocks = 0;
+    for (unsigned y = 0; y < found.extent.y; ++y)
+        for (unsigned x = 0; x < found.extent.x; ++x) {
+            const unsigned place = place_in_block(x, y);
+            if (is_floor(2 * x + (place & 1), 2 * y + (place >> 1))) continue;
+            bool shows_floor = false;
+            for (unsigned i = 0; i < 4; ++i) shows_floor |= is_floor(2 * x + (i & 1), 2 * y + (i >> 1));
+            blocks += shows_floor;
+            for (unsigned c = 0; c < 4; ++c) EXPECT_EQ(found.pixel(x, y)[c], 0) << x << ", " << y;
+        }
+    EXPECT_GT(blocks, 10u);
+}
+
+/// The wall faces the camera almost, so that rays end on it, wherever within a pixel they meet it: nothing is taken off
+/// their confidence, whether positions undo the jitter or, as in the original, all ignore it alike.
+TEST_F(DiligentHits, AreAsSureWithJitter) {
+    view.jitter = {0.45f, -0.4f};
+    HostGBuffer gbuffer = gbuffer_of(floor_before_white);
+    encode_hits(gbuffer);
+    for (const bool is_undone : {false, true}) {
+        const HostImage found = trace(gbuffer, {{"unproject_jitter", is_undone}}).radiance;
+        unsigned hits = 0;
+        for (size_t i = 0; i < found.pixel_count(); ++i) {
+            const glm::vec2 hit(found.rgb(i));
+            if (found.values[4 * i + 3] == 0 || fade_at(hit, glm::vec2(view.extent)) < 1) continue;
+            const glm::uvec2 pixel(hit * glm::vec2(view.extent));
+            if (gbuffer.base_color.pixel(pixel.x, pixel.y)[3] > 0) continue;  // beyond the wall's edge a ray passes
+            EXPECT_GT(found.values[4 * i + 3], 0.99f) << i;
+            ++hits;
+        }
+        EXPECT_GT(hits, 1000u);
+    }
 }
 
 /// The wall moved, the floor says to have moved otherwise: it is the hit's motion that counts. Where both places are
@@ -97,18 +141,26 @@ TEST_F(DiligentHits, AreFoundInSmallImages) {
     const Quality found = quality({{"clamp_partial_texels", true}, {"accept_contact_hits", true}});
     EXPECT_GT(found.rays, 200u);
     EXPECT_GT(found.right, 0.99);
+
+    HostGBuffer glossy = gbuffer_of(floor_before_white);
+    for (size_t i = 3; i < glossy.normal.values.size(); i += 4) glossy.normal.values[i] = 0.1f;
+    EXPECT_EQ(trace(glossy, {{"most_detailed_mip", 6}}).direction.values,
+              trace(glossy, {{"most_detailed_mip", 5}}).direction.values);
 }
 
 /// Rays of all but mirrors start from the nearest depth of a texel, here of 4x4 pixels, and meet the surface as such
 /// texels show it. The wall has one depth, so that there the first alone makes a difference.
 TEST_F(DiligentHits, AreAsCoarseAsMostDetailedMipExceptForMirrors) {
     pose.world_from_view = glm::mat4(1);
-    const HostGBuffer mirror = gbuffer_of(floor_before_white);
+    HostGBuffer mirror = gbuffer_of(floor_before_white);
+    const float roughest_mirror = 2.0f / 255, smoothest_glossy = 3.0f / 255;  // as stored; a mirror's is below 0.01
+    for (size_t i = 3; i < mirror.normal.values.size(); i += 4)
+        mirror.normal.values[i] = std::min(mirror.normal.values[i], roughest_mirror);
     const nlohmann::json coarse = {{"most_detailed_mip", 2}};
     EXPECT_EQ(trace(mirror, coarse).direction.values, trace(mirror).direction.values);
 
     HostGBuffer glossy = mirror;
-    for (size_t i = 3; i < glossy.normal.values.size(); i += 4) glossy.normal.values[i] = 0.02f;
+    for (size_t i = 3; i < glossy.normal.values.size(); i += 4) glossy.normal.values[i] = smoothest_glossy;
     const DiligentTraced found = trace(glossy, coarse);
     unsigned rays = 0, wrong = 0, as_if_fine = 0;
     for (unsigned y = view.extent.y * 3 / 4; y < view.extent.y; ++y)

@@ -29,9 +29,9 @@ constexpr double disk_radii[] = {0.3149309, 0.5335386, 0.6461146, 0.6520134,
 
 StoredRay numbered_by_column(unsigned x, unsigned) { return {.radiance = glm::vec3(float(x))}; }
 
-/// Of a pixel of a perspective ReflectingWall of 32x32 pixels: 60 degrees high, tan^2 30 is a third.
-double distance_over_depth(glm::uvec2 pixel) {
-    const glm::dvec2 ndc = (glm::dvec2(pixel) + 0.5) / 16.0 - 1.0;
+/// Of a pixel's sample of a perspective ReflectingWall of 32x32 pixels: 60 degrees high, tan^2 30 is a third.
+double distance_over_depth(glm::uvec2 pixel, glm::vec2 jitter = {}) {
+    const glm::dvec2 ndc = (glm::dvec2(pixel) + 0.5 + glm::dvec2(jitter)) / 16.0 - 1.0;
     return std::sqrt(1 + glm::dot(ndc, ndc) / 3);
 }
 
@@ -86,15 +86,19 @@ TEST_F(DiligentReconstructionCorrections, ScaleRadius) {
 
 /// The mirrored point lies on the view ray, 3 m behind a wall 4 m away: nearer to the camera plane than to the camera.
 TEST_F(DiligentReconstructionCorrections, AxialHitDepth) {
-    const ReconstructionInputs inputs = reflecting_wall({.is_orthographic = false, .ray = [](unsigned, unsigned) {
-                                                             return StoredRay{.direction = {0, 0, 3}};
-                                                         }});
-    for (const bool is_on : {false, true}) {
-        const Reconstruction found = run(inputs, precisely({{"axial_hit_depth", is_on}, {"linear_hit_depth", true}}));
-        for (const glm::uvec2 pixel : {glm::uvec2(16, 16), glm::uvec2(0, 0), glm::uvec2(31, 7)}) {
-            const double secant = distance_over_depth(pixel);
-            const double expected = is_on ? 4 + 3 / secant : 4 * secant + 3;
-            EXPECT_NEAR(*found.hit_depth.pixel(pixel.x, pixel.y), expected, 1e-4) << pixel.x;
+    for (const glm::vec2 jitter : {glm::vec2(0), glm::vec2(0.4f, -0.3f)}) {
+        const ReconstructionInputs inputs =
+            reflecting_wall({.is_orthographic = false, .jitter = jitter, .ray = [](unsigned, unsigned) {
+                                 return StoredRay{.direction = {0, 0, 3}};
+                             }});
+        for (const bool is_on : {false, true}) {
+            const Reconstruction found =
+                run(inputs, precisely({{"axial_hit_depth", is_on}, {"linear_hit_depth", true}}));
+            for (const glm::uvec2 pixel : {glm::uvec2(16, 16), glm::uvec2(0, 0), glm::uvec2(31, 7)}) {
+                const double secant = distance_over_depth(pixel, jitter);
+                const double expected = is_on ? 4 + 3 / secant : 4 * secant + 3;
+                EXPECT_NEAR(*found.hit_depth.pixel(pixel.x, pixel.y), expected, 1e-4) << pixel.x << ", " << jitter.x;
+            }
         }
     }
 }
@@ -191,7 +195,7 @@ TEST_F(DiligentReconstructionCorrections, FloatHistories) {
     }
 }
 
-/// Over 4x4 pixels the disk stands in 16 directions, each once in every frame.
+/// Over 4x4 pixels the disk stands in 16 directions, each once in every frame; a frame later every pixel has the next.
 TEST_F(DiligentReconstructionCorrections, RotateKernel) {
     const auto offsets = [&](unsigned frame, bool is_on) {
         ReconstructionInputs inputs = reflecting_wall({.ray = numbered_by_column});
@@ -207,13 +211,18 @@ TEST_F(DiligentReconstructionCorrections, RotateKernel) {
         for (size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, std::abs(a[i] - b[i]));
         return greatest;
     };
-    EXPECT_EQ(offsets(5, false), offsets(0, false));
-    EXPECT_EQ(offsets(21, true), offsets(5, true));
-    std::vector<float> now = offsets(5, true), at_first = offsets(0, true);
-    EXPECT_GT(greatest_difference(now, at_first), 0.1f);
-    std::ranges::sort(now);
-    std::ranges::sort(at_first);
-    EXPECT_LT(greatest_difference(now, at_first), 20 * float_error);  // of columns up to 20
+    // Sixteenths of a turn in the first frame, by columns of pixels; here line by line.
+    const int turns_of_pixel[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+    const std::vector<float> at_first = offsets(0, true);
+    std::vector<float> of_turns(16);
+    for (size_t i = 0; i < 16; ++i) of_turns[size_t(turns_of_pixel[i])] = at_first[i];
+    EXPECT_GT(greatest_difference(offsets(5, true), at_first), 0.1f);
+    EXPECT_EQ(offsets(5, false), at_first);
+    for (const unsigned frame : {1u, 5u, 13u, 21u}) {
+        std::vector<float> expected(16);
+        for (size_t i = 0; i < 16; ++i) expected[i] = of_turns[(size_t(turns_of_pixel[i]) + frame) % 16];
+        EXPECT_LT(greatest_difference(offsets(frame, true), expected), 20 * float_error) << frame;  // columns up to 20
+    }
 }
 
 /// A lobe of alpha 0.0025, and half vectors 0.003 beside its centre: the floor makes both alike, without it they weigh

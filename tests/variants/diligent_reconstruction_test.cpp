@@ -67,6 +67,27 @@ TEST_F(DiligentReconstruction, HasTheVarianceOfItsOwnWeights) {
     EXPECT_GT(spread, 0.2);
 }
 
+/// A ray counts by one over its density, which densities below 1e-5 count as.
+TEST_F(DiligentReconstruction, DividesByTheDensity) {
+    const auto share_of_left = [](float left_density, float right_density) {
+        return run(reflecting_wall({.ray =
+                                        [&](unsigned x, unsigned) {
+                                            const bool is_left = x < 16;
+                                            return StoredRay{.radiance = glm::vec3(is_left ? 1.0f : 0.0f),
+                                                             .density = is_left ? left_density : right_density};
+                                        }}))
+            .radiance.pixel(16, 16)[0];
+    };
+    struct Case {
+        float left_density, right_density;
+        double weight;  ///< of the right over the left
+    };
+    const double equal = share_of_left(1, 1);
+    for (const auto [left, right, weight] :
+         {Case{100, 20, 5}, Case{1e-3f, 4e-4f, 2.5}, Case{2e-5f, 1e-5f, 2}, Case{1e-5f, 1e-7f, 1}})
+        EXPECT_NEAR((1 / share_of_left(left, right) - 1) / (1 / equal - 1), weight, 1e-4 * weight) << right;
+}
+
 /// A mirror's neighbours are the pixel itself.
 TEST_F(DiligentReconstruction, LeavesMirrorsSharp) {
     const ReconstructionInputs inputs = reflecting_wall({.roughness = 0, .ray = white_or_black});

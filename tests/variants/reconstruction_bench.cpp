@@ -31,7 +31,7 @@ Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs) {
 
 ReconstructionInputs reflecting_wall(const ReflectingWall& wall) {
     const CameraPose pose{.is_orthographic = wall.is_orthographic, .vertical_fov = glm::radians(60.0f)};
-    const CameraData camera = camera_data(pose, nullptr, {.extent = wall.extent});
+    const CameraData camera = camera_data(pose, nullptr, {.extent = wall.extent, .jitter = wall.jitter});
     const glm::vec4 clip = camera.clip_from_view * glm::vec4(0, 0, -wall.distance, 1);
     ReconstructionInputs inputs{.camera = camera,
                                 .depth = HostImage(wall.extent, 1, clip.z / clip.w),

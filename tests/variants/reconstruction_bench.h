@@ -36,6 +36,7 @@ struct StoredRay {
 struct ReflectingWall {
     glm::uvec2 extent{32, 32}, ray_extent = extent;
     bool is_orthographic = true;  ///< else 60 degrees high
+    glm::vec2 jitter{0};          ///< of the camera (pixels)
     float distance = 4;           ///< m
     float roughness = 0.5f;       ///< perceptual
     std::function<StoredRay(unsigned x, unsigned y)> ray = [](unsigned, unsigned) { return StoredRay{}; };
