@@ -40,6 +40,13 @@ TEST_F(DiligentAccumulation, CenteredSearchTakesTheNearestAndOfThoseTheUpperAndL
     }
 }
 
+/// At 8 m where 5 m are expected all texels are alike enough to be taps, but none to be history without a search.
+TEST_F(DiligentAccumulation, CenteredSearchBeginsAtThePositionItself) {
+    scene.was_at([](unsigned, unsigned) { return 8.0f; });
+    expect_position({{"centered_search", true}}, middle, centre(middle));
+    expect_position({}, middle, centre(middle) - 1.0f);
+}
+
 /// 5.55 m then and 5 m now differ by 0.099 of the greater and 0.11 of the former; 0.105 is alike.
 TEST_F(DiligentAccumulation, LikenessIsOfTheGreaterDistance) {
     scene.was_at([](unsigned, unsigned) { return 5.55f; });
