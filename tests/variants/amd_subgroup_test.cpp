@@ -1,10 +1,6 @@
-#include "core/exr.h"
 #include "tests/variants/amd_scenes.h"
+#include "tests/variants/other_subgroups.h"
 #include "tests/variants/variant_fixture.h"
-
-#include <unistd.h>
-#include <cstdlib>
-#include <filesystem>
 
 namespace {
 
@@ -35,27 +31,14 @@ struct AmdSubgroups : VariantTest {
 };
 
 /// Run by the test below, with subgroups of another size.
-TEST_F(AmdSubgroups, DISABLED_WriteTheirImages) {
-    const char* file = std::getenv("SSRLAB_TEST_OUTPUT");
-    ASSERT_TRUE(file);
-    write_exr(file, images());
-}
+TEST_F(AmdSubgroups, DISABLED_WriteTheirImages) { write_for_caller(images()); }
 
-/// lavapipe's subgroups have as many lanes as its vectors have floats: 4, 8 or 16.
 TEST_F(AmdSubgroups, OfAnySizeGiveTheSameImages) {
     if (!device().info().is_cpu()) GTEST_SKIP() << "the size of this device's subgroups cannot be chosen";
     const LayeredImage expected = images();
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("ssrlab_subgroups_" + std::to_string(getpid()) + ".exr");
     unsigned given_up_differs = 0;
-    for (const char* bits : {"128", "256", "512"}) {
-        const std::string command = std::string("LP_NATIVE_VECTOR_WIDTH=") + bits +
-                                    " SSRLAB_TEST_OUTPUT=" + file.string() + " " +
-                                    std::filesystem::read_symlink("/proc/self/exe").string() +
-                                    " --gtest_also_run_disabled_tests --gtest_filter='AmdSubgroups.DISABLED_*' >&2";
-        ASSERT_EQ(std::system(command.c_str()), 0);
-        const LayeredImage found = read_exr(file);
-        std::filesystem::remove(file);
+    for (const char* bits : vector_widths) {
+        const LayeredImage found = written_with_vectors_of(bits, "AmdSubgroups.DISABLED_*");
         EXPECT_TRUE(found.find("finished")->image.values == expected.find("finished")->image.values) << bits;
         given_up_differs += found.find("given_up")->image.values != expected.find("given_up")->image.values;
     }

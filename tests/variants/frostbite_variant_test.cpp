@@ -1,11 +1,8 @@
 // Frostbite's technique from the G-buffer to the image.
-#include "core/exr.h"
 #include "tests/variants/amd_scenes.h"
+#include "tests/variants/other_subgroups.h"
 #include "tests/variants/variant_fixture.h"
 
-#include <unistd.h>
-#include <cstdlib>
-#include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace {
@@ -165,26 +162,13 @@ struct FrostbiteSubgroups : FrostbiteVariantTest {
 };
 
 /// Run by the test below, with subgroups of another size.
-TEST_F(FrostbiteSubgroups, DISABLED_WriteTheirImage) {
-    const char* file = std::getenv("SSRLAB_TEST_OUTPUT");
-    ASSERT_TRUE(file);
-    write_exr(file, image());
-}
+TEST_F(FrostbiteSubgroups, DISABLED_WriteTheirImage) { write_for_caller(image()); }
 
-/// lavapipe's subgroups have as many lanes as its vectors have floats: 4, 8 or 16.
 TEST_F(FrostbiteSubgroups, OfAnySizeGiveTheSameImage) {
     if (!device().info().is_cpu()) GTEST_SKIP() << "the size of this device's subgroups cannot be chosen";
     const LayeredImage expected = image();
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("ssrlab_frostbite_subgroups_" + std::to_string(getpid()) + ".exr");
-    for (const char* bits : {"128", "256", "512"}) {
-        const std::string command =
-            std::string("LP_NATIVE_VECTOR_WIDTH=") + bits + " SSRLAB_TEST_OUTPUT=" + file.string() + " " +
-            std::filesystem::read_symlink("/proc/self/exe").string() +
-            " --gtest_also_run_disabled_tests --gtest_filter='FrostbiteSubgroups.DISABLED_*' >&2";
-        ASSERT_EQ(std::system(command.c_str()), 0);
-        const LayeredImage found = read_exr(file);
-        std::filesystem::remove(file);
+    for (const char* bits : vector_widths) {
+        const LayeredImage found = written_with_vectors_of(bits, "FrostbiteSubgroups.DISABLED_*");
         EXPECT_TRUE(found.layers.front().image.values == expected.layers.front().image.values) << bits;
     }
 }
