@@ -17,7 +17,7 @@ struct DiligentSequence : VariantTest {
     /// Rolled a little, so that rows of pixels do not meet rows of what they reflect.
     CameraPose pose(unsigned frame) const;
 
-    /// With the motion and the previous depths of this and that.
+    /// With motion, and the depths of the frame before.
     std::vector<HostGBuffer> frames(unsigned count, const SceneOfFrame& scene) const;
 
     /// Colour, and in alpha the confidence.
