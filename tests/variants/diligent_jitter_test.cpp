@@ -24,7 +24,8 @@ SyntheticScene wavy(float scale) {
 
 /// Of the floor's pixels whose mirror ray ends on the screen, away from its border.
 struct Cost {
-    double rmse = 0, lost = 0, shifted = 0;  ///< shares of the pixels: no hit; one further than a pixel away
+    double rmse = 0, lost = 0,
+           shifted = 0;  ///< shares of the pixels: no hit; one more than 1.5 pixels away along x or y
 };
 
 struct DiligentJitter : DiligentHits {
