@@ -1,12 +1,17 @@
 #include "tests/variants/diligent_frames.h"
 #include "tests/variants/variant_fixture.h"
 
-#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <numeric>
+#include <random>
 
 // All passes of recorded sequences, from the G-buffer to the reflections, with the recorded random numbers: each stage
 // reads what our own stages before it wrote, and histories are our own from the first frame on.
+//
+// Some pixels decide by a hair: which of two alike candidates of history to take, what a ray meets at an edge. Any
+// rounding turns them, history keeps what they took, and one pixel of 28 000 can cost 10 dB. The recorded sets leave
+// such pixels out ("ill-conditioned: changes when depth moves by 2 ulp: statistics only"); so does this test, which
+// finds them by running the chain again with its inputs moved as little.
 
 namespace {
 
@@ -28,79 +33,190 @@ std::vector<Chain> recorded_chains() {
     return chains;
 }
 
-struct Stages {
-    Image resolved, accumulated, reflections;
+/// As recorded.
+struct ChainInputs {
+    std::vector<HostGBuffer> gbuffers;
+    std::vector<HostImage> noise;
 };
 
-struct DiligentChainOf : VariantTest, testing::WithParamInterface<Chain> {
-    Stages render(DiligentFrames& frames, const HostImage& noise) {
-        PassGraph& graph = frames.graph;
-        const GBuffer& gbuffer = frames.gbuffer;
-        const auto& [params, tracing, filter] = frames.parameters;
-        const Image numbers = graph.image_of("blue_noise", Format::rg32f, noise.extent);
-        graph.upload(numbers, noise);
-        const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
-        const Image hierarchy = diligent_depth_hierarchy(graph, gbuffer, tracing);
-        const DiligentMask mask = frames.mask();
-        const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, numbers, gbuffer.lit, mask, tracing);
-        const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter);
-        const DiligentHistories histories = diligent_histories(graph, filter);
-        diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter);
-        const Image& radiance = histories.radiance.current;
-        return {resolved.radiance, radiance,
-                diligent_cleanup(graph, gbuffer, radiance, histories.variance.current, mask, filter)};
-    }
+/// What one run made of one frame: radiance and confidence.
+struct Stages {
+    HostImage spatial, temporal, bilateral;
+};
+using Frames = std::vector<Stages>;
 
-    /// Of colours and confidence for a peak of 1, over the pixels that the mask of that frame keeps, but for the share
-    /// `left_out` of them that differ most.
-    double psnr(const std::string& frame_folder, const std::string& stage, const HostImage& ours, double left_out) {
-        const HostImage golden = golden_layer(read_golden(frame_folder + stage + ".exr"), "rad"),
-                        mask = golden_layer(read_golden(frame_folder + "aux.exr"), "mask");
-        std::vector<double> squares;
-        for (size_t i = 0; i < golden.pixel_count(); ++i) {
-            if (mask.values[i] != 1) continue;
-            squares.push_back(0);
-            for (size_t c = 4 * i; c < 4 * i + 4; ++c)
-                squares.back() += std::pow(double(ours.values[c]) - golden.values[c], 2) / 4;
+constexpr unsigned perturbed_runs = 6;  // eight find 4 % more pixels
+
+float random_sign(std::mt19937& random) { return random() & 1 ? 1.0f : -1.0f; }
+
+/// By `ulps` units in the last place, but for the background.
+void move_depth(HostImage& depth, int ulps) {
+    for (float& value : depth.values)
+        if (value < 1) value = std::bit_cast<float>(std::bit_cast<int>(value) + ulps);
+}
+
+/// Each frame's depth by 2 ulp and normals by 1e-7, as the recorded sets were; motion and the previous camera by their
+/// rounding, so that positions in the previous frame move, too. Colours stand for what earlier stages and frames may
+/// differ by, which decides between histories as well: each pixel by one unit of a half, 2^-10, and all of a frame by
+/// 2^-8, less than the 5e-3 that the index tolerates.
+ChainInputs perturbed(ChainInputs inputs, std::mt19937& random) {
+    int ulps_before = 0;
+    for (HostGBuffer& gbuffer : inputs.gbuffers) {
+        const int ulps = random() & 1 ? 2 : -2;
+        move_depth(gbuffer.depth, ulps);
+        move_depth(gbuffer.previous_depth, ulps_before == 0 ? ulps : ulps_before);
+        ulps_before = ulps;
+        for (float& value : gbuffer.motion.values) value += 1e-7f * random_sign(random);
+        for (int i = 0; i < 16; ++i)
+            gbuffer.camera.previous_clip_from_world[i / 4][i % 4] *= 1 + 0x1p-23f * random_sign(random);
+        const float frame_scale = 1 + 0x1p-8f * random_sign(random);
+        for (size_t i = 0; i < gbuffer.depth.pixel_count(); ++i) {
+            for (size_t c = 4 * i; c < 4 * i + 3; ++c) gbuffer.normal.values[c] += 1e-7f * random_sign(random);
+            gbuffer.lit.set_rgb(i, gbuffer.lit.rgb(i) * frame_scale * (1 + 0x1p-10f * random_sign(random)));
         }
-        std::ranges::sort(squares);
-        squares.resize(squares.size() - size_t(left_out * double(squares.size())));
-        EXPECT_GT(squares.size(), 10000u);
-        return -10 * std::log10(std::accumulate(squares.begin(), squares.end(), 0.0) / double(squares.size()));
+    }
+    return inputs;
+}
+
+Stages render(DiligentFrames& frames, const HostImage& noise) {
+    PassGraph& graph = frames.graph;
+    const GBuffer& gbuffer = frames.gbuffer;
+    const auto& [params, tracing, filter] = frames.parameters;
+    const Image numbers = graph.image_of("blue_noise", Format::rg32f, noise.extent);
+    graph.upload(numbers, noise);
+    const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
+    const Image hierarchy = diligent_depth_hierarchy(graph, gbuffer, tracing);
+    const DiligentMask mask = frames.mask();
+    const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, numbers, gbuffer.lit, mask, tracing);
+    const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter);
+    const DiligentHistories histories = diligent_histories(graph, filter);
+    diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter);
+    const Image& radiance = histories.radiance.current;
+    const Image reflections = diligent_cleanup(graph, gbuffer, radiance, histories.variance.current, mask, filter);
+    return {graph.download(resolved.radiance), graph.download(radiance), graph.download(reflections)};
+}
+
+struct DiligentChainOf : VariantTest, testing::WithParamInterface<Chain> {
+    const std::string& sequence() const { return GetParam().sequence; }
+
+    ChainInputs recorded_inputs() const {
+        ChainInputs inputs;
+        for (unsigned frame = 0; frame < diligent_frame_count(sequence()); ++frame) {
+            const LayeredImage noise = read_golden(diligent_frame_folder(sequence(), frame) + "noise.exr");
+            inputs.gbuffers.push_back(diligent_golden_frame(sequence(), frame));
+            inputs.noise.push_back(golden_layer(noise, "U"));
+        }
+        return inputs;
     }
 
-    /// A pixel whose two candidates of history are alike takes the other one after any rounding, and its neighbours
-    /// follow: one pixel of 28 000 can cost 10 dB. The last thousandth of the pixels apart, all stages of all frames
-    /// reach 69 dB.
-    void expect_like(const std::string& frame_folder, const std::string& stage, const HostImage& ours) {
-        EXPECT_GE(psnr(frame_folder, stage, ours, 0.001), 65.0) << frame_folder << stage;
+    Frames run(const ChainInputs& inputs) const {
+        nlohmann::json parameters = diligent_preset(GetParam().variant);
+        parameters.update(diligent_sequence_parameters(sequence()));
+        parameters["temporal_radiance_stability_factor"] = nlohmann::json::parse(GetParam().factor);
+        DiligentFrames frames(device(), inputs.gbuffers[0].extent(), parameters);
+        Frames stages;
+        for (size_t frame = 0; frame < inputs.gbuffers.size(); ++frame) {
+            frames.begin(inputs.gbuffers[frame]);
+            stages.push_back(render(frames, inputs.noise[frame]));
+        }
+        return stages;
     }
-    /// With all pixels: 60.1 to 65.7 dB.
-    void expect_final(const std::string& frame_folder, const std::string& stage, const HostImage& ours) {
-        const double all = psnr(frame_folder, stage, ours, 0);
-        RecordProperty("psnr", std::to_string(all));
-        EXPECT_GE(all, 60.0) << frame_folder << stage;
+
+    std::string recorded_file(unsigned frame, const std::string& stage) const {
+        const std::string factor = stage == "spatial" ? "" : "_" + GetParam().factor;
+        return diligent_frame_folder(sequence(), frame) + stage + "_" + GetParam().variant + factor + ".exr";
     }
 };
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentChainOf);
 
+/// By the tolerance that the index suggests for all three stages, in any channel.
+bool is_off(const HostImage& ours, const HostImage& theirs, size_t pixel) {
+    for (size_t c = 4 * pixel; c < 4 * pixel + 4; ++c) {
+        const double expected = theirs.values[c];
+        if (!(std::abs(ours.values[c] - expected) <= 2e-3 + 5e-3 * std::abs(expected))) return true;
+    }
+    return false;
+}
+
+/// Of radiance and confidence over some of the pixels.
+struct Difference {
+    double pixels = 0, off = 0, sum = 0, squares = 0;
+
+    void add(const HostImage& ours, const HostImage& theirs, size_t pixel) {
+        ++pixels;
+        off += is_off(ours, theirs, pixel);
+        for (size_t c = 4 * pixel; c < 4 * pixel + 4; ++c) {
+            const double difference = double(ours.values[c]) - theirs.values[c];
+            sum += difference / 4;
+            squares += difference * difference / 4;
+        }
+    }
+    double psnr() const { return -10 * std::log10(squares / pixels); }  // for a peak of 1
+};
+
+struct Compared {
+    Difference all, well_conditioned;
+};
+
+/// Over the pixels of the mask; one is ill-conditioned if any perturbed run is off from the first run there.
+Compared compare(const std::vector<Frames>& runs, unsigned frame, HostImage Stages::*stage, const HostImage& golden,
+                 const HostImage& mask) {
+    const HostImage& ours = runs[0][frame].*stage;
+    Compared compared;
+    for (size_t pixel = 0; pixel < golden.pixel_count(); ++pixel) {
+        if (mask.values[pixel] != 1) continue;
+        compared.all.add(ours, golden, pixel);
+        bool is_stable = true;
+        for (size_t i = 1; i < runs.size() && is_stable; ++i) is_stable = !is_off(runs[i][frame].*stage, ours, pixel);
+        if (is_stable) compared.well_conditioned.add(ours, golden, pixel);
+    }
+    return compared;
+}
+
+/// Measured for all stages of all frames of the seven chains, with four seeds: well-conditioned 63.8 dB or
+/// more, mostly above 70, where one pixel that six runs did not find costs most; 0.08 % of them off. Ill-conditioned
+/// 1.4 % after the spatial stage, up to 4.8 % after six frames. The bounds over all pixels are what no choice of those
+/// pixels can hide: 0.48 % off, where the index tolerates 1 to 2 % for each stage alone; and a mean difference of
+/// 1.6e-5, half of it from one pixel.
+void expect_like(const std::string& file, const Compared& compared) {
+    const auto& [all, well_conditioned] = compared;
+    ASSERT_GT(all.pixels, 10000) << file;
+    EXPECT_GE(well_conditioned.psnr(), 60) << file;
+    EXPECT_LE(well_conditioned.off, 0.001 * well_conditioned.pixels) << file;
+    EXPECT_LE(all.pixels - well_conditioned.pixels, 0.06 * all.pixels) << file;
+    EXPECT_LE(all.off, 0.007 * all.pixels) << file;
+    EXPECT_LE(std::abs(all.sum), 4e-5 * all.pixels) << file;
+}
+
+/// With all pixels: 60.0 to 65.8 dB, as the last bit of any expression has it. The bound allows three times the squared
+/// error of the worst, should other pixels turn.
+void expect_final(const std::string& file, const Compared& compared) {
+    const auto& [all, well_conditioned] = compared;
+    testing::Test::RecordProperty("psnr_all", std::to_string(all.psnr()));
+    testing::Test::RecordProperty("psnr_well_conditioned", std::to_string(well_conditioned.psnr()));
+    testing::Test::RecordProperty("ill_conditioned", std::to_string(1 - well_conditioned.pixels / all.pixels));
+    EXPECT_GE(all.psnr(), 55) << file;
+}
+
 TEST_P(DiligentChainOf, RecordedSequence) {
-    const auto& [sequence, variant, factor] = GetParam();
-    nlohmann::json parameters = diligent_preset(variant);
-    parameters.update(diligent_sequence_parameters(sequence));
-    parameters["temporal_radiance_stability_factor"] = nlohmann::json::parse(factor);
-    const unsigned count = diligent_frame_count(sequence);
-    DiligentFrames frames(device(), diligent_golden_frame(sequence, 0).extent(), parameters);
-    for (unsigned frame = 0; frame < count; ++frame) {
-        const std::string folder = diligent_frame_folder(sequence, frame);
-        frames.begin(diligent_golden_frame(sequence, frame));
-        const Stages stages = render(frames, golden_layer(read_golden(folder + "noise.exr"), "U"));
-        expect_like(folder, "spatial_" + variant, frames.graph.download(stages.resolved));
-        expect_like(folder, "temporal_" + variant + "_" + factor, frames.graph.download(stages.accumulated));
-        if (frame < count - 1) continue;
-        const HostImage reflections = frames.graph.download(stages.reflections);
-        expect_like(folder, "bilateral_" + variant + "_" + factor, reflections);
-        expect_final(folder, "bilateral_" + variant + "_" + factor, reflections);
+    const ChainInputs inputs = recorded_inputs();
+    std::vector<Frames> runs = {run(inputs)};
+    std::mt19937 random(1);
+    for (unsigned i = 0; i < perturbed_runs; ++i) runs.push_back(run(perturbed(inputs, random)));
+
+    const std::pair<std::string, HostImage Stages::*> stages[] = {
+        {"spatial", &Stages::spatial}, {"temporal", &Stages::temporal}, {"bilateral", &Stages::bilateral}};
+    for (unsigned frame = 0; frame < runs[0].size(); ++frame) {
+        const LayeredImage aux = read_golden(diligent_frame_folder(sequence(), frame) + "aux.exr");
+        for (const auto& [name, stage] : stages) {
+            const std::string file = recorded_file(frame, name);
+            if (!is_golden(file)) continue;
+            const LayeredImage golden = read_golden(file);
+            const Compared compared =
+                compare(runs, frame, stage, golden_layer(golden, "rad"), golden_layer(aux, "mask"));
+            expect_like(file, compared);
+            if (name == "bilateral") expect_final(file, compared);
+        }
     }
 }
 
