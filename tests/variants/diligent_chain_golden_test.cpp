@@ -174,10 +174,10 @@ Compared compare(const std::vector<Frames>& runs, unsigned frame, HostImage Stag
 }
 
 /// Measured for all stages of all frames of the seven chains, with four seeds: well-conditioned 63.8 dB or more, mostly
-/// above 70, where one pixel that the runs did not find costs most; 0.08 % of them off. Ill-conditioned: 1.4 % after the
-/// spatial stage, up to 4.8 % after six frames. What no choice of those pixels can hide are the bounds over all pixels:
-/// 0.48 % off, where the index tolerates 1 to 2 % of each stage alone, and a mean difference of 1.6e-5, half of it from
-/// one pixel.
+/// above 70, where one pixel that the runs did not find costs most; 0.08 % of them off. Ill-conditioned: 1.4 % after
+/// the spatial stage, up to 4.8 % after six frames. What no choice of those pixels can hide are the bounds over all
+/// pixels: 0.48 % off, where the index tolerates 1 to 2 % of each stage alone, and a mean difference of 1.6e-5, half of
+/// it from one pixel.
 void expect_like(const std::string& file, const Compared& compared) {
     const auto& [all, well_conditioned] = compared;
     ASSERT_GT(all.pixels, 10000) << file;
