@@ -145,8 +145,8 @@ const std::vector<VariantEntry> table = {
               "pixel in place of reuse",
               {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
              {"ours",
-              "16 taps of rays drawn from the whole lobe of visible normals, at their full density; misses see "
-              "the environment. None of this was published",
+              "a first guess, until its study decides: 16 taps of rays drawn from the whole lobe of visible normals, "
+              "at their full density; misses see the environment. None of this was published",
               {{"lobe", "visible_normals"},
                {"importance_bias", 0.0},
                {"taps", "16"},

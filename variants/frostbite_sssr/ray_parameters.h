@@ -33,7 +33,7 @@ struct FrostbiteRayParameters {
     // Directions.
     Choice lobe{params, "lobe", "normals", {"normals", "visible_normals"},
         {"", "the distribution that half vectors are drawn from: the GGX distribution of normals, or of normals visible "
-         "from the viewer", "slides: normals; visible normals (Heitz 2018) are listed as to be tried"}};
+         "from the viewer", "slides: normals; visible normals (Heitz 2014) are listed as to be tried"}};
     Param<float> importance_bias{params, "importance_bias", 0.7f, {0.0f, 0.99f},
         {"of the lobe", "share of the lobe that is cut off: its tail", "slides: 0.7"}};
     Param<unsigned> max_regenerations{params, "max_regenerations", 4, {0, 16},

@@ -9,7 +9,7 @@ struct FrostbiteResolveParameters {
     Switch previous_frame{params, "previous_frame", true,
         {"", "hits take their colour from the previous frame's lit image, where they were then", "slides"}};
     Switch filtered_sampling{params, "filtered_sampling", true,
-        {"", "hits take their colour from a mip level as wide as the ray's share of the lobe", "slides; Colbert and "
+        {"", "hits take their colour from a mip level as wide as the truncated lobe", "slides; Colbert and "
          "Krivanek 2007, 'GPU-Based Importance Sampling', GPU Gems 3, chapter 20"}};
     Param<float> cone_scale{params, "cone_scale", 1.0f, {0.0f, 8.0f},
         {"", "tangent of the cone's half angle over that of the truncated lobe, alpha sqrt(1 - importance_bias)",
