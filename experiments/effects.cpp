@@ -38,27 +38,28 @@ std::vector<const ResultRow*> chosen_rows(std::span<const ResultRow> rows) {
 using Point = std::pair<std::string, std::string>;
 using Seeds = std::map<unsigned, const ResultRow*>;
 
+void set_ratio(EffectRow& row, const Jackknifed& error, const Jackknifed& base_error, bool is_repeatable) {
+    if (!(error.value > 0 && base_error.value > 0)) return;
+    const RatioEstimate e = jackknifed_ratio(error, base_error);
+    row.ratio = e.value;
+    if (is_repeatable) row.low = e.low, row.high = e.high, row.p = e.p_value;
+}
+
 EffectRow effect(const Seeds& point, const Seeds& baseline, bool is_repeatable) {
     const ResultRow &first = *point.begin()->second, &other = *baseline.begin()->second;
     EffectRow row{first.shot,  first.frame,  first.variant, first.point,   other.variant,
                   other.point, first.target, first.metric,  first.formula, first.mask};
     std::vector<double> errors, base_errors;
+    bool has_values = true;
     for (const auto& [seed, r] : point) {
         const auto found = baseline.find(seed);
         if (found == baseline.end()) continue;
+        ++row.seeds;
+        has_values = has_values && r->value && found->second->value;
         errors.push_back(r->value.value_or(0)), base_errors.push_back(found->second->value.value_or(0));
     }
-    row.seeds = errors.size();
-    const auto is_positive = [](double v) { return v > 0; };
-    if (errors.empty() || !std::ranges::all_of(errors, is_positive) || !std::ranges::all_of(base_errors, is_positive))
-        return row;
-    if (errors.size() == 1) {
-        row.ratio = errors.front() / base_errors.front();
-        return row;
-    }
-    const RatioEstimate e = paired_ratio(errors, base_errors);
-    row.ratio = e.ratio.value;
-    if (is_repeatable) row.low = e.ratio.low, row.high = e.ratio.high, row.p = e.p_value;
+    if (row.seeds > 0 && has_values)
+        set_ratio(row, jackknifed_mean(errors), jackknifed_mean(base_errors), is_repeatable);
     return row;
 }
 

@@ -9,17 +9,18 @@
 struct EffectRow {
     std::string shot, frame, variant, point, against_variant, against_point, target, metric, formula, mask;
     size_t seeds = 0;             ///< that both were run with
-    std::optional<double> ratio;  ///< point / baseline, geometric mean over the seeds; none if an error is not above 0
-    std::optional<double> low, high, p;  ///< 95 % interval; two-sided p of "the ratio is 1", see paired_effects()
+    std::optional<double> ratio;  ///< mean error of the point / of the baseline, over the seeds; none if one is not above 0
+    std::optional<double> low, high, p;  ///< 95 % interval; two-sided p of "the ratio is 1", see jackknifed_ratio()
     std::optional<double> p_holm;        ///< p adjusted for all rows of equal target, metric and mask
 };
 
 /// Whether less of the metric is better: such are never negative, but for the correction of noise.
 bool is_error(const std::string& metric);
 
-/// Every point against every point marked as a baseline, by errors for which less is better. Seeds are paired: equal
-/// ones share random numbers, camera and scene, so what they have in common cancels (paired_ratio()). Of a shot's rows
-/// those over its frames count where there are such ("all"), else those of its last frame.
+/// Every point against every point marked as a baseline, by errors for which less is better, over the seeds that both
+/// have (jackknifed_ratio()): the ratio of the mean errors, since a mean of the seeds' ratios would hide what few seeds
+/// with large errors cost. Of a shot's rows those over its frames count where there are such ("all"), else those of its
+/// last frame.
 ///
 /// No interval and no p are given for a single seed, nor if one of both is in `not_repeatable` (variant, point): seeds
 /// do not share what such points add by chance, and another run would tell another ratio.

@@ -32,18 +32,35 @@ Estimate interval(const Moments& m, size_t count) {
 
 Estimate mean_estimate(std::span<const double> values) { return interval(moments(values), values.size()); }
 
-RatioEstimate paired_ratio(std::span<const double> a, std::span<const double> b) {
-    if (a.size() != b.size())
-        fail("a paired comparison needs as many values on each side, found ", a.size(), " and ", b.size());
+Jackknifed jackknifed_mean(std::span<const double> values) {
+    const auto mean_without = [&](size_t left_out) {  // no subtraction from the sum: one value may be nearly all of it
+        const bool is_one_left_out = left_out < values.size();
+        const double sum = ordered_sum(values.size(), [&](size_t i) { return i == left_out ? 0.0 : values[i]; });
+        return sum / double(values.size() - is_one_left_out);
+    };
+    Jackknifed mean{.value = mean_without(values.size()), .without = {}};
+    for (size_t i = 0; i < values.size() && values.size() > 1; ++i) mean.without.push_back(mean_without(i));
+    return mean;
+}
+
+RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b) {
+    if (a.without.size() != b.without.size())
+        fail("a paired comparison needs as many seeds on each side, found ", a.without.size(), " and ",
+             b.without.size());
+    if (!(a.value > 0 && b.value > 0)) fail("a ratio needs values above 0, found ", a.value, " and ", b.value);
+    RatioEstimate ratio{.value = a.value / b.value, .low = {}, .high = {}, .p_value = {}};
+    const size_t n = a.without.size();
     std::vector<double> logarithms;
-    for (size_t i = 0; i < a.size(); ++i) {
-        if (!(a[i] > 0 && b[i] > 0)) fail("a ratio of errors needs values above 0, found ", a[i], " and ", b[i]);
-        logarithms.push_back(std::log(a[i] / b[i]));
-    }
-    const Moments m = moments(logarithms);
-    const Estimate e = interval(m, logarithms.size());
-    const double t = m.mean == 0 ? 0 : std::abs(m.mean) / m.standard_error;
-    return {{std::exp(e.value), std::exp(e.low), std::exp(e.high)}, 2 * student_t_cdf(-t, double(a.size() - 1))};
+    for (size_t i = 0; i < n; ++i)
+        if (a.without[i] > 0 && b.without[i] > 0) logarithms.push_back(std::log(a.without[i] / b.without[i]));
+    if (n < 2 || logarithms.size() < n) return ratio;
+    // Values without one seed share all others and scatter N - 1 times less than single seeds would.
+    const double standard_error = moments(logarithms).standard_error * double(n - 1), logarithm = std::log(ratio.value);
+    const double half_width = student_t_quantile(0.975, double(n - 1)) * standard_error;
+    ratio.low = std::exp(logarithm - half_width), ratio.high = std::exp(logarithm + half_width);
+    const double t = logarithm == 0 ? 0 : std::abs(logarithm) / standard_error;
+    ratio.p_value = 2 * student_t_cdf(-t, double(n - 1));
+    return ratio;
 }
 
 std::vector<double> holm_adjusted(std::span<const double> p_values) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "metrics/score.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,14 +14,32 @@ struct Estimate {
 /// than two. Squared errors are skewed: take 8 values or more.
 Estimate mean_estimate(std::span<const double> values);
 
-struct RatioEstimate {
-    Estimate ratio;
-    double p_value;  ///< two-sided, of "the ratio is 1"
+/// An estimate from N seeds, and what the same rule estimates without each one of them in turn.
+struct Jackknifed {
+    double value;
+    std::vector<double> without;
 };
 
-/// The geometric mean of a_i / b_i, where a_i and b_i share seed, camera and scene: the mean of ln(a_i / b_i), by
-/// Student's t. Fails on unequal or fewer than two values, and on values that are not above 0.
-RatioEstimate paired_ratio(std::span<const double> a, std::span<const double> b);
+/// The mean; `without` is empty for a single value.
+Jackknifed jackknifed_mean(std::span<const double> values);
+
+struct RatioEstimate {
+    double value;
+    std::optional<double> low, high;  ///< 95 % interval
+    std::optional<double> p_value;    ///< two-sided, of "the ratio is 1": below 0.05 where the interval leaves out 1
+};
+
+/// a / b, both estimated from the same N seeds: seed i shares random numbers, camera and scene, so what they have in
+/// common cancels. The interval is the jackknife's of ln(a / b) with Student's t of N - 1 degrees (Tukey 1958, "Bias and
+/// Confidence in Not-Quite Large Samples"; Miller 1974, "The Jackknife - A Review"). Without one for a single seed, and
+/// where an estimate without one of the seeds is not above 0. Fails if a or b is not, or if they hold unequal numbers of
+/// seeds.
+///
+/// Coverage of ratios of means in 40000 simulated studies of 4, 8, 16 seeds: 94.9, 95.1, 95.1 % for log-normal values of
+/// deviation 0.05 and correlation 0.9; 93.3, 93.1, 93.7 % for deviation 1 without correlation; 90.5, 89.7, 90.1 %
+/// where only one of a and b has deviation 1, as a mean of few skewed values mostly misses its tail. Bootstraps of
+/// percentiles cover 78 to 80 % at 4 seeds, Fieller's interval (1954) of heavy tails is mostly unbounded there.
+RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b);
 
 /// p-values adjusted so that all can be judged at one level together, in the order given (Holm 1979, "A Simple
 /// Sequentially Rejective Multiple Test Procedure").
