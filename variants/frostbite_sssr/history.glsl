@@ -1,10 +1,10 @@
 // What was reflected at a pixel in the frame before.
 #ifndef FROSTBITE_SSSR_HISTORY_GLSL
 #define FROSTBITE_SSSR_HISTORY_GLSL
-#include "common/mirror_ray.glsl"
+#include "frostbite_sssr/previous_view.glsl"
 
 // Texels of previous_accumulated: colour times confidence, confidence; the latter negative where nothing reflected.
-uniform sampler2D previous_accumulated, previous_depth, previous_normal, motion;
+uniform sampler2D previous_accumulated, previous_normal, motion;
 
 const vec4 no_reflection = vec4(0.0, 0.0, 0.0, -1.0);
 
@@ -42,32 +42,21 @@ Place reflection_before(ivec2 pixel, float ray_length) {
 // space.
 struct Reflector {
     vec3 position, geometric_normal, ws_normal;
-    float roughness, view_depth;
+    float roughness;
 };
 
 Reflector reflector_at(ivec2 pixel) {
-    vec3 position = view_position(pixel);
     vec4 normal_roughness = texelFetch(normal, pixel, 0);
-    vec4 ws_position = camera.world_from_view * vec4(position, 1.0);
-    return Reflector((camera.previous_view_from_world * ws_position).xyz,
-                     mat3(camera.previous_view_from_world) * texelFetch(geometric_normal, pixel, 0).xyz,
-                     normal_roughness.xyz, normal_roughness.w, -position.z);
-}
-
-vec3 position_before(ivec2 texel, float device_depth) {
-    vec2 uv = (vec2(texel) + 0.5 + camera.jitter.zw) * camera.extent.zw;
-    vec4 view = camera.previous_view_from_clip * vec4(uv * 2.0 - 1.0, device_depth, 1.0);
-    return view.xyz / view.w;
+    mat4 before_from_now = previous_view_from_view();
+    return Reflector((before_from_now * vec4(view_position(pixel), 1.0)).xyz,
+                     mat3(before_from_now) * view_geometric_normal(pixel), normal_roughness.xyz, normal_roughness.w);
 }
 
 // Whether the texel showed the same plane as rough as now; one that moved has its mirror image elsewhere. The limits are
-// ours: 1 % of the distance to the camera, 26 degrees, a tenth in perceptual roughness.
+// ours: 26 degrees, a tenth in perceptual roughness.
 bool is_same_reflector(Reflector now, ivec2 texel) {
-    float device_depth = texelFetch(previous_depth, texel, 0).r;
-    if (is_background(device_depth)) return false;
     vec4 before = texelFetch(previous_normal, texel, 0);
-    float off_plane = dot(position_before(texel, device_depth) - now.position, now.geometric_normal);
-    return abs(off_plane) <= 0.01 * now.view_depth && dot(before.xyz, now.ws_normal) >= 0.9 &&
+    return showed_plane(texel, now.position, now.geometric_normal) && dot(before.xyz, now.ws_normal) >= 0.9 &&
            abs(before.w - now.roughness) <= 0.1;
 }
 

@@ -32,6 +32,7 @@ void add_rays_of(ivec2 traced, inout Group group) {
         TracedRay traced_ray = load_ray(index_of_ray(traced, k));
         if (traced_ray.inverse_density == 0.0) continue;
         ReusedRay ray = reused_ray(origin, traced_ray);
+        if (ray.is_dropped) continue;
         for (int n = 0; n < group_size; ++n)
             if (group.is_resolved[n]) add_ray(group.sums[n], group.pixel[n], group.surface[n], ray);
     }

@@ -8,6 +8,10 @@ struct FrostbiteResolveParameters {
     // clang-format off
     Switch previous_frame{params, "previous_frame", true,
         {"", "hits take their colour from the previous frame's lit image, where they were then", "slides"}};
+    Choice hidden_hits{params, "hidden_hits", "show", {"show", "miss", "drop"},
+        {"", "with previous_frame, hits that the previous frame did not show, since something else was in front of them or "
+         "they faced away. show: the colour of what was there; miss: they count as misses; drop: not at all, so that "
+         "others, if any, stand in for them", "ssrlab; the slides do not say"}};
     Switch filtered_sampling{params, "filtered_sampling", true,
         {"", "hits take their colour from a mip level as wide as the truncated lobe", "slides; Colbert and "
          "Krivanek 2007, 'GPU-Based Importance Sampling', GPU Gems 3, chapter 20"}};

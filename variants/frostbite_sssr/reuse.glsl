@@ -1,6 +1,7 @@
 // A traced ray as the pixels see it that resolve it.
 #ifndef FROSTBITE_SSSR_REUSE_GLSL
 #define FROSTBITE_SSSR_REUSE_GLSL
+#include "frostbite_sssr/previous_view.glsl"
 #include "frostbite_sssr/ray.glsl"
 #include "frostbite_sssr/surface.glsl"
 
@@ -11,6 +12,7 @@ struct ReusedRay {
     TracedRay traced;
     vec3 origin, hit_normal;
     vec2 color_uv;  // of the hit in the image that it takes its colour from
+    bool is_dropped;
 };
 
 // Where the lit image shows what `pixel` shows: as `motion` is without jitter, both frames' are added.
@@ -24,13 +26,17 @@ vec2 color_uv_of(ivec2 pixel) {
 }
 
 ReusedRay reused_ray(vec3 origin, TracedRay traced) {
-    ReusedRay ray = ReusedRay(traced, origin, vec3(0.0), vec2(0.0));
+    const bool hidden_hits_show = hidden_hits == 0u, hidden_hits_are_dropped = hidden_hits == 2u;
+    ReusedRay ray = ReusedRay(traced, origin, vec3(0.0), vec2(0.0), false);
     if (!is_hit(traced)) return ray;
     ivec2 pixel = pixel_of_target(traced.target);
     if (reuse_jacobian) ray.hit_normal = view_geometric_normal(pixel);
     ray.color_uv = color_uv_of(pixel);
     bool had_left_screen = any(lessThan(ray.color_uv, vec2(0.0))) || any(greaterThan(ray.color_uv, vec2(1.0)));
-    if (had_left_screen) ray.traced.confidence = 0.0;
+    bool is_asked = previous_frame && !hidden_hits_show && !had_left_screen;
+    bool was_hidden = is_asked && !was_seen(pixel, ray.color_uv * camera.extent.xy);
+    if (had_left_screen || was_hidden) ray.traced.confidence = 0.0;
+    ray.is_dropped = was_hidden && hidden_hits_are_dropped;
     return ray;
 }
 
