@@ -17,7 +17,7 @@ void main() {
     float alpha = ggx_alpha(given.values.w), mu_o = given.values.z;
     vec3 o = vec3(sqrt(1.0 - mu_o * mu_o), 0.0, mu_o);
     LobeSample drawn = sample_lobe(given.choice.x, o, alpha, float(given.choice.y) / 256.0, given.values.xy);
-    vec2 point = rotated_halton(given.choice.z, given.choice.zw, given.choice.w, given.choice.y);
+    vec2 point = rotated_halton(given.choice.z, given.choice.y & 3u, given.choice);
     float results[8] = float[](drawn.direction.x, drawn.direction.y, drawn.direction.z, drawn.inverse_density,
                                lobe_density(given.choice.x, o, drawn.direction, alpha), point.x, point.y, 0.0);
     for (uint k = 0u; k < 8u; ++k) values[index * 8u + k] = results[k];

@@ -194,9 +194,9 @@ struct Wrong {
 };
 
 /// What the defaults cost, against a look at every pixel, in a scene of posts that are one pixel wide: of the rays
-/// through the hierarchy 0.02 % run out of steps; of those with 8, 32 and 512 linear steps 33, 11 and 5 % end
+/// through the hierarchy 0.02 % run out of steps; of those with 8, 32 and 512 linear steps 31, 11 and 5 % end
 /// otherwise (a step may pass over a post, and rays towards the camera must be behind a surface at a step's end), and
-/// 11, 10 and 5 % elsewhere. The bounds leave room for devices that round otherwise.
+/// 12, 11 and 6 % elsewhere. The bounds leave room for devices that round otherwise.
 TEST_F(FrostbiteMarch, LosesWhatItsLimitsSay) {
     make_depth();
     const std::vector<PixelRay> rays = random_rays(6000);
@@ -221,7 +221,7 @@ TEST_F(FrostbiteMarch, LosesWhatItsLimitsSay) {
         unsigned steps;
         double end, pixel;
     };
-    for (const Case& c : {Case{8, 0.325, 0.11}, Case{32, 0.113, 0.105}, Case{512, 0.049, 0.053}}) {
+    for (const Case& c : {Case{8, 0.314, 0.121}, Case{32, 0.110, 0.113}, Case{512, 0.046, 0.058}}) {
         params.assign({{"linear_steps", c.steps}});
         const Wrong linear = wrong(true);
         EXPECT_NEAR(linear.end, c.end, 0.01) << c.steps;

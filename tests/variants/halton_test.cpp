@@ -30,8 +30,9 @@ TEST_F(Halton, RotatesEachPixelSeedAndDimensionByItself) {
         double correlation = 0;
         glm::vec2 last(0);
         for (unsigned n = 0; n < points; ++n) {
-            const glm::uvec2 pixel = varied == 0 ? glm::uvec2(n % 128, n / 128) : glm::uvec2(5, 9);
-            const glm::vec2 p = rotated_halton(3, pixel, varied == 1 ? n : 2, varied == 2 ? n : 0);
+            glm::uvec4 key(5 | 9 << 16, 2, 0, 0);
+            key[varied] = varied == 0 ? n % 128 | n / 128 << 16 : n;
+            const glm::vec2 p = rotated_halton(3, 0, key);
             ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
             count[size_t(p.x * 16) * 16 + size_t(p.y * 16)] += 1;
             if (n > 0) correlation += (p.x - 0.5) * (last.x - 0.5) * 12 / points;
@@ -53,7 +54,7 @@ std::array<float, 7> on_the_cpu(const LobeInput& in) {
     const float alpha = ggx_alpha(in.values.w);
     const glm::vec3 o(std::sqrt(1 - in.values.z * in.values.z), 0, in.values.z);
     const LobeSample drawn = sample_lobe(in.choice.x, o, alpha, float(in.choice.y) / 256, in.values);
-    const glm::vec2 point = rotated_halton(in.choice.z, {in.choice.z, in.choice.w}, in.choice.w, in.choice.y);
+    const glm::vec2 point = rotated_halton(in.choice.z, in.choice.y & 3, in.choice);
     return {drawn.direction.x,
             drawn.direction.y,
             drawn.direction.z,

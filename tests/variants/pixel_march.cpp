@@ -121,17 +121,19 @@ PixelMarchResult march_equal_steps(const HostImage& depth, const CameraData& cam
         const double from = distance_at(marched, major, start[major] + sign * from_pixels),
                      to = distance_at(marched, major, start[major] + sign * to_pixels);
         const glm::dvec2 position = marched.position(to);
-        for (int axis = 0; axis < 2; ++axis)
-            if (std::abs(position[axis] - std::round(position[axis])) < 1e-3) result.is_close_call = true;
-        const glm::ivec2 pixel(glm::floor(position));
+        for (int axis = 0; axis < 2; ++axis) {
+            const double wall = std::round(position[axis]);
+            const bool is_border = wall <= 0 || wall >= depth.extent[axis];  // which nothing is beyond
+            if (!is_border && std::abs(position[axis] - wall) < 1e-3) result.is_close_call = true;
+        }
+        const glm::ivec2 pixel =
+            glm::clamp(glm::ivec2(glm::floor(position)), glm::ivec2(0), glm::ivec2(depth.extent) - 1);
         return pixel != ray.pixel && meets(marched, pixel, from, to, marched.z(to), result);
     };
     const double stride = std::max(length / steps, 1.0);
     double from = 0.5;
-    for (unsigned step = 0; step < steps && !result.is_hit; ++step) {
-        double to = (step + double(ray.jitter)) * stride;
-        if (std::abs(to - length) < 1e-3) result.is_close_call = true;
-        if (to >= length) break;
+    for (unsigned step = 0; from < length && !result.is_hit; ++step) {
+        double to = std::min((step + double(ray.jitter)) * stride, length);
         if (to <= from) continue;  // in its own pixel
         if (!meets_at_end(from, to)) {
             from = to;

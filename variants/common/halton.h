@@ -17,7 +17,7 @@ SHARED uvec4 pcg4d(uvec4 v) {
 }
 
 /// The digits of `index` in `base` mirrored about the point: Halton 1960, "On the Efficiency of Certain Quasi-Random
-/// Sequences of Points in Evaluating Multi-Dimensional Integrals". In [0, 1] for base >= 2.
+/// Sequences of Points in Evaluating Multi-Dimensional Integrals". In [0, 1) for base >= 2.
 SHARED float radical_inverse(uint index, uint base) {
     float inverse = 0.0f;
     float digit_weight = 1.0f;
@@ -25,15 +25,25 @@ SHARED float radical_inverse(uint index, uint base) {
         digit_weight /= float(base);
         inverse += float(index % base) * digit_weight;
     }
-    return inverse;
+    return min(inverse, 0.99999994f);  // the largest float below 1, to which sums of many digits round
 }
 
-/// Point `index` of Halton's sequence in bases 2 and 3, in [0, 1)^2, rotated (Cranley and Patterson 1976) by as much as
-/// pixel, seed and dimension say: each of them has a sequence of its own, uniform and independent of the others.
-SHARED vec2 rotated_halton(uint index, uvec2 pixel, uint seed, uint dimension) {
-    uvec4 random = pcg4d(uvec4(pixel.x, pixel.y, seed, dimension));
-    vec2 rotation = vec2(float(random.x >> 8u), float(random.y >> 8u)) * (1.0f / 16777216.0f);
-    vec2 point = rotation + vec2(radical_inverse(index, 2u), radical_inverse(index, 3u));
+/// A point of [0, 1)^2 for every key, as if drawn at random: pcg4d's first two words, of which float32 takes 24 bits.
+SHARED vec2 random_point(uvec4 key) {
+    uvec4 words = pcg4d(key);
+    return vec2(float(words.x >> 8u), float(words.y >> 8u)) * (1.0f / 16777216.0f);
+}
+
+/// Point `index` of sequence `sequence`, in [0, 1)^2: Halton's in bases 2 and 3, rotated (Cranley and Patterson 1976)
+/// by random_point(key) and by steps that depend on `sequence`. One point of each key is uniform and independent of
+/// those of other keys; points of one key are not independent but fill the square more evenly than random ones do. So
+/// do those of its first sequences together: their rotations are Roberts' sequence (2018, "The Unreasonable
+/// Effectiveness of Quasirandom Sequences"), whose irrational steps put no point of one sequence on one of another, as
+/// steps of radical inverses would.
+SHARED vec2 rotated_halton(uint index, uint sequence, uvec4 key) {
+    vec2 steps = vec2(0.7548777f, 0.5698403f);  // 1 / p and 1 / p^2 of p^3 = p + 1
+    vec2 point = random_point(key) + float(sequence) * steps;
+    point += vec2(radical_inverse(index, 2u), radical_inverse(index, 3u));
     return point - floor(point);
 }
 #endif

@@ -2,19 +2,8 @@
 #ifndef FROSTBITE_SSSR_DRAW_RAY_GLSL
 #define FROSTBITE_SSSR_DRAW_RAY_GLSL
 #include "common/ggx_lobe.h"
-#include "common/halton.h"
 #include "common/mirror_ray.glsl"
-
-// Dimensions of random numbers: a ray's draws, of which there are at most 17, and the start of its march. Those of
-// probes follow.
-const uint march_dimension = 17u, probe_dimension = 18u;
-
-// Point k of pixel and frame. At half resolution a pixel has its turn once in four frames, and takes the sequence's
-// points one after the other all the same: a point in four would leave out three quarters of the first coordinate.
-vec2 random_pair(ivec2 pixel, uint k, uint dimension) {
-    uint turn = half_resolution ? camera.frame.x / 4u : camera.frame.x;
-    return rotated_halton(turn * max_rays + k, uvec2(pixel), camera.frame.y, dimension);
-}
+#include "frostbite_sssr/random.glsl"
 
 // A surface with a specular term that is smooth enough and whose shading normal faces the viewer.
 bool starts_rays(ivec2 pixel) {

@@ -29,15 +29,17 @@ March refine(ScreenLine line, March end, float t_in, float t_out) {
     return end;
 }
 
-// `jitter` in [0, 1): length of the first step, in steps. Steps are no shorter than a pixel. A ray hits if it is behind
-// the surface at a step's end and was not behind all of its solid part on the whole step. That it was farther on its
-// way does not count: the surface of some other pixel was there.
+// `jitter` in [0, 1): length of the first step, in steps; the last one is what is left. The others are no shorter than
+// a pixel. A ray hits if it is behind the surface at a step's end and was not behind all of its solid part on the whole
+// step. That it was farther on its way does not count: the surface of some other pixel was there.
 March march_linear(ScreenLine line, float jitter) {
     float stride = max(line.end / float(linear_steps), 1.0);
     float t_in = 0.5;  // where it leaves its own pixel
-    for (uint step = 0u; step < linear_steps; ++step) {
+    bool is_last = false;
+    for (uint step = 0u; !is_last; ++step) {
         float t_out = (float(step) + jitter) * stride;
-        if (t_out >= line.end) break;
+        is_last = step == linear_steps || t_out >= line.end;
+        if (is_last) t_out = line.end;
         if (pixel_at(line, t_out) == line.pixel) continue;
         March end = meet_at_end(line, t_in, t_out);
         if (end.is_hit) return refine(line, end, t_in, t_out);

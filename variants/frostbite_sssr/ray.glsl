@@ -16,13 +16,12 @@ const uint ray_missed = 0xffffffffu, ray_below_horizon = 0xfffffffeu, ray_into_s
 struct TracedRay {
     vec3 direction;         // view space, unit
     float inverse_density;  // of the lobe without regeneration (sr); 0: there is no such ray
-    uint target;            // pixel x | y << 16, or a marker from above
+    uint target;            // packed_pixel() of the hit, or a marker from above
     float ray_length;       // from the surface to the hit (m)
     float confidence;       // of a hit, [0, 1]
     uint discarded_draws;   // that went below the horizon before the last one
 };
 
-uint target_of_pixel(ivec2 pixel) { return uint(pixel.x) | uint(pixel.y) << 16; }
 ivec2 pixel_of_target(uint target) { return ivec2(target & 0xffffu, target >> 16); }
 bool is_hit(TracedRay ray) { return ray.target < ray_into_surface; }
 

@@ -1,8 +1,8 @@
 // Which pixels an invocation resolves, and whose rays they share.
 #ifndef FROSTBITE_SSSR_TAPS_GLSL
 #define FROSTBITE_SSSR_TAPS_GLSL
-#include "common/halton.h"
 #include "core/shared/brdf.h"
+#include "frostbite_sssr/random.glsl"
 #include "frostbite_sssr/ray.glsl"
 
 // The choices of `taps` and `pattern`.
@@ -13,9 +13,9 @@ const bool is_shared = taps != 0u && pattern != 0u, is_interleaved = is_shared &
 const int group_size = is_shared ? 4 : 1;
 const int max_group_size = 4;
 
-// The group's pixels, all or some of which may lie beyond the border. Those of `interleaved` are two pixels apart; the four
-// groups of a 4x4 block move by half a block each in its own direction, another one every frame, so that next to each
-// other are pixels that resolve different rays.
+// The group's pixels, all or some of which may lie beyond the border. Those of `interleaved` are two pixels apart; the
+// four groups of a 4x4 block move by half a block each in its own direction, another one every frame, so that next to
+// each other are pixels that resolve different rays.
 ivec2 first_pixel_of(ivec2 group) {
     if (!is_shared) return group;
     if (!is_interleaved) return 2 * group;
@@ -31,8 +31,7 @@ ivec2 pixel_of_group(ivec2 first_pixel, int index) {
 // Sunflower Head"), turned by a random angle. The radius is that of a disk with about three traced pixels per tap.
 ivec2 rotated_offset(ivec2 pixel, int tap) {
     const float golden_turn = 0.38196601, radius = taps == 1u ? 2.0 : 4.0;
-    const uint random_dimension = 64u;  // beyond those of draw_ray.glsl
-    float turn = rotated_halton(camera.frame.x, uvec2(pixel), camera.frame.y, random_dimension).x;
+    float turn = random_pair(pixel, 0u, tap_dimension).x;
     float distance = radius * sqrt(float(tap) / float(max(tap_count - 1, 1)));
     return ivec2(round(distance * unit_circle(fract(turn + golden_turn * float(tap)))));
 }

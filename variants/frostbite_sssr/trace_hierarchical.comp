@@ -12,5 +12,5 @@ void main() {
     uint place = place_in_list();
     if (place >= hierarchical_count) return;
     uint index = listed_ray[place];
-    store_ray(index, trace_ray(traced_pixel(traced_of_ray(index), camera.frame.x), index % max_rays, 0u));
+    store_ray(index, trace_ray(traced_pixel(traced_of_ray(index), camera.frame.x), index % max_rays, ray_dimension));
 }

@@ -24,7 +24,7 @@ TracedRay trace_ray(ivec2 pixel, uint k, uint first_dimension) {
         // Behind what it shows from the other side, the screen knows of nothing that the ray could go on to.
         bool is_seen = !front_faces_only || dot(drawn.direction, view_geometric_normal(end.pixel)) < 0.0;
         if (end.is_hit && is_seen) {
-            ray.target = target_of_pixel(end.pixel);
+            ray.target = packed_pixel(end.pixel);
             ray.ray_length = distance_at(line, end.t);
             ray.confidence = 1.0;
         }
