@@ -249,6 +249,21 @@ TEST_F(FrostbiteMarch, FindsTheHitWithinItsStep) {
     }
 }
 
+/// Steps of 21.6 pixels, whatever the first one's length, leave up to one of them before the border.
+TEST_F(FrostbiteMarch, StepsUpToTheBorder) {
+    make_wall(10);
+    for (unsigned y = 0; y < extent.y; ++y) *depth.pixel(192, y) = device_depth(5);
+    *depth.pixel(20, 60) = device_depth(5.02f);
+    for (const unsigned steps : {1u, 8u, 512u})
+        for (const float jitter : {0.0f, 0.1f, 0.9f}) {
+            params.assign({{"linear_steps", steps}});
+            PixelRay ray = ray_from({20, 60}, {1, 0, 0});
+            ray.jitter = jitter;
+            const Found found = march(std::vector{ray}, true).front();
+            EXPECT_TRUE(found.is_hit && found.pixel == glm::ivec2(192, 60)) << steps << " steps, jitter " << jitter;
+        }
+}
+
 // --- Degenerate rays ---
 
 TEST_F(FrostbiteMarch, MissesAlongTheView) {
