@@ -6,8 +6,21 @@ FrostbiteBench::FrostbiteBench(Device& device, const CameraPose& pose, const Fra
                                const SyntheticScene& scene, const nlohmann::json& parameters)
     : graph(device, view.extent),
       camera(camera_data(pose, nullptr, view)),
-      gbuffer(upload_gbuffer(graph, pose, camera, scene)) {
+      gbuffer(upload_gbuffer(graph, pose, camera, scene)),
+      pose_(pose),
+      view_(view),
+      scene_(scene) {
     params.assign(parameters);
+}
+
+void FrostbiteBench::set_previous(const CameraPose& pose_before, const SyntheticScene& scene_before, glm::vec3 way) {
+    FrameView view_before = view_;
+    view_before.jitter = view_.previous_jitter;
+    const HostGBuffer before = host_gbuffer(graph.device(), pose_before, view_before, scene_before);
+    gbuffer.previous_depth = graph.image("previous_depth", Format::r32f);
+    graph.upload(gbuffer.previous_depth, before.depth);
+    camera = camera_data(pose_, &pose_before, view_);
+    graph.upload(gbuffer.motion, motion_of(pose_, camera, scene_, way));
 }
 
 glm::uvec2 FrostbiteBench::traced_extent() const {

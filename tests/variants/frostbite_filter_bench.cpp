@@ -9,24 +9,12 @@ GBuffer FrostbiteFilterBench::upload(const CameraPose& pose, const SyntheticScen
     camera_ = camera_data(pose, view.frame > 0 ? &pose_before_ : nullptr, view);
     GBuffer gbuffer = upload_gbuffer(graph, pose, camera_, scene);
     const HostImage depth = graph.download(gbuffer.depth), normal = graph.download(gbuffer.normal);
-    HostImage motion(view.extent, 2);
     if (view.frame > 0) {
         gbuffer.previous_depth = graph.image("previous_depth", Format::r32f);
         gbuffer.previous_normal = graph.image("previous_normal", Format::rgba32f);
         graph.upload(gbuffer.previous_depth, depth_before_);
         graph.upload(gbuffer.previous_normal, normal_before_);
-        for (unsigned y = 0; y < view.extent.y; ++y)
-            for (unsigned x = 0; x < view.extent.x; ++x) {
-                const glm::vec2 sample = glm::vec2(x, y) + 0.5f + view.jitter;
-                const CameraRay ray = camera_ray(pose, view.extent, sample);
-                const float distance = scene(ray).distance;
-                if (std::isinf(distance)) continue;
-                const glm::vec4 clip =
-                    camera_.previous_clip_from_world * glm::vec4(ray.origin + distance * ray.direction, 1);
-                const glm::vec2 before = glm::vec2(clip) / clip.w * 0.5f + 0.5f;
-                for (int i = 0; i < 2; ++i) motion.pixel(x, y)[i] = sample[i] / float(view.extent[i]) - before[i];
-            }
-        graph.upload(gbuffer.motion, motion);
+        graph.upload(gbuffer.motion, motion_of(pose, camera_, scene));
     }
     pose_before_ = pose;
     depth_before_ = depth;

@@ -48,6 +48,23 @@ GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraDat
     return gbuffer;
 }
 
+HostImage motion_of(const CameraPose& pose, const CameraData& camera, const SyntheticScene& scene, glm::vec3 way) {
+    const glm::uvec2 extent(camera.extent);
+    HostImage motion(extent, 2);
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 0; x < extent.x; ++x) {
+            const glm::vec2 sample = glm::vec2(x, y) + 0.5f + glm::vec2(camera.jitter);
+            const CameraRay ray = camera_ray(pose, extent, sample);
+            const float distance = scene(ray).distance;
+            if (std::isinf(distance)) continue;
+            const glm::vec4 clip =
+                camera.previous_clip_from_world * glm::vec4(ray.origin + distance * ray.direction - way, 1);
+            const glm::vec2 before = glm::vec2(clip) / clip.w * 0.5f + 0.5f;
+            for (int i = 0; i < 2; ++i) motion.pixel(x, y)[i] = sample[i] / float(extent[i]) - before[i];
+        }
+    return motion;
+}
+
 HostGBuffer host_gbuffer(Device& device, const CameraPose& pose, const FrameView& view, const SyntheticScene& scene) {
     PassGraph graph(device, view.extent);
     const CameraData camera = camera_data(pose, nullptr, view);

@@ -20,6 +20,10 @@ GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraDat
 /// The same on the CPU.
 HostGBuffer host_gbuffer(Device& device, const CameraPose& pose, const FrameView& view, const SyntheticScene& scene);
 
+/// As GBuffer::motion, of a scene that has moved by `way` (world space) since the previous frame of `camera`.
+HostImage motion_of(const CameraPose& pose, const CameraData& camera, const SyntheticScene& scene,
+                    glm::vec3 way = glm::vec3(0));
+
 /// A mirror floor at y = -1 before a wall at z = -6 that is white above y = 1 and grey (0.25) below, seen from the
 /// origin.
 SyntheticHit mirror_floor(const CameraRay& ray);
