@@ -31,8 +31,10 @@ struct adl_serializer<std::optional<T>> {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ResultRow, shot, scene, camera, frame, width, height, variant, point, seed, target,
                                    metric, formula, mask, value, is_corrected, uncorrected, low, high, floor, pixels,
                                    non_finite, negative)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SeedPairs, variance, bias_squared)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SplitRow, shot, frame, variant, point, target, mask, seeds, mse, bias_squared,
-                                   variance, variance_low, variance_high, pixels, bias_squared_low, bias_squared_high)
+                                   variance, variance_low, variance_high, pixels, bias_squared_low, bias_squared_high,
+                                   seed_numbers, pairs)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeRow, shot, variant, point, seed, stage, frame, milliseconds, clock)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cell, rows, splits, times, images, timing, notes)
 

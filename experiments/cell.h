@@ -1,4 +1,6 @@
 #pragma once
+#include "metrics/seed_pairs.h"
+
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -28,6 +30,8 @@ struct SplitRow {
     std::optional<double> variance_low, variance_high;
     size_t pixels = 0;
     std::optional<double> bias_squared_low, bias_squared_high;
+    std::vector<unsigned> seed_numbers;  ///< of `pairs`; both are kept in cells, for effects, but not in splits.csv
+    SeedPairs pairs;
 };
 
 /// One row of times.csv.

@@ -34,21 +34,34 @@ std::vector<const ResultRow*> chosen_rows(std::span<const ResultRow> rows) {
     return chosen;
 }
 
-/// One quantity of one point: its rows by seed.
-using Point = std::pair<std::string, std::string>;
-using Seeds = std::map<unsigned, const ResultRow*>;
+using Point = std::pair<std::string, std::string>;  // variant, point
+using Points = std::set<Point>;
 
-void set_ratio(EffectRow& row, const Jackknifed& error, const Jackknifed& base_error, bool is_repeatable) {
-    if (!(error.value > 0 && base_error.value > 0)) return;
-    const RatioEstimate e = jackknifed_ratio(error, base_error);
-    row.ratio = e.value;
-    if (is_repeatable) row.low = e.low, row.high = e.high, row.p = e.p_value;
+/// An effect on what two rows of one quantity measure, as yet without numbers.
+template <class Row>
+EffectRow effect_between(const Row& point, const Row& baseline) {
+    return {.shot = point.shot,
+            .frame = point.frame,
+            .variant = point.variant,
+            .point = point.point,
+            .against_variant = baseline.variant,
+            .against_point = baseline.point,
+            .target = point.target,
+            .mask = point.mask};
 }
 
-EffectRow effect(const Seeds& point, const Seeds& baseline, bool is_repeatable) {
-    const ResultRow &first = *point.begin()->second, &other = *baseline.begin()->second;
-    EffectRow row{first.shot,  first.frame,  first.variant, first.point,   other.variant,
-                  other.point, first.target, first.metric,  first.formula, first.mask};
+void set_ratio(EffectRow& row, const Jackknifed& error, const Jackknifed& base_error) {
+    if (!(error.value > 0 && base_error.value > 0)) return;
+    const RatioEstimate e = jackknifed_ratio(error, base_error);
+    row.ratio = e.value, row.low = e.low, row.high = e.high, row.p = e.p_value;
+}
+
+using Seeds = std::map<unsigned, const ResultRow*>;
+
+std::vector<EffectRow> effects_of(const Seeds& point, const Seeds& baseline) {
+    const ResultRow& first = *point.begin()->second;
+    EffectRow row = effect_between(first, *baseline.begin()->second);
+    row.metric = first.metric, row.formula = first.formula;
     std::vector<double> errors, base_errors;
     bool has_values = true;
     for (const auto& [seed, r] : point) {
@@ -58,9 +71,27 @@ EffectRow effect(const Seeds& point, const Seeds& baseline, bool is_repeatable) 
         has_values = has_values && r->value && found->second->value;
         errors.push_back(r->value.value_or(0)), base_errors.push_back(found->second->value.value_or(0));
     }
-    if (row.seeds > 0 && has_values)
-        set_ratio(row, jackknifed_mean(errors), jackknifed_mean(base_errors), is_repeatable);
-    return row;
+    if (row.seeds > 0 && has_values) set_ratio(row, jackknifed_mean(errors), jackknifed_mean(base_errors));
+    return {row};
+}
+
+std::vector<EffectRow> effects_of(const SplitRow* point, const SplitRow* baseline) {
+    std::vector<size_t> chosen, base_chosen;  // the common seeds, as places among those of either
+    for (size_t i = 0; i < point->seed_numbers.size(); ++i) {
+        const auto& numbers = baseline->seed_numbers;
+        const auto found = std::ranges::find(numbers, point->seed_numbers[i]);
+        if (found != numbers.end()) chosen.push_back(i), base_chosen.push_back(size_t(found - numbers.begin()));
+    }
+    if (chosen.size() < 2) return {};
+    std::vector<EffectRow> effects;
+    for (const auto& [name, pairs] :
+         {std::pair("bias_squared", &SeedPairs::bias_squared), std::pair("variance", &SeedPairs::variance)}) {
+        EffectRow& row = effects.emplace_back(effect_between(*point, *baseline));
+        row.metric = name, row.formula = "seed_pairs", row.seeds = chosen.size();
+        set_ratio(row, jackknifed_pairs(point->pairs.*pairs, chosen),
+                  jackknifed_pairs(baseline->pairs.*pairs, base_chosen));
+    }
+    return effects;
 }
 
 void adjust(std::vector<EffectRow>& effects) {
@@ -73,6 +104,31 @@ void adjust(std::vector<EffectRow>& effects) {
         const std::vector<double> adjusted = holm_adjusted(p);
         for (size_t i = 0; i < family.size(); ++i) family[i]->p_holm = adjusted[i];
     }
+}
+
+/// `table` holds what was measured, by quantity and point.
+template <class Measured>
+std::vector<EffectRow> against_baselines(const std::map<Quantity, std::map<Point, Measured>>& table,
+                                         const std::vector<VariantConfig>& variants, const Points& not_repeatable) {
+    std::vector<EffectRow> effects;
+    for (const VariantConfig& baseline : variants) {
+        if (!baseline.is_baseline) continue;
+        for (const VariantConfig& variant : variants) {
+            if (variant.variant == baseline.variant && variant.point == baseline.point) continue;
+            const Point name(variant.variant, variant.point), base_name(baseline.variant, baseline.point);
+            const bool is_repeatable = !not_repeatable.contains(name) && !not_repeatable.contains(base_name);
+            for (const auto& [quantity, points] : table) {
+                const auto a = points.find(name), b = points.find(base_name);
+                if (a == points.end() || b == points.end()) continue;
+                for (EffectRow& e : effects_of(a->second, b->second)) {
+                    if (!is_repeatable) e.low = e.high = e.p = std::nullopt;
+                    effects.push_back(std::move(e));
+                }
+            }
+        }
+    }
+    adjust(effects);
+    return effects;
 }
 
 }  // namespace
@@ -90,22 +146,14 @@ std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std
                                       const std::set<std::pair<std::string, std::string>>& not_repeatable) {
     std::map<Quantity, std::map<Point, Seeds>> table;
     for (const ResultRow* r : chosen_rows(rows)) table[quantity_of(*r)][{r->variant, r->point}][r->seed] = r;
-    std::vector<EffectRow> effects;
-    for (const VariantConfig& baseline : variants) {
-        if (!baseline.is_baseline) continue;
-        for (const VariantConfig& variant : variants) {
-            if (variant.variant == baseline.variant && variant.point == baseline.point) continue;
-            const Point name(variant.variant, variant.point), base_name(baseline.variant, baseline.point);
-            const bool is_repeatable = !not_repeatable.contains(name) && !not_repeatable.contains(base_name);
-            for (const auto& [quantity, points] : table) {
-                const auto a = points.find(name), b = points.find(base_name);
-                if (a != points.end() && b != points.end())
-                    effects.push_back(effect(a->second, b->second, is_repeatable));
-            }
-        }
-    }
-    adjust(effects);
-    return effects;
+    return against_baselines(table, variants, not_repeatable);
+}
+
+std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<VariantConfig>& variants,
+                                     const std::set<std::pair<std::string, std::string>>& not_repeatable) {
+    std::map<Quantity, std::map<Point, const SplitRow*>> table;
+    for (const SplitRow& r : rows) table[{r.shot, r.target, "", r.mask}][{r.variant, r.point}] = &r;
+    return against_baselines(table, variants, not_repeatable);
 }
 
 void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects) {

@@ -5,11 +5,12 @@
 #include <set>
 #include <span>
 
-/// What a point changes about one error of its baseline.
+/// What a point changes about one error of its baseline, or about its squared bias or its variance.
 struct EffectRow {
     std::string shot, frame, variant, point, against_variant, against_point, target, metric, formula, mask;
-    size_t seeds = 0;             ///< that both were run with
-    std::optional<double> ratio;  ///< mean error of the point / of the baseline, over the seeds; none if one is not above 0
+    size_t seeds = 0;  ///< that both were run with
+    std::optional<double>
+        ratio;  ///< mean error of the point / of the baseline, over the seeds; none if one is not above 0
     std::optional<double> low, high, p;  ///< 95 % interval; two-sided p of "the ratio is 1", see jackknifed_ratio()
     std::optional<double> p_holm;        ///< p adjusted for all rows of equal target, metric and mask
 };
@@ -26,6 +27,11 @@ bool is_error(const std::string& metric);
 /// do not share what such points add by chance, and another run would tell another ratio.
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
                                       const std::set<std::pair<std::string, std::string>>& not_repeatable = {});
+
+/// The same of the squared bias and of the variance by themselves, of each shot's last frame: whether a point wins by
+/// the one or by the other. As all pairs of the common seeds tell them, two seeds or more; intervals from three on.
+std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<VariantConfig>& variants,
+                                     const std::set<std::pair<std::string, std::string>>& not_repeatable = {});
 
 /// effects.csv. Only the header where no baseline is marked.
 void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects);

@@ -82,7 +82,7 @@ void measure_last(Play& play, const FrameTruth& truth, const CompositedImages& i
     for (ResultRow& r : measure_targets(*truth.pose, images, masks, row)) play.cell.rows.push_back(std::move(r));
     const HostImage image = composited_image(*truth.pose, images);
     for (const auto& [target, reference] : truth.pose->targets)
-        play.splits.try_emplace(target, reference).first->second.add(tested_image(target, images, image));
+        play.splits.try_emplace(target, reference).first->second.add(row.seed, tested_image(target, images, image));
 }
 
 /// Whether the full measure of the last frame holds this row already.

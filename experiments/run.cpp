@@ -154,8 +154,10 @@ std::set<std::pair<std::string, std::string>> not_repeatable_points(const nlohma
 void write_results(Study& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
     std::vector<ResultRow> rows;
+    std::vector<SplitRow> splits;
     for (const Cell& cell : study.finished) {
         rows.insert(rows.end(), cell.rows.begin(), cell.rows.end());
+        splits.insert(splits.end(), cell.splits.begin(), cell.splits.end());
         for (const nlohmann::json& entry : cell.images) manifest["images"].push_back(entry);
         for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
         if (!cell.timing.is_null()) add_timing(manifest, cell.timing);
@@ -163,8 +165,10 @@ void write_results(Study& study, bool is_last) {
     if (is_last) manifest["finished"] = time_stamp();
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
     write_tables(study.settings.out, study.finished);
-    write_effects(study.settings.out,
-                  paired_effects(rows, study.config.variants, not_repeatable_points(study.manifest)));
+    const auto not_repeatable = not_repeatable_points(study.manifest);
+    std::vector<EffectRow> effects = paired_effects(rows, study.config.variants, not_repeatable);
+    for (EffectRow& e : split_effects(splits, study.config.variants, not_repeatable)) effects.push_back(std::move(e));
+    write_effects(study.settings.out, effects);
     write_report(study.settings.out);
 }
 

@@ -1,10 +1,11 @@
 #include "experiments/splits.h"
 
 #include "metrics/noise.h"
-#include "metrics/pooling.h"
+#include "metrics/seed_pairs.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace {
 
@@ -22,54 +23,52 @@ Plane swapped_bias(const SeedSplit& split) {
     return swapped;
 }
 
-/// Half the width of Student's interval over the pairs; none below two pairs.
-std::optional<double> pair_half_width(const std::vector<Plane>& pairs, const Mask& inside) {
-    if (pairs.size() < 2) return {};
-    std::vector<double> means;
-    for (const Plane& pair : pairs) means.push_back(masked_mean(pair, inside));
-    const Estimate estimate = mean_estimate(means);
+/// Half the width of Student's interval over the pairs of seeds 0 and 1, 2 and 3 and so on; none below two pairs.
+std::optional<double> half_width_of_successive(const std::vector<double>& pairs, size_t seeds) {
+    std::vector<double> successive;
+    for (size_t j = 1; j < seeds; j += 2) successive.push_back(pairs[j * (j - 1) / 2 + j - 1]);
+    if (successive.size() < 2) return {};
+    const Estimate estimate = mean_estimate(successive);
     return estimate.high - estimate.value;
+}
+
+double mean_of(const std::vector<double>& pairs) {
+    return std::accumulate(pairs.begin(), pairs.end(), 0.0) / double(pairs.size());
+}
+
+void set_intervals(SplitRow& row, double noise_half_width) {
+    const std::optional<double> half_width = half_width_of_successive(row.pairs.variance, row.seeds);
+    if (!half_width) return;
+    row.variance_low = std::max(0.0, row.variance - *half_width);
+    row.variance_high = row.variance + *half_width;
+    const double bias_half_width =
+        std::hypot(*half_width_of_successive(row.pairs.bias_squared, row.seeds), noise_half_width);
+    row.bias_squared_low = row.bias_squared - bias_half_width;
+    row.bias_squared_high = row.bias_squared + bias_half_width;
 }
 
 }  // namespace
 
-void SeedSplit::add(const HostImage& rgb) {
+void SeedSplit::add(unsigned seed, const HostImage& rgb) {
     moments.add(rgb);
-    if (odd_one.values.empty()) {
-        odd_one = rgb;
-        return;
-    }
-    const HostImage &a = half_a(reference), &b = half_b(reference);
-    Plane& variance = pair_variances.emplace_back(rgb.extent);
-    Plane& bias = pair_biases.emplace_back(rgb.extent);
-    for (size_t i = 0; i < rgb.values.size(); ++i) {
-        const double x = odd_one.values[i], y = rgb.values[i], ra = a.values[i], rb = b.values[i];
-        variance.values[i / 3] += (x - y) * (x - y) / 2 / 3;
-        bias.values[i / 3] += ((x - ra) * (y - rb) + (y - ra) * (x - rb)) / 2 / 3;
-    }
-    odd_one = {};
+    seeds.push_back(seed), images.push_back(rgb);
 }
 
 std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared) {
     std::vector<SplitRow> rows;
-    if (split.moments.count < 2) return rows;
+    if (split.images.size() < 2) return rows;
     const MetricReference& reference = split.reference;
     const Plane swapped = swapped_bias(split);
     for (const Mask& mask : masks) {
         const Mask inside = intersection(intersection(mask, split.moments.finite), reference.finite);
         if (inside.count() == 0) continue;
-        const ErrorSplit error = split_error(split.moments, reference.image, reference.halves, inside);
         SplitRow row = shared;
-        row.mask = mask.name, row.seeds = split.moments.count, row.pixels = inside.count();
-        row.mse = error.mse, row.bias_squared = error.bias_squared, row.variance = error.variance;
-        if (const std::optional<double> half_width = pair_half_width(split.pair_variances, inside)) {
-            row.variance_low = std::max(0.0, row.variance - *half_width);
-            row.variance_high = row.variance + *half_width;
-            const double bias_half_width =
-                std::hypot(*pair_half_width(split.pair_biases, inside), noise_half_width(swapped, inside));
-            row.bias_squared_low = row.bias_squared - bias_half_width;
-            row.bias_squared_high = row.bias_squared + bias_half_width;
-        }
+        row.mask = mask.name, row.pixels = inside.count();
+        row.seeds = unsigned(split.seeds.size()), row.seed_numbers = split.seeds;
+        row.pairs = seed_pairs(split.images, half_a(reference), half_b(reference), inside);
+        row.variance = mean_of(row.pairs.variance), row.bias_squared = mean_of(row.pairs.bias_squared);
+        row.mse = row.bias_squared + row.variance;
+        set_intervals(row, noise_half_width(swapped, inside));
         rows.push_back(std::move(row));
     }
     return rows;

@@ -1,8 +1,8 @@
 #include "metrics/statistics.h"
 
 #include "core/error.h"
-#include "metrics/pooling.h"
 #include "metrics/quantiles.h"
+#include "metrics/summation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +57,7 @@ RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b) {
     // Values without one seed share all others and scatter N - 1 times less than single seeds would.
     const double standard_error = moments(logarithms).standard_error * double(n - 1), logarithm = std::log(ratio.value);
     const double half_width = student_t_quantile(0.975, double(n - 1)) * standard_error;
+    if (!std::isfinite(std::exp(logarithm + half_width))) return ratio;
     ratio.low = std::exp(logarithm - half_width), ratio.high = std::exp(logarithm + half_width);
     const double t = logarithm == 0 ? 0 : std::abs(logarithm) / standard_error;
     ratio.p_value = 2 * student_t_cdf(-t, double(n - 1));
@@ -91,25 +92,4 @@ void SeedMoments::add(const HostImage& rgb) {
         squares[i] += before * (rgb.values[i] - mean[i]);
         if (!std::isfinite(rgb.values[i])) finite.inside[i / 3] = 0;
     }
-}
-
-ErrorSplit split_error(const SeedMoments& seeds, const HostImage& reference,
-                       const std::optional<ReferenceHalves>& halves, const Mask& mask) {
-    if (seeds.count < 2) fail("telling bias from variance needs at least two seeds, found ", seeds.count);
-    const HostImage& a = halves ? halves->a : reference;
-    const HostImage& b = halves ? halves->b : reference;
-    if (a.extent != seeds.extent || b.extent != seeds.extent)
-        fail("the reference and the seeds need images of one size");
-    Mask inside = intersection(mask, seeds.finite);
-    Plane bias_squared(seeds.extent), variance(seeds.extent);
-    for (size_t i = 0; i < seeds.mean.size(); ++i) {
-        if (!std::isfinite(a.values[i]) || !std::isfinite(b.values[i])) inside.inside[i / 3] = 0;
-        if (!inside.inside[i / 3]) continue;
-        const double v = seeds.variance(i);
-        variance.values[i / 3] += v / 3;
-        bias_squared.values[i / 3] +=
-            ((seeds.mean[i] - a.values[i]) * (seeds.mean[i] - b.values[i]) - v / seeds.count) / 3;
-    }
-    const double bias = masked_mean(bias_squared, inside), spread = masked_mean(variance, inside);
-    return {bias + spread, bias, spread};
 }

@@ -9,6 +9,10 @@ const effectChoice = {
     scale: "all"
 };
 const significant = 0.05;  // of p after Holm's correction
+const errorParts = {
+    bias_squared: "bias²",
+    variance: "variance"
+};  // what a mean squared error is the sum of
 const scales = {
     all: "all ratios",
     "1.5": "2/3 to 1.5",
@@ -70,11 +74,15 @@ function effectGroups(rows) {
     return [...singles, ...wholes].filter(g => g.rows.length);
 }
 
-/// The ratios by the metric that is read beside the chosen one.
+/// [{name, rows}]: the ratios that are read beside those of the chosen metric. Beside a squared error stand its parts.
 function otherEffects() {
     const other = otherMetric(effectChoice.metric, effectsShown());
-    return effectsShown().filter(
-        e => e.target === effectChoice.target && metricKey(e) === other && e.mask === effectChoice.mask);
+    const hasParts = [effectChoice.metric, other].some(key => key?.startsWith("mse|"));
+    const keys = [other, ...(hasParts ? Object.keys(errorParts).map(part => `${part}|seed_pairs`) : [])];
+    const isShown = e => e.target === effectChoice.target && e.mask === effectChoice.mask;
+    return keys.map(key => effectsShown().filter(e => metricKey(e) === key && isShown(e)))
+        .filter(rows => rows.length)
+        .map(rows => ({name: errorParts[rows[0].metric] ?? rows[0].metric, rows}));
 }
 
 function drawEffects() {
@@ -89,10 +97,10 @@ function drawEffects() {
     const others = otherEffects();
     const isPair = (a, b) => isSamePoint(a, b) && againstLabel(a) === againstLabel(b);
     const cells = rows => {
-        const other = others.filter(o => rows.some(e => isPair(o, e)));
-        return isAll ? pooledCells(rows, other) : effectCells(rows[0], other[0]);
+        const beside = others.map(o => o.rows.filter(r => rows.some(e => isPair(r, e))));
+        return isAll ? pooledCells(rows, beside) : effectCells(rows[0], beside.map(found => found[0]));
     };
-    const columns = (isAll ? pooledColumns : effectColumns)(others[0]?.metric);
+    const columns = (isAll ? pooledColumns : effectColumns)(others.map(o => o.name));
     const lines = effectGroups(rows).map(
         g =>
             [h("div", {class: "change"}, h("b", {}, g.label), g.doc ? h("small", {}, g.doc) : null, repeatNote(g.rows)),
@@ -103,14 +111,14 @@ function drawEffects() {
     at("effect-table").replaceChildren(table(columns, lines));
 }
 
-const otherColumn = (other, text) => other ? [{name: `${other}: ${text}`, number: true}] : [];
-const pooledColumns = other =>
+const otherColumns = (others, text) => others.map(other => ({name: `${other}: ${text}`, number: true}));
+const pooledColumns = others =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio, one mark per shot"},
-     {name: "Mean ratio (range over shots)", number: true}, ...otherColumn(other, "mean ratio (range)"),
+     {name: "Mean ratio (range over shots)", number: true}, ...otherColumns(others, "mean ratio (range)"),
      {name: "Helps", number: true}, {name: "Harms", number: true}, {name: "Shots", number: true}];
-const effectColumns = other =>
+const effectColumns = others =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true},
-     ...otherColumn(other, "ratio [95 %]"), {name: "p (Holm)", number: true}, {name: "Seeds", number: true},
+     ...otherColumns(others, "ratio [95 %]"), {name: "p (Holm)", number: true}, {name: "Seeds", number: true},
      {name: "Result"}];
 
 /// All ratios fit unless a narrower scale is asked for; an interval of few seeds may reach far beyond them and is cut.
@@ -165,7 +173,7 @@ function pooledCells(rows, others) {
     const countCell = n => cell(n, n ? h("b", {}, String(n)) : "0"), count = f => rows.filter(f).length;
     const told = count(e => e.value > 0);
     return [
-        meanCell(rows), ...(others.length ? [meanCell(others)] : []),
+        meanCell(rows), ...others.map(meanCell),
         countCell(count(e => isSignificant(e) && e.value < 1)), countCell(count(e => isSignificant(e) && e.value > 1)),
         cell(told, String(told))
     ];
@@ -178,10 +186,11 @@ function whyNoRatio(e) {
         r => r.shot === e.shot && r.variant === variant && r.point === point && r.target === e.target &&
             metricKey(r) === metricKey(e) && r.mask === e.mask);
     const untold = [error(e.variant, e.point), error(e.againstVariant, e.againstPoint)].find(r => r?.value === null);
-    return untold ? `no value for ${untold.point}: ${whyMissing(untold)}` : "an error is not above 0";
+    return untold ? `no value for ${untold.point}: ${whyMissing(untold)}` :
+                    `${errorParts[e.metric] ?? "an error"} is not above 0`;
 }
 
-function effectCells(e, other) {
+function effectCells(e, others) {
     const result = e.value === null                              ? whyNoRatio(e) :
         whyNotRepeatable(e)                                      ? "not repeatable: no interval" :
         e.low === e.value && e.high === e.value && e.value === 1 ? "changes nothing" :
@@ -190,7 +199,7 @@ function effectCells(e, other) {
                                                                    `${number(100 * (e.value - 1), 2)} % more error`;
     const ratioCell = r => cell(r.value, number(r.value), " ", h("small", {}, interval(r)));
     return [
-        ratioCell(e), ...(otherEffects().length ? [other ? ratioCell(other) : "–"] : []),
+        ratioCell(e), ...others.map(other => other ? ratioCell(other) : "–"),
         cell(e.holm, number(e.holm, 2)), cell(e.seeds, String(e.seeds)), isSignificant(e) ? h("b", {}, result) : result
     ];
 }

@@ -159,6 +159,70 @@ TEST(Effects, OfWhatVariesFromRunToRunAreRatiosAlone) {
     }
 }
 
+TEST(Effects, OfUnboundedErrorsAreThoseOfTheirMeans) {
+    // One firefly in eight seeds: most seeds have less error than the baseline, their mean has more.
+    std::vector<ResultRow> rows;
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        rows.push_back(row("0", "base", seed, "mse", 1));
+        rows.push_back(row("0", "better", seed, "mse", seed == 5 ? 8 : 0.7));
+    }
+    const EffectRow e = paired_effects(rows, two_points).at(0);
+    EXPECT_NEAR(*e.ratio, 12.9 / 8, 1e-12);
+    EXPECT_LT(*e.low, 1);
+    EXPECT_GT(*e.p, 0.05) << "a single firefly may be chance";
+}
+
+TEST(Effects, NeedAValueOfEverySeed) {
+    std::vector<ResultRow> rows;
+    for (unsigned seed = 0; seed < 3; ++seed)
+        for (const char* point : {"base", "better"}) rows.push_back(row("0", point, seed, "mse", 1));
+    rows[2].value.reset();
+    EXPECT_FALSE(paired_effects(rows, two_points).at(0).ratio) << "a missing value is no 0";
+    rows[2].value = 0;  // nor is an error of 0 a missing one
+    EXPECT_NEAR(*paired_effects(rows, two_points).at(0).ratio, 1.5, 1e-12);
+}
+
+TEST(Effects, TellBiasFromVariance) {
+    // Seeds of a base of bias 1 and standard deviation 0.5; "better" has half the bias, and twice the deviation from
+    // seed 2 on. Seeds 0 and 1 are the base's alone.
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    const MetricReference reference = metric_reference(HostImage({64, 64}, 3), {}, {}, {});
+    SeedSplit base{reference}, better{reference};
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        HostImage image({64, 64}, 3), other({64, 64}, 3);
+        for (size_t i = 0; i < image.values.size(); ++i) {
+            const float noise = normal(random);
+            image.values[i] = 1 + 0.5f * noise, other.values[i] = 0.5f + noise;
+        }
+        base.add(seed, image);
+        if (seed > 1) better.add(seed, other);
+    }
+    std::vector<SplitRow> rows;
+    for (const auto& [point, split] : {std::pair("base", &base), std::pair("better", &better)})
+        for (SplitRow& r : split_rows(*split, std::vector{full_mask({64, 64})},
+                                      {.shot = "s", .frame = "7", .variant = "v", .point = point, .target = "t"}))
+            rows.push_back(std::move(r));
+    const std::vector<EffectRow> effects = split_effects(rows, two_points);
+    ASSERT_EQ(effects.size(), 2u);
+    for (const EffectRow& e : effects) {
+        const bool is_bias = e.metric == "bias_squared";
+        EXPECT_EQ(e.seeds, 6u);
+        EXPECT_EQ(e.frame, "7");
+        // 12288 values x 6 seeds: the point's bias of 0.5 has a deviation of 0.0037, its square 1.5 %; what it shares
+        // with the base makes that less. The noise of both is the same, so that of the variances is 4 but for
+        // the rounding of float32.
+        EXPECT_NEAR(*e.ratio, is_bias ? 0.25 : 4, is_bias ? 4 * 0.015 * 0.25 : 1e-5) << e.metric;
+        EXPECT_LE(*e.low, is_bias ? 0.25 : 4.0001);
+        EXPECT_GE(*e.high, is_bias ? 0.25 : 3.9999);
+        EXPECT_LT(*e.p, 1e-3);
+        EXPECT_EQ(e.p, e.p_holm) << "bias and variance are families of their own";
+    }
+    for (const EffectRow& e : split_effects(rows, two_points, {{"v", "base"}})) EXPECT_TRUE(e.ratio && !e.low && !e.p);
+    rows[0].seed_numbers = {10, 11, 12, 13, 14, 15, 16, 2};
+    EXPECT_TRUE(split_effects(rows, two_points).empty()) << "a single seed in common";
+}
+
 TEST(Splits, FindTheBiasAndTheVariance) {
     // Bias 0.5 and standard deviation 0.3 in every channel of 64x64 pixels and 16 seeds; halves of a reference of 1
     // with a standard deviation of 0.2.
@@ -174,7 +238,7 @@ TEST(Splits, FindTheBiasAndTheVariance) {
     for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = 0.5f * (halves.a.values[i] + halves.b.values[i]);
     const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
     SeedSplit split{reference};
-    for (unsigned seed = 0; seed < 16; ++seed) split.add(noisy(1.5f, 0.3f));
+    for (unsigned seed = 0; seed < 16; ++seed) split.add(seed, noisy(1.5f, 0.3f));
     const std::vector<Mask> masks = {full_mask({64, 64}),
                                      {.name = "none", .extent = {64, 64}, .inside = std::vector<uint8_t>(64 * 64)}};
     const std::vector<SplitRow> rows = split_rows(split, masks, {.shot = "s"});
@@ -207,7 +271,7 @@ TEST(Splits, HoldTheNoiseOfTheReferenceInTheIntervalOfTheBias) {
     }
     const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
     SeedSplit split{reference};
-    for (unsigned seed = 0; seed < 4; ++seed) split.add(HostImage({64, 64}, 3, 1.5f));
+    for (unsigned seed = 0; seed < 4; ++seed) split.add(seed, HostImage({64, 64}, 3, 1.5f));
     const SplitRow row = split_rows(split, std::vector{full_mask({64, 64})}, {.shot = "s"}).at(0);
     EXPECT_EQ(row.variance, 0.0);
     EXPECT_EQ(*row.variance_high, 0.0);
@@ -220,9 +284,9 @@ TEST(Splits, HoldTheNoiseOfTheReferenceInTheIntervalOfTheBias) {
 TEST(Splits, NeedTwoSeeds) {
     const MetricReference reference = metric_reference(HostImage({8, 8}, 3), {}, {}, {});
     SeedSplit split{reference};
-    split.add(HostImage({8, 8}, 3));
+    split.add(0, HostImage({8, 8}, 3));
     EXPECT_TRUE(split_rows(split, std::vector{full_mask({8, 8})}, {}).empty());
-    split.add(HostImage({8, 8}, 3, 2.0f));
+    split.add(1, HostImage({8, 8}, 3, 2.0f));
     const std::vector<SplitRow> rows = split_rows(split, std::vector{full_mask({8, 8})}, {});
     ASSERT_EQ(rows.size(), 1u);
     EXPECT_EQ(rows[0].variance, 2.0);      // of 0 and 2

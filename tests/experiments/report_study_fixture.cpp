@@ -125,6 +125,14 @@ void add_split(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     cell.splits.push_back({shot.name, std::to_string(shot.frames.back()), point.variant, point.point, "specular",
                            "reflective", point.seeds, bias + variance, bias, variance, 0.8 * variance, 1.2 * variance,
                            500, bias - 2e-5, bias + 3e-5});
+    SplitRow& row = cell.splits.back();
+    for (unsigned j = 0; j < point.seeds; ++j) {
+        row.seed_numbers.push_back(j);
+        for (unsigned i = 0; i < j; ++i) {
+            row.pairs.variance.push_back(variance * scatter(shot.name + point.point, 10 * i + j));
+            row.pairs.bias_squared.push_back(bias * scatter(shot.name, 10 * i + j));
+        }
+    }
 }
 
 /// Ten stages: more than there are colours.
@@ -208,6 +216,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
     const std::vector<StudyShot> shots = study_shots();
     std::vector<Cell> cells;
     std::vector<ResultRow> rows;
+    std::vector<SplitRow> splits;
     for (const StudyShot& shot : shots) {
         for (const StudyPoint& point : points) {
             Cell cell;
@@ -219,6 +228,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
             add_split(shot, point, cell);
             if (point.point == "first") add_times(shot, cell);
             rows.insert(rows.end(), cell.rows.begin(), cell.rows.end());
+            splits.insert(splits.end(), cell.splits.begin(), cell.splits.end());
             cells.push_back(std::move(cell));
         }
     }
@@ -230,6 +240,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
     }
     write_tables(folder, cells);
     std::vector<EffectRow> effects = paired_effects(rows, variants);
+    for (EffectRow& e : split_effects(splits, variants)) effects.push_back(std::move(e));
     for (EffectRow& e : effects)
         if (e.point == "first race=true") e.low = e.high = e.p = e.p_holm = std::nullopt;
     write_effects(folder, effects);

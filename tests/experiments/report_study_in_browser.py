@@ -179,7 +179,7 @@ def mean_ratio(rows, point):
 
 
 def test_effects(page, folder):
-    relative, absolute = (
+    relative, absolute, bias_squared, variance = (
         rows_of(
             folder,
             "effects.csv",
@@ -189,7 +189,7 @@ def test_effects(page, folder):
             against_point="first",
             variant="sssr",
         )
-        for metric in ("relmse", "mse")
+        for metric in ("relmse", "mse", "bias_squared", "variance")
     )
     rows = relative
     points = ["first float_histories=true", "first round_up_tiles=true", RACING, "mended"]
@@ -201,7 +201,10 @@ def test_effects(page, folder):
     )
     equal(shown[0][0][0].split("\n")[1], "keeps <b>32</b> bits & drifts less", "what the parameter means, as text")
     for cells, point in zip(shown, points):
-        for cell, ratios in ((cells[2], relative), (cells[3], absolute)):
+        for cell, ratios in zip(cells[2:6], (relative, absolute, bias_squared, variance)):
+            if (point, ratios) == ("mended", bias_squared):
+                equal(cell, ["–", "null"], "the bias² of a point that has none")
+                continue
             mean, least, largest = mean_ratio(ratios, point)
             check(abs(float(cell[1]) - mean) < 1e-12 * mean, f"mean ratio of {point}: {cell}, expected {mean}")
             shown_range = [float(x) for x in cell[0].split("(")[1].rstrip(")").split(" to ")]
@@ -214,18 +217,20 @@ def test_effects(page, folder):
             for r in rows
             if r["point"] == point and r["p_holm"] and float(r["p_holm"]) < 0.05 and float(r["ratio"]) < 1
         ]
-        equal([int(cells[i][1]) for i in (4, 5, 6)], [len(helped), 0, 7], f"shots that {point} helps, harms, and all")
+        equal([int(cells[i][1]) for i in (6, 7, 8)], [len(helped), 0, 7], f"shots that {point} helps, harms, and all")
     choose(page, "effects", "Shot", STEP)
     for cells, point in zip(table_of(page, "#effect-table"), points):
         row = next(r for r in rows if r["point"] == point and r["shot"] == STEP)
         equal(float(cells[2][1]), float(row["ratio"]), f"ratio of {point}")
-        other = next(r for r in absolute if r["point"] == point and r["shot"] == STEP)
-        equal(float(cells[3][1]), float(other["ratio"]), f"ratio of absolute errors of {point}")
+        for cell, ratios in zip(cells[3:6], (absolute, bias_squared, variance)):
+            other = next(r for r in ratios if r["point"] == point and r["shot"] == STEP)
+            equal(cell[1], other["ratio"] or "null", f"ratio of {other['metric']} of {point}")
+            equal("[" in cell[0], other["low"] != "", f"whether that ratio has an interval: {cell[0]}")
         equal("[" in cells[2][0], row["low"] != "", f"whether the ratio of {point} has an interval")
-        equal(cells[4][1] == "null", row["p_holm"] == "", f"whether {point} has a p")
+        equal(cells[6][1] == "null", row["p_holm"] == "", f"whether {point} has a p")
         is_significant = row["p_holm"] and float(row["p_holm"]) < 0.05
         result = "not repeatable" if point == RACING else "less error" if is_significant else "changes nothing"
-        check(result in cells[6][0], f"result of {point}: {cells[6][0]!r}, expected {result!r}")
+        check(result in cells[8][0], f"result of {point}: {cells[8][0]!r}, expected {result!r}")
     marks = values(page, "#effect-table .point")
     equal(
         marks,
@@ -248,6 +253,7 @@ def test_effects(page, folder):
     for metric, point, reason in (
         ("settling_length", "sssr · mended", "no value for mended: not within the first half of 15 frames"),
         ("ghost_length", "round_up_tiles = true", "an error is not above 0"),
+        ("bias_squared", "sssr · mended", "bias² is not above 0"),
     ):
         options = page.find_elements(By.XPATH, "//section[@id='effects']//label[starts-with(., 'Metric')]//option")
         choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith(metric)))
