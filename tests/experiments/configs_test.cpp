@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace fs = std::filesystem;
@@ -94,24 +95,25 @@ TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
     EXPECT_GT(changes, 20u);
 }
 
-/// The question: every combination, on the same seeds.
+/// Every combination with the published lobe, and all filtered ones with the other, on the same seeds.
 TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndFilter) {
     const Config config = read_config(source / "experiments/configs/frostbite.json");
     std::set<std::string> scenes;
     for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
     EXPECT_EQ(scenes, (std::set<std::string>{"roughness_gradient", "contact_hardening", "glossy_stretch", "firefly",
                                              "metal_corner"}));
-    std::set<std::string> combinations;
+    std::map<std::string, std::set<std::string>> combinations;  // of each lobe
     for (const VariantConfig& variant : config.variants) {
         if (variant.variant != "frostbite_sssr") continue;
         EXPECT_EQ(variant.seeds.size(), 8u);
-        const nlohmann::json& p = variant.parameters;
-        if (!variant.is_baseline)
-            combinations.insert(
-                nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"], p["filtered_sampling"]}
-                    .dump());
+        const std::unique_ptr<Variant> changed = make_variant("frostbite_sssr");
+        changed->params.assign(variant.parameters);
+        const nlohmann::json p = changed->params.values();
+        combinations[p["lobe"]].insert(
+            nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"], p["filtered_sampling"]}.dump());
     }
-    EXPECT_EQ(combinations.size(), 3u * 3 * 2 * 2 * 2);
+    EXPECT_EQ(combinations["normals"].size(), 3u * 3 * 2 * 2 * 2);
+    EXPECT_EQ(combinations["visible_normals"].size(), 3u * 3 * 2 * 2);
 }
 
 /// Every switch and choice of the technique, alone.
