@@ -43,6 +43,13 @@ glm::dvec2 split_sum(double mu_o, double alpha) {
     const double root_o = std::sqrt(a2 + (1 - a2) * mu_o * mu_o);
     const double length = std::sqrt(a2 * sin_o * sin_o + mu_o * mu_o);
     const double v_x = alpha * sin_o / length, v_z = mu_o / length;
+    const auto radius_at = [](double z) { return std::sqrt(std::max(0.0, 1 - z * z)); };
+    std::array<double, scan_steps + 1> scan_z, scan_radius;
+    for (int i = 0; i <= scan_steps; ++i) {
+        const double t = double(i) / scan_steps;
+        scan_z[i] = -v_z + t * t * (1 + v_z);
+        scan_radius[i] = radius_at(scan_z[i]);
+    }
 
     // Integrates over the spherical cap of sample_ggx_normal(), whose measure absorbs the density of visible normals.
     // For each azimuth the reflection is above the horizon on one or two intervals of z, found by scanning.
@@ -50,20 +57,20 @@ glm::dvec2 split_sum(double mu_o, double alpha) {
     for (const glm::dvec2& azimuth : along_azimuth) {
         // Cubic steps crowd the nodes where the azimuth is opposite to the viewer's and the integrand changes fastest.
         const double from_back = azimuth.x * azimuth.x * azimuth.x, azimuth_step = 3 * azimuth.x * azimuth.x;
-        const double c = -std::cos(M_PI * from_back);
-        const auto reflect = [&](double z, double& o_m) {
-            const double r = std::sqrt(std::max(0.0, 1 - z * z));
-            const double n_x = alpha * (r * c + v_x), n_y2 = a2 * r * r * (1 - c * c), n_z = std::max(0.0, z + v_z);
-            const double norm = std::sqrt(n_x * n_x + n_y2 + n_z * n_z);
-            o_m = norm > 0 ? (sin_o * n_x + mu_o * n_z) / norm : 0;
-            return norm > 0 ? 2 * o_m * n_z / norm - mu_o : -1.0;  // mu_i
+        const double c = -std::cos(M_PI * from_back), s = std::sqrt(1 - c * c);
+        const auto normal = [&](double z, double r) {
+            return glm::dvec3(alpha * (r * c + v_x), alpha * r * s, std::max(0.0, z + v_z));
         };
-        double o_m;
+        // The sign of mu_i, without its divisions.
+        const auto is_reflection_above = [&](double z, double r) {
+            const glm::dvec3 n = normal(z, r);
+            return 2 * (sin_o * n.x + mu_o * n.z) * n.z > mu_o * glm::dot(n, n);
+        };
         const auto crossing = [&](double a, double b) {
-            const bool starts_above = reflect(a, o_m) > 0;
+            const bool starts_above = is_reflection_above(a, radius_at(a));
             for (int step = 0; step < 40; ++step) {
                 const double middle = 0.5 * (a + b);
-                ((reflect(middle, o_m) > 0) == starts_above ? a : b) = middle;
+                (is_reflection_above(middle, radius_at(middle)) == starts_above ? a : b) = middle;
             }
             return 0.5 * (a + b);
         };
@@ -71,26 +78,27 @@ glm::dvec2 split_sum(double mu_o, double alpha) {
             for (const glm::dvec2& cap : along_cap) {
                 // Smooth steps at both ends soften the square roots there.
                 const double t = cap.x * cap.x * (3 - 2 * cap.x), step = 6 * cap.x * (1 - cap.x);
-                const double mu_i = reflect(from + t * (to - from), o_m);
-                if (mu_i <= 0) continue;
+                const double z = from + t * (to - from);
+                const glm::dvec3 n = normal(z, radius_at(z));
+                const double length2 = glm::dot(n, n), o_n = sin_o * n.x + mu_o * n.z;
+                const double mu_i = 2 * o_n * n.z / length2 - mu_o;
+                if (!(mu_i > 0)) continue;  // nor where the normal vanishes
                 const double root_i = std::sqrt(a2 + (1 - a2) * mu_i * mu_i);
                 const double weight = mu_i * (mu_o + root_o) / (mu_o * root_i + mu_i * root_o);
-                const double w = std::pow(std::max(0.0, 1 - o_m), 5);
+                const double f = std::max(0.0, 1 - o_n / std::sqrt(length2)), w = f * f * f * f * f;
                 sum +=
                     azimuth.y * azimuth_step * cap.y * step * (to - from) / (1 + v_z) * weight * glm::dvec2(1 - w, w);
             }
         };
-        double from = -v_z, z = -v_z;
+        double from = -v_z;
         bool is_above = false;
         for (int i = 1; i <= scan_steps; ++i) {
-            const double t = double(i) / scan_steps, next = -v_z + t * t * (1 + v_z);
-            if ((reflect(next, o_m) > 0) != is_above) {
-                const double root = crossing(z, next);
+            if (is_reflection_above(scan_z[i], scan_radius[i]) != is_above) {
+                const double root = crossing(scan_z[i - 1], scan_z[i]);
                 if (is_above) integrate(from, root);
                 from = root;
                 is_above = !is_above;
             }
-            z = next;
         }
         if (is_above) integrate(from, 1);
     }
