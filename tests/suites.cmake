@@ -1,0 +1,27 @@
+# add_suites(program folder): one test of ctest per suite of a test program, named after it and run from `folder`. Read
+# by ctest when it runs, after the program is built. The tests of a suite share a process, for each process pays again
+# for the driver, the validation layer, the compiling of shaders and tables: 0.2 s and more, most of what a small test
+# costs. One test alone: PROGRAM --gtest_filter=SUITE.TEST, with SSRLAB_VALIDATE=1.
+function(add_suites program folder)
+  get_filename_component(name ${program} NAME)
+  if(NOT EXISTS ${program})
+    add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)
+    return()
+  endif()
+  execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE listing COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE ";" "," listing "${listing}")
+  string(REGEX MATCHALL "\n[^ \n]+\\.[^\n]*(\n  [^\n]+)+" suites "${listing}")
+  foreach(lines IN LISTS suites)
+    string(REGEX MATCH "[^ \n]+\\." suite "${lines}")
+    string(REGEX MATCHALL "\n  " tests "${lines}")
+    list(LENGTH tests count)
+    string(REGEX REPLACE "\\.$" "" test "${suite}")
+    add_test(${test} ${program} --gtest_filter=${suite}*)
+    # The largest suites start first, so that none of them runs on alone in the end.
+    set_tests_properties(${test} PROPERTIES WORKING_DIRECTORY ${folder} TIMEOUT 600 COST ${count}
+      ENVIRONMENT "SSRLAB_VALIDATE=1")
+    if(test STREQUAL "Clock")  # what measures time runs alone
+      set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
+    endif()
+  endforeach()
+endfunction()
