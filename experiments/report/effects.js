@@ -114,11 +114,11 @@ function drawEffects() {
 const otherColumns = (others, text) => others.map(other => ({name: `${other}: ${text}`, number: true}));
 const pooledColumns = others =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio, one mark per shot"},
-     {name: "Mean ratio (range over shots)", number: true}, ...otherColumns(others, "mean ratio (range)"),
+     {name: "Mean ratio (range over shots)", number: true}, ...otherColumns(others, "mean ratio"),
      {name: "Helps", number: true}, {name: "Harms", number: true}, {name: "Shots", number: true}];
 const effectColumns = others =>
-    [{name: `Change of ${effectChoice.against}`}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true},
-     ...otherColumns(others, "ratio [95 %]"), {name: "p (Holm)", number: true}, {name: "Seeds", number: true},
+    [{name: `Change of ${effectChoice.against}`}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true},
+     ...otherColumns(others, "ratio"), {name: "p (Holm)", number: true}, {name: "Seeds", number: true},
      {name: "Result"}];
 
 /// All ratios fit unless a narrower scale is asked for; an interval of few seeds may reach far beyond them and is cut.
