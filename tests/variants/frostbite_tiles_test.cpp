@@ -1,3 +1,4 @@
+#include "core/gbuffer/split_sum_image.h"
 #include "tests/variants/frostbite_passes.h"
 #include "tests/variants/pixel_march.h"
 #include "variants/common/depth_pyramid.h"
@@ -250,6 +251,79 @@ TEST_F(FrostbiteThinObject, MakesNoTilePopWithDilationAndHysteresis) {
                 EXPECT_GT(popped, 10u);
             }
         }
+}
+
+// --- Pixels of tiles without rays ---
+
+/// Confidence of the pixels of tiles without rays, as resolved from the rays around them and with rays in all tiles.
+struct Edge {
+    double pixels = 0, found = 0, with_rays = 0;
+};
+
+struct FrostbiteTileEdges : FrostbiteProbes {
+    static SyntheticHit rough_floor(const CameraRay& ray) {
+        SyntheticHit hit = floor_and_post(ray, 0.7f, 0.5f);
+        if (hit.metalness > 0) hit.roughness = 0.4f;
+        return hit;
+    }
+
+    HostImage confidence(bool classification, unsigned seed, HostImage& ray_count) {
+        parameters.params.assign({{"classification", classification}});
+        camera = camera_data(pose, nullptr, view);
+        camera.frame.y = seed;
+        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, rough_floor);
+        graph.begin_frame(camera, parameters.params, gbuffer.images());
+        const Image pyramid = nearest_depth_pyramid(graph, gbuffer.depth, 7);
+        const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, pyramid, gbuffer.lit, parameters.ray);
+        const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
+        const FrostbiteRays rays = frostbite_trace(graph, pyramid, work, parameters.ray);
+        ray_count = graph.download(tiles.ray_count);
+        return graph.download(
+            frostbite_resolve(graph, gbuffer, gbuffer.lit, split_sum.on(graph), rays, parameters.resolve).radiance);
+    }
+
+    /// Of those that see some rays of other tiles, and of the others.
+    std::array<Edge, 2> measure() {
+        std::array<Edge, 2> edges;
+        for (unsigned seed = 0; seed < 4; ++seed) {
+            HostImage ray_count, all;
+            const HostImage found = confidence(true, seed, ray_count), with_rays = confidence(false, seed, all);
+            for (unsigned y = 0; y < extent.y; ++y)
+                for (unsigned x = 0; x < extent.x; ++x) {
+                    const SyntheticHit hit = rough_floor(camera_ray(pose, extent, glm::vec2(x, y) + 0.5f));
+                    if (hit.specular == 0 || *ray_count.pixel(x / 32, y / 32) > 0) continue;
+                    const auto has_rays = [&](int dx, int dy) {
+                        const glm::ivec2 tile =
+                            glm::clamp(glm::ivec2(x, y) + glm::ivec2(dx, dy), {0, 0}, glm::ivec2(extent) - 1) / 32;
+                        return *ray_count.pixel(unsigned(tile.x), unsigned(tile.y)) > 0;
+                    };
+                    const bool is_near = has_rays(-4, 0) || has_rays(4, 0) || has_rays(0, -4) || has_rays(0, 4);
+                    Edge& edge = edges[is_near ? 0 : 1];
+                    ++edge.pixels;
+                    edge.found += found.pixel(x, y)[3];
+                    edge.with_rays += with_rays.pixel(x, y)[3];
+                }
+        }
+        return edges;
+    }
+
+    SplitSumImage split_sum;
+};
+
+/// A tile without rays has nothing to say of how often they would have missed, so that its outer pixels trust hits
+/// across its border too much: without dilation 0.015 in place of 0.005. With it these tiles are a tile away from any
+/// hit, and both are 0. Beyond the taps' reach there is nothing.
+TEST_F(FrostbiteTileEdges, AreResolvedFromTheRaysAcross) {
+    for (const bool dilates : {true, false}) {
+        parameters.params.assign({{"dilate_tiles", dilates}, {"hysteresis", 0}, {"filtered_sampling", false}});
+        const auto [near, far] = measure();
+        EXPECT_GT(near.pixels, 1000);
+        EXPECT_GT(far.pixels, 10000);
+        EXPECT_EQ(near.found > 0, !dilates);
+        EXPECT_NEAR(near.found / near.pixels, near.with_rays / near.pixels, dilates ? 0 : 0.02);
+        EXPECT_EQ(far.found, 0);
+        EXPECT_LT(far.with_rays / far.pixels, 1e-4);
+    }
 }
 
 }  // namespace
