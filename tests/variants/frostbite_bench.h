@@ -30,8 +30,7 @@ public:
     ResolvedFrame resolve(const std::vector<StoredRay>& rays, const Image& color);
 
     /// The frame before: seen from `pose_before`, when the scene was `scene_before`, before it moved by `way`.
-    void set_previous(const CameraPose& pose_before, const SyntheticScene& scene_before,
-                      glm::vec3 way = glm::vec3(0));
+    void set_previous(const CameraPose& pose_before, const SyntheticScene& scene_before, glm::vec3 way = glm::vec3(0));
 
     glm::uvec2 traced_extent() const;
     void set_frame(unsigned index, unsigned seed) { camera.frame.x = index, camera.frame.y = seed; }

@@ -96,7 +96,7 @@ struct FrostbiteLevels : FrostbiteColor {
     static SyntheticHit wall(const CameraRay& ray) {
         const float across = ray.direction.x / -ray.direction.z;
         return {.distance = 4,
-                .normal = normalize(glm::vec3(-3 * across - 0.3f, 0, 1)),
+                .normal = normalize(glm::vec3(3 * across + 0.3f, 0, 1)),
                 .roughness = 0.1f + 0.4f * (ray.direction.y + 0.5f),
                 .metalness = 1,
                 .specular = 1};
@@ -131,7 +131,7 @@ struct FrostbiteLevels : FrostbiteColor {
         std::vector<glm::vec3> hits;
         const std::vector<StoredRay> rays = rays_to_hits(bench, hits);
         const HostImage found = bench.resolve(rays, numbered_levels(bench.graph)).radiance;
-        unsigned compared = 0, sharp = 0;
+        unsigned compared = 0, sharp = 0, oblique = 0;
         for (unsigned i = 0; i < rays.size(); ++i) {
             const CameraRay ray = camera_ray(pose, extent, glm::vec2(i % extent.x, i / extent.x) + 0.5f);
             const SyntheticHit surface = wall(ray);
@@ -151,9 +151,11 @@ struct FrostbiteLevels : FrostbiteColor {
             ASSERT_NEAR(found.values[4 * i], level, 1.0 / 100) << i << " of " << parameters;
             ++compared;
             sharp += level == 0;
+            oblique += level > 0 && mu_o < 0.5f;
         }
         EXPECT_GT(compared, 10000u);
         EXPECT_LT(sharp, compared * 7 / 10);
+        EXPECT_TRUE(oblique > 1000 || pose.is_orthographic) << oblique;
     }
 };
 

@@ -1,32 +1,11 @@
-// Frostbite's temporal filter on its own: what it averages, where it looks history up, and when it has none.
+// Frostbite's temporal filter on its own: what it averages, when it has no history, and how it clamps it.
 #include "core/split_sum.h"
-#include "tests/variants/amd_scenes.h"
-#include "tests/variants/frostbite_filter_bench.h"
+#include "tests/variants/frostbite_filter_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
 namespace {
-
-const nlohmann::json history_alone = {{"history_weight", 1.0}, {"neighborhood_clamp", false}};
-
-struct FrostbiteFilterTest : VariantTest {
-    CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
-    FrameView view{.extent = {96, 64}};
-
-    bool is_floor(const CameraRay& ray) const { return mirror_floor(ray).metalness > 0; }
-    CameraRay ray_of(const CameraPose& camera, unsigned x, unsigned y) const {
-        return camera_ray(camera, view.extent, glm::vec2(x, y) + 0.5f + view.jitter);
-    }
-    /// Of the unit that averages have: colour times confidence, and confidence.
-    static glm::vec4 weighed(const float* pixel) {
-        return {pixel[0] * pixel[3], pixel[1] * pixel[3], pixel[2] * pixel[3], pixel[3]};
-    }
-};
-
-SyntheticHit wall_of_mirror(const CameraRay& ray) {
-    return {.distance = -5.0f / ray.direction.z, .normal = {0, 0, 1}, .roughness = 0.2f, .metalness = 1, .specular = 1};
-}
 
 // What is averaged.
 
@@ -89,125 +68,6 @@ TEST_F(FrostbiteFilterTest, DividesByReflectanceWhereItWasMultipliedBefore) {
                 EXPECT_NEAR(found.pixel(x, y)[3], 0.5f, 1e-5f);
             }
     }
-}
-
-// Where history is looked up.
-
-/// What the mirror floor shows at a pixel: a point of the wall plane z = -6.
-glm::vec3 mirrored_point(const CameraRay& ray) {
-    const glm::vec3 p = ray.origin + mirror_floor(ray).distance * ray.direction,
-                    d = ray.direction * glm::vec3(1, -1, 1);
-    return p + (-6 - p.z) / d.z * d;
-}
-
-ResolvedPixel coordinates_seen(glm::uvec2, const CameraRay& ray) {
-    if (mirror_floor(ray).metalness == 0) return {};
-    const glm::vec3 p = ray.origin + mirror_floor(ray).distance * ray.direction, x = mirrored_point(ray);
-    return {.radiance = {x.x + 50, x.y + 50, 1}, .ray_length = glm::length(x - p)};
-}
-
-struct FrostbiteReprojectionTest : FrostbiteFilterTest {
-    /// Pixels that the point shown is away from the pixel's sample, for each floor pixel with a history of four texels.
-    struct Offsets {
-        std::vector<float> lengths;
-        size_t lost = 0;  ///< pixels without
-        float median() {
-            std::ranges::nth_element(lengths, lengths.begin() + long(lengths.size() / 2));
-            return lengths[lengths.size() / 2];
-        }
-    };
-
-    glm::vec2 pixel_of(const CameraPose& camera, glm::vec3 point) const {
-        const glm::vec4 clip = camera_data(camera, nullptr, view).clip_from_world * glm::vec4(point, 1);
-        return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(view.extent);
-    }
-
-    /// Whether the camera saw nothing but the floor two pixels around.
-    bool is_amid_floor(const CameraPose& camera, glm::vec2 place) const {
-        for (int i = 0; i < 4; ++i) {
-            const glm::vec2 corner = place + 2.0f * (glm::vec2(i & 1, i >> 1) * 2.0f - 1.0f);
-            const bool is_inside = glm::all(glm::greaterThan(corner, glm::vec2(0))) &&
-                                   glm::all(glm::lessThan(corner, glm::vec2(view.extent)));
-            if (!is_inside || !is_floor(camera_ray(camera, view.extent, corner))) return false;
-        }
-        return true;
-    }
-
-    Offsets offsets(const CameraPose& before, const CameraPose& now, float length_scale) {
-        FrostbiteFilterBench bench(device(), view, history_alone);
-        bench.view.jitter = {0.4f, -0.3f};
-        bench.next(before, mirror_floor, coordinates_seen);
-        bench.view.jitter = view.jitter = {-0.2f, 0.45f};
-        const HostImage found = bench.next(now, mirror_floor, [&](glm::uvec2 pixel, const CameraRay& ray) {
-            return ResolvedPixel{.ray_length = length_scale * coordinates_seen(pixel, ray).ray_length};
-        });
-        Offsets offsets;
-        for (unsigned y = 0; y < view.extent.y; ++y)
-            for (unsigned x = 0; x < view.extent.x; ++x) {
-                const CameraRay ray = ray_of(now, x, y);
-                if (!is_floor(ray)) continue;
-                const glm::vec3 image = glm::vec3(1, -1, 1) * mirrored_point(ray) - glm::vec3(0, 2, 0);
-                if (!is_amid_floor(before, pixel_of(before, image))) continue;
-                const float* shown = found.pixel(x, y);
-                if (shown[2] == 0) {
-                    ++offsets.lost;
-                    continue;
-                }
-                const glm::vec3 seen(shown[0] / shown[2] - 50, -2 - (shown[1] / shown[2] - 50), -6);
-                offsets.lengths.push_back(glm::length(pixel_of(now, seen) - glm::vec2(x, y) - 0.5f - view.jitter));
-            }
-        return offsets;
-    }
-};
-
-/// Coordinates between two pixels are not linear in perspective: a tenth of a pixel at most. The floor itself moved by
-/// many.
-TEST_F(FrostbiteReprojectionTest, FollowsWhatAMirrorShows) {
-    for (const DepthDirection direction : {DepthDirection::standard, DepthDirection::reversed})
-        for (const bool is_orthographic : {false, true}) {
-            SCOPED_TRACE(testing::Message() << is_orthographic << int(direction));
-            view.depth_direction = direction;
-            pose.is_orthographic = is_orthographic;
-            pose.orthographic_height = 5;
-            pose.world_from_view =
-                glm::rotate(glm::translate(glm::mat4(1), {0, 2.5f, 3}), -0.5f, glm::vec3(1, 0.1f, 0));
-            CameraPose before = pose;
-            before.world_from_view = glm::translate(glm::mat4(1), glm::vec3(0.3f, 0.15f, -0.4f)) *
-                                     glm::rotate(pose.world_from_view, 0.06f, glm::vec3(0.2f, 1, 0));
-            Offsets reflected = offsets(before, pose, 1), surface = offsets(before, pose, 0);
-            ASSERT_GT(reflected.lengths.size(), 1500u);
-            EXPECT_LT(std::ranges::max(reflected.lengths), 0.1f);
-            EXPECT_EQ(reflected.lost, 0u);
-            EXPECT_GT(surface.median(), 1.0f);
-        }
-}
-
-/// With the environment, misses show what is infinitely far away: directions.
-TEST_F(FrostbiteReprojectionTest, FollowsTheEnvironmentAtInfinity) {
-    nlohmann::json parameters = history_alone;
-    parameters["misses"] = "fallback";
-    FrostbiteFilterBench bench(device(), view, parameters);
-    CameraPose before = pose;
-    before.world_from_view = glm::translate(glm::mat4(1), glm::vec3(0.5f, 0.2f, 0)) *
-                             glm::rotate(glm::mat4(1), 0.05f, glm::vec3(0, 1, 0.2f));
-    const auto direction = [](glm::uvec2, const CameraRay& ray) {
-        return ResolvedPixel{.radiance = ray.direction + 2.0f};
-    };
-    bench.next(before, mirror_floor, direction);
-    const HostImage found =
-        bench.next(pose, mirror_floor, [](glm::uvec2, const CameraRay&) { return ResolvedPixel{}; });
-    const glm::vec3 before_eye = before.world_from_view[3];
-    unsigned count = 0;
-    for (unsigned y = 0; y < view.extent.y; ++y)
-        for (unsigned x = 0; x < view.extent.x; ++x) {
-            const CameraRay ray = ray_of(pose, x, y);
-            const float* shown = found.pixel(x, y);
-            if (!is_floor(ray) || !is_amid_floor(before, pixel_of(before, before_eye + ray.direction))) continue;
-            ++count;
-            // A pixel is 0.02 wide; unit vectors between two pixels are nearly linear.
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c] - 2, ray.direction[c], 3e-4f);
-        }
-    EXPECT_GT(count, 1500u);
 }
 
 // When there is none.
@@ -299,6 +159,22 @@ TEST_F(FrostbiteLostHistoryTest, WithoutHitsItFadesOrIsRejected) {
             EXPECT_NEAR(found.values[4 * i], is_rejected ? 0 : 5, 1e-4);
         }
     }
+}
+
+/// Where misses see the environment, there is always something to blend with.
+TEST_F(FrostbiteLostHistoryTest, WithoutHitsButWithAnEnvironmentItIsKept) {
+    FrostbiteFilterBench bench(device(), view,
+                               {{"history_weight", 0.75},
+                                {"neighborhood_clamp", false},
+                                {"reject_without_hits", true},
+                                {"misses", "fallback"}});
+    HostImage found;
+    for (const float radiance : {5.0f, 1.0f, 1.0f, 1.0f})
+        found = bench.next(pose, wall_of_mirror, [&](glm::uvec2, const CameraRay&) {
+            return ResolvedPixel{.radiance = glm::vec3(radiance)};
+        });
+    for (size_t i = 0; i < found.pixel_count(); ++i)
+        ASSERT_NEAR(found.values[4 * i], 1 + (5 - 1) * 0.75 * 0.75 * 0.75, 1e-4) << i;
 }
 
 // The clamp.

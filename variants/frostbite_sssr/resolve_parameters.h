@@ -13,7 +13,8 @@ struct FrostbiteResolveParameters {
          "they faced away. show: the colour of what was there; miss: they count as misses; drop: not at all, so that "
          "others, if any, stand in for them", "ssrlab; the slides do not say"}};
     Switch filtered_sampling{params, "filtered_sampling", true,
-        {"", "hits take their colour from a mip level as wide as the truncated lobe", "slides; Colbert and "
+        {"", "hits take their colour from a mip level as wide as the whole truncated lobe, however many rays share it; Colbert "
+         "and Krivanek's is as wide as one ray's share, of the solid angle 1 / (rays times density)", "slides; Colbert and "
          "Krivanek 2007, 'GPU-Based Importance Sampling', GPU Gems 3, chapter 20"}};
     Param<float> cone_scale{params, "cone_scale", 1.0f, {0.0f, 8.0f},
         {"", "tangent of the cone's half angle over that of the truncated lobe, alpha sqrt(1 - importance_bias)",
