@@ -206,7 +206,7 @@ struct FrostbiteIndependence : FrostbiteRandom {
     PassGraph graph{device(), extent};
 
     struct Number {
-        unsigned k = 0, dimension = 0, frame = 0, seed = 0;
+        unsigned k = 0, dimension = 0, frame = 0, seed = 0;  // dimension: as in frostbite_random.comp
     };
 
     std::vector<glm::vec2> numbers(const Number& number) {
@@ -240,9 +240,9 @@ struct FrostbiteIndependence : FrostbiteRandom {
 
 TEST_F(FrostbiteIndependence, HoldsBetweenDrawsMarchProbesTapsSeedsAndPixels) {
     const Number direction{};
-    const Number others[] = {{.dimension = 1},  {.dimension = 2},  {.dimension = 17},      {.dimension = 18},
-                             {.dimension = 19}, {.dimension = 35}, {.dimension = 36},      {.k = 1, .dimension = 1},
-                             {.seed = 1},       {.seed = 2},       {.frame = 9, .seed = 1}};
+    const Number others[] = {{.dimension = 1}, {.dimension = 2},       {.dimension = 3},         {.dimension = 4},
+                             {.dimension = 5}, {.dimension = 6},       {.k = 1, .dimension = 1}, {.seed = 1},
+                             {.seed = 2},      {.frame = 9, .seed = 1}};
     for (const bool half_resolution : {false, true}) {
         assign(half_resolution);
         const auto first = numbers(direction), redrawn = numbers({.dimension = 1});
@@ -276,7 +276,7 @@ TEST_F(FrostbiteIndependence, HoldsBetweenTheStepsFromFrameToFrame) {
     };
     for (const unsigned k : {0u, 3u}) {
         const auto redrawn = steps(k, 1);
-        for (const unsigned dimension : {1u, 17u, 18u, 19u, 35u, 36u}) {
+        for (const unsigned dimension : {1u, 2u, 3u, 4u, 5u, 6u}) {
             SCOPED_TRACE(testing::Message() << "dimension " << dimension << ", ray " << k);
             const auto other = steps(k, dimension);
             // A uniform step, whatever that of the direction is, which is the same for all pixels.

@@ -114,6 +114,18 @@ TEST_F(FrostbiteTaps, AreInterleavedAmongNeighbours) {
         }
 }
 
+/// At half resolution, too, they turn in every frame, not when the pixel has its turn.
+TEST_F(FrostbiteTaps, AreTurnedInEveryFrame) {
+    for (const bool is_half : {false, true})
+        for (unsigned frame = 0; frame < 4; ++frame) {
+            const auto now = tap_sets({{"half_resolution", is_half}}, frame),
+                       next = tap_sets({{"half_resolution", is_half}}, frame + 1);
+            size_t equal = 0;
+            for (size_t pixel = 0; pixel < now.size(); ++pixel) equal += now[pixel] == next[pixel];
+            EXPECT_LT(equal, now.size() / 4) << frame;
+        }
+}
+
 TEST_F(FrostbiteTaps, AreTurnedByPixelFrameAndSeed) {
     const nlohmann::json parameters = {{"half_resolution", false}};
     const auto sets = tap_sets(parameters), later = tap_sets(parameters, 1), other = tap_sets(parameters, 0, 1);
