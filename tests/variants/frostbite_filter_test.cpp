@@ -112,7 +112,22 @@ TEST_F(FrostbiteLostHistoryTest, OfOtherSurfaces) {
     EXPECT_NEAR(kept(changed([](SyntheticHit& hit) { hit.roughness += 0.09f; })), 1, 1e-6);
     EXPECT_EQ(kept(changed([](SyntheticHit& hit) { hit.roughness += 0.11f; })), 0);
     EXPECT_EQ(kept(changed([](SyntheticHit& hit) { hit.metalness = hit.specular = 0; })), 0) << "nothing reflected";
-    EXPECT_EQ(kept(changed([](SyntheticHit& hit) { hit = {}; })), 0) << "the background";
+    pose.far = 5.02f;
+    EXPECT_EQ(kept(changed([](SyntheticHit& hit) { hit = {}; })), 0) << "the background, as near as the wall";
+}
+
+/// Samples beside the pixels' centres are of the same plane, however coarse the pixels.
+TEST_F(FrostbiteLostHistoryTest, NotOfASlopeThatIsJittered) {
+    const SyntheticScene slope = [](const CameraRay& ray) {
+        SyntheticHit hit = wall_of_mirror(ray);
+        hit.normal = glm::normalize(glm::vec3(0, 1, 1));
+        hit.distance = -5 / glm::dot(ray.direction, hit.normal);
+        return hit;
+    };
+    view.extent = {20, 16};
+    view.jitter = view.previous_jitter = {0.4f, 0.4f};
+    // Half a row and half a column have left the screen.
+    EXPECT_GT(kept(slope, pose, slope), 0.85f);
 }
 
 /// What was seen of the post does not bleed into its neighbours, either.

@@ -170,31 +170,53 @@ SyntheticHit slope(const CameraRay& ray, glm::vec3 way) {
             .specular = 1};
 }
 
-/// Along the screen it moves by 30 pixels and 9 % of its distance; towards the camera by more and by less than the
-/// limit.
-TEST_F(FrostbiteHiddenHits, MoveAlongTheScreenAndHardlyInDepth) {
-    const auto share_seen = [&](glm::vec3 way) {
-        const SyntheticScene moved = [&](const CameraRay& ray) { return slope(ray, way); };
+struct FrostbiteMovedHits : FrostbiteHiddenHits {
+    /// 1 if the previous frame showed the middle of the image.
+    double share_seen(const SyntheticScene& scene_before, const SyntheticScene& scene, glm::vec3 way) {
         const nlohmann::json parameters = {{"taps", "1"}, {"half_resolution", false}, {"hidden_hits", "miss"}};
-        FrostbiteBench bench(device(), now, view, moved, parameters);
-        bench.set_previous(
-            before, [](const CameraRay& ray) { return slope(ray, glm::vec3(0)); }, way);
+        FrostbiteBench bench(device(), now, view, scene, parameters);
+        bench.set_previous(before, scene_before, way);
         std::vector<StoredRay> rays(extent.x * extent.y);
         for (StoredRay& ray : rays)
             ray = {.direction = glm::normalize(glm::vec3(1, 0, 0.2f)),
                    .inverse_density = 1,
                    .target = extent.x / 2 | extent.y / 2 << 16,
                    .length = 1};
-        const HostImage found = bench.resolve(rays, lit_before()).radiance;
+        const HostImage found = bench.resolve(rays, HostImage(extent, 4, 1.0f)).radiance;
         double sum = 0;
         for (size_t i = 0; i < found.pixel_count(); ++i) sum += found.values[4 * i + 3];
         return sum / double(found.pixel_count());
-    };
-    EXPECT_EQ(share_seen({0, 0, 0}), 1);
-    EXPECT_EQ(share_seen({0.55f, 0, 0}), 1);
-    EXPECT_EQ(share_seen({0, 0, 0.05f}), 1);
-    EXPECT_EQ(share_seen({0, 0, 0.15f}), 0);
-    EXPECT_EQ(share_seen({0, 0, -0.15f}), 0);
+    }
+    double share_seen_of_slope(glm::vec3 way) {
+        return share_seen([](const CameraRay& ray) { return slope(ray, glm::vec3(0)); },
+                          [&](const CameraRay& ray) { return slope(ray, way); }, way);
+    }
+};
+
+/// Along the screen by 6 pixels, which would be 6 % off the plane had it stood still; towards the camera by less and by
+/// more than the limit.
+TEST_F(FrostbiteMovedHits, AreSeenIfTheyKeepTheirDistance) {
+    EXPECT_EQ(share_seen_of_slope({0, 0, 0}), 1);
+    EXPECT_EQ(share_seen_of_slope({0.55f, 0, 0}), 1);
+    EXPECT_EQ(share_seen_of_slope({0, 0, 0.05f}), 1);
+    EXPECT_EQ(share_seen_of_slope({0, 0, 0.15f}), 0);
+    EXPECT_EQ(share_seen_of_slope({0, 0, -0.15f}), 0);
+    // Wherever the camera looked.
+    for (const float turn : {-0.3f, 0.3f}) {
+        before.world_from_view = glm::rotate(glm::mat4(1), turn, glm::vec3(0, 1, 0));
+        for (const float side : {-1.0f, 1.0f}) {
+            EXPECT_EQ(share_seen_of_slope(side * glm::vec3(0, 0, 0.07f)), 1) << turn << side;
+            EXPECT_EQ(share_seen_of_slope(side * glm::vec3(0, 0, 0.1f)), 0) << turn << side;
+        }
+    }
+}
+
+TEST_F(FrostbiteMovedHits, AreNotSeenWhereNothingWasDrawn) {
+    before.far = now.far = 6.03f;  // as near as the slope
+    const SyntheticScene nothing = [](const CameraRay&) { return SyntheticHit{}; };
+    EXPECT_EQ(share_seen(
+                  nothing, [](const CameraRay& ray) { return slope(ray, glm::vec3(0)); }, glm::vec3(0)),
+              0);
 }
 
 }  // namespace

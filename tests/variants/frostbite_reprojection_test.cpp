@@ -86,6 +86,8 @@ TEST_F(FrostbiteReprojectionTest, FollowsWhatAMirrorShows) {
             pose.world_from_view =
                 glm::rotate(glm::translate(glm::mat4(1), {0, 2.5f, 3}), -0.5f, glm::vec3(1, 0.1f, 0));
             CameraPose before = pose;
+            before.vertical_fov = 1.3f;
+            before.orthographic_height = 5.5f;
             before.world_from_view = glm::translate(glm::mat4(1), glm::vec3(0.3f, 0.15f, -0.4f)) *
                                      glm::rotate(pose.world_from_view, 0.06f, glm::vec3(0.2f, 1, 0));
             Offsets reflected = offsets(before, pose, 1), surface = offsets(before, pose, 0);
