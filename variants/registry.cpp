@@ -145,14 +145,19 @@ const std::vector<VariantEntry> table = {
               "pixel in place of reuse",
               {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
              {"ours",
-              "a first guess, until its study decides: 16 taps of rays drawn from the whole lobe of visible normals, "
-              "at their full density; misses see the environment. None of this was published",
+              "what a search by error found, README.md: 16 taps of rays drawn from most of the lobe of visible "
+              "normals, at "
+              "their full density; misses, and hits that the previous frame did not show, see the environment; a "
+              "shorter "
+              "history. None of this was published",
               {{"lobe", "visible_normals"},
-               {"importance_bias", 0.0},
+               {"importance_bias", 0.15},
                {"taps", "16"},
                {"pattern", "interleaved"},
                {"reuse_jacobian", true},
-               {"misses", "fallback"}}}},
+               {"misses", "fallback"},
+               {"hidden_hits", "miss"},
+               {"history_weight", 0.8}}}},
         .create = create<FrostbiteSssr>,
     },
 };
