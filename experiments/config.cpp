@@ -9,6 +9,7 @@
 #include "variants/registry.h"
 
 #include <algorithm>
+#include <map>
 
 namespace {
 
@@ -198,6 +199,11 @@ std::vector<nlohmann::json> read_points(JsonObject& entry, const std::string& va
     return grid_points(entry.has("sweep") ? entry.any("sweep") : nlohmann::json::object(), entry.where());
 }
 
+nlohmann::json with_values(nlohmann::json parameters, const nlohmann::json& changed) {
+    parameters.update(changed);
+    return parameters;
+}
+
 void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, std::vector<VariantConfig>& variants) {
     const std::string name = entry.text("variant");
     make_checked(entry, name);
@@ -206,6 +212,9 @@ void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, st
     if (!parameters.is_object()) fail(entry.where(), ": 'parameters' must be an object, not ", parameters.dump());
     const std::vector<nlohmann::json> points = read_points(entry, name);
     const std::vector<unsigned> seeds = numbers(entry, "seeds", max_seed, study_seeds);
+    const nlohmann::json against = entry.has("against") ? entry.any("against") : nlohmann::json();
+    if (entry.has("against") && (!against.is_object() || against.empty()))
+        fail(entry.where(), ": 'against' must be an object of parameter values, not ", against.dump());
     const bool is_baseline = entry.boolean("baseline", false), is_timed = entry.boolean("timing", true);
     entry.finish();
     for (const std::string& preset : presets)
@@ -216,12 +225,14 @@ void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, st
                                   .point = preset,
                                   .seeds = seeds,
                                   .is_baseline = is_baseline,
+                                  .against = against,
                                   .is_timed = is_timed};
             variant.parameters.update(point);
             for (const auto& [key, value] : point.items())
                 variant.point += (variant.point.empty() ? "" : " ") + key + "=" + label(value);
             if (variant.point.empty()) variant.point = "default";
             make_checked(entry, name, variant.parameters, preset);
+            if (!against.is_null()) make_checked(entry, name, with_values(variant.parameters, against), preset);
             variants.push_back(std::move(variant));
         }
 }
@@ -253,6 +264,25 @@ void refuse_repetition(const std::vector<VariantConfig>& variants, const std::st
             if (variants[i].variant == variants[j].variant && variants[i].point == variants[j].point)
                 fail(where, ": variants: '", variants[i].variant, "' comes twice with the point '", variants[i].point,
                      "'; give the second a preset or a sweep that tells them apart");
+}
+
+/// Finds what each point with `against` is compared with, wherever in the study it stands.
+void find_against_points(std::vector<VariantConfig>& variants, const std::string& where) {
+    using Values = std::pair<std::string, nlohmann::json>;  // variant, all its parameters
+    std::map<Values, std::string> points;
+    for (const VariantConfig& v : variants)
+        points.try_emplace({v.variant, make_variant(v.variant, v.parameters, v.preset)->params.values()}, v.point);
+    for (VariantConfig& v : variants) {
+        if (v.against.is_null()) continue;
+        const auto own = make_variant(v.variant, v.parameters, v.preset)->params.values();
+        const auto other = make_variant(v.variant, with_values(v.parameters, v.against), v.preset)->params.values();
+        if (other == own) continue;
+        const auto found = points.find({v.variant, other});
+        if (found == points.end())
+            fail(where, ": variants: nothing is the same as '", v.variant, "' with the point '", v.point, "' but for ",
+                 v.against.dump(), ", its 'against'; add that point");
+        v.against_point = found->second;
+    }
 }
 
 }  // namespace
@@ -317,5 +347,6 @@ Config read_config(const std::filesystem::path& file) {
         fail(file.string(), ": 'variants' is missing or empty: name at least one variant, e.g. \"none\"");
     refuse_repeated_shots(config.shots, file.string());
     refuse_repetition(config.variants, file.string());
+    find_against_points(config.variants, file.string());
     return config;
 }

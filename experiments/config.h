@@ -36,6 +36,8 @@ struct VariantConfig {
     std::string point;          ///< its label in results: the preset and the swept values, or "default"
     std::vector<unsigned> seeds;
     bool is_baseline = false;  ///< all other points are compared with it, seed by seed
+    nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
+    std::string against_point;  ///< of the same variant; "" for that point itself
     bool is_timed = true;
 };
 

@@ -46,6 +46,7 @@ json variant_schema(const VariantEntry& entry) {
                    {"each", axes},
                    {"seeds", counts(100000)},
                    {"baseline", {{"type", "boolean"}}},
+                   {"against", parameters},
                    {"timing", {{"type", "boolean"}}}},
                   {"variant"});
 }

@@ -44,6 +44,7 @@ EffectRow effect_between(const Row& point, const Row& baseline) {
             .frame = point.frame,
             .variant = point.variant,
             .point = point.point,
+            .against = {},
             .against_variant = baseline.variant,
             .against_point = baseline.point,
             .target = point.target,
@@ -95,9 +96,9 @@ std::vector<EffectRow> effects_of(const SplitRow* point, const SplitRow* baselin
 }
 
 void adjust(std::vector<EffectRow>& effects) {
-    std::map<std::tuple<std::string, std::string, std::string>, std::vector<EffectRow*>> families;
+    std::map<std::tuple<bool, std::string, std::string, std::string>, std::vector<EffectRow*>> families;
     for (EffectRow& e : effects)
-        if (e.p) families[{e.target, e.metric, e.mask}].push_back(&e);
+        if (e.p) families[{e.against == baseline_name, e.target, e.metric, e.mask}].push_back(&e);
     for (auto& [name, family] : families) {
         std::vector<double> p;
         for (const EffectRow* e : family) p.push_back(*e->p);
@@ -106,24 +107,48 @@ void adjust(std::vector<EffectRow>& effects) {
     }
 }
 
-/// `table` holds what was measured, by quantity and point.
-template <class Measured>
-std::vector<EffectRow> against_baselines(const std::map<Quantity, std::map<Point, Measured>>& table,
-                                         const std::vector<VariantConfig>& variants, const Points& not_repeatable) {
-    std::vector<EffectRow> effects;
+/// What a point is compared with, and as what.
+struct Comparison {
+    const VariantConfig* point;
+    std::string against_variant, against_point, against;
+};
+
+/// `{"estimator": "a"}` as `estimator=a`.
+std::string text_of(const nlohmann::json& values) {
+    std::string text;
+    for (const auto& [name, value] : values.items())
+        text += (text.empty() ? "" : " ") + name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+    return text;
+}
+
+std::vector<Comparison> comparisons_of(const std::vector<VariantConfig>& variants) {
+    std::vector<Comparison> comparisons;
     for (const VariantConfig& baseline : variants) {
         if (!baseline.is_baseline) continue;
-        for (const VariantConfig& variant : variants) {
-            if (variant.variant == baseline.variant && variant.point == baseline.point) continue;
-            const Point name(variant.variant, variant.point), base_name(baseline.variant, baseline.point);
-            const bool is_repeatable = !not_repeatable.contains(name) && !not_repeatable.contains(base_name);
-            for (const auto& [quantity, points] : table) {
-                const auto a = points.find(name), b = points.find(base_name);
-                if (a == points.end() || b == points.end()) continue;
-                for (EffectRow& e : effects_of(a->second, b->second)) {
-                    if (!is_repeatable) e.low = e.high = e.p = std::nullopt;
-                    effects.push_back(std::move(e));
-                }
+        for (const VariantConfig& v : variants)
+            if (v.variant != baseline.variant || v.point != baseline.point)
+                comparisons.push_back({&v, baseline.variant, baseline.point, baseline_name});
+    }
+    for (const VariantConfig& v : variants)
+        if (!v.against_point.empty()) comparisons.push_back({&v, v.variant, v.against_point, text_of(v.against)});
+    return comparisons;
+}
+
+/// `table` holds what was measured, by quantity and point.
+template <class Measured>
+std::vector<EffectRow> effects_in(const std::map<Quantity, std::map<Point, Measured>>& table,
+                                  const std::vector<VariantConfig>& variants, const Points& not_repeatable) {
+    std::vector<EffectRow> effects;
+    for (const Comparison& c : comparisons_of(variants)) {
+        const Point name(c.point->variant, c.point->point), other(c.against_variant, c.against_point);
+        const bool is_repeatable = !not_repeatable.contains(name) && !not_repeatable.contains(other);
+        for (const auto& [quantity, points] : table) {
+            const auto a = points.find(name), b = points.find(other);
+            if (a == points.end() || b == points.end()) continue;
+            for (EffectRow& e : effects_of(a->second, b->second)) {
+                e.against = c.against;
+                if (!is_repeatable) e.low = e.high = e.p = std::nullopt;
+                effects.push_back(std::move(e));
             }
         }
     }
@@ -146,22 +171,23 @@ std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std
                                       const std::set<std::pair<std::string, std::string>>& not_repeatable) {
     std::map<Quantity, std::map<Point, Seeds>> table;
     for (const ResultRow* r : chosen_rows(rows)) table[quantity_of(*r)][{r->variant, r->point}][r->seed] = r;
-    return against_baselines(table, variants, not_repeatable);
+    return effects_in(table, variants, not_repeatable);
 }
 
 std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<VariantConfig>& variants,
                                      const std::set<std::pair<std::string, std::string>>& not_repeatable) {
     std::map<Quantity, std::map<Point, const SplitRow*>> table;
     for (const SplitRow& r : rows) table[{r.shot, r.target, "", r.mask}][{r.variant, r.point}] = &r;
-    return against_baselines(table, variants, not_repeatable);
+    return effects_in(table, variants, not_repeatable);
 }
 
 void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects) {
     std::string text =
-        "shot,frame,variant,point,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,p,p_"
+        "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,"
+        "high,p,p_"
         "holm\n";
     for (const EffectRow& e : effects)
-        text += csv_line(e.shot, e.frame, e.variant, e.point, e.against_variant, e.against_point, e.target, e.metric,
-                         e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.p, e.p_holm);
+        text += csv_line(e.shot, e.frame, e.variant, e.point, e.against, e.against_variant, e.against_point, e.target,
+                         e.metric, e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.p, e.p_holm);
     write_text(folder / "effects.csv", text);
 }

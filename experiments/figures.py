@@ -40,6 +40,7 @@ STUDY_FIGURES = {
     "roughness_bias": roughness.draw_bias,
     "bias_variance": bias_variance.draw,
     "effects": effects.draw,
+    "otherwise_equal": effects.draw_otherwise_equal,
     "temporal": temporal.draw,
     "frames": frames.draw,
 }

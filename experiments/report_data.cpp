@@ -106,13 +106,21 @@ json split_row(const SplitRow& s, Texts& code) {
 }
 
 json effect_row(const EffectRow& e, Texts& code) {
-    return {code(e.shot),           code(e.variant),
-            code(e.point),          code(e.against_variant),
-            code(e.against_point),  code(e.target),
-            code(e.metric),         code(e.formula),
-            code(e.mask),           e.seeds,
-            optional_json(e.ratio), optional_json(e.low),
-            optional_json(e.high),  optional_json(e.p_holm)};
+    return {code(e.shot),
+            code(e.variant),
+            code(e.point),
+            code(e.against),
+            code(e.against_variant),
+            code(e.against_point),
+            code(e.target),
+            code(e.metric),
+            code(e.formula),
+            code(e.mask),
+            e.seeds,
+            optional_json(e.ratio),
+            optional_json(e.low),
+            optional_json(e.high),
+            optional_json(e.p_holm)};
 }
 
 json time_row(const TimeSummary& t, Texts& code) {

@@ -34,7 +34,8 @@ std::vector<std::string> differing_parameters(const json& a, const json& b) {
 
 std::vector<SingleChange> single_changes(const json& manifest, std::span<const EffectRow> effects) {
     PointSet baselines;
-    for (const EffectRow& e : effects) baselines.insert({e.against_variant, e.against_point});
+    for (const EffectRow& e : effects)
+        if (e.against == baseline_name) baselines.insert({e.against_variant, e.against_point});
     const std::vector<Point> points = read_points(manifest);
     std::vector<SingleChange> changes;
     for (const Point& p : points) {

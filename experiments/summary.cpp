@@ -129,10 +129,10 @@ std::vector<EffectRow> read_effect_rows(const std::filesystem::path& file) {
     std::vector<EffectRow> rows;
     for (CsvReader csv(file); csv.next();)
         rows.push_back({csv.text("shot"), csv.text("frame"), csv.text("variant"), csv.text("point"),
-                        csv.text("against_variant"), csv.text("against_point"), csv.text("target"), csv.text("metric"),
-                        csv.text("formula"), csv.text("mask"), csv.count("seeds"), csv.optional_number("ratio"),
-                        csv.optional_number("low"), csv.optional_number("high"), csv.optional_number("p"),
-                        csv.optional_number("p_holm")});
+                        csv.text("against"), csv.text("against_variant"), csv.text("against_point"), csv.text("target"),
+                        csv.text("metric"), csv.text("formula"), csv.text("mask"), csv.count("seeds"),
+                        csv.optional_number("ratio"), csv.optional_number("low"), csv.optional_number("high"),
+                        csv.optional_number("p"), csv.optional_number("p_holm")});
     return rows;
 }
 

@@ -1,4 +1,5 @@
-"""Forest plot: what each change does to the error of its baseline, one panel per shot."""
+"""Forest plots, one panel per shot: what each change does to the error of its baseline, and what points do to the error of
+those that differ in one value alone."""
 
 import json
 
@@ -18,19 +19,35 @@ def _groups(results, rows):
     return singles | {k: label(*k) for k in found if k not in singles}
 
 
-def draw(results, chosen):
-    rows = [
+def _rows(results, chosen):
+    return [
         e
         for e in results.effects
         if (e["target"], e["metric"], e["mask"]) == (chosen.target, chosen.metric, chosen.mask)
         and e["variant"] == e["against_variant"]
     ]
+
+
+def draw(results, chosen):
+    rows = [e for e in _rows(results, chosen) if e["against"] == "baseline"]
     if not rows:
         return None
     baseline = (rows[0]["against_variant"], rows[0]["against_point"])
     rows = [e for e in rows if (e["against_variant"], e["against_point"]) == baseline]
+    return _draw(results, chosen, rows, _groups(results, rows), label(*baseline))
+
+
+def draw_otherwise_equal(results, chosen):
+    rows = [e for e in _rows(results, chosen) if e["against"] != "baseline"]
+    if not rows:
+        return None
+    rows = [e for e in rows if (e["variant"], e["against"]) == (rows[0]["variant"], rows[0]["against"])]
+    groups = {key: label(*key) for key in dict.fromkeys((e["variant"], e["point"]) for e in rows)}
+    return _draw(results, chosen, rows, groups, f"{rows[0]['against']} and otherwise the same")
+
+
+def _draw(results, chosen, rows, groups, against):
     shots = [s for s in results.shots() if any(e["shot"] == s for e in rows)]
-    groups = _groups(results, rows)
     columns = min(len(shots), 4)
     grid_rows = -(-len(shots) // columns)
     figure, grid = plt.subplots(
@@ -52,7 +69,7 @@ def draw(results, chosen):
     grid[0, 0].set_ylim(len(groups) - 0.5, -0.5)
     _limit(grid[0, 0], results, rows)
     figure.supxlabel(
-        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {label(*baseline)}; "
+        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
         f"95 % intervals over seeds; filled: p (Holm) < {SIGNIFICANT}",
         fontsize=7,
     )

@@ -90,7 +90,9 @@ class Results:
     def _single_changes(self):
         """(variant, point) to (parameter, value) of the swept points that differ from a baseline in one parameter."""
         values = {(v["variant"], v["point"]): v.get("parameters", {}) for v in self.manifest.get("variants", [])}
-        baselines = dict.fromkeys((e["against_variant"], e["against_point"]) for e in self.effects)
+        baselines = dict.fromkeys(
+            (e["against_variant"], e["against_point"]) for e in self.effects if e["against"] == "baseline"
+        )
         changes = {}
         for key, own in values.items():
             if key in baselines or "=" not in key[1]:

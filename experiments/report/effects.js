@@ -24,7 +24,8 @@ const effectsShown = () => report.effects.filter(e => e.variant === e.againstVar
 const effectShots = () => unique([
                               ...manifestShots().map(s => s.shot), ...effectsShown().map(e => e.shot)
                           ]).filter(shot => effectsShown().some(e => e.shot === shot));
-const againstLabel = e => pointLabel({variant: e.againstVariant, point: e.againstPoint});
+const againstLabel = e => e.against === "baseline" ? pointLabel({variant: e.againstVariant, point: e.againstPoint}) :
+                                                     `${e.variant} with ${e.against} and otherwise the same`;
 
 function showEffects() {
     const rows = effectsShown();
@@ -59,18 +60,20 @@ function showEffects() {
     drawEffects();
 }
 
-/// [{label, doc, rows}] in the order of the study: single changes first, then whole points.
+/// [{label, doc, rows}] in the order of the study: single changes of a baseline first, then whole points.
 function effectGroups(rows) {
+    const isBaseline = rows.some(e => e.against === "baseline");
     const of = key => rows.filter(e => pointKey(e) === key);
     const docs = report.manifest.parameter_docs ?? {};
-    const singles = report.singleChanges.map(c => ({
+    const singles = !isBaseline ? [] : report.singleChanges.map(c => ({
                                                  label: `${c.parameter} = ${JSON.stringify(c.value)}`,
                                                  doc: docs[c.variant]?.[c.parameter] ?? "",
                                                  rows: of(pointKey(c))
                                              }));
     const wholes =
-        unique(rows.filter(e => !isSingleChange(e)).map(pointKey))
-            .map(key => ({label: pointLabel(of(key)[0]), doc: "all that it changes, together", rows: of(key)}));
+        unique(rows.filter(e => !isBaseline || !isSingleChange(e)).map(pointKey)).map(key => ({
+            label: pointLabel(of(key)[0]), doc: isBaseline ? "all that it changes, together" : "", rows: of(key)
+        }));
     return [...singles, ...wholes].filter(g => g.rows.length);
 }
 

@@ -106,11 +106,14 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndFilter) {
     for (const VariantConfig& variant : config.variants) {
         if (variant.variant != "frostbite_sssr") continue;
         EXPECT_EQ(variant.seeds.size(), 8u);
+        const bool is_reference_form = variant.parameters.value("estimator", "a") == "a";
+        EXPECT_EQ(variant.against_point.empty(), is_reference_form) << variant.point;
         const std::unique_ptr<Variant> changed = make_variant("frostbite_sssr");
         changed->params.assign(variant.parameters);
         const nlohmann::json p = changed->params.values();
         combinations[p["lobe"]].insert(
-            nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"], p["filtered_sampling"]}.dump());
+            nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"], p["filtered_sampling"]}
+                .dump());
     }
     EXPECT_EQ(combinations["normals"].size(), 3u * 3 * 2 * 2 * 2);
     EXPECT_EQ(combinations["visible_normals"].size(), 3u * 3 * 2 * 2);
@@ -127,6 +130,32 @@ TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
         if (parameter.glsl_type == "bool" || !parameter.choices.empty()) {
             EXPECT_TRUE(changed.contains(parameter.name)) << parameter.name;
         }
+}
+
+/// Values decide, not labels: what a point is compared with may stand in another entry, under another name.
+TEST(Configs, AgainstFindsThePointThatIsOtherwiseTheSame) {
+    const fs::path file = fs::path(testing::TempDir()) / "against.json";
+    const auto against_points = [&](const std::string& variants) {
+        write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [)" + variants + "]}");
+        std::map<std::string, std::string> found;
+        for (const VariantConfig& v : read_config(file).variants) found[v.point] = v.against_point;
+        return found;
+    };
+    using Expected = std::map<std::string, std::string>;
+    EXPECT_EQ(against_points(R"({"variant": "mcguire_dda"},
+                                {"variant": "mcguire_dda", "against": {"stride": 1},
+                                 "sweep": {"stride": [1, 2], "refine": [true]}},
+                                {"variant": "mcguire_dda", "against": {"stride": 1, "refine": false},
+                                 "sweep": {"stride": [4], "refine": [true]}})"),
+              (Expected{{"default", ""},
+                        {"refine=true stride=1", ""},
+                        {"refine=true stride=2", "refine=true stride=1"},
+                        {"refine=true stride=4", "default"}}));
+    const std::string alone = R"({"variant": "mcguire_dda", "against": {"stride": 1}, "sweep": {"stride": [2]}})";
+    EXPECT_THROW(against_points(alone), Error) << "nothing to compare with";
+    for (const char* values : {"{}", "true", R"({"strid": 1})", R"({"stride": 0})"})
+        EXPECT_THROW(against_points(R"({"variant": "mcguire_dda", "against": )" + std::string(values) + "}"), Error)
+            << values;
 }
 
 TEST(Configs, EachChangesOneParameterAtATime) {

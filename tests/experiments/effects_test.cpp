@@ -57,6 +57,31 @@ TEST(Effects, AreRatiosPairedBySeed) {
     EXPECT_EQ(*e.p_holm, *e.p) << "a family of one";
 }
 
+/// Beside the baseline's comparisons, under a name of their own and adjusted apart from them.
+TEST(Effects, AreAlsoToldAgainstThePointThatIsOtherwiseTheSame) {
+    const std::vector<VariantConfig> variants = {
+        {.variant = "v", .point = "base", .is_baseline = true},
+        {.variant = "v", .point = "plain"},
+        {.variant = "v", .point = "changed", .against = {{"form", "x"}, {"taps", 4}}, .against_point = "plain"}};
+    const std::map<std::string, double> errors = {{"base", 8}, {"plain", 2}, {"changed", 1}};
+    std::vector<ResultRow> rows;
+    for (const auto& [point, error] : errors)
+        for (unsigned seed = 0; seed < 3; ++seed)
+            rows.push_back(row("0", point, seed, "mse", error * (1 + 0.01 * double(seed * (point == "base" ? 1 : 2)))));
+    std::map<std::string, const EffectRow*> found;
+    const std::vector<EffectRow> effects = paired_effects(rows, variants);
+    for (const EffectRow& e : effects) found[e.point + "/" + e.against + "/" + e.against_point] = &e;
+    ASSERT_EQ(effects.size(), 3u);
+    ASSERT_EQ(found.size(), 3u);
+    ASSERT_TRUE(found.contains("changed/form=x taps=4/plain"));
+    const EffectRow& e = *found["changed/form=x taps=4/plain"];
+    EXPECT_NEAR(*e.ratio, 0.5, 1e-12);
+    EXPECT_EQ(*e.p_holm, *e.p) << "a family of one";
+    ASSERT_TRUE(found.contains("plain/baseline/base") && found.contains("changed/baseline/base"));
+    const EffectRow &plain = *found["plain/baseline/base"], &changed = *found["changed/baseline/base"];
+    EXPECT_TRUE(*plain.p_holm > *plain.p || *changed.p_holm > *changed.p) << "a family of two";
+}
+
 TEST(Effects, PairSeedsByTheirNumber) {
     std::vector<ResultRow> rows;
     for (unsigned seed = 0; seed < 4; ++seed) rows.push_back(row("0", "base", seed, "mse", std::pow(10.0, seed)));

@@ -159,7 +159,11 @@ def test_study(folder):
     texts = [t.get_text() for a in panels["bias_variance"] for t in a.texts]
     check(len(texts) == 7 and all("about 0" in t for t in texts), f"biases that are not above 0: {texts}")
     effects = [e for e in results.effects if (e["metric"], e["mask"], e["variant"]) == ("relmse", "reflective", "sssr")]
-    check(drawn(panels["effects"], "x") == numbers(effects, "ratio"), "effects")
+    is_baseline = lambda e: e["against"] == "baseline"
+    against_baseline, otherwise_equal = filter(is_baseline, effects), [e for e in effects if not is_baseline(e)]
+    check(drawn(panels["effects"], "x") == numbers(against_baseline, "ratio"), "effects")
+    check(len(otherwise_equal) == 7, "the fixture compares two points that differ in one value, in each shot")
+    check(drawn(panels["otherwise_equal"], "x") == numbers(otherwise_equal, "ratio"), "points otherwise equal")
     frames = [
         r
         for r in results.all_errors

@@ -236,6 +236,8 @@ void write_study_fixture(const std::filesystem::path& folder) {
     for (const StudyPoint& p : points) {
         VariantConfig variant;
         variant.variant = p.variant, variant.point = p.point, variant.is_baseline = p.point == "first";
+        if (p.point == "mended")
+            variant.against = {{"float_histories", false}}, variant.against_point = "first round_up_tiles=true";
         variants.push_back(variant);
     }
     write_tables(folder, cells);

@@ -259,6 +259,13 @@ def test_effects(page, folder):
         choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith(metric)))
         row = next(c for c in table_of(page, "#effect-table") if c[0][0].split("\n")[0] == point)
         equal(row[-1][0], reason, f"why {point} has no ratio of {metric}")
+    choose(page, "effects", "Against", "sssr with float_histories=false and otherwise the same")
+    choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("relmse")))
+    quantity = dict(target="specular", metric="relmse", mask="reflective", shot=STEP)
+    expected = rows_of(folder, "effects.csv", against="float_histories=false", **quantity)
+    equal([r["against_point"] for r in expected], ["first round_up_tiles=true"], "what is otherwise the same")
+    shown = table_of(page, "#effect-table")[:-1]
+    equal([(c[0][0], float(c[2][1])) for c in shown], [("sssr · mended", float(expected[0]["ratio"]))], "its ratio")
 
 
 def test_temporal(page, folder):
