@@ -129,7 +129,7 @@ const std::vector<std::string>& mask_names() {
 void check_mask_name(const std::string& name) {
     if (roughness_class(name) || std::ranges::find(mask_names(), name) != mask_names().end()) return;
     std::vector<std::string> known = mask_names();
-    known.push_back("roughness_FROM_BELOW");
+    known.emplace_back("roughness_FROM_BELOW");
     fail("no mask named '", name, "'", suggestion(name, known));
 }
 
