@@ -47,9 +47,8 @@ struct Reflector {
 
 Reflector reflector_at(ivec2 pixel) {
     vec4 normal_roughness = texelFetch(normal, pixel, 0);
-    mat4 before_from_now = previous_view_from_view();
-    return Reflector((before_from_now * vec4(view_position(pixel), 1.0)).xyz,
-                     mat3(before_from_now) * view_geometric_normal(pixel), normal_roughness.xyz, normal_roughness.w);
+    return Reflector((camera.previous_view_from_world * world_position(pixel)).xyz, geometric_normal_before(pixel),
+                     normal_roughness.xyz, normal_roughness.w);
 }
 
 // Whether the texel showed the same plane as rough as now; one that moved has its mirror image elsewhere. The limits are
