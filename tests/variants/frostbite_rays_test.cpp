@@ -1,4 +1,5 @@
 #include "tests/variants/frostbite_passes.h"
+#include "variants/frostbite_sssr/first_turn.h"
 
 #include <glm/gtc/packing.hpp>
 #include <map>
@@ -43,7 +44,7 @@ struct FrostbiteRaysTest : VariantTest {
     glm::uvec2 traced_pixel(glm::uvec2 traced, unsigned turn) const {
         if (!parameters.ray.half_resolution) return traced;
         const glm::uvec2 order[] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
-        return glm::min(2u * traced + order[turn % 4], view.extent - 1u);
+        return glm::min(2u * traced + order[(turn + first_turn(camera.frame.y)) % 4], view.extent - 1u);
     }
 
     /// That exactly the rays of the rules are listed, in the list of their tracer, once, and that exactly they are
@@ -82,7 +83,8 @@ TEST_F(FrostbiteRaysTest, AreThoseOfEveryPixelThatReflectsSmoothly) {
 
 TEST_F(FrostbiteRaysTest, AreThoseOfAnotherPixelOfEachQuadInEveryFrameAndSeed) {
     parameters.params.assign({{"classification", false}, {"max_rays", 2}});
-    for (unsigned frame = 0; frame < 4; ++frame) expect_rays(strips, frame + 1, trace(strips, frame, 1));
+    for (const unsigned seed : {0u, 1u, 2u})
+        for (unsigned frame = 0; frame < 4; ++frame) expect_rays(strips, frame, trace(strips, frame, seed));
 }
 
 TEST_F(FrostbiteRaysTest, AreAsManyAsTheirTileGets) {

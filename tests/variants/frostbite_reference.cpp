@@ -1,5 +1,7 @@
 #include "tests/variants/frostbite_reference.h"
 
+#include "variants/frostbite_sssr/first_turn.h"
+
 using glm::dmat3, glm::dvec2, glm::dvec3, glm::dvec4;
 
 namespace {
@@ -94,7 +96,7 @@ FrostbiteReference::Result FrostbiteReference::resolve(glm::uvec2 pixel, const s
     const double left = 1 - double(float(bench_.ray_parameters.importance_bias));
     const unsigned max_rays = bench_.ray_parameters.max_rays, width = bench_.traced_extent().x;
     const bool is_half = bench_.ray_parameters.half_resolution;
-    const unsigned turn = (bench_.camera.frame.x + bench_.camera.frame.y) % 4;
+    const unsigned turn = (bench_.camera.frame.x + first_turn(bench_.camera.frame.y)) % 4;
     const glm::uvec2 turns[4] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
 
     Result result;

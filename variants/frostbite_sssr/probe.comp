@@ -26,7 +26,7 @@ ivec2 pixel_of_turn(uint turn) {
 // a line one pixel wide that runs through all of them is met in every frame.
 ivec2 probed_pixel(ivec2 block) {
     for (uint i = 0u; i < 64u; ++i) {
-        ivec2 inside = pixel_of_turn(camera.frame.x + camera.frame.y + i) + 3 * block.yx & block_width - 1;
+        ivec2 inside = pixel_of_turn(camera.frame.x + first_turn(camera.frame.y) + i) + 3 * block.yx & block_width - 1;
         ivec2 pixel = block * block_width + inside;
         if (is_on_screen(pixel) && starts_rays(pixel)) return pixel;
     }
