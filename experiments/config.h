@@ -35,7 +35,7 @@ struct VariantConfig {
     nlohmann::json parameters;  ///< values that differ from the preset's or default ones
     std::string point;          ///< its label in results: the preset and the swept values, or "default"
     std::vector<unsigned> seeds;
-    bool is_baseline = false;  ///< all other points are compared with it, seed by seed
+    bool is_baseline = false;  ///< all other points are compared with it, over the seeds that both have
     nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
     std::string against_point;  ///< of the same variant; "" for that point itself
     bool is_timed = true;

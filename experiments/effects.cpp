@@ -183,9 +183,8 @@ std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::
 
 void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects) {
     std::string text =
-        "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,"
-        "high,p,p_"
-        "holm\n";
+        "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,"
+        "ratio,low,high,p,p_holm\n";
     for (const EffectRow& e : effects)
         text += csv_line(e.shot, e.frame, e.variant, e.point, e.against, e.against_variant, e.against_point, e.target,
                          e.metric, e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.p, e.p_holm);

@@ -32,9 +32,8 @@ struct RatioEstimate {
 /// a / b, both estimated from the same N seeds: seed i shares random numbers, camera and scene, so what they have in
 /// common cancels. The interval is the jackknife's of ln(a / b) with Student's t of N - 1 degrees (Tukey 1958, "Bias
 /// and Confidence in Not-Quite Large Samples"; Miller 1974, "The Jackknife - A Review"). Without one for a single seed,
-/// and where an estimate without one of the seeds is not above 0 or so near to it that the interval
-/// has no end among finite numbers. Fails if a or b is not, or if they hold unequal
-/// numbers of seeds.
+/// and where an estimate without one of the seeds is not above 0 or so near to it that the interval has no end among
+/// finite numbers. Fails if a or b is not above 0, or if they hold unequal numbers of seeds.
 ///
 /// Coverage of ratios of means in 40000 simulated studies of 4, 8, 16 seeds: 94.9, 95.1, 95.1 % for log-normal values
 /// of deviation 0.05 and correlation 0.9; 93.3, 93.1, 93.7 % for deviation 1 without correlation; 90.5, 89.7, 90.1 %

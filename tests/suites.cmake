@@ -9,7 +9,7 @@ function(add_suites program folder)
     return()
   endif()
   execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE listing COMMAND_ERROR_IS_FATAL ANY)
-  string(REPLACE ";" "," listing "${listing}")
+  string(REGEX REPLACE "[][;]" "," listing "\n${listing}")  # characters of types and values that mean lists here
   string(REGEX MATCHALL "\n[^ \n]+\\.[^\n]*(\n  [^\n]+)+" suites "${listing}")
   foreach(lines IN LISTS suites)
     string(REGEX MATCH "[^ \n]+\\." suite "${lines}")

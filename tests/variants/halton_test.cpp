@@ -23,7 +23,7 @@ TEST_F(Halton, FillsEveryElementaryInterval) {
 
 TEST_F(Halton, StaysBelowOne) {
     // All digits of these are the largest there are: their sums round to 1.
-    for (const auto [index, base] : {std::pair{0xffffffffu, 2u}, {0x1ffffffu, 2u}, {3486784400u, 3u}})
+    for (const auto& [index, base] : {std::pair{0xffffffffu, 2u}, {0x1ffffffu, 2u}, {3486784400u, 3u}})
         EXPECT_EQ(radical_inverse(index, base), std::nextafter(1.0f, 0.0f)) << index;
 }
 
@@ -121,7 +121,9 @@ TEST_F(Halton, AndLobesAreTheSameOnTheDevice) {
             double error = std::abs(found - expected[k]) / std::max(1e-3, std::abs(double(expected[k])));
             const bool is_direction = k<3, is_point = k> 4;
             if (is_direction) error = std::abs(found - expected[k]);
-            if (is_point) ASSERT_TRUE(found >= 0 && found < 1) << "input " << n;
+            if (is_point) {
+                ASSERT_TRUE(found >= 0 && found < 1) << "input " << n;
+            }
             if (is_point) error = std::abs(found - expected[k] - std::round(found - expected[k]));  // 0 and 1 are one
             // Vulkan asks for square roots and divisions to a few units in the last place. Densities take the square of
             // how far a normal of 1e-3 is from the pole, in float32: 1e-4 of it. Directions and points: 1e-6.
