@@ -28,7 +28,7 @@ std::string Shot::name() const {
     const unsigned first = config.frames.front(), last = config.frames.back();
     std::string name =
         scene.name + "." + camera.name + "." + std::to_string(config.extent.x) + "x" + std::to_string(config.extent.y);
-    if (last > 0) name.append(".f").append(std::to_string(first));
+    if (last > 0) name += ".f" + std::to_string(first);
     if (last > first) name += "-" + std::to_string(last);
     if (config.frames.size() != last - first + 1) name += ".n" + std::to_string(config.frames.size());
     if (config.warm_up > 0) name += ".w" + std::to_string(config.warm_up);
