@@ -9,6 +9,7 @@ from paper_figures import style
 from paper_figures.results import label
 
 SIGNIFICANT = 0.05
+LONG_LABEL = 40  # characters, beyond which labels would leave the panels no room
 CUT = 2.0  # intervals reach at most this factor beyond the outermost ratio
 
 
@@ -46,7 +47,18 @@ def draw_otherwise_equal(results, chosen):
     return _draw(results, chosen, rows, groups, f"{rows[0]['against']} and otherwise the same")
 
 
+def _short(groups):
+    """Long labels as the values of all swept parameters alone, and what these are in which order; "" if none is long."""
+    if max(map(len, groups.values())) <= LONG_LABEL:
+        return groups, ""
+    values = {key: dict(t.split("=", 1) for t in key[1].split() if "=" in t) for key in groups}
+    names = sorted({name for of_point in values.values() for name in of_point})
+    short = {key: "  ".join(of.get(name, "–") for name in names) if of else groups[key] for key, of in values.items()}
+    return short, f"rows: {', '.join(names)} (–: as in the variant's default)\n"
+
+
 def _draw(results, chosen, rows, groups, against):
+    groups, legend = _short(groups)
     shots = [s for s in results.shots() if any(e["shot"] == s for e in rows)]
     columns = min(len(shots), 4)
     grid_rows = -(-len(shots) // columns)
@@ -69,7 +81,7 @@ def _draw(results, chosen, rows, groups, against):
     grid[0, 0].set_ylim(len(groups) - 0.5, -0.5)
     _limit(grid[0, 0], results, rows)
     figure.supxlabel(
-        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
+        f"{legend}{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
         f"95 % intervals over seeds; filled: p (Holm) < {SIGNIFICANT}",
         fontsize=7,
     )
