@@ -145,10 +145,9 @@ const std::vector<VariantEntry> table = {
               "pixel in place of reuse",
               {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
              {"ours",
-              "the least squared error that a search found within twice the time of frostbite_2015, README.md: 4 "
-              "shared "
-              "taps of rays drawn from most of the lobe of visible normals, at their full density; misses, and hits "
-              "that the previous frame did not show, see the environment; a shorter history. None of this was "
+              "the least squared error that a search found within twice the time of frostbite_2015, see README.md: 4 "
+              "interleaved taps of rays drawn from most of the lobe of visible normals, at their full density; misses, "
+              "and hits that the previous frame did not show, see the environment; a shorter history. None of this was "
               "published",
               {{"lobe", "visible_normals"},
                {"importance_bias", 0.15},
