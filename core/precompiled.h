@@ -1,5 +1,5 @@
-// What most sources include and the compiler would read each time: half of the build without it. Sources include what they
-// use all the same.
+// What most sources include and the compiler would read each time, for half of the build's time. Sources include what
+// they use all the same.
 #pragma once
 #include <algorithm>
 #include <filesystem>
