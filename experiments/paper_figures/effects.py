@@ -13,10 +13,17 @@ LONG_LABEL = 40  # characters, beyond which labels would leave the panels no roo
 CUT = 2.0  # intervals reach at most this factor beyond the outermost ratio
 
 
+def _preset(point):
+    return [word for word in point.split() if "=" not in word and word != "default"]
+
+
 def _groups(results, rows):
-    """(variant, point) to its label: single changes in the order of the study, then whole points."""
+    """(variant, point) to its label: single changes of the baseline in the order of the study, then whole points, to which
+    changes of other baselines belong."""
     found = dict.fromkeys((e["variant"], e["point"]) for e in rows)
-    singles = {k: f"{p} = {json.dumps(v)}" for k, (p, v) in results.single_changes.items() if k in found}
+    preset = _preset(rows[0]["against_point"])
+    changes = {k: c for k, c in results.single_changes.items() if k in found and _preset(k[1]) == preset}
+    singles = {k: f"{p} = {json.dumps(v)}" for k, (p, v) in changes.items()}
     return singles | {k: label(*k) for k in found if k not in singles}
 
 

@@ -60,18 +60,23 @@ function showEffects() {
     drawEffects();
 }
 
+const presetOf = point => point.split(" ").filter(word => !word.includes("=") && word !== "default").join(" ");
+/// Of the baseline that it is compared with: a study may have several, and a change of one is a whole point to another.
+const isChangeOfBaseline = e =>
+    e.against === "baseline" && isSingleChange(e) && presetOf(e.point) === presetOf(e.againstPoint);
+
 /// [{label, doc, rows}] in the order of the study: single changes of a baseline first, then whole points.
 function effectGroups(rows) {
     const isBaseline = rows.some(e => e.against === "baseline");
     const of = key => rows.filter(e => pointKey(e) === key);
     const docs = report.manifest.parameter_docs ?? {};
-    const singles = !isBaseline ? [] : report.singleChanges.map(c => ({
+    const singles = report.singleChanges.map(c => ({
                                                  label: `${c.parameter} = ${JSON.stringify(c.value)}`,
                                                  doc: docs[c.variant]?.[c.parameter] ?? "",
-                                                 rows: of(pointKey(c))
+                                                 rows: of(pointKey(c)).filter(isChangeOfBaseline)
                                              }));
     const wholes =
-        unique(rows.filter(e => !isBaseline || !isSingleChange(e)).map(pointKey)).map(key => ({
+        unique(rows.filter(e => !isChangeOfBaseline(e)).map(pointKey)).map(key => ({
             label: pointLabel(of(key)[0]), doc: isBaseline ? "all that it changes, together" : "", rows: of(key)
         }));
     return [...singles, ...wholes].filter(g => g.rows.length);
