@@ -136,9 +136,6 @@ void read_shot(JsonObject shot, const std::filesystem::path& folder, std::vector
         }
 }
 
-/// A value as it stands in a point's label: texts without their quotes.
-std::string label(const nlohmann::json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
-
 void check_values(const std::string& key, const std::string& name, const nlohmann::json& values,
                   const std::string& where) {
     if (!values.is_array() || values.empty())
@@ -228,8 +225,7 @@ void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, st
                                   .against = against,
                                   .is_timed = is_timed};
             variant.parameters.update(point);
-            for (const auto& [key, value] : point.items())
-                variant.point += (variant.point.empty() ? "" : " ") + key + "=" + label(value);
+            if (!point.empty()) variant.point += (preset.empty() ? "" : " ") + label_of(point);
             if (variant.point.empty()) variant.point = "default";
             make_checked(entry, name, variant.parameters, preset);
             if (!against.is_null()) make_checked(entry, name, with_values(variant.parameters, against), preset);
@@ -286,6 +282,13 @@ void find_against_points(std::vector<VariantConfig>& variants, const std::string
 }
 
 }  // namespace
+
+std::string label_of(const nlohmann::json& values) {
+    std::string label;
+    for (const auto& [name, value] : values.items())
+        label += (label.empty() ? "" : " ") + name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+    return label;
+}
 
 const std::vector<std::string>& target_names() {
     static const std::vector<std::string> names = {"specular", "image", "incident", "camera_radiance", "on_screen"};

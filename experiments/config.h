@@ -41,6 +41,9 @@ struct VariantConfig {
     bool is_timed = true;
 };
 
+/// Parameter values as points are named by them: {"estimator": "a", "taps": 4} is `estimator=a taps=4`.
+std::string label_of(const nlohmann::json& values);
+
 struct TimingConfig {
     unsigned frames = 15;  ///< measured per variant, after the warm-up; 0: no timing
     unsigned warm_up = 3;

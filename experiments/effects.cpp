@@ -113,14 +113,6 @@ struct Comparison {
     std::string against_variant, against_point, against;
 };
 
-/// `{"estimator": "a"}` as `estimator=a`.
-std::string text_of(const nlohmann::json& values) {
-    std::string text;
-    for (const auto& [name, value] : values.items())
-        text += (text.empty() ? "" : " ") + name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
-    return text;
-}
-
 std::vector<Comparison> comparisons_of(const std::vector<VariantConfig>& variants) {
     std::vector<Comparison> comparisons;
     for (const VariantConfig& baseline : variants) {
@@ -130,7 +122,7 @@ std::vector<Comparison> comparisons_of(const std::vector<VariantConfig>& variant
                 comparisons.push_back({&v, baseline.variant, baseline.point, baseline_name});
     }
     for (const VariantConfig& v : variants)
-        if (!v.against_point.empty()) comparisons.push_back({&v, v.variant, v.against_point, text_of(v.against)});
+        if (!v.against_point.empty()) comparisons.push_back({&v, v.variant, v.against_point, label_of(v.against)});
     return comparisons;
 }
 
