@@ -1,7 +1,7 @@
 #include "groundtruth/embree_scene.h"
 
 #include "core/error.h"
-#include "groundtruth/texture_lookup.h"
+#include "groundtruth/alpha_mask.h"
 
 #include <tbb/parallel_for.h>
 #include <algorithm>
@@ -46,18 +46,9 @@ void EmbreeScene::test_alpha(const RTCFilterFunctionNArguments* arguments) {
     const AlphaTest& test = *static_cast<const AlphaTest*>(arguments->geometryUserPtr);
     if (arguments->valid[0] != -1) return;
     const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0),
-                w = 1.0f - u - v;
-    const TriangleRecord& record = (*test.records)[triangle];
-    const Vertex &a = test.mesh->vertices[record.corner[0]], &b = test.mesh->vertices[record.corner[1]],
-                 &c = test.mesh->vertices[record.corner[2]];
-    float alpha = test.material->alpha * (w * a.color.a + u * b.color.a + v * c.color.a);
-    if (test.texture) {
-        const TextureSlot& slot = test.material->base_color_texture;
-        const glm::vec2 uv = w * a.uv[slot.texcoord] + u * b.uv[slot.texcoord] + v * c.uv[slot.texcoord];
-        alpha *= sample_texture(*test.texture, glm::vec2(slot.uv_transform * glm::vec3(uv, 1.0f))).a;
-    }
-    if (test.material->alpha_mode == AlphaMode::mask && alpha < test.material->alpha_cutoff) arguments->valid[0] = 0;
+    const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
+    if (is_cut_out(*test.material, test.texture, *test.mesh, (*test.records)[triangle].corner, u, v))
+        arguments->valid[0] = 0;
 }
 
 RTCGeometry EmbreeScene::make_triangles(const std::vector<TriangleRecord>& records, const Scene& scene,

@@ -1,5 +1,6 @@
 #include "groundtruth/material_table.h"
 
+#include "groundtruth/alpha_mask.h"
 #include "groundtruth/texture_lookup.h"
 
 namespace {
@@ -30,8 +31,8 @@ MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bo
         constants.varies = evaluate_everything || has_color || material.metalness_roughness_texture.texture >= 0 ||
                            material.normal_texture.texture >= 0 || material.emission_texture.texture >= 0;
         any_varies_ |= constants.varies;
-        constants.emission_varies =
-            evaluate_everything || (material.is_unlit ? has_color : material.emission_texture.texture >= 0);
+        constants.emission_varies = evaluate_everything || material.alpha_mode == AlphaMode::mask ||
+                                    (material.is_unlit ? has_color : material.emission_texture.texture >= 0);
         constants.emits = surface.emitted != glm::vec3(0.0f);
         constants.emits_behind = material.is_double_sided;
     }
@@ -131,5 +132,10 @@ glm::vec3 MaterialTable::emission(uint32_t instance_index, uint32_t triangle, fl
     const InstanceRecord& instance = geometry_.instance(instance_index);
     const Constants& constants = constants_[instance.material];
     if (!constants.emission_varies) return constants.surface.emitted;
-    return properties(scene_.materials[instance.material], corners(instance_index, triangle, u, v)).emitted;
+    const Material& material = scene_.materials[instance.material];
+    const int texture = material.base_color_texture.texture;
+    if (is_cut_out(material, texture < 0 ? nullptr : &scene_.textures[size_t(texture)], *instance.mesh,
+                   instance.triangles[triangle].corner, u, v))
+        return glm::vec3(0.0f);
+    return properties(material, corners(instance_index, triangle, u, v)).emitted;
 }
