@@ -73,6 +73,10 @@ private:
 /// Bound of the relative error of n float operations in a row (Higham 2002, section 3.1).
 constexpr float rounding_bound(int n) { return float(n) * 0x1p-24f / (1.0f - float(n) * 0x1p-24f); }
 
+/// By how many times its error step_back() moves a point: enough for surfaces that the ray is inclined to by more than
+/// asin(1 / step_back_errors), 7 degrees.
+inline constexpr float step_back_errors = 8.0f;
+
 /// Without the branches of glm::abs.
 inline glm::vec3 magnitude(glm::vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
@@ -93,6 +97,15 @@ inline glm::vec3 unit_normal(glm::vec3 normal, glm::vec3 fallback) {
     const bool is_known = square > 0.0f;
     return {is_known ? normal.x * scale : fallback.x, is_known ? normal.y * scale : fallback.y,
             is_known ? normal.z * scale : fallback.z};
+}
+
+/// `position` stepped back along the ray that came to it, towards `view` (unit), by what its place along the surface is
+/// uncertain: the rounding errors of its barycentrics grow with the way `distance` (m) that the ray came. At a concave
+/// edge they may put it behind the other surface, from where the next ray would leave the scene; the way that the ray
+/// came is known to be free. At most half of it, which is in front of where it started.
+inline glm::vec3 step_back(glm::vec3 position, glm::vec3 error, glm::vec3 view, float distance) {
+    const float step = step_back_errors * (error.x + error.y + error.z + rounding_bound(7) * distance);
+    return position + view * (step < 0.5f * distance ? step : 0.5f * distance);
 }
 
 /// `position` moved out of its error box along the normal, to the side of `direction` (Pharr, Jakob and Humphreys 2016,

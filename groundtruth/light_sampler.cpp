@@ -91,10 +91,12 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, st
                emits_behind = scene.materials[instance.material].is_double_sided;
     for (uint32_t t = 0; t < instance.mesh->indices.size() / 3; ++t) {
         Triangle& light = triangles_.emplace_back();
+        light.error = glm::vec3(0.0f);
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 position = instance.triangles[t].position[k];
             light.position[k] =
                 instance.is_baked ? position : glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f));
+            light.error = glm::max(light.error, geometry_.point(instance_index, t, float(k == 1), float(k == 2)).error);
         }
         const glm::dvec3 p0(light.position[0]), p1(light.position[1]), p2(light.position[2]);
         const double area = 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0));
@@ -128,6 +130,7 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
         p0.set(lane, light.position[0]);
         p1.set(lane, light.position[1]);
         p2.set(lane, light.position[2]);
+        lights.error.set(lane, light.error);
         lights.normal.set(lane, light.front_normal);
         lights.radiance.set(lane, light.radiance);
         lights.pdf[lane] = light.area_pdf;
@@ -137,14 +140,14 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
         const glm::vec2 at = triangle_barycentrics({unit_float(rest[lane]), unit_float(y[lane])});
         u[lane] = at.x;
         v[lane] = at.y;
-        const glm::vec3 a = (1.0f - at.x - at.y) * p0.get(lane), b = at.x * p1.get(lane), c = at.y * p2.get(lane);
-        const glm::vec3 position = a + b + c, to_light = position - point.get(lane);
+        const glm::vec3 position =
+            (1.0f - at.x - at.y) * p0.get(lane) + at.x * p1.get(lane) + at.y * p2.get(lane);
+        const glm::vec3 to_light = position - point.get(lane);
         const float square = glm::dot(to_light, to_light);
         const glm::vec3 direction = to_light * (1.0f / std::sqrt(square));
         const float cosine = -glm::dot(direction, lights.normal.get(lane));
         const bool is_lit = (cosine > 0.0f) | ((cosine < 0.0f) & (emits_behind[lane] != 0));
         lights.position.set(lane, position);
-        lights.error.set(lane, 0x1p-21f * (magnitude(a) + magnitude(b) + magnitude(c)));  // 8 roundings
         lights.direction.set(lane, direction);
         lights.pdf[lane] = is_lit ? lights.pdf[lane] * square / std::fabs(cosine) : 0.0f;
         lights.is_delta[lane] = 0;

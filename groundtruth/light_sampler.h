@@ -51,6 +51,7 @@ public:
 private:
     struct Triangle {
         glm::vec3 position[3];
+        glm::vec3 error;  ///< half extent of a box that holds the exact place of any of its points
         glm::vec3 front_normal;
         glm::vec3 radiance;  ///< constant emission
         float area_pdf;      ///< probability of the choice over the area (m^-2)

@@ -119,13 +119,13 @@ ShadedPoint MaterialTable::properties(const Material& material, const Corners& c
 }
 
 ShadedPoint MaterialTable::shade_varying(SurfacePoint surface, uint32_t instance_index, uint32_t triangle, float u,
-                                         float v, glm::vec3 view) const {
+                                         float v, glm::vec3 view, float distance) const {
     const InstanceRecord& instance = geometry_.instance(instance_index);
     const Material& material = scene_.materials[instance.material];
     const Corners at = corners(instance_index, triangle, u, v);
     if (material.normal_texture.texture >= 0)
         surface.normal = mapped_normal(material, at, instance, unit_normal(surface.normal, surface.front_normal));
-    return facing(surface, properties(material, at), material.is_double_sided, view);
+    return facing(surface, properties(material, at), material.is_double_sided, view, distance);
 }
 
 glm::vec3 MaterialTable::emission(uint32_t instance_index, uint32_t triangle, float u, float v) const {

@@ -8,6 +8,7 @@
 /// G-buffer.
 struct ShadedPoint {
     glm::vec3 position, error;   ///< m; see SurfacePoint
+    glm::vec3 origin;            ///< of rays that leave it, m; see step_back(): offset_origin() still has to move it
     glm::vec3 geometric_normal;  ///< unit, on the viewer's side
     glm::vec3 normal;            ///< shading normal, of any length; see unit_normal()
     glm::vec3 base_color;
@@ -22,10 +23,11 @@ class MaterialTable {
 public:
     MaterialTable(const Scene& scene, const EmbreeScene& geometry, bool evaluate_everything);
 
-    /// Calls take(ShadedPoint): inlined, so that the point stays in registers. `view` points from the surface to the
-    /// viewer.
+    /// Calls take(ShadedPoint): inlined, so that the point stays in registers. `view` (unit) points from the surface to
+    /// the viewer, which is `distance` (m) away.
     template <class Take>
-    void shade(uint32_t instance, uint32_t triangle, float u, float v, glm::vec3 view, const Take& take) const;
+    void shade(uint32_t instance, uint32_t triangle, float u, float v, glm::vec3 view, float distance,
+               const Take& take) const;
 
     /// Both ask the processor for what shade() will read of a textured surface, the second one for what the first one's
     /// answer leads to.
@@ -58,9 +60,9 @@ private:
     Corners corners(uint32_t instance, uint32_t triangle, float u, float v) const;
     glm::vec4 sample(const TextureSlot& slot, const Corners& corners) const;
     static ShadedPoint facing(const SurfacePoint& surface, const ShadedPoint& properties, bool emits_behind,
-                              glm::vec3 view);
+                              glm::vec3 view, float distance);
     ShadedPoint shade_varying(SurfacePoint surface, uint32_t instance, uint32_t triangle, float u, float v,
-                              glm::vec3 view) const;
+                              glm::vec3 view, float distance) const;
     ShadedPoint properties(const Material& material, const Corners& corners) const;
     glm::vec3 mapped_normal(const Material& material, const Corners& corners, const InstanceRecord& instance,
                             glm::vec3 normal) const;
@@ -73,24 +75,31 @@ private:
 
 /// Completes the properties of a material to those of a point, turned to the viewer.
 inline ShadedPoint MaterialTable::facing(const SurfacePoint& surface, const ShadedPoint& properties, bool emits_behind,
-                                         glm::vec3 view) {
+                                         glm::vec3 view, float distance) {
     const bool is_behind = glm::dot(surface.front_normal, view) < 0;
     const float side = is_behind ? -1.0f : 1.0f;
     const bool is_dark = is_behind && !emits_behind;
-    return {surface.position,      surface.error,         side * surface.front_normal,
-            side * surface.normal, properties.base_color, properties.metalness,
-            properties.roughness,  properties.specular,   is_dark ? glm::vec3(0.0f) : properties.emitted,
+    return {surface.position,
+            surface.error,
+            step_back(surface.position, surface.error, view, distance),
+            side * surface.front_normal,
+            side * surface.normal,
+            properties.base_color,
+            properties.metalness,
+            properties.roughness,
+            properties.specular,
+            is_dark ? glm::vec3(0.0f) : properties.emitted,
             properties.is_unlit};
 }
 
 template <class Take>
 inline void MaterialTable::shade(uint32_t instance_index, uint32_t triangle, float u, float v, glm::vec3 view,
-                                 const Take& take) const {
+                                 float distance, const Take& take) const {
     const InstanceRecord& instance = geometry_.instance(instance_index);
     const Constants& constants = constants_[instance.material];
     const SurfacePoint surface = geometry_.point(instance_index, triangle, u, v);
     if (constants.varies)
-        take(shade_varying(surface, instance_index, triangle, u, v, view));
+        take(shade_varying(surface, instance_index, triangle, u, v, view, distance));
     else
-        take(facing(surface, constants.surface, constants.emits_behind, view));
+        take(facing(surface, constants.surface, constants.emits_behind, view, distance));
 }

@@ -82,14 +82,14 @@ void PathLanes::leave(int lane) {
 void PathLanes::meet(int lane, const RTCRayHit& ray) {
     const uint32_t instance = ray.hit.instID[0], triangle = ray.hit.primID;
     const vec3 direction = direction_.get(lane);
-    scene_.materials.shade(instance, triangle, ray.hit.u, ray.hit.v, -direction, [&](const ShadedPoint& surface) {
+    const auto take = [&](const ShadedPoint& surface) {
         if (surface.emitted != vec3(0.0f)) {
             const float light_pdf =
                 scene_.lights.triangle_pdf(instance, triangle, surface.geometric_normal, direction, ray.ray.tfar);
             const float weight = scene_.mis.of_bsdf(pdf_[lane], light_pdf);
             radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * surface.emitted * weight);
         }
-        position_.set(lane, surface.position);
+        position_.set(lane, surface.origin);
         error_.set(lane, surface.error);
         geometric_normal_.set(lane, surface.geometric_normal);
         normal_.set(lane, surface.normal);
@@ -100,8 +100,9 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
         continues_[lane] = depth_[lane] < scene_.settings.max_depth && !surface.is_unlit;
         if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
             is_on_screen_[lane] =
-                is_on_screen(scene_, surface.position, surface.error, surface.geometric_normal, estimate_);
-    });
+                is_on_screen(scene_, surface.origin, surface.error, surface.geometric_normal, estimate_);
+    };
+    scene_.materials.shade(instance, triangle, ray.hit.u, ray.hit.v, -direction, ray.ray.tfar, take);
 }
 
 void PathLanes::sample_lights() {

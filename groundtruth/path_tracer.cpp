@@ -62,7 +62,7 @@ void add_highlight(const TracedScene& scene, FirstHit& hit) {
         shadow.direction.set(0, arriving.direction);
         shadow.position.set(0, light.position);
         shadow.is_infinite[0] = arriving.is_infinite;
-        aim_shadow_ray(hit.position, hit.position_error, hit.geometric_normal, 0, shadow);
+        aim_shadow_ray(hit.ray_origin, hit.position_error, hit.geometric_normal, 0, shadow);
         if (is_visible(scene, shadow, 0, cost)) hit.highlight += reflected;
     }
     hit.shadow_rays = unsigned(cost.rays);
@@ -103,7 +103,7 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
     // Copies, which no store of the loop can reach.
     const Lobes lobes = vertex.lobes;
     const mat3 world_from_local = vertex.world_from_local;
-    const vec3 position = hit.position, error = hit.position_error, geometric_normal = hit.geometric_normal;
+    const vec3 origin = hit.ray_origin, error = hit.position_error, geometric_normal = hit.geometric_normal;
     const MisHeuristic mis = scene.mis;
     LanesVec3 diffuse, specular, incident;
     FOR_EACH_LANE {
@@ -118,7 +118,7 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
         diffuse.set(lane, keep_if(is_used, f.diffuse * radiance * diffuse_weight));
         specular.set(lane, keep_if(is_used & !is_delta, f.specular * radiance * specular_weight));
         incident.set(lane, keep_if(is_used & !is_delta, radiance * (f.specular_pdf * specular_weight)));
-        aim_shadow_ray(position, error, geometric_normal, lane, lights);
+        aim_shadow_ray(origin, error, geometric_normal, lane, lights);
     }
     for (int lane = 0; lane < count; ++lane) {
         const vec3 parts[3] = {vertex.wants_diffuse ? diffuse.get(lane) : vec3(0.0f),
@@ -155,7 +155,7 @@ void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsig
         local_height[lane] = dot(towards, hit.geometric_normal);
         direction.set(lane, towards);
         weight.set(lane, choose(is_specular, f.specular, f.diffuse) * (1.0f / lobe_pdf));
-        origin.set(lane, offset_origin(hit.position, hit.position_error, hit.geometric_normal, towards));
+        origin.set(lane, offset_origin(hit.ray_origin, hit.position_error, hit.geometric_normal, towards));
     }
     for (int lane = 0; lane < count; ++lane) {
         if (!(pdf[lane] > 0)) continue;
@@ -262,8 +262,9 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
         return hit;
     }
     const uint32_t instance = ray.hit.instID[0];
-    scene.materials.shade(instance, ray.hit.primID, ray.hit.u, ray.hit.v, hit.view, [&](const ShadedPoint& surface) {
+    const auto take = [&](const ShadedPoint& surface) {
         hit.position = surface.position;
+        hit.ray_origin = surface.origin;
         hit.position_error = surface.error;
         hit.geometric_normal = surface.geometric_normal;
         hit.normal = unit_normal(surface.normal, surface.geometric_normal);
@@ -273,7 +274,8 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
         hit.specular = surface.specular;
         hit.emitted = surface.emitted;
         hit.is_unlit = surface.is_unlit;
-    });
+    };
+    scene.materials.shade(instance, ray.hit.primID, ray.hit.u, ray.hit.v, hit.view, ray.ray.tfar, take);
     hit.is_hit = true;
     hit.distance = glm::length(hit.position - camera_ray.origin);
     hit.depth =

@@ -40,6 +40,7 @@ struct FirstHit {
     unsigned material = 0, instance = 0;  ///< indices into the scene
     glm::vec3 emitted{0.0f};              ///< towards the camera; where nothing is hit, the environment
     glm::vec3 position_error{0.0f};       ///< half extent of the box that holds the exact hit (m)
+    glm::vec3 ray_origin{0.0f};           ///< of rays that leave it, before their offset along the normal (m)
     bool is_unlit = false;
     glm::vec3 highlight{0.0f};  ///< radiance of the punctual lights that it reflects specularly, without any noise
     unsigned shadow_rays = 0;   ///< traced for `highlight`

@@ -25,8 +25,6 @@ struct TracedScene {
 std::vector<LeftOut> left_out_features(const TracedScene& traced);
 
 inline constexpr float infinite_distance = std::numeric_limits<float>::infinity();
-/// Shadow rays end this much before the light, relative to its distance, so that they do not meet the light itself.
-inline constexpr float shadow_end = 0.9999f;
 
 /// On a hit, instID[0] is the index of the instance, whether it was baked or not.
 inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTCRayHit& ray) {
@@ -50,6 +48,10 @@ inline bool is_occluded(RTCScene scene, glm::vec3 origin, glm::vec3 direction, f
     return ray.tfar < 0;
 }
 
+/// Relative error of a point along a ray from one point to another: the difference, its product with t, the sum, and as
+/// many in Embree's distance to a plane.
+inline constexpr float shadow_ray_rounding = rounding_bound(6);
+
 /// Out of line, since only benchmarks ask for it.
 void record_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow);
 
@@ -59,16 +61,22 @@ inline void count_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direc
         record_ray(estimate, origin, direction, far, is_shadow);
 }
 
-/// Aims a shadow ray from a point to the light of a lane, offset at both ends. Branchless, for vector loops.
+/// Aims a shadow ray from a point to the light of a lane, offset at both ends. At the light's end the ray's own rounding
+/// errors, which grow with the places of both ends, add to the light's; a punctual light may lie in a surface, which must
+/// not hide it, so the ray ends before all of them. Branchless, for vector loops.
 inline void aim_shadow_ray(glm::vec3 position, glm::vec3 error, glm::vec3 normal, int lane, LightLanes& lights) {
     const glm::vec3 direction = lights.direction.get(lane);
     const glm::vec3 origin = offset_origin(position, error, normal, direction);
+    const glm::vec3 light = lights.position.get(lane);
+    const glm::vec3 rounding = shadow_ray_rounding * (magnitude(origin) + magnitude(light));
     const glm::vec3 target =
-        offset_origin(lights.position.get(lane), lights.error.get(lane), lights.normal.get(lane), -direction);
+        offset_origin(light, lights.error.get(lane) + rounding, lights.normal.get(lane), -direction);
+    const glm::vec3 to_target = target - origin;
+    const float far = 1.0f - (rounding.x + rounding.y + rounding.z) / std::sqrt(glm::dot(to_target, to_target));
     const bool is_infinite = lights.is_infinite[lane] != 0;
     lights.shadow_origin.set(lane, origin);
-    lights.shadow_direction.set(lane, choose(is_infinite, direction, target - origin));
-    lights.shadow_far[lane] = is_infinite ? infinite_distance : shadow_end;
+    lights.shadow_direction.set(lane, choose(is_infinite, direction, to_target));
+    lights.shadow_far[lane] = is_infinite ? infinite_distance : far > 0.0f ? far : 0.0f;
 }
 
 /// Whether the light of a lane reaches the point that aim_shadow_ray() was given.
