@@ -1,31 +1,115 @@
 #include "core/json.h"
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/near_miss.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
-nlohmann::json read_json(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file)) fail("cannot read ", file.string(), ": no such file, or no permission");
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    try {
-        return nlohmann::json::parse(text, nullptr, true, /*ignore_comments=*/true);
-    } catch (const nlohmann::json::parse_error& e) {
-        const size_t end = std::min(e.byte ? e.byte - 1 : 0, text.size());
-        const size_t line = 1 + std::count(text.begin(), text.begin() + end, '\n');
-        const size_t line_start = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
+namespace {
+
+using nlohmann::json;
+
+/// Builds a document from the parser's events: left to itself the library lets the last of two equal keys win, and
+/// nests as deep as the file says.
+class DocumentBuilder final : public nlohmann::json_sax<json> {
+public:
+    DocumentBuilder(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+    json take() { return std::move(root_); }
+
+    bool null() override { return add(nullptr); }
+    bool boolean(bool value) override { return add(value); }
+    bool number_integer(json::number_integer_t value) override { return add(value); }
+    bool number_unsigned(json::number_unsigned_t value) override { return add(value); }
+    bool number_float(json::number_float_t value, const std::string&) override { return add(value); }
+    bool string(std::string& value) override { return add(std::move(value)); }
+    bool binary(json::binary_t& value) override { return add(std::move(value)); }
+    bool start_object(size_t) override { return open(json::object()); }
+    bool start_array(size_t) override { return open(json::array()); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool key(std::string& key) override {
+        const auto [at, is_new] = open_.back()->get_ref<json::object_t&>().emplace(key, nullptr);
+        keys_.back() = is_new ? key : "";
+        if (!is_new) fail(name_, place(), ": the key '", shortened(key), "' comes twice in one object");
+        member_ = &at->second;
+        return true;
+    }
+    bool parse_error(size_t position, const std::string& last_token, const json::exception& e) override {
+        const size_t end = std::min(position ? position - 1 : 0, text_.size());
+        const auto line = 1 + std::count(text_.begin(), text_.begin() + long(end), '\n');
+        const size_t line_start = end == 0 ? std::string::npos : text_.rfind('\n', end - 1);
         const size_t column = end - (line_start == std::string::npos ? 0 : line_start + 1) + 1;
+        constexpr int number_overflow = 406;
+        if (e.id == number_overflow)
+            fail(name_, ":", line, ":", column, place(), ": the number ", shortened(last_token),
+                 " is beyond what float64 can hold");
         std::string reason = e.what();
         if (const size_t at = reason.rfind("syntax error"); at != std::string::npos) reason = reason.substr(at);
-        fail(file.string(), ":", line, ":", column, ": not valid JSON: ", reason);
+        fail(name_, ":", line, ":", column, ": not valid JSON: ", shortened(reason));
     }
+
+private:
+    template <class Value>
+    bool add(Value&& value) {
+        *slot() = std::forward<Value>(value);
+        return true;
+    }
+    bool open(json container) {
+        if (open_.size() == max_json_depth) fail(name_, ": its JSON nests more than ", max_json_depth, " levels");
+        json* at = slot();
+        *at = std::move(container);
+        open_.push_back(at), keys_.emplace_back();
+        return true;
+    }
+    bool close() {
+        open_.pop_back(), keys_.pop_back();
+        return true;
+    }
+    /// Where the next value goes. What is open stays in place: its parent grows only once it is closed.
+    json* slot() {
+        if (open_.empty()) return &root_;
+        if (open_.back()->is_object()) return member_;
+        return &open_.back()->emplace_back(nullptr);
+    }
+    /// ": shots[0]: frames" inside of these.
+    std::string place() const {
+        std::string text;
+        for (size_t i = 0; i < open_.size(); ++i) {
+            if (open_[i]->is_array())
+                text += "[" + std::to_string(open_[i]->size() - (i + 1 < open_.size())) + "]";
+            else if (!keys_[i].empty())
+                text += ": " + shortened(keys_[i]);
+        }
+        return text;
+    }
+
+    std::string_view text_;
+    const std::string& name_;
+    json root_;
+    std::vector<json*> open_;        ///< containers, outermost first
+    std::vector<std::string> keys_;  ///< the last key of each that is an object
+    json* member_ = nullptr;         ///< the value of the last key
+};
+
+}  // namespace
+
+json parse_json(std::string_view text, const std::string& name, bool allows_comments) {
+    DocumentBuilder builder(text, name);
+    json::sax_parse(text, &builder, json::input_format_t::json, /*strict=*/true, allows_comments);
+    return builder.take();
 }
 
+json read_json(const std::filesystem::path& file) {
+    return parse_json(read_text(file), file.string(), /*allows_comments=*/true);
+}
+
+std::string shown(const json& value) { return shortened(value.dump()); }
+
 JsonObject::JsonObject(const nlohmann::json& object, std::string where) : object_(&object), where_(std::move(where)) {
-    if (!object.is_object()) fail(where_, " must be a JSON object, not ", object.dump());
+    if (!object.is_object()) fail(where_, " must be a JSON object, not ", shown(object));
 }
 
 bool JsonObject::has(const std::string& key) { return find(key); }
@@ -47,11 +131,11 @@ const nlohmann::json& JsonObject::need(const std::string& key) {
 
 float JsonObject::number(const std::string& key, float min, float max) {
     const nlohmann::json& value = need(key);
-    if (!value.is_number()) fail(where_, ": '", key, "' must be a number, not ", value.dump());
-    const float number = value.get<float>();
-    if (!(number >= min && number <= max))
-        fail(where_, ": '", key, "' = ", value.dump(), " is outside [", min, ", ", max, "]");
-    return number;
+    if (!value.is_number()) fail(where_, ": '", key, "' must be a number, not ", shown(value));
+    const auto number = value.get<double>();
+    if (!(float(number) >= min && float(number) <= max) || !std::isfinite(float(number)))
+        fail(where_, ": '", key, "' = ", shown(value), " is outside [", min, ", ", max, "]");
+    return float(number);
 }
 
 float JsonObject::number(const std::string& key, float min, float max, float fallback) {
@@ -60,9 +144,9 @@ float JsonObject::number(const std::string& key, float min, float max, float fal
 
 int JsonObject::integer(const std::string& key, int min, int max) {
     const nlohmann::json& value = need(key);
-    if (!value.is_number_integer()) fail(where_, ": '", key, "' must be a whole number, not ", value.dump());
+    if (!value.is_number_integer()) fail(where_, ": '", key, "' must be a whole number, not ", shown(value));
     const auto number = value.get<long long>();
-    if (number < min || number > max) fail(where_, ": '", key, "' = ", value.dump(), " is outside [", min, ", ", max, "]");
+    if (number < min || number > max) fail(where_, ": '", key, "' = ", shown(value), " is outside [", min, ", ", max, "]");
     return int(number);
 }
 
@@ -73,13 +157,13 @@ int JsonObject::integer(const std::string& key, int min, int max, int fallback) 
 bool JsonObject::boolean(const std::string& key, bool fallback) {
     const nlohmann::json* value = find(key);
     if (!value) return fallback;
-    if (!value->is_boolean()) fail(where_, ": '", key, "' must be true or false, not ", value->dump());
+    if (!value->is_boolean()) fail(where_, ": '", key, "' must be true or false, not ", shown(*value));
     return value->get<bool>();
 }
 
 std::string JsonObject::text(const std::string& key) {
     const nlohmann::json& value = need(key);
-    if (!value.is_string()) fail(where_, ": '", key, "' must be a text in quotes, not ", value.dump());
+    if (!value.is_string()) fail(where_, ": '", key, "' must be a text in quotes, not ", shown(value));
     return value.get<std::string>();
 }
 
@@ -91,17 +175,17 @@ std::string JsonObject::choice(const std::string& key, const std::vector<std::st
                                const std::string& fallback) {
     const std::string value = text(key, fallback);
     if (std::ranges::find(choices, value) == choices.end())
-        fail(where_, ": '", key, "' = \"", value, "\" is not known", suggestion(value, choices));
+        fail(where_, ": '", key, "' = \"", shortened(value), "\" is not known", suggestion(value, choices));
     return value;
 }
 
 glm::vec3 JsonObject::vector(const std::string& key) {
     const nlohmann::json& value = need(key);
     const bool fits = value.is_array() && value.size() == 3 && std::ranges::all_of(value, [](const auto& v) { return v.is_number(); });
-    if (!fits) fail(where_, ": '", key, "' must be an array of three numbers, not ", value.dump());
+    if (!fits) fail(where_, ": '", key, "' must be an array of three numbers, not ", shown(value));
     const glm::vec3 vector(value[0].get<float>(), value[1].get<float>(), value[2].get<float>());
     for (int i = 0; i < 3; ++i)
-        if (!std::isfinite(vector[i])) fail(where_, ": '", key, "' has the number ", value[i].dump(), ", which float32 cannot hold");
+        if (!std::isfinite(vector[i])) fail(where_, ": '", key, "' has the number ", shown(value[i]), ", which float32 cannot hold");
     return vector;
 }
 
@@ -113,7 +197,7 @@ std::vector<JsonObject> JsonObject::objects(const std::string& key) {
     const nlohmann::json* value = find(key);
     std::vector<JsonObject> list;
     if (!value) return list;
-    if (!value->is_array()) fail(where_, ": '", key, "' must be an array, not ", value->dump());
+    if (!value->is_array()) fail(where_, ": '", key, "' must be an array, not ", shown(*value));
     for (size_t i = 0; i < value->size(); ++i)
         list.emplace_back((*value)[i], where_ + ": " + key + "[" + std::to_string(i) + "]");
     return list;
@@ -124,5 +208,5 @@ JsonObject JsonObject::object(const std::string& key) { return {need(key), where
 void JsonObject::finish() const {
     const std::vector<std::string> known(known_.begin(), known_.end());
     for (const auto& [key, value] : object_->items())
-        if (!known_.contains(key)) fail(where_, ": unknown key '", key, "'", suggestion(key, known));
+        if (!known_.contains(key)) fail(where_, ": unknown key '", shortened(key), "'", suggestion(key, known));
 }

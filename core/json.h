@@ -4,10 +4,22 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
-/// Parses the file; an Error names file, line and column of a syntax error.
+/// Files nest some ten levels; what reads them may recurse, and a stack ends somewhere.
+inline constexpr size_t max_json_depth = 100;
+
+/// Parses a document that a file brings; `name` says which in messages. An Error names line and column of a syntax
+/// error and of a number that float64 cannot hold, and the place of a key that comes twice in one object (RFC 8259
+/// leaves open which of them counts) or of what is nested deeper than max_json_depth.
+nlohmann::json parse_json(std::string_view text, const std::string& name, bool allows_comments = false);
+
+/// parse_json() of a file, which may have comments.
 nlohmann::json read_json(const std::filesystem::path& file);
+
+/// The value as messages show it: JSON, cut where it is long.
+std::string shown(const nlohmann::json& value);
 
 /// Reads the members of one JSON object and remembers which were asked for, so that a misspelt key is an error instead of
 /// a silent default. `where` begins each message, e.g. "scenes/fence/scene.json: cameras[0]".

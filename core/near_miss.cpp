@@ -20,22 +20,37 @@ size_t edit_distance(std::string_view a, std::string_view b) {
     return cost[a.size()][b.size()];
 }
 
+constexpr size_t longest_name = 100;  ///< bytes: the distance takes time and memory of the product of both lengths
+
 }  // namespace
+
+std::string shortened(const std::string& text) {
+    constexpr size_t longest = 300, end = 80;
+    if (text.size() <= longest) return text;
+    const auto begins_character = [&](size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80; };
+    size_t head = longest - end, tail = text.size() - end;
+    while (head > 0 && !begins_character(head)) --head;  // no UTF-8 sequence is cut
+    while (tail < text.size() && !begins_character(tail)) ++tail;
+    return text.substr(0, head) + " ... " + text.substr(tail);
+}
 
 std::string nearest_name(std::string_view name, std::span<const std::string> choices) {
     std::string best;
+    if (name.size() > longest_name) return best;
     size_t best_distance = std::max<size_t>(1, name.size() / 3) + 1;
-    for (const std::string& choice : choices)
+    for (const std::string& choice : choices) {
+        if (choice.size() > longest_name) continue;
         if (const size_t distance = edit_distance(name, choice); distance < best_distance) {
             best_distance = distance;
             best = choice;
         }
+    }
     return best;
 }
 
 std::string suggestion(std::string_view name, std::span<const std::string> choices) {
     if (const std::string near = nearest_name(name, choices); !near.empty()) return "; did you mean '" + near + "'?";
     std::string list = "; known are: ";
-    for (size_t i = 0; i < choices.size(); ++i) list += (i ? ", " : "") + choices[i];
+    for (size_t i = 0; i < choices.size(); ++i) list += (i ? ", " : "") + shortened(choices[i]);
     return list;
 }

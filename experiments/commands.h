@@ -29,7 +29,7 @@ void run_study_command(const RunOptions& options, const CommonOptions& common);
 struct FiguresOptions {
     std::filesystem::path results, out;
 };
-int figures_command(const FiguresOptions& options);  ///< the exit code of the figure script
+int figures_command(const FiguresOptions& options);  ///< the exit code: 0, 2 or 3
 
 struct CompareCommandOptions {
     std::filesystem::path reference, test, map;

@@ -23,7 +23,7 @@ std::vector<std::string> one_or_more(JsonObject& object, const std::string& key,
     if (value.is_string()) return {value.get<std::string>()};
     const bool fits =
         value.is_array() && !value.empty() && std::ranges::all_of(value, [](const auto& v) { return v.is_string(); });
-    if (!fits) fail(object.where(), ": '", key, "' must be a text or an array of texts, not ", value.dump());
+    if (!fits) fail(object.where(), ": '", key, "' must be a text or an array of texts, not ", shown(value));
     return value.get<std::vector<std::string>>();
 }
 
@@ -59,7 +59,7 @@ std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsign
     }
     for (const auto& v : value) {
         if (!v.is_number_integer() || v.get<long long>() < 0 || v.get<long long>() > max)
-            fail(object.where(), ": '", key, "' holds ", v.dump(), "; allowed are whole numbers in [0, ", max, "]");
+            fail(object.where(), ": '", key, "' holds ", shown(v), "; allowed are whole numbers in [0, ", max, "]");
         list.push_back(v.get<unsigned>());
     }
     const bool ascends = std::ranges::adjacent_find(list, std::greater_equal()) == list.end();
@@ -72,10 +72,10 @@ glm::uvec2 read_extent(JsonObject& shot) {
     const nlohmann::json& value = shot.any("resolution");
     const bool fits =
         value.is_array() && value.size() == 2 && value[0].is_number_integer() && value[1].is_number_integer();
-    if (!fits) fail(shot.where(), ": 'resolution' must be [width, height] in pixels, not ", value.dump());
+    if (!fits) fail(shot.where(), ": 'resolution' must be [width, height] in pixels, not ", shown(value));
     const long long width = value[0], height = value[1];
     if (width < 1 || height < 1 || width > max_side || height > max_side)
-        fail(shot.where(), ": 'resolution' ", value.dump(), " is outside [1, ", max_side, "] pixels");
+        fail(shot.where(), ": 'resolution' ", shown(value), " is outside [1, ", max_side, "] pixels");
     return {width, height};
 }
 
@@ -139,7 +139,7 @@ void read_shot(JsonObject shot, const std::filesystem::path& folder, std::vector
 void check_values(const std::string& key, const std::string& name, const nlohmann::json& values,
                   const std::string& where) {
     if (!values.is_array() || values.empty())
-        fail(where, ": ", key, ": '", name, "' must be an array of values, not ", values.dump());
+        fail(where, ": ", key, ": '", name, "' must be an array of values, not ", shown(values));
 }
 
 /// All combinations of the swept values, in the order of the axes as written, the last axis fastest.
@@ -188,7 +188,7 @@ std::vector<nlohmann::json> single_changes(nlohmann::json axes, const ParameterS
 std::vector<nlohmann::json> read_points(JsonObject& entry, const std::string& variant) {
     for (const char* key : {"sweep", "each"})
         if (entry.has(key) && !entry.any(key).is_object())
-            fail(entry.where(), ": '", key, "' must be an object, not ", entry.any(key).dump());
+            fail(entry.where(), ": '", key, "' must be an object, not ", shown(entry.any(key)));
     if (entry.has("sweep") && entry.has("each"))
         fail(entry.where(), ": 'sweep' and 'each' exclude one another; write two entries");
     if (entry.has("each"))
@@ -206,12 +206,12 @@ void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, st
     make_checked(entry, name);
     const std::vector<std::string> presets = one_or_more(entry, "preset", "");
     const nlohmann::json parameters = entry.has("parameters") ? entry.any("parameters") : nlohmann::json::object();
-    if (!parameters.is_object()) fail(entry.where(), ": 'parameters' must be an object, not ", parameters.dump());
+    if (!parameters.is_object()) fail(entry.where(), ": 'parameters' must be an object, not ", shown(parameters));
     const std::vector<nlohmann::json> points = read_points(entry, name);
     const std::vector<unsigned> seeds = numbers(entry, "seeds", max_seed, study_seeds);
     const nlohmann::json against = entry.has("against") ? entry.any("against") : nlohmann::json();
     if (entry.has("against") && (!against.is_object() || against.empty()))
-        fail(entry.where(), ": 'against' must be an object of parameter values, not ", against.dump());
+        fail(entry.where(), ": 'against' must be an object of parameter values, not ", shown(against));
     const bool is_baseline = entry.boolean("baseline", false), is_timed = entry.boolean("timing", true);
     entry.finish();
     for (const std::string& preset : presets)
@@ -276,7 +276,7 @@ void find_against_points(std::vector<VariantConfig>& variants, const std::string
         const auto found = points.find({v.variant, other});
         if (found == points.end())
             fail(where, ": variants: nothing is the same as '", v.variant, "' with the point '", v.point, "' but for ",
-                 v.against.dump(), ", its 'against'; add that point");
+                 shown(v.against), ", its 'against'; add that point");
         v.against_point = found->second;
     }
 }

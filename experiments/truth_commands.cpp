@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/scene/load_scene.h"
+#include "experiments/child_process.h"
 #include "experiments/commands.h"
 #include "experiments/progress.h"
 #include "experiments/shot.h"
@@ -14,7 +15,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 
 namespace {
@@ -126,7 +126,7 @@ int figures_command(const FiguresOptions& options) {
     if (!std::filesystem::exists(options.results / "manifest.json"))
         fail(options.results.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
     const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
-    const std::string command = "'" SSRLAB_PYTHON "' '" SSRLAB_SOURCE_DIR "/experiments/figures.py' '" +
-                                options.results.string() + "' --out '" + out.string() + "'";
-    return std::system(command.c_str()) == 0 ? 0 : 3;
+    const int code = run_program({SSRLAB_PYTHON, SSRLAB_SOURCE_DIR "/experiments/figures.py", "--out=" + out.string(),
+                                  "--", options.results.string()});
+    return code == 0 || code == 2 ? code : 3;
 }

@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/parameters.h"
+#include "core/scene/ranges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,8 @@
 namespace {
 
 using nlohmann::json;
+
+constexpr float max_side = 32768;  // pixels
 
 const std::vector<std::string> depth_formats{"d32f", "d24", "d16"};
 
@@ -34,14 +37,17 @@ json json_matrix(const glm::mat4& m) {
 std::vector<float> numbers(const json& array, size_t count, const std::string& where) {
     const auto is_number = [](const json& value) { return value.is_number(); };
     if (!array.is_array() || array.size() != count || !std::ranges::all_of(array, is_number))
-        fail(where, " is ", array.dump(), ", but must be an array of ", count, " numbers");
-    return array.get<std::vector<float>>();
+        fail(where, " is ", shown(array), ", but must be an array of ", count, " numbers");
+    const std::vector<float> list = array.get<std::vector<float>>();
+    for (size_t i = 0; i < count; ++i)
+        if (!std::isfinite(list[i])) fail(where, " has the number ", array[i].dump(), ", which float32 cannot hold");
+    return list;
 }
 
 glm::mat4 matrix(JsonObject& object, const std::string& key) {
     const json& rows = object.any(key);
     const std::string where = object.where() + ": '" + key + "'";
-    if (!rows.is_array() || rows.size() != 4) fail(where, " is ", rows.dump(), ", but must be an array of four rows");
+    if (!rows.is_array() || rows.size() != 4) fail(where, " is ", shown(rows), ", but must be an array of four rows");
     glm::mat4 result;
     for (int row = 0; row < 4; ++row) {
         const std::vector<float> values = numbers(rows[row], 4, where + " row " + std::to_string(row));
@@ -57,6 +63,9 @@ glm::mat4 matrix(JsonObject& object, const std::string& key, const glm::mat4& fa
 glm::vec2 pair(JsonObject& object, const std::string& key, glm::vec2 fallback) {
     if (!object.has(key)) return fallback;
     const std::vector<float> values = numbers(object.any(key), 2, object.where() + ": '" + key + "'");
+    for (const float value : values)
+        if (std::abs(value) > max_side)
+            fail(object.where(), ": '", key, "' holds ", value, ", but no sample lies ", max_side, " pixels off");
     return {values[0], values[1]};
 }
 
@@ -65,6 +74,19 @@ glm::mat4 checked_inverse(const glm::mat4& m, JsonObject& object, const std::str
     if (!(std::abs(determinant) > 0) || !std::isfinite(determinant))
         fail(object.where(), ": '", key, "' has determinant ", determinant, ", but must be invertible");
     return glm::inverse(m);
+}
+
+/// Products and inverses of finite matrices need not be finite.
+void refuse_overflow(const CameraData& c, const std::string& where) {
+    for (const glm::mat4* m : {&c.view_from_clip, &c.world_from_view, &c.clip_from_world, &c.world_from_clip,
+                               &c.previous_view_from_clip, &c.previous_world_from_view, &c.previous_clip_from_world})
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                if (!std::isfinite((*m)[column][row]))
+                    fail(where,
+                         ": the product or the inverse of 'clip_from_view' and 'view_from_world', or of the previous "
+                         "ones, has the number ",
+                         (*m)[column][row], "; their numbers are too large or too small");
 }
 
 void read_matrices(JsonObject& object, CameraData& c) {
@@ -136,22 +158,22 @@ CameraFile read_camera(const std::filesystem::path& file) {
 
     const std::vector<float> extent = numbers(object.any("extent"), 2, object.where() + ": 'extent'");
     for (const float size : extent)
-        if (size < 1 || size > 32768 || size != std::floor(size))
-            fail(object.where(), ": 'extent' holds ", size, ", but both must be whole numbers from 1 to 32768");
+        if (size < 1 || size > max_side || size != std::floor(size))
+            fail(object.where(), ": 'extent' holds ", size, ", but both must be whole numbers from 1 to ", max_side);
     c.extent = {extent[0], extent[1], 1 / extent[0], 1 / extent[1]};
 
     const bool is_reversed = object.choice("depth_direction", {"standard", "reversed"}, "standard") == "reversed";
     const std::string format = object.choice("depth_format", depth_formats, "d32f");
     result.depth_format = DepthFormat(std::ranges::find(depth_formats, format) - depth_formats.begin());
-    const float near = object.number("near", std::numeric_limits<float>::min(), std::numeric_limits<float>::max());
-    c.depth = {near, object.number("far", near, std::numeric_limits<float>::infinity()), is_reversed ? 0 : 1,
-               is_reversed ? 1 : 0};
+    const float near = object.number("near", std::numeric_limits<float>::min(), any_length);
+    c.depth = {near, object.number("far", near, any_far_plane), is_reversed ? 0 : 1, is_reversed ? 1 : 0};
     if (c.depth.y == near) fail(object.where(), ": 'far' is ", near, ", but must be beyond 'near'");
 
     c.frame = {object.integer("frame", 0, max_integer, 0), 0, object.boolean("is_orthographic", false), 0};
     c.frame.y = object.integer("seed", 0, max_integer, 0);
     c.jitter = glm::vec4(pair(object, "jitter", {0, 0}), pair(object, "previous_jitter", {0, 0}));
     read_matrices(object, c);
+    refuse_overflow(c, object.where());
     object.finish();
     return result;
 }

@@ -1,5 +1,7 @@
 #include "core/scene/camera.h"
 
+#include "core/error.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +69,8 @@ CameraPose pose_camera(const SceneCamera& camera, const ScenePose& scene_pose, f
                     .far = camera.far};
     pose.world_from_view = camera.node >= 0 ? without_scale(scene_pose.world_from_node[size_t(camera.node)])
                                             : looking(interpolated_key(camera.keys, frame));
+    if (!(glm::length(glm::vec3(pose.world_from_view[0])) > 0.0f))  // a NaN is not, either
+        fail("camera '", camera.name, "' hangs on a node with a scale of 0: it has no orientation");
     return pose;
 }
 

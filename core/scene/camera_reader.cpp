@@ -2,13 +2,15 @@
 
 #include "core/error.h"
 #include "core/scene/camera_planes.h"
+#include "core/scene/ranges.h"
+
+#include <cmath>
 
 namespace {
-const float any_length = 1e9f;  // m; more than any scene, and exact enough in float32 to be of use
 const int any_frames = 1000000;
 
 CameraKey read_key(JsonObject& object, float frame, glm::vec3 up) {
-    const glm::vec3 position = object.vector("position"), target = object.vector("target");
+    const glm::vec3 position = read_position(object, "position"), target = read_position(object, "target");
     if (!(glm::length(glm::cross(target - position, up)) > 0.0f))
         fail(object.where(), ": 'target' must differ from 'position', and not lie along 'up' from it");
     return {frame, position, target, up};
@@ -56,9 +58,18 @@ void read_planes(JsonObject& object, const Scene& scene, SceneCamera& camera) {
 }  // namespace
 
 glm::vec3 read_direction(JsonObject& object, const std::string& key) {
+    const glm::dvec3 v(object.vector(key));  // squares of any float32 are finite, and not 0, in double
+    if (!(glm::length(v) > 0.0)) fail(object.where(), ": '", key, "' has no length");
+    return glm::vec3(glm::normalize(v));
+}
+
+glm::vec3 read_position(JsonObject& object, const std::string& key) {
     const glm::vec3 v = object.vector(key);
-    if (!(glm::length(v) > 0.0f)) fail(object.where(), ": '", key, "' has no length");
-    return glm::normalize(v);
+    for (int i = 0; i < 3; ++i)
+        if (!(std::abs(v[i]) <= any_length))
+            fail(object.where(), ": '", key, "' has the coordinate ", v[i], " outside of [", -any_length, ", ",
+                 any_length, "] m");
+    return v;
 }
 
 SceneCamera read_camera(JsonObject object, const Scene& scene) {

@@ -8,3 +8,6 @@ SceneCamera read_camera(JsonObject entry, const Scene& scene);
 
 /// A vector of the file that must have a length, as a unit vector.
 glm::vec3 read_direction(JsonObject& object, const std::string& key);
+
+/// A required point within any_length of the origin, along each axis (m).
+glm::vec3 read_position(JsonObject& object, const std::string& key);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 
 #include <algorithm>
 #include <cstring>
@@ -41,27 +42,12 @@ std::string glb_json(const std::string& bytes, const std::string& name) {
     return bytes.substr(20, json_length);
 }
 
-json parse(const std::string& text, const std::string& name) {
-    const int deepest = 100;  // a glTF nests some ten levels; tinygltf recurses into what it is given
-    const auto check_depth = [&](int depth, json::parse_event_t, json&) {
-        if (depth > deepest) fail(name, ": its JSON nests more than ", deepest, " levels");
-        return true;
-    };
-    try {
-        return json::parse(text, check_depth);
-    } catch (const json::parse_error& e) {
-        const size_t end = std::min<size_t>(e.byte, text.size());
-        const size_t line = 1 + std::count(text.begin(), text.begin() + long(end), '\n');
-        fail(name, ":", line, ": not valid JSON (byte ", e.byte, ")");
-    }
-}
-
 /// An unsigned integer member, or `fallback` if absent.
 uint64_t unsigned_member(const json& object, const char* key, uint64_t fallback, const std::string& where) {
     const auto found = object.find(key);
     if (found == object.end()) return fallback;
     if (!found->is_number_unsigned())
-        fail(where, ": '", key, "' must be a whole number of 0 or more, not ", found->dump());
+        fail(where, ": '", key, "' must be a whole number of 0 or more, not ", shown(*found));
     return found->get<uint64_t>();
 }
 
@@ -133,7 +119,8 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     const std::string bytes = read_text(path);
     const bool is_binary = bytes.starts_with("glTF");
     if (!is_binary && path.extension() == ".glb") fail(path.string(), " is not a .glb: it does not begin with 'glTF'");
-    const json root = parse(is_binary ? glb_json(bytes, file.name()) : bytes, file.name());
+    // tinygltf parses it again, recursing into what it is given.
+    const json root = parse_json(is_binary ? glb_json(bytes, file.name()) : bytes, file.name());
     if (!root.is_object()) fail(file.name(), ": a glTF must be a JSON object");
     check_buffer_views(root, file.name());
     check_extensions(root, file);

@@ -3,6 +3,8 @@
 #include "core/scene/gltf_value.h"
 
 #include "core/error.h"
+#include "core/near_miss.h"
+#include "core/scene/ranges.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -28,6 +30,9 @@ void read_extensions(GltfFile& file, const tinygltf::Material& source, const std
     if (const auto* strength = find_extension(source.extensions, "KHR_materials_emissive_strength")) {
         const float factor = number_member(file, *strength, "emissiveStrength", 1.0f, what);
         material.emission *= checked_number(file, factor, 0.0, FLT_MAX, what + ": emissiveStrength");
+        for (int i = 0; i < 3; ++i)
+            checked_number(file, material.emission[i], 0.0, any_radiance,
+                           what + ": the product of emissiveFactor and emissiveStrength");
     }
     if (const auto* specular = find_extension(source.extensions, "KHR_materials_specular")) {
         const float factor = number_member(file, *specular, "specularFactor", 1.0f, what);
@@ -45,7 +50,7 @@ void read_extensions(GltfFile& file, const tinygltf::Material& source, const std
 Material read_material(GltfFile& file, const tinygltf::Material& source, size_t index, GltfTextures& textures) {
     Material material;
     material.name = source.name.empty() ? "material_" + std::to_string(index) : source.name;
-    const std::string what = "material '" + material.name + "'";
+    const std::string what = "material '" + shortened(material.name) + "'";
     const auto& pbr = source.pbrMetallicRoughness;
     const glm::vec4 color = fixed_vector<4>(file, pbr.baseColorFactor, glm::vec4(1.0f), what + ": baseColorFactor");
     for (int i = 0; i < 4; ++i) checked_number(file, color[i], 0.0, 1.0, what + ": baseColorFactor");
@@ -54,9 +59,9 @@ Material read_material(GltfFile& file, const tinygltf::Material& source, size_t 
     material.metalness = checked_number(file, pbr.metallicFactor, 0.0, 1.0, what + ": metallicFactor");
     material.roughness = checked_number(file, pbr.roughnessFactor, 0.0, 1.0, what + ": roughnessFactor");
     material.emission = fixed_vector<3>(file, source.emissiveFactor, glm::vec3(0.0f), what + ": emissiveFactor");
-    for (int i = 0; i < 3; ++i) checked_number(file, material.emission[i], 0.0, FLT_MAX, what + ": emissiveFactor");
+    for (int i = 0; i < 3; ++i) checked_number(file, material.emission[i], 0.0, any_radiance, what + ": emissiveFactor");
     material.normal_scale =
-        checked_number(file, source.normalTexture.scale, -FLT_MAX, FLT_MAX, what + ": normal scale");
+        checked_number(file, source.normalTexture.scale, -any_length, any_length, what + ": normal scale");
     material.is_double_sided = source.doubleSided;
     read_alpha(file, source, what, material);
     read_extensions(file, source, what, material);

@@ -1,9 +1,12 @@
 #include "core/scene/gltf_parts.h"
 
 #include "core/error.h"
+#include "core/scene/ranges.h"
 #include "core/scene/tangents.h"
 
 #include <tbb/parallel_for.h>
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace {
@@ -81,6 +84,10 @@ Mesh read_mesh(const GltfFile& file, const Scene& scene, size_t mesh_index, size
     const size_t accessor =
         checked_index(file, position->second, file.model.accessors.size(), what + " POSITION: accessor");
     const std::vector<float> positions = read_floats(file, int(accessor), 3, what + " POSITION");
+    const auto far_off = std::ranges::find_if(positions, [](float x) { return !(std::abs(x) <= any_length); });
+    if (far_off != positions.end())
+        fail(file.name(), ": ", what, " POSITION: element ", (far_off - positions.begin()) / 3, " has the coordinate ",
+             *far_off, " outside of [", -any_length, ", ", any_length, "] m");
     mesh.vertices.resize(positions.size() / 3, Vertex{.color = glm::vec4(1.0f)});
     for (size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i].position = glm::make_vec3(&positions[i * 3]);
 
@@ -95,7 +102,8 @@ Mesh read_mesh(const GltfFile& file, const Scene& scene, size_t mesh_index, size
     attribute("TEXCOORD_1", 2, [](Vertex& v, const float* x) { v.uv[1] = {x[0], x[1]}; });
     const unsigned components = color_components(file, primitive);
     attribute("COLOR_0", components, [&](Vertex& v, const float* x) {
-        v.color = {x[0], x[1], x[2], components == 4 ? x[3] : 1.0f};
+        // glTF 2.0, section 3.7.2.1: within [0, 1].
+        v.color = glm::clamp(glm::vec4(x[0], x[1], x[2], components == 4 ? x[3] : 1.0f), 0.0f, 1.0f);
     });
     mesh.indices = read_triangles(file, primitive, mesh.vertices.size(), what);
 

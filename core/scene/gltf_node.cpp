@@ -2,6 +2,8 @@
 #include "core/scene/gltf_value.h"
 
 #include "core/error.h"
+#include "core/near_miss.h"
+#include "core/scene/ranges.h"
 #include "core/scene/transform.h"
 
 #include <cfloat>
@@ -10,22 +12,27 @@
 
 namespace {
 Node read_node(const GltfFile& file, const tinygltf::Node& source, size_t index) {
-    const std::string what = "node " + std::to_string(index) + " ('" + source.name + "')";
+    const std::string what = "node " + std::to_string(index) + " ('" + shortened(source.name) + "')";
     Node node;
     node.name = source.name;
     node.translation = fixed_vector<3>(file, source.translation, glm::vec3(0.0f), what + ": translation");
     const glm::vec4 rotation =
         fixed_vector<4>(file, source.rotation, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f), what + ": rotation");
-    if (!(glm::dot(rotation, rotation) > 0.0f)) fail(file.name(), ": ", what, ": rotation is the zero quaternion");
-    node.rotation = glm::normalize(rotation);
+    const glm::dvec4 unscaled(rotation);  // whose square is finite, and not 0 unless it is
+    if (!(glm::dot(unscaled, unscaled) > 0.0)) fail(file.name(), ": ", what, ": rotation is the zero quaternion");
+    node.rotation = glm::vec4(glm::normalize(unscaled));
     node.scale = fixed_vector<3>(file, source.scale, glm::vec3(1.0f), what + ": scale");
+    for (int i = 0; i < 3; ++i) {
+        checked_number(file, node.translation[i], -any_length, any_length, what + ": translation");
+        checked_number(file, node.scale[i], -any_length, any_length, what + ": scale");
+    }
     node.parent_from_node = transform(node.translation, node.rotation, node.scale);
     if (source.matrix.empty()) return node;
     if (source.matrix.size() != 16)
         fail(file.name(), ": ", what, ": matrix must have 16 numbers, not ", source.matrix.size());
     for (int i = 0; i < 16; ++i)
         node.parent_from_node[i / 4][i % 4] =
-            checked_number(file, source.matrix[size_t(i)], -FLT_MAX, FLT_MAX, what + ": matrix");
+            checked_number(file, source.matrix[size_t(i)], -any_length, any_length, what + ": matrix");
     split_transform(node.parent_from_node, node.translation, node.rotation, node.scale);
     return node;
 }
@@ -45,8 +52,9 @@ PunctualLight read_light(const GltfFile& file, int index, int node) {
     light.name = source.name;
     light.type = light_type(file, source.type);
     const glm::vec3 color = fixed_vector<3>(file, source.color, glm::vec3(1.0f), what + ": color");
-    light.intensity = color * checked_number(file, source.intensity, 0.0, FLT_MAX, what + ": intensity");
-    for (int i = 0; i < 3; ++i) checked_number(file, light.intensity[i], 0.0, FLT_MAX, what + ": color");
+    light.intensity = color * checked_number(file, source.intensity, 0.0, any_radiance, what + ": intensity");
+    for (int i = 0; i < 3; ++i)
+        checked_number(file, light.intensity[i], 0.0, any_radiance, what + ": the product of color and intensity");
     light.range = checked_number(file, source.range, 0.0, FLT_MAX, what + ": range");
     light.node = node;
     if (light.type != LightType::spot) return light;
@@ -69,14 +77,14 @@ SceneCamera read_camera(const GltfFile& file, int index, int node) {
     if (camera.is_orthographic) {
         const auto& lens = source.orthographic;
         camera.orthographic_height =
-            2.0f * checked_number(file, std::abs(lens.ymag), FLT_MIN, FLT_MAX / 4, what + ": ymag");
-        camera.near = checked_number(file, lens.znear, 0.0, FLT_MAX, what + ": znear");
-        camera.far = checked_number(file, lens.zfar, 0.0, FLT_MAX, what + ": zfar");
+            2.0f * checked_number(file, std::abs(lens.ymag), FLT_MIN, any_length, what + ": ymag");
+        camera.near = checked_number(file, lens.znear, 0.0, any_length, what + ": znear");
+        camera.far = checked_number(file, lens.zfar, 0.0, any_far_plane, what + ": zfar");
     } else {
         const auto& lens = source.perspective;
         camera.vertical_fov = checked_number(file, lens.yfov, 1e-6, std::numbers::pi - 1e-3, what + ": yfov");
-        camera.near = checked_number(file, lens.znear, FLT_MIN, FLT_MAX, what + ": znear");
-        camera.far = checked_number(file, lens.zfar, 0.0, FLT_MAX, what + ": zfar");
+        camera.near = checked_number(file, lens.znear, FLT_MIN, any_length, what + ": znear");
+        camera.far = checked_number(file, lens.zfar, 0.0, any_far_plane, what + ": zfar");
     }
     if (camera.far != 0.0f && camera.far <= camera.near)
         fail(file.name(), ": ", what, ": zfar ", camera.far, " is not beyond znear ", camera.near);
@@ -120,6 +128,10 @@ std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigne
         int node, parent;
     };
     std::vector<Visit> open;
+    std::vector<glm::mat4> world_from_node;  // at rest
+    const auto world_from_parent = [&](int parent) {
+        return parent < 0 ? glm::mat4(1.0f) : world_from_node[size_t(parent)];
+    };
     for (const int root : roots(file)) open.push_back({root, -1});
     for (size_t next = 0; next < open.size(); ++next) {  // breadth first: parents come before their children
         const size_t index = checked_index(file, open[next].node, nodes.size(), "node");
@@ -128,6 +140,11 @@ std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigne
         node_of[index] = int(scene.nodes.size());
         scene.nodes.push_back(read_node(file, nodes[index], index));
         scene.nodes.back().parent = open[next].parent;
+        world_from_node.push_back(world_from_parent(open[next].parent) * scene.nodes.back().parent_from_node);
+        if (!is_in_range(world_from_node.back()))
+            fail(file.name(), ": node ", index, " ('", shortened(nodes[index].name),
+                 "'): its transform times those of its parents has a number outside of [", -any_length, ", ",
+                 any_length, "]");
         add_contents(file, nodes[index], meshes_of, unsigned(node_of[index]), scene);
         for (const int child : nodes[index].children) open.push_back({child, node_of[index]});
     }

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/scene/gltf_value.h"
+#include "core/scene/ranges.h"
 
 #include <tbb/parallel_for.h>
 #include <algorithm>
@@ -26,6 +27,10 @@ glm::mat3 texture_transform(const GltfFile& file, const tinygltf::Value& extensi
     const glm::vec2 offset = vec2_member(file, extension, "offset", glm::vec2(0.0f), what);
     const glm::vec2 scale = vec2_member(file, extension, "scale", glm::vec2(1.0f), what);
     const float rotation = number_member(file, extension, "rotation", 0.0f, what);
+    for (int i = 0; i < 2; ++i) {
+        checked_number(file, offset[i], -any_length, any_length, what + ": 'offset'");
+        checked_number(file, scale[i], -any_length, any_length, what + ": 'scale'");
+    }
     const float c = std::cos(rotation), s = std::sin(rotation);
     return glm::mat3(c * scale.x, -s * scale.x, 0.0f, s * scale.y, c * scale.y, 0.0f, offset.x, offset.y, 1.0f);
 }

@@ -4,6 +4,7 @@
 #include "core/near_miss.h"
 #include "core/scene/scene_file.h"
 
+#include <climits>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -57,12 +58,14 @@ Scene load_bare_gltf(const fs::path& file) {
 }  // namespace
 
 Scene load_scene(const std::string& name, const std::vector<fs::path>& search_path) {
+    if (name.size() >= PATH_MAX) fail("unknown scene '", shortened(name), "': no path is as long");
     const fs::path direct = name;
     const std::string extension = direct.extension().string();
     if (extension == ".gltf" || extension == ".glb") return load_bare_gltf(direct);
     if (extension == ".json") return load_scene_file(direct, search_path);
+    std::error_code error;  // a name too long for the file system is just unknown
     for (const fs::path& folder : search_path)
-        if (!name.empty() && fs::exists(folder / name / "scene.json"))
+        if (!name.empty() && fs::exists(folder / name / "scene.json", error))
             return load_scene_file(folder / name / "scene.json", search_path);
-    fail("unknown scene '", name, "'", suggestion(name, list_scenes(search_path)));
+    fail("unknown scene '", shortened(name), "'", suggestion(name, list_scenes(search_path)));
 }

@@ -1,6 +1,8 @@
 #include "core/scene/material_override.h"
 
 #include "core/error.h"
+#include "core/near_miss.h"
+#include "core/scene/ranges.h"
 
 #include <algorithm>
 #include <regex>
@@ -29,26 +31,39 @@ void hide(Scene& scene, const std::vector<bool>& is_hidden) {
     for (size_t i = 0; i < is_hidden.size(); ++i)
         if (is_hidden[i])
             std::erase_if(scene.warnings, [&](const std::string& warning) {
-                return warning.find("material '" + scene.materials[i].name + "'") != std::string::npos;
+                return warning.find("material '" + shortened(scene.materials[i].name) + "'") != std::string::npos;
             });
     std::erase_if(scene.instances,
                   [&](const Instance& instance) { return is_hidden[scene.meshes[instance.mesh].material]; });
 }
 
+/// Which materials' whole names match the regular expression `material`.
+std::vector<bool> matching_materials(JsonObject& entry, const Scene& scene) {
+    const std::string pattern = entry.text("material");
+    constexpr size_t longest = 1000;  // bytes: std::regex recurses once per character, and a stack ends somewhere
+    if (pattern.size() > longest)
+        fail(entry.where(), ": 'material' has ", pattern.size(), " characters; allowed are ", longest);
+    std::vector<bool> matches;
+    try {
+        const std::regex expression(pattern);
+        for (const Material& m : scene.materials) {
+            if (m.name.size() > longest)
+                fail(entry.where(), ": 'material' cannot be compared with \"", shortened(m.name), "\", a name of ",
+                     m.name.size(), " characters; allowed are ", longest);
+            matches.push_back(std::regex_match(m.name, expression));
+        }
+    } catch (const std::regex_error& e) {
+        fail(entry.where(), ": 'material' = \"", shortened(pattern), "\" is no regular expression: ", e.what());
+    }
+    if (std::ranges::find(matches, true) == matches.end())
+        fail(entry.where(), ": no material's whole name matches \"", shortened(pattern), "\"");
+    return matches;
+}
+
 }  // namespace
 
 void apply_override(JsonObject& entry, Scene& scene) {
-    const std::string pattern = entry.text("material");
-    std::regex expression;
-    try {
-        expression = std::regex(pattern);
-    } catch (const std::regex_error& e) {
-        fail(entry.where(), ": 'material' = \"", pattern, "\" is no regular expression: ", e.what());
-    }
-    std::vector<bool> matches;
-    for (const Material& m : scene.materials) matches.push_back(std::regex_match(m.name, expression));
-    if (std::ranges::find(matches, true) == matches.end())
-        fail(entry.where(), ": no material's whole name matches \"", pattern, "\"");
+    const std::vector<bool> matches = matching_materials(entry, scene);
 
     const bool is_hidden = entry.boolean("hidden", false), drops_normal_map = entry.boolean("drop_normal_map", false);
     const bool has_roughness = entry.has("roughness"), has_metalness = entry.has("metalness");
@@ -57,7 +72,7 @@ void apply_override(JsonObject& entry, Scene& scene) {
     const bool has_color = entry.has("base_color"), has_emission = entry.has("emission"),
                has_specular = entry.has("specular");
     const glm::vec3 color = has_color ? read_color(entry, "base_color", 1.0f) : glm::vec3(0.0f),
-                    emission = has_emission ? read_color(entry, "emission", 1e12f) : glm::vec3(0.0f);
+                    emission = has_emission ? read_color(entry, "emission", any_radiance) : glm::vec3(0.0f);
     const float specular = entry.number("specular", 0.0f, 1.0f, 1.0f);
     entry.finish();
 

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "core/scene/animation.h"
+#include "core/scene/ranges.h"
 #include "core/scene/transform.h"
 
 #include <algorithm>
@@ -51,7 +52,11 @@ PunctualLight posed_light(PunctualLight light, const std::vector<glm::mat4>& wor
     if (light.node < 0) return light;
     const glm::mat4& world_from_light = world_from_node[size_t(light.node)];
     light.position = world_from_light[3];
-    light.direction = -glm::normalize(glm::vec3(world_from_light[2]));
+    if (light.type == LightType::point) return light;
+    const glm::dvec3 axis(world_from_light[2]);
+    if (!(glm::length(axis) > 0.0))
+        fail("light '", light.name, "' hangs on a node with a scale of 0: it has no direction");
+    light.direction = -glm::vec3(glm::normalize(axis));
     return light;
 }
 }  // namespace
@@ -60,10 +65,14 @@ ScenePose pose_scene(const Scene& scene, float frame) {
     ScenePose pose;
     const std::vector<Node> nodes =
         scene.animation.empty() ? scene.nodes : animated_nodes(scene, frame / scene.frame_rate);
-    for (const Node& node : nodes)
+    for (const Node& node : nodes) {
         pose.world_from_node.push_back(node.parent < 0
                                            ? node.parent_from_node
                                            : pose.world_from_node[size_t(node.parent)] * node.parent_from_node);
+        if (!is_in_range(pose.world_from_node.back()))
+            fail("scene '", scene.name, "': at frame ", frame, " animation takes node '", shortened(node.name),
+                 "' out of +-", any_length, " m, or scales it by more");
+    }
     for (const Instance& instance : scene.instances)
         pose.world_from_instance.push_back(pose.world_from_node[instance.node]);
     for (const PunctualLight& light : scene.lights) pose.lights.push_back(posed_light(light, pose.world_from_node));

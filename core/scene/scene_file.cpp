@@ -10,41 +10,49 @@
 #include "core/scene/load_scene.h"
 #include "core/scene/material_override.h"
 #include "core/scene/merge.h"
+#include "core/scene/ranges.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr float any_length = 1e9f;  // m; more than any scene, and exact enough in float32 to be of use
-
 /// A file named in scene.json: beside it, or in a folder of the search path.
 fs::path find_file(const std::string& name, const fs::path& scene_file, const std::vector<fs::path>& search_path,
                    const std::string& where) {
-    if (fs::exists(scene_file.parent_path() / name)) return scene_file.parent_path() / name;
+    std::error_code error;  // a name too long for the file system is just not there
+    if (fs::exists(scene_file.parent_path() / name, error)) return scene_file.parent_path() / name;
     for (const fs::path& folder : search_path)
-        if (fs::exists(folder / name)) return folder / name;
-    fail(where, ": '", name,
+        if (fs::exists(folder / name, error)) return folder / name;
+    fail(where, ": '", shortened(name),
          "' is neither beside that file nor in the scene search path; name its folder with --scene-path or "
          "SSRLAB_SCENE_PATH");
+}
+
+/// The value if each part is within +-any_radiance.
+glm::vec3 checked_radiance(glm::vec3 radiance, const std::string& what) {
+    for (int c = 0; c < 3; ++c)
+        if (!(std::abs(radiance[c]) <= any_radiance))
+            fail(what, " has the part ", radiance[c], " outside of [", -any_radiance, ", ", any_radiance, "]");
+    return radiance;
 }
 
 glm::vec3 read_color(JsonObject& object, const std::string& key, glm::vec3 fallback) {
     const glm::vec3 color = object.vector(key, fallback);
     if (!(color.x >= 0 && color.y >= 0 && color.z >= 0))
         fail(object.where(), ": '", key, "' has a negative part; light and colours are at least 0");
-    return color;
+    return checked_radiance(color, object.where() + ": '" + key + "'");
 }
 
 HostImage read_latlong(const fs::path& file, float scale) {
     HostImage image = read_exr_rgb(file);
     for (float& v : image.values) {
         v *= scale;
-        if (!(v >= 0.0f && v < std::numeric_limits<float>::infinity()))
-            fail(file.string(), ": an environment must be finite and not negative, but a texel is ", v);
+        if (!(v >= 0.0f && v <= any_radiance))
+            fail(file.string(), ": an environment must be finite and not negative, but a texel times its 'scale' is ",
+                 v, "; allowed is [0, ", any_radiance, "]");
     }
     return image;
 }
@@ -54,8 +62,8 @@ Environment read_environment(JsonObject object, const fs::path& scene_file, cons
     if (object.has("gradient")) {
         JsonObject gradient = object.object("gradient");
         environment.type = Environment::Type::gradient;
-        environment.color = gradient.vector("color");
-        environment.slope = gradient.vector("slope");
+        environment.color = checked_radiance(gradient.vector("color"), gradient.where() + ": 'color'");
+        environment.slope = checked_radiance(gradient.vector("slope"), gradient.where() + ": 'slope'");
         if (gradient.has("axis")) environment.axis = read_direction(gradient, "axis");
         gradient.finish();
     } else if (object.has("image")) {
@@ -81,11 +89,12 @@ PunctualLight read_light(JsonObject object) {
     light.type = type == "directional" ? LightType::directional : type == "point" ? LightType::point : LightType::spot;
     light.name = object.text("name", type);
     const float strength =
-        object.number(light.type == LightType::directional ? "irradiance" : "intensity", 0.0f, 1e12f);
-    light.intensity = strength * read_color(object, "color", glm::vec3(1.0f));
+        object.number(light.type == LightType::directional ? "irradiance" : "intensity", 0.0f, any_radiance);
+    light.intensity = checked_radiance(strength * read_color(object, "color", glm::vec3(1.0f)),
+                                       object.where() + ": the product of 'color' and strength");
     if (light.type != LightType::point) light.direction = read_direction(object, "direction");
     if (light.type != LightType::directional) {
-        light.position = object.vector("position");
+        light.position = read_position(object, "position");
         light.range = object.number("range", 0.0f, any_length, 0.0f);
     }
     if (light.type == LightType::spot) {

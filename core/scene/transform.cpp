@@ -1,5 +1,8 @@
 #include "core/scene/transform.h"
 
+#include "core/scene/ranges.h"
+
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 namespace {
@@ -22,6 +25,13 @@ void split_transform(const glm::mat4& matrix, glm::vec3& translation, glm::vec4&
     if (scale.x == 0.0f || scale.y == 0.0f || scale.z == 0.0f) return;
     for (int i = 0; i < 3; ++i) axes[i] /= scale[i];
     rotation = xyzw(glm::normalize(glm::quat_cast(axes)));
+}
+
+bool is_in_range(const glm::mat4& matrix) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!(std::abs(matrix[column][row]) <= any_length)) return false;
+    return true;
 }
 
 glm::vec4 slerp(glm::vec4 from, glm::vec4 to, float t) {

@@ -1,9 +1,10 @@
-#include "core/error.h"
 #include "core/json.h"
+#include "core/error.h"
 
+#include <gtest/gtest.h>
 #include <filesystem>
 #include <fstream>
-#include <gtest/gtest.h>
+#include <limits>
 
 namespace {
 
@@ -33,4 +34,55 @@ TEST(Json, EveryKeyMustBeKnownAndInRange) {
     EXPECT_EQ(object.integer("height", 1, 100, 5), 5);
     EXPECT_EQ(message([&] { object.finish(); }), "config.json: unknown key 'hieght'; did you mean 'height'?");
     EXPECT_EQ(message([&] { object.integer("width", 1, 10); }), "config.json: 'width' = 20 is outside [1, 10]");
+}
+
+TEST(Json, KeysThatComeTwiceAreNamed) {
+    EXPECT_EQ(message([] { parse_json(R"({"shots": [{}, {"scene": "a", "frames": [1], "scene": "b"}]})", "c.json"); }),
+              "c.json: shots[1]: the key 'scene' comes twice in one object");
+    EXPECT_EQ(message([] { parse_json(R"({"a": 1, "b": 2, "a": 3})", "c.json"); }),
+              "c.json: the key 'a' comes twice in one object");
+    EXPECT_EQ(message([] { parse_json(R"([{"a": {"a": 1}}, {"a": 2}])", "c.json"); }), "no error");
+}
+
+TEST(Json, ReadsWhatTheLibraryReads) {
+    const std::string text =
+        R"({"a": [1, -2, 3.5, 1e300, true, false, null, "x\u00e4", [], {}, [[{"b": [18446744073709551615]}]]], "c": {}})";
+    EXPECT_EQ(parse_json(text, "c.json"), nlohmann::json::parse(text));
+    EXPECT_EQ(parse_json("// why\n7 /* as said */", "c.json", true), 7);
+    EXPECT_NE(message([] { parse_json("// why\n7", "c.json"); }), "no error");
+    EXPECT_NE(message([] { parse_json("7 8", "c.json"); }), "no error");
+    EXPECT_NE(message([] { parse_json("", "c.json"); }), "no error");
+}
+
+TEST(Json, NestsAsDeepAsItMayAndNoDeeper) {
+    const auto nested = [](size_t levels) { return std::string(levels, '[') + std::string(levels, ']'); };
+    EXPECT_EQ(message([&] { parse_json(nested(max_json_depth), "c.json"); }), "no error");
+    // Without a bound the last one ends in the stack.
+    for (const size_t levels : {max_json_depth + 1, size_t(300'000)}) {
+        EXPECT_EQ(message([&] { parse_json(nested(levels), "c.json"); }),
+                  "c.json: its JSON nests more than 100 levels");
+        std::string objects;
+        for (size_t i = 0; i < levels; ++i) objects += "{\"a\":";
+        EXPECT_EQ(message([&] { parse_json(objects, "c.json"); }), "c.json: its JSON nests more than 100 levels");
+    }
+}
+
+TEST(Json, NumbersBeyondAllRangesAreNamed) {
+    EXPECT_EQ(message([] { parse_json("{\"a\": [{}, {\"b\": [2,\n 1e400]}]}", "c.json"); }),
+              "c.json:2:6: a[1]: b[1]: the number 1e400 is beyond what float64 can hold");
+    const auto json = parse_json(R"({"a": 1e39, "v": [0, -1e39, 0], "huge": 18446744073709551615})", "c.json");
+    JsonObject object(json, "c.json");
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(message([&] { object.number("a", 0, infinity); }), "c.json: 'a' = 1e+39 is outside [0, inf]");
+    EXPECT_EQ(message([&] { object.vector("v"); }), "c.json: 'v' has the number -1e+39, which float32 cannot hold");
+    EXPECT_NE(message([&] { object.integer("huge", 0, 10); }), "no error");
+}
+
+TEST(Json, MessagesStayShort) {
+    const std::string text = "{\"" + std::string(300'000, 'a') + "\": \"" + std::string(300'000, 'b') + "\"}";
+    const auto json = parse_json(text, "c.json");
+    JsonObject object(json, "c.json");
+    EXPECT_LT(message([&] { object.finish(); }).size(), 500u);
+    EXPECT_LT(message([&] { object.integer(std::string(300'000, 'a'), 0, 1); }).size(), 301'000u);
+    EXPECT_LT(message([&] { parse_json("{\"a\": " + text.substr(1), "c.json"); }).size(), 500u);
 }

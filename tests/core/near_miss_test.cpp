@@ -10,3 +10,23 @@ TEST(NearMiss, SuggestsWhatWasProbablyMeant) {
     EXPECT_EQ(nearest_name("roughness_cutoff", names), "");
     EXPECT_EQ(suggestion("zzz", names), "; known are: thickness, stride, max_steps");
 }
+
+TEST(NearMiss, LongNamesAreNearNone) {
+    // Their distance would take 90 GB and 10^10 steps.
+    const std::string name(300'000, 'a');
+    const std::vector<std::string> names = {name + "b", "stride"};
+    EXPECT_EQ(nearest_name(name, names), "");
+    EXPECT_LT(suggestion("strides_of_a_march", names).size(), 400u);
+}
+
+TEST(NearMiss, LongTextsAreCutBetweenCharacters) {
+    EXPECT_EQ(shortened(std::string(300, 'a')), std::string(300, 'a'));
+    std::string umlauts;
+    for (int i = 0; i < 1000; ++i) umlauts += "\u00e4";
+    for (const std::string& text : {umlauts, "a" + umlauts}) {
+        const std::string cut = shortened(text);
+        EXPECT_LE(cut.size(), 305u);
+        EXPECT_TRUE(text.starts_with(cut.substr(0, cut.find(" ... "))));
+        EXPECT_EQ((cut.size() - 5 - (text.front() == 'a')) % 2, 0u) << "half a character";
+    }
+}

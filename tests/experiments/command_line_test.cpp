@@ -85,6 +85,27 @@ TEST_F(CommandLine, NamesBrokenFiles) {
     EXPECT_EQ(ssrlab("frobnicate").code, 2);
 }
 
+TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
+    const std::string rest = ", " + good_shot + R"(, "variants": [{"variant": "none"}]})";
+    config("{\"title\": " + std::string(300'000, '[') + std::string(300'000, ']') + rest);
+    expect_mistake("run study.json", "study.json: its JSON nests more than 100 levels");
+    config("{\"reflective_max_roughness\": 1e400" + rest);
+    expect_mistake("run study.json", "reflective_max_roughness: the number 1e400");
+    config("{\"timing\": {\"frames\": 0, \"frames\": 15}" + rest);
+    expect_mistake("run study.json", "study.json: timing: the key 'frames' comes twice");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"thickness": 1e39}}]})");
+    expect_mistake("run study.json", "'thickness' = 1e+39");
+    const std::string name(300'000, 'n');
+    for (const std::string& extension : {"", ".json", ".glb"}) {
+        config(R"({"shots": [{"scene": ")" + name + extension + R"("}], "variants": [{"variant": "none"}]})");
+        const Outcome o = ssrlab("run study.json");
+        EXPECT_EQ(o.code, 2) << extension << o.text.substr(0, 500);
+        EXPECT_LT(o.text.size(), 2000u);
+    }
+    config("{" + good_shot + R"(, "variants": [{"variant": ")" + name + R"("}]})");
+    expect_mistake("run study.json", "unknown variant 'nnn");
+}
+
 TEST_F(CommandLine, SaysWhatTheMachineLacks) {
     const Outcome no_device = ssrlab("list devices", "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent");
     EXPECT_EQ(no_device.code, 3) << no_device.text;

@@ -124,6 +124,24 @@ TEST_F(gbuffer_file, errors_name_file_and_layer) {
     write_text(folder_ / "camera.json", camera.dump());
     EXPECT_NE(load_error().find("depth_directon"), std::string::npos) << load_error();
 
+    for (const auto& [key, value] :
+         {std::pair<const char*, nlohmann::json>("jitter", {1e39, 0}),
+          {"previous_jitter", {0, 1e30}},
+          {"near", 1e39},
+          {"far", 1e39},
+          {"clip_from_world", {{1, 0, 0, 0}, {0, 1, 0, 1e39}, {0, 0, 1, 0}, {0, 0, 0, 1}}}}) {
+        camera = whole;
+        camera[key] = value;
+        write_text(folder_ / "camera.json", camera.dump());
+        EXPECT_NE(load_error().find("camera.json: '" + std::string(key) + "'"), std::string::npos) << load_error();
+    }
+    camera = whole;  // in range each, not so their product
+    for (const char* key : {"view_from_clip", "world_from_view", "clip_from_world", "world_from_clip"})
+        camera.erase(key);
+    camera["clip_from_view"][0][0] = 1e30, camera["view_from_world"][0][0] = 1e30;
+    write_text(folder_ / "camera.json", camera.dump());
+    EXPECT_NE(load_error().find("'clip_from_view' and 'view_from_world'"), std::string::npos) << load_error();
+
     std::filesystem::remove(folder_ / "camera.json");
     EXPECT_NE(load_error().find("camera.json"), std::string::npos);
 }

@@ -139,6 +139,85 @@ TEST_F(Gltf, BrokenFilesAreErrors) {
     EXPECT_NE(message([&] { load(); }), "no error");
 }
 
+TEST_F(Gltf, NumbersThatOverflowAreRefusedByKey) {
+    const auto refuses = [&](const std::string& what) {
+        const std::string said = message([&] { load_scene(writer.write_glb(folder / "a.glb").string(), {}); });
+        EXPECT_NE(said.find("a.glb"), std::string::npos) << said;
+        EXPECT_NE(said.find(what), std::string::npos) << said;
+    };
+    writer.json["materials"] = {{{"name", "lamp"}}};
+    nlohmann::json primitive = writer.quad();
+    primitive["material"] = 0;
+    writer.add_mesh_node(primitive);
+    const nlohmann::json whole = writer.json;
+    const auto set = [&](const char* at, const nlohmann::json& value) {
+        writer.json = whole;
+        writer.json[nlohmann::json::json_pointer(at)] = value;
+    };
+    set("/nodes/0/translation", {3e38, 0, 0}), refuses("node 0 (''): translation");
+    set("/nodes/0/scale", {1, -2e9, 1}), refuses("node 0 (''): scale");
+    set("/nodes/0/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e10, 0, 0, 1}), refuses("node 0 (''): matrix");
+    // Each is in range, their product is not.
+    set("/nodes", {{{"children", {1}}, {"scale", {1e6, 1, 1}}}, {{"mesh", 0}, {"scale", {1e6, 1, 1}}}});
+    refuses("node 1 (''): its transform times those of its parents");
+    set("/materials/0/emissiveFactor", {1, 1, 1});
+    writer.json["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 3e38;
+    refuses("material 'lamp': the product of emissiveFactor and emissiveStrength");
+    writer.json = whole;
+    writer.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+        writer.floats({0, 0, 0, 1, 0, 0, 1, 1e10f, 0, 0, 1, 0}, "VEC3");
+    refuses("mesh 0 primitive 0 POSITION: element 2");
+    // A number that no float64 holds; tinygltf would take infinity.
+    writer.json = whole;
+    std::string text = read_text(writer.write_gltf(folder / "a.gltf"));
+    text.replace(text.find("\"lamp\""), 6, "\"lamp\", \"alphaCutoff\": 1e999");
+    write_text(folder / "a.gltf", text);
+    EXPECT_NE(message([&] { load_gltf(folder / "a.gltf"); }).find("materials[0]: alphaCutoff: the number 1e999"),
+              std::string::npos)
+        << message([&] { load_gltf(folder / "a.gltf"); });
+    // Squares of the quaternion's parts overflow, but the rotation is clear.
+    set("/nodes/0/rotation", {0, 0, 1e30, 1e30});
+    const glm::vec4 rotation = load().nodes.at(0).rotation;
+    EXPECT_NEAR(rotation.z, std::sqrt(0.5f), 1e-6f);
+    EXPECT_NEAR(rotation.w, std::sqrt(0.5f), 1e-6f);
+}
+
+TEST_F(Gltf, AnimationOutOfRangeIsRefusedWhereItIs) {
+    writer.add_mesh_node(writer.quad());
+    const int times = writer.floats({0, 1}, "SCALAR"), values = writer.floats({1, 0, 0, 1e20f, 0, 0}, "VEC3");
+    writer.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", values}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    const Scene scene = load();
+    EXPECT_NO_THROW(pose_scene(scene, 0));
+    EXPECT_NE(message([&] { pose_scene(scene, 10); }).find("at frame 10 animation takes node ''"), std::string::npos);
+}
+
+TEST_F(Gltf, CamerasAndLightsNeedAnOrientation) {
+    writer.add_mesh_node(writer.quad());
+    writer.json["cameras"] = {{{"name", "c"}, {"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    writer.json["nodes"].push_back({{"camera", 0}, {"scale", {1, 1, 0}}});
+    writer.json["scenes"][0]["nodes"] = {0, 1};
+    const auto load_whole = [&] { load_scene(writer.write_glb(folder / "a.glb").string(), {}); };
+    EXPECT_NE(message(load_whole).find("camera 'c' hangs on a node with a scale of 0"), std::string::npos);
+    writer.json["nodes"][1] = {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {1, 1, 0}}};
+    writer.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    writer.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"name", "sun"}, {"type", "directional"}}};
+    EXPECT_NE(message(load_whole).find("light 'sun' hangs on a node with a scale of 0"), std::string::npos);
+}
+
+TEST_F(Gltf, DeepOrRepeatedKeysEndInASentence) {
+    writer.add_mesh_node(writer.quad());
+    const std::string text = read_text(writer.write_gltf(folder / "a.gltf"));
+    const std::string brackets = std::string(300'000, '[') + std::string(300'000, ']');
+    write_text(folder / "deep.gltf", "{\"extras\": " + brackets + "," + text.substr(text.find('{') + 1));
+    EXPECT_EQ(message([&] { load_gltf(folder / "deep.gltf"); }),
+              (folder / "deep.gltf").string() + ": its JSON nests more than 100 levels");
+    write_text(folder / "twice.gltf", "{\"nodes\": []," + text.substr(text.find('{') + 1));
+    EXPECT_EQ(message([&] { load_gltf(folder / "twice.gltf"); }),
+              (folder / "twice.gltf").string() + ": the key 'nodes' comes twice in one object");
+}
+
 TEST_F(Gltf, DamagedFilesNeverCrash) {
     writer.add_mesh_node(writer.quad());
     writer.write_glb(folder / "a.glb");

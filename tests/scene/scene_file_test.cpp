@@ -169,3 +169,53 @@ TEST_F(SceneFile, UnknownScenesAndBareFiles) {
         EXPECT_GT(clip.z, 0.0f);
     }
 }
+
+TEST_F(SceneFile, NumbersThatOverflowAreRefusedByKey) {
+    const auto refuses = [&](const std::string& json, const std::string& what) {
+        const std::string said = mistake(R"({"gltf": "room.glb", )" + json + "}");
+        EXPECT_EQ(said.find((root / "room").string()), 0u) << said;
+        EXPECT_NE(said.find(what), std::string::npos) << json << "\n" << said;
+    };
+    const auto with_camera = [](const std::string& json) { return json + ", " + camera; };
+    refuses(with_camera(R"("environment": {"gradient": {"color": [1, 1, 1], "slope": [3e38, 0, 0]}})"), "'slope'");
+    refuses(with_camera(R"("environment": {"gradient": {"color": [-2e38, 1, 1], "slope": [0, 0, 0]}})"), "'color'");
+    refuses(with_camera(R"("environment": {"constant": [1e400, 0, 0]})"), "constant[0]: the number 1e400");
+    refuses(with_camera(R"("environment": {"constant": [1e38, 0, 0]})"), "'constant'");
+    refuses(with_camera(
+                R"("lights": [{"type": "point", "position": [0, 1, 0], "color": [1e11, 1, 1], "intensity": 1e11}])"),
+            "lights[0]: the product of 'color' and strength");
+    refuses(with_camera(R"("lights": [{"type": "point", "position": [0, 1e20, 0], "intensity": 1}])"), "'position'");
+    refuses(with_camera(R"("overrides": [{"material": "floor", "emission": [1e13, 0, 0]}])"), "'emission'");
+    refuses(R"("cameras": [{"name": "m", "position": [0, 0, 3e38], "target": [0, 0, 0], "vfov_deg": 60}])",
+            "'position'");
+    // Squares of the direction's length overflow, or vanish, but the direction itself is clear.
+    for (const char* axis : {"[0, 3e38, 0]", "[0, 1e-40, 0]"}) {
+        const Scene scene = load(R"({"gltf": "room.glb", "environment": {"gradient": {"color": [1, 1, 1],
+            "slope": [0.5, 0.5, 0.5], "axis": )" +
+                                 std::string(axis) + "}}, " + camera + "}");
+        EXPECT_EQ(scene.environment.axis, glm::vec3(0, 1, 0));
+    }
+    HostImage sky({8, 4}, 3, 1e20f);
+    write_exr(root / "sky.exr", sky);
+    refuses(with_camera(R"("environment": {"image": "../sky.exr", "scale": 10})"), "sky.exr");
+    EXPECT_EQ(mistake(R"({"gltf": "room.glb", "environment": {"constant": [1, 2, 3], "constant": [0, 0, 0]}, )" +
+                      camera + "}"),
+              (root / "room/scene.json").string() + ": environment: the key 'constant' comes twice in one object");
+}
+
+TEST_F(SceneFile, LongMaterialNamesEndInASentence) {
+    // std::regex recurses once per character of the name: this one ended in the stack.
+    GltfWriter writer;
+    writer.json["materials"] = {{{"name", std::string(300'000, 'm')}}};
+    nlohmann::json quad = writer.quad();
+    quad["material"] = 0;
+    writer.add_mesh_node(quad);
+    writer.write_glb(root / "room/room.glb");
+    const std::string override = R"({"gltf": "room.glb", "overrides": [{"material": ")",
+                      rest = R"(", "roughness": 1}], )";
+    EXPECT_NE(mistake(override + ".*" + rest + camera + "}").find("a name of 300000 characters"), std::string::npos);
+    EXPECT_NE(
+        mistake(override + std::string(300'000, '(') + rest + camera + "}").find("'material' has 300000 characters"),
+        std::string::npos);
+    EXPECT_EQ(load(R"({"gltf": "room.glb", )" + camera + "}").materials.at(0).name.size(), 300'000u);
+}
