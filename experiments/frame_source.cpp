@@ -96,16 +96,16 @@ FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit)
     constexpr size_t bytes_per_pixel = 132;  // of the formats in gbuffer.h
     const auto key = std::pair(step.frame, step.previous_frame);
     auto found = stored_.find(key);
-    if (found == stored_.end()) {
+    if (found == stored_.end() || !found->second) {
         const GBuffer rendered = source_.render(step, 0, lit);
-        const glm::uvec2 extent = rendered.depth.extent;
-        bytes_ += bytes_per_pixel * extent.x * extent.y;
-        if (bytes_ > max_bytes_) {
-            bytes_ -= bytes_per_pixel * extent.x * extent.y;
-            return {rendered, source_.camera()};
-        }
+        if (found != stored_.end()) return {rendered, source_.camera()};
         const HostGBuffer host = download_gbuffer(source_.graph(), rendered, source_.camera(), depth_format_);
-        found = stored_.emplace(key, std::make_unique<Stored>(source_.graph().device(), host)).first;
+        for (const auto& [layer, count] : count_non_finite(host)) non_finite_[layer] += count;
+        found = stored_.emplace(key, nullptr).first;
+        const size_t bytes = bytes_per_pixel * host.depth.pixel_count();
+        if (bytes_ + bytes > max_bytes_) return {rendered, source_.camera()};
+        bytes_ += bytes;
+        found->second = std::make_unique<Stored>(source_.graph().device(), host);
         found->second->gbuffer.environment = rendered.environment;
     }
     Frame frame{found->second->gbuffer, found->second->camera};

@@ -41,11 +41,15 @@ public:
     };
     Frame frame(const FrameStep& step, const HostImage& lit);
 
+    /// Values that are NaN or infinite, by layer, over all frames so far (each counted once): see count_non_finite().
+    const std::map<std::string, size_t>& non_finite() const { return non_finite_; }
+
 private:
     struct Stored;
     FrameSource& source_;
     DepthFormat depth_format_;
     size_t max_bytes_, bytes_ = 0;
-    /// By pose and pose before: a held pose looks the same each time.
+    /// By pose and pose before: a held pose looks the same each time. Without value: it did not fit.
     std::map<std::pair<unsigned, std::optional<unsigned>>, std::unique_ptr<Stored>> stored_;
+    std::map<std::string, size_t> non_finite_;
 };

@@ -85,6 +85,18 @@ void enter_shot(Study& study, ShotRun& run, const std::vector<std::string>& note
     study.manifest["shots"].push_back(std::move(entry));
 }
 
+/// What no metric can tell once techniques have read it. Frames that nothing asked for are not counted.
+void enter_non_finite(Study& study, const ShotRun& run) {
+    nlohmann::json& entry = study.manifest["shots"].back();
+    entry["gbuffer_non_finite"] = run.store.non_finite();
+    for (const auto& [layer, count] : run.store.non_finite()) {
+        const std::string warning = "The G-buffer holds " + std::to_string(count) + " values of '" + layer +
+                                    "' that are NaN or infinite: every result of this shot has read them.";
+        entry["warnings"].push_back(warning);
+        study.progress.say("warning: " + run.shot.name() + ": " + warning);
+    }
+}
+
 /// Keeps for the manifest what is worth knowing of a reference, and writes its images if it is that of the last frame.
 void note_reference(Study& study, ShotRun& run, const Reference& reference, unsigned frame, bool is_of_last) {
     run.reference_entries["references"].push_back(reference_entry(reference, frame, study.config));
@@ -113,6 +125,7 @@ void run_scene_shot(Study& study, const ShotConfig& config) {
                     reference_guess);  // the others look the same
     enter_shot(study, run, {});
     run_cells(study, run);
+    enter_non_finite(study, run);
 }
 
 /// A capture: measured if it comes with a reference, else only rendered and timed.
@@ -140,6 +153,7 @@ void run_gbuffer_shot(Study& study, const ShotConfig& config) {
     }
     enter_shot(study, run, loaded.notes);
     run_cells(study, run);
+    enter_non_finite(study, run);
 }
 
 /// (variant, point) of those whose results differ from run to run.

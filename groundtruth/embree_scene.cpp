@@ -1,6 +1,7 @@
 #include "groundtruth/embree_scene.h"
 
 #include "core/error.h"
+#include "core/scene/transform.h"
 #include "groundtruth/alpha_mask.h"
 
 #include <tbb/parallel_for.h>
@@ -101,7 +102,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const ScenePose& pose, bool test_ev
 
     scene_ = new_scene();
     instances_.resize(scene.instances.size());
-    triangles_.resize(scene.meshes.size());
+    triangles_.resize(scene.meshes.size() + scene.instances.size());
     mesh_scenes_.resize(scene.meshes.size(), nullptr);
     for (unsigned i = 0; i < scene.instances.size(); ++i) {
         const unsigned mesh_index = scene.instances[i].mesh;
@@ -111,11 +112,12 @@ EmbreeScene::EmbreeScene(const Scene& scene, const ScenePose& pose, bool test_ev
         record.mesh = &mesh;
         record.material = mesh.material;
         record.world_from_object = transform;
-        record.normal_matrix = glm::mat3(glm::transpose(glm::inverse(glm::dmat3(transform))));
-        record.is_mirrored = glm::determinant(glm::dmat3(transform)) < 0;
-        record.is_baked = use_count[mesh_index] == 1;
+        const NormalTransform normals = normal_transform(transform);
+        record.normal_matrix = normals.matrix;
+        record.is_mirrored = normals.is_mirrored;
+        record.is_baked = use_count[mesh_index] == 1 || normals.is_flat;
 
-        std::vector<TriangleRecord>& triangles = triangles_[mesh_index];
+        std::vector<TriangleRecord>& triangles = triangles_[record.is_baked ? scene.meshes.size() + i : mesh_index];
         if (record.is_baked) {
             triangles = make_records(mesh, record);
             attach(scene_, make_triangles(triangles, scene, mesh, test_every_alpha), i);

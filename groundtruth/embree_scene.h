@@ -22,9 +22,9 @@ struct InstanceRecord {
     const Mesh* mesh = nullptr;
     uint32_t material = 0;
     bool is_baked = true;
-    bool is_mirrored = false;  ///< negative determinant
+    bool is_mirrored = false;  ///< see NormalTransform
     glm::mat4 world_from_object{1.0f};
-    glm::mat3 normal_matrix{1.0f};  ///< inverse transpose
+    glm::mat3 normal_matrix{1.0f};  ///< see NormalTransform
 };
 
 /// A point on a surface in world space, from barycentrics: it is closer to the triangle than origin + t direction.
@@ -35,7 +35,7 @@ struct SurfacePoint {
 };
 
 /// Embree's view of one frame: a mesh drawn once is baked into the top level, one drawn more often becomes a BVH of its
-/// own.
+/// own. Embree moves rays into an instance by the inverse of its transform: where there is none, it is baked too.
 class EmbreeScene {
 public:
     /// Geometry ids are indices of Scene::instances. Fails with MachineError if Embree cannot build it.
@@ -59,7 +59,7 @@ private:
     struct AlphaTest;
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
-    std::vector<std::vector<TriangleRecord>> triangles_;  ///< per mesh, or per baked instance
+    std::vector<std::vector<TriangleRecord>> triangles_;  ///< of each mesh, then of each baked instance
     std::vector<InstanceRecord> instances_;
     std::vector<std::unique_ptr<AlphaTest>> alpha_tests_;
     std::vector<RTCScene> mesh_scenes_;

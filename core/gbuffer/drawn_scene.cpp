@@ -1,6 +1,7 @@
 #include "core/gbuffer/drawn_scene.h"
 
 #include "core/gbuffer/leading_vertices.h"
+#include "core/scene/transform.h"
 #include "core/shared/drawn_scene.h"
 
 #include <cstring>
@@ -131,12 +132,12 @@ void DrawnScene::pose(const ScenePose& pose, const ScenePose& previous) {
     std::vector<DrawnInstance> instances;
     for (size_t i = 0; i < scene_.instances.size(); ++i) {
         const glm::mat4& world_from_object = pose.world_from_instance[i];
-        const glm::mat3 linear(world_from_object);
+        const NormalTransform normals = normal_transform(world_from_object);
         instances.push_back(
             {.world_from_object = world_from_object,
              .previous_world_from_object = previous.world_from_instance[i],
-             .normal_matrix = glm::mat4(glm::inverse(glm::transpose(linear))),
-             .ids = {scene_.meshes[scene_.instances[i].mesh].material, glm::determinant(linear) < 0, 0, 0}});
+             .normal_matrix = glm::mat4(normals.matrix),
+             .ids = {scene_.meshes[scene_.instances[i].mesh].material, normals.is_mirrored, 0, 0}});
     }
     graph_.upload(instances_, bytes_of(instances));
 }

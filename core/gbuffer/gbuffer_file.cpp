@@ -124,14 +124,21 @@ void note_suspicious_values(const HostGBuffer& g, std::vector<std::string>& note
     if (bad_depth) notes.push_back(std::to_string(bad_depth) + " pixels have a depth outside [0, 1].");
     if (bad_normal) notes.push_back(std::to_string(bad_normal) + " pixels have a normal that is not of unit length.");
     if (bad_roughness) notes.push_back(std::to_string(bad_roughness) + " pixels have a roughness outside [0, 1].");
-    for (const LayerMap& map : layer_maps) {
-        if (map.first_channel != 0) continue;  // counted with the image's first layer
-        const auto bad = std::ranges::count_if((g.*map.image).values, [](float v) { return !std::isfinite(v); });
-        if (bad) notes.push_back(std::to_string(bad) + " values of '" + map.name + "' are not finite.");
-    }
+    for (const auto& [layer, count] : count_non_finite(g))
+        notes.push_back(std::to_string(count) + " values of '" + layer + "' are not finite.");
 }
 
 }  // namespace
+
+std::map<std::string, size_t> count_non_finite(const HostGBuffer& gbuffer) {
+    std::map<std::string, size_t> counts;
+    for (const LayerMap& map : layer_maps) {
+        if (map.first_channel != 0) continue;  // counted with the image's first layer
+        const auto bad = std::ranges::count_if((gbuffer.*map.image).values, [](float v) { return !std::isfinite(v); });
+        if (bad > 0) counts[map.name] = size_t(bad);
+    }
+    return counts;
+}
 
 void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffer) {
     std::error_code error;

@@ -3,6 +3,7 @@
 #include "core/scene/camera.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct HostGBuffer {
 
     glm::uvec2 extent() const { return depth.extent; }
 };
+
+/// How many values of each layer are NaN or infinite; layers without any are left out. By the names of gbuffer.exr, but
+/// roughness counts as normal, metalness as base_color and specular as emission.
+std::map<std::string, size_t> count_non_finite(const HostGBuffer& gbuffer);
 
 /// A folder with gbuffer.exr and camera.json, so that captures of other engines can stand in for a scene. All images
 /// are float32 or half, of one extent, pixel for pixel in screen order (first row at the top).

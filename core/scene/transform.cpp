@@ -2,6 +2,7 @@
 
 #include "core/scene/ranges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
@@ -14,6 +15,22 @@ glm::mat4 transform(glm::vec3 translation, glm::vec4 rotation, glm::vec3 scale) 
     const glm::mat3 turn = glm::mat3_cast(quaternion(rotation));
     return glm::mat4(glm::vec4(turn[0] * scale.x, 0.0f), glm::vec4(turn[1] * scale.y, 0.0f),
                      glm::vec4(turn[2] * scale.z, 0.0f), glm::vec4(translation, 1.0f));
+}
+
+NormalTransform normal_transform(const glm::mat4& world_from_object) {
+    // Products of floats are exact in double precision.
+    const glm::dmat3 m(world_from_object);
+    const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const double determinant = glm::dot(m[0], cofactors[0]);
+    const double columns = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
+    NormalTransform result;
+    result.is_flat = !(std::abs(determinant) > 1e-6 * columns);
+    result.is_mirrored = !result.is_flat && determinant < 0;
+    double largest = 0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(cofactors[column][row]));
+    result.matrix = largest > 0 ? glm::mat3(cofactors * ((result.is_mirrored ? -1 : 1) / largest)) : glm::mat3(0.0f);
+    return result;
 }
 
 void split_transform(const glm::mat4& matrix, glm::vec3& translation, glm::vec4& rotation, glm::vec3& scale) {

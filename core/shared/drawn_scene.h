@@ -30,7 +30,7 @@ struct DrawnMaterial {
 struct DrawnInstance {
     mat4 world_from_object;
     mat4 previous_world_from_object;
-    mat4 normal_matrix;  ///< inverse transpose of world_from_object
+    mat4 normal_matrix;  ///< of world_from_object: NormalTransform::matrix
     uvec4 ids;           ///< material, 1 if the determinant is negative
 };
 

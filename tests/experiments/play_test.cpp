@@ -154,4 +154,25 @@ TEST_F(StudyTest, StoredFramesAreThoseThatAreRendered) {
                 EXPECT_EQ((host[0].*image).values, (host[1].*image).values)
                     << "round " << round << ", step " << step.index;
         }
+    EXPECT_TRUE(keeps.non_finite().empty());
+}
+
+TEST_F(StudyTest, NonFiniteInputsAreCountedOnce) {
+    Device device;
+    Config config;
+    config.direct_lit = true;
+    Shot shot = load_shot({.scene = "moving_emitter", .camera = "", .extent = {64, 36}, .frames = {3}, .repeat = 2},
+                          {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    for (Material& material : shot.scene.materials) material.roughness = NAN;
+    const std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
+    FrameStore keeps(*source, DepthFormat::d32f, size_t(1) << 30), forgets(*source, DepthFormat::d32f, 0);
+    for (FrameStore* store : {&keeps, &forgets}) {
+        for (const FrameStep& step : shot.steps) store->frame(step, {});
+        size_t surfaces = 0;
+        const FrameStore::Frame frame = store->frame(shot.steps.back(), {});
+        for (const float material : source->graph().download(frame.gbuffer.material_id).values) surfaces += material > 0;
+        EXPECT_GT(surfaces, 100u);
+        EXPECT_EQ(store->non_finite().at("normal"), surfaces);
+        EXPECT_FALSE(store->non_finite().contains("depth"));
+    }
 }

@@ -1,8 +1,10 @@
 #include "tests/gbuffer/agreement.h"
 
+#include "core/gbuffer/gbuffer_transfer.h"
 #include "core/scene/load_scene.h"
 
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace {
 
@@ -43,6 +45,22 @@ TEST(agreement, keep_all_shaders_see_the_same) {
     const Scene scene = varied_scene();
     expect_agreement(compare_with_rays(scene, scene.camera("main"), view_of({160, 90}), {.keep_all = true}),
                      "keep all");
+}
+
+TEST(agreement, flattened_nodes_have_the_normals_of_what_they_are_flattened_to) {
+    Scene scene = varied_scene();
+    scene.animation.clear();
+    for (unsigned i = 1; i < 4; ++i) {  // tilted quads: textured, masked, normal-mapped; the second is mirrored too
+        glm::mat4& matrix = scene.nodes[scene.instances[i].node].parent_from_node;
+        matrix = glm::scale(glm::mat4(1), glm::vec3(i == 2 ? -1 : 1, 1, 0)) * matrix;
+        matrix[3] += glm::vec4(0, 0, -3 - 0.1f * float(i), 0);
+    }
+    const FrameView view = view_of({160, 90});
+    expect_agreement(compare_with_rays(scene, scene.camera("main"), view), "flattened");
+    Rasterizer rasterizer(test_device(), scene, {.extent = view.extent});
+    const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view);
+    EXPECT_TRUE(count_non_finite(download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f))
+                    .empty());
 }
 
 TEST(agreement, a_quarter_of_a_pixel_is_noticed) {

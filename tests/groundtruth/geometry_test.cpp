@@ -281,6 +281,26 @@ TEST(geometry, emission_leaves_the_front_unless_double_sided) {
         }
 }
 
+TEST(geometry, instances_may_be_flat) {
+    // A ball twice, the second time flattened to a disk whose two sides, of two hemispheres, are both lit by the sky.
+    TestScene scene;
+    scene.scene.environment.color = glm::vec3(1.0f);
+    scene.sphere(glm::vec3(0), 0.5f, 16, scene.add(lambert_material(0.6f)));
+    scene.scene.instances.push_back({0, 0});
+    ScenePose pose = scene.pose();
+    pose.world_from_instance[0] = glm::translate(glm::mat4(1.0f), glm::vec3(5, 0, 0));
+    pose.world_from_instance.push_back(glm::scale(glm::mat4(1.0f), glm::vec3(1, 0, 1)));
+    for (const float side : {1.0f, -1.0f}) {
+        const PathTracer tracer(scene.scene, pose, looking_along({.1f, side, .2f}, {0, -side, 0}), {1, 1}, {});
+        const PixelMoments pixel = render_pixel(tracer, 0, 0, 64);
+        EXPECT_EQ(pixel.hit.instance, 1u);
+        EXPECT_EQ(pixel.hit.normal, glm::vec3(0, side, 0));
+        EXPECT_EQ(pixel.hit.geometric_normal, glm::vec3(0, side, 0));
+        // The ball at 5 m fills less than 1 % of the sky.
+        EXPECT_NEAR(pixel.diffuse.mean.x, 0.6, 0.006);
+    }
+}
+
 TEST(geometry, instances_equal_baked_copies) {
     // Two balls, one mirrored and stretched, as two instances of one mesh and as two meshes.
     TestScene one, two;

@@ -34,7 +34,9 @@ void main() {
     ws_tangent = mat3(instance.world_from_object) * tangent.xyz;
     uvs = attribute4(10u);
     color = attribute4(14u);
-    ws_front_normal = normalize(mat3(instance.normal_matrix) * attribute3(18u));
+    vec3 front = mat3(instance.normal_matrix) * attribute3(18u);
+    float front_length = length(front);  // 0: a triangle without area, of which no fragment is drawn
+    ws_front_normal = front_length > 0.0 ? front / front_length : vec3(0.0);
     material = instance.ids.x;
     handedness = instance.ids.y == 1u ? -tangent.w : tangent.w;
 
