@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace {
 
@@ -58,12 +60,17 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
         if (materials.emits(geometry.instance(i).material)) add_triangles(scene, i, powers);
 
     triangle_count_ = uint32_t(triangles_.size());
+    std::vector<std::vector<uint32_t>> groups(1, std::vector<uint32_t>(triangle_count_));
+    std::iota(groups[0].begin(), groups[0].end(), 0u);
 
     const auto bounds = scene_bounds(scene, pose);
-    const double radius = 0.5 * glm::length(glm::dvec3(bounds[1]) - glm::dvec3(bounds[0]));
+    low_ = bounds[0];
+    high_ = bounds[1];
+    const double radius = 0.5 * glm::length(glm::dvec3(high_) - glm::dvec3(low_));
     for (const PunctualLight& light : pose.lights) {
         if (light.intensity == glm::vec3(0.0f)) continue;
         lights_.push_back(light);
+        groups.push_back({uint32_t(powers.size())});
         // A direction of no length scale, or a scene without extent, still needs a chance.
         powers.push_back(std::max(punctual_power(light, radius), 1e-6 * luminance(light.intensity)));
     }
@@ -71,17 +78,47 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
         environment_ = EnvironmentTable(scene.environment, compensate);
         if (!environment_.empty()) {
             environment_index_ = powers.size();
+            groups.push_back({uint32_t(powers.size())});
             powers.push_back(std::max(environment_.mean_luminance(), 1e-30) * 4 * M_PI * M_PI *
                              std::max(radius * radius, 1e-12));
             environment_source_ = &scene.environment;
         }
     }
-    table_ = AliasTable(powers);
+    light_probabilities_.resize(powers.size() - triangle_count_);
+    light_groups_.resize(light_probabilities_.size());
+    make_groups(std::move(groups), powers);
+    choice_ = LightChoice(std::max(1u, group_count()));
     needs_more_ = powers.size() > triangle_count_;
     for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
-    for (size_t i = 0; i < triangles_.size() && !table_.empty(); ++i)
-        triangles_[i].area_pdf *= float(table_.probability(i));
-    if (environment_index_ != none) environment_probability_ = float(table_.probability(environment_index_));
+}
+
+void LightSampler::make_groups(std::vector<std::vector<uint32_t>> lights, std::span<const double> powers) {
+    const auto power_of = [&](const std::vector<uint32_t>& group) {
+        return std::accumulate(group.begin(), group.end(), 0.0,
+                               [&](double sum, uint32_t i) { return sum + powers[i]; });
+    };
+    std::erase_if(lights, [&](const auto& group) { return !(power_of(group) > 0); });
+    std::ranges::stable_sort(lights, std::greater(), power_of);
+    for (size_t i = max_light_groups; i < lights.size(); ++i)
+        lights[max_light_groups - 1].insert(lights[max_light_groups - 1].end(), lights[i].begin(), lights[i].end());
+    lights.resize(std::min<size_t>(lights.size(), max_light_groups));
+
+    for (std::vector<uint32_t>& members : lights) {
+        std::vector<double> weights;
+        for (const uint32_t light : members) weights.push_back(powers[light]);
+        const AliasTable table(weights);
+        for (size_t i = 0; i < members.size(); ++i) {
+            const float probability = float(table.probability(i));
+            if (members[i] < triangle_count_) {
+                triangles_[members[i]].area_pdf *= probability;
+                triangles_[members[i]].group = group_count();
+            } else {
+                light_probabilities_[members[i] - triangle_count_] = probability;
+                light_groups_[members[i] - triangle_count_] = group_count();
+            }
+        }
+        groups_.push_back({std::move(members), table});
+    }
 }
 
 void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, std::vector<double>& powers) {
@@ -92,6 +129,7 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, st
     for (uint32_t t = 0; t < instance.mesh->indices.size() / 3; ++t) {
         Triangle& light = triangles_.emplace_back();
         light.error = glm::vec3(0.0f);
+        light.group = 0;
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 position = instance.triangles[t].position[k];
             light.position[k] =
@@ -115,33 +153,34 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, st
     }
 }
 
-void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& x,
-                          const Lanes<uint32_t>& y, LightLanes& lights) const {
+void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& cell,
+                          const Lanes<uint32_t>& x, const Lanes<uint32_t>& y, LightLanes& lights) const {
     Lanes<uint32_t> choice, rest, emits_behind;
     LanesVec3 p0, p1, p2;
     Lanes<float> u, v;
     for (int lane = 0; lane < lane_count; ++lane) {
         if (!is_wanted[lane]) continue;
-        const AliasTable::Choice chosen = table_.sample(x[lane]);
-        choice[lane] = chosen.index;
+        const LightChoice::Choice group = choice_.sample(cell[lane], x[lane]);
+        const AliasTable::Choice chosen = groups_[group.group].table.sample(group.rest);
+        lights.group[lane] = group.group;
+        choice[lane] = groups_[group.group].lights[chosen.index];
         rest[lane] = chosen.rest;
-        if (chosen.index >= triangle_count_) continue;
-        const Triangle& light = triangles_[chosen.index];
+        if (choice[lane] >= triangle_count_) continue;
+        const Triangle& light = triangles_[choice[lane]];
         p0.set(lane, light.position[0]);
         p1.set(lane, light.position[1]);
         p2.set(lane, light.position[2]);
         lights.error.set(lane, light.error);
         lights.normal.set(lane, light.front_normal);
         lights.radiance.set(lane, light.radiance);
-        lights.pdf[lane] = light.area_pdf;
+        lights.pdf[lane] = light.area_pdf * choice_.probability(cell[lane], group.group);
         emits_behind[lane] = light.emits_behind;
     }
     FOR_EACH_LANE {
         const glm::vec2 at = triangle_barycentrics({unit_float(rest[lane]), unit_float(y[lane])});
         u[lane] = at.x;
         v[lane] = at.y;
-        const glm::vec3 position =
-            (1.0f - at.x - at.y) * p0.get(lane) + at.x * p1.get(lane) + at.y * p2.get(lane);
+        const glm::vec3 position = (1.0f - at.x - at.y) * p0.get(lane) + at.x * p1.get(lane) + at.y * p2.get(lane);
         const glm::vec3 to_light = position - point.get(lane);
         const float square = glm::dot(to_light, to_light);
         const glm::vec3 direction = to_light * (1.0f / std::sqrt(square));
@@ -160,19 +199,21 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
             if (triangles_[index].emission_varies)
                 lights.radiance.set(lane, materials_.emission(triangles_[index].instance, triangles_[index].triangle,
                                                               u[lane], v[lane]));
-        } else if (index == environment_index_) {
-            sample_environment(rest[lane], y[lane], lane, lights);
-        } else {
-            sample_punctual(lights_[index - triangle_count_], point.get(lane), float(table_.probability(index)), lane,
-                            lights);
+            continue;
         }
+        const float probability =
+            light_probabilities_[index - triangle_count_] * choice_.probability(cell[lane], lights.group[lane]);
+        if (index == environment_index_)
+            sample_environment(rest[lane], y[lane], probability, lane, lights);
+        else
+            sample_punctual(lights_[index - triangle_count_], point.get(lane), probability, lane, lights);
     }
 }
 
-void LightSampler::sample_environment(uint32_t x, uint32_t y, int lane, LightLanes& lights) const {
+void LightSampler::sample_environment(uint32_t x, uint32_t y, float probability, int lane, LightLanes& lights) const {
     float pdf;
     const glm::vec3 direction = environment_.sample({x, y}, pdf);
-    lights.pdf[lane] = pdf * environment_probability_;
+    lights.pdf[lane] = pdf * probability;
     lights.direction.set(lane, direction);
     lights.radiance.set(lane, environment_source_->radiance(direction));
     lights.is_infinite[lane] = 1;
@@ -192,13 +233,16 @@ void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, 
     lights.normal.set(lane, glm::vec3(0.0f));
 }
 
-float LightSampler::triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
-                                 float distance) const {
-    if (first_triangle_[instance] == no_light) return 0.0f;
+float LightSampler::triangle_pdf(uint32_t cell, uint32_t instance, uint32_t triangle, glm::vec3 normal,
+                                 glm::vec3 direction, float distance) const {
+    if (first_triangle_[instance] == no_light || empty()) return 0.0f;
+    const Triangle& light = triangles_[first_triangle_[instance] + triangle];
     const float cosine = std::abs(glm::dot(normal, direction));
-    return cosine > 0 ? triangles_[first_triangle_[instance] + triangle].area_pdf * distance * distance / cosine : 0.0f;
+    return cosine > 0 ? light.area_pdf * choice_.probability(cell, light.group) * distance * distance / cosine : 0.0f;
 }
 
-float LightSampler::environment_pdf(glm::vec3 direction) const {
-    return environment_index_ == none ? 0.0f : environment_probability_ * environment_.pdf(direction);
+float LightSampler::environment_pdf(uint32_t cell, glm::vec3 direction) const {
+    if (environment_index_ == none) return 0.0f;
+    const size_t light = environment_index_ - triangle_count_;
+    return light_probabilities_[light] * choice_.probability(cell, light_groups_[light]) * environment_.pdf(direction);
 }

@@ -2,6 +2,7 @@
 #include "groundtruth/alias_table.h"
 #include "groundtruth/environment_table.h"
 #include "groundtruth/lanes.h"
+#include "groundtruth/light_choice.h"
 #include "groundtruth/material_table.h"
 
 /// Directions in which light may arrive at a point per lane, before visibility is known.
@@ -12,6 +13,7 @@ struct LightLanes {
     LanesVec3 position, error,
         normal;  ///< of the point on the light, if not infinite; a punctual light has no error and no normal
     Lanes<uint32_t> is_delta, is_infinite;
+    Lanes<uint32_t> group;  ///< of lights, as LightChoice numbers them
     // Of the rays that test visibility, filled in by aim_shadow_rays():
     LanesVec3 shadow_origin, shadow_direction;
     Lanes<float> shadow_far;  ///< in units of shadow_direction
@@ -25,7 +27,9 @@ struct PunctualArrival {
 };
 PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
 
-/// Chooses among emissive triangles, punctual lights and the environment with probability proportional to their power.
+/// Chooses among emissive triangles, punctual lights and the environment: a group by LightChoice, and within it in
+/// proportion to power. The environment, all emissive triangles together and each punctual light are groups; of more
+/// than max_light_groups the weakest share one.
 class LightSampler {
 public:
     /// `sample_environment`: also where it is constant or a gradient, which BSDF sampling finds as well.
@@ -33,20 +37,26 @@ public:
     LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry, const MaterialTable& materials,
                  bool sample_environment, bool compensate);
 
-    bool empty() const { return table_.empty(); }
+    bool empty() const { return groups_.empty(); }
+    uint32_t group_count() const { return uint32_t(groups_.size()); }
+    /// See LightChoice::learn().
+    void learn(std::span<const LightObservation> observations) { choice_.learn(observations, low_, high_); }
+    /// The cell of LightChoice for a point (m) with a unit geometric normal on the side where light arrives.
+    uint32_t cell(glm::vec3 position, glm::vec3 normal) const { return choice_.cell(position, normal); }
     const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< that shine
     bool has_emitters() const { return !triangles_.empty(); }
     bool has_environment_table() const { return environment_index_ != none; }
 
-    /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives. The sampler must not be empty().
-    /// Lanes that are not wanted get anything.
-    void sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& x,
-                const Lanes<uint32_t>& y, LightLanes& lights) const;
+    /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives; `cell`: its cell. The sampler must
+    /// not be empty(). Lanes that are not wanted get anything.
+    void sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& cell,
+                const Lanes<uint32_t>& x, const Lanes<uint32_t>& y, LightLanes& lights) const;
 
-    /// Density (sr^-1) with which sample() finds a point of an emissive triangle along `direction` at `distance` (m).
-    float triangle_pdf(uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
+    /// Density (sr^-1) with which sample() finds a point of an emissive triangle along `direction` at `distance` (m)
+    /// from a point of `cell`.
+    float triangle_pdf(uint32_t cell, uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
                        float distance) const;
-    float environment_pdf(glm::vec3 direction) const;
+    float environment_pdf(uint32_t cell, glm::vec3 direction) const;
 
 private:
     struct Triangle {
@@ -54,15 +64,22 @@ private:
         glm::vec3 error;  ///< half extent of a box that holds the exact place of any of its points
         glm::vec3 front_normal;
         glm::vec3 radiance;  ///< constant emission
-        float area_pdf;      ///< probability of the choice over the area (m^-2)
-        uint32_t instance, triangle;
+        float area_pdf;      ///< probability of the choice within its group over the area (m^-2)
+        uint32_t instance, triangle, group;
         bool emission_varies, emits_behind;
     };
     static constexpr size_t none = size_t(-1);
     static constexpr uint32_t no_light = ~0u;
 
+    /// Lights that are chosen together, as indices of triangles_, then lights_, then the environment.
+    struct Group {
+        std::vector<uint32_t> lights;
+        AliasTable table;
+    };
+
     void add_triangles(const Scene& scene, uint32_t instance, std::vector<double>& powers);
-    void sample_environment(uint32_t x, uint32_t y, int lane, LightLanes& lights) const;
+    void make_groups(std::vector<std::vector<uint32_t>> lights, std::span<const double> powers);
+    void sample_environment(uint32_t x, uint32_t y, float probability, int lane, LightLanes& lights) const;
     void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
                          LightLanes& lights) const;
 
@@ -72,10 +89,13 @@ private:
     uint32_t triangle_count_ = 0;
     std::vector<uint32_t> first_triangle_;  ///< of each instance, or no_light
     std::vector<PunctualLight> lights_;
+    std::vector<float> light_probabilities_;  ///< of lights_, then of the environment, within their groups
+    std::vector<uint32_t> light_groups_;      ///< the same
     EnvironmentTable environment_;
     const Environment* environment_source_ = nullptr;
-    float environment_probability_ = 0;
     bool needs_more_ = false;  ///< there is more to sample than triangles of constant emission
     size_t environment_index_ = none;
-    AliasTable table_;  ///< over triangles_, lights_, and the environment
+    std::vector<Group> groups_;
+    LightChoice choice_;
+    glm::vec3 low_{0.0f}, high_{0.0f};  ///< bounds of the scene (m)
 };

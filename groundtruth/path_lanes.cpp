@@ -12,6 +12,12 @@ void for_each_bit(uint32_t bits, const Work& work) {
     for (; bits != 0; bits &= bits - 1) work(std::countr_zero(bits));
 }
 
+uint32_t bits_of(const Lanes<uint32_t>& flags) {
+    uint32_t bits = 0;
+    for (int lane = 0; lane < lane_count; ++lane) bits |= flags[lane] << lane;
+    return bits;
+}
+
 /// The unit direction from a point to the camera; where that is behind the surface, to its mirror image before it, so
 /// that every surface has a lit colour on the side that was met. Branchless.
 vec3 to_camera(const CameraView& camera, vec3 position, vec3 normal) {
@@ -33,6 +39,7 @@ void PathLanes::start(const PathStart& path) {
     radiance_.set(lane, vec3(0.0f));
     weight_.set(lane, path.weight);
     pdf_[lane] = path.pdf;
+    light_cell_[lane] = path.light_cell;
     depth_[lane] = 1;
     pair_[lane] = path.is_specular ? uint32_t(pair_first_free) : diffuse_stream;
     reversed_sample_[lane] = path.reversed_sample;
@@ -73,7 +80,7 @@ void PathLanes::leave(int lane) {
     const vec3 direction = direction_.get(lane);
     if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
         is_on_screen_[lane] = is_on_screen(scene_, direction, estimate_);
-    const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(direction));
+    const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(light_cell_[lane], direction));
     radiance_.set(lane,
                   radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
 }
@@ -84,8 +91,8 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
     const vec3 direction = direction_.get(lane);
     const auto take = [&](const ShadedPoint& surface) {
         if (surface.emitted != vec3(0.0f)) {
-            const float light_pdf =
-                scene_.lights.triangle_pdf(instance, triangle, surface.geometric_normal, direction, ray.ray.tfar);
+            const float light_pdf = scene_.lights.triangle_pdf(light_cell_[lane], instance, triangle,
+                                                               surface.geometric_normal, direction, ray.ray.tfar);
             const float weight = scene_.mis.of_bsdf(pdf_[lane], light_pdf);
             radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * surface.emitted * weight);
         }
@@ -112,7 +119,9 @@ void PathLanes::sample_lights() {
         x[lane] = bits.x;
         y[lane] = bits.y;
     }
-    scene_.lights.sample(continues_, position_, x, y, lights_);
+    for (int lane = 0; lane < lane_count; ++lane)
+        if (continues_[lane]) light_cell_[lane] = scene_.lights.cell(position_.get(lane), geometric_normal_.get(lane));
+    scene_.lights.sample(continues_, position_, light_cell_, x, y, lights_);
 }
 
 template <bool has_lights, PathGoal goal>
@@ -175,11 +184,15 @@ void PathLanes::scatter() {
     }
 }
 
-void PathLanes::trace_shadow_rays() {
-    for_each_bit(busy_, [&](int lane) {
+/// `reached`: the lanes whose path has a new vertex.
+void PathLanes::trace_shadow_rays(uint32_t reached) {
+    for_each_bit(reached, [&](int lane) {
         const vec3 direct = direct_.get(lane);
-        if (direct != vec3(0.0f) && is_visible(scene_, lights_, lane, estimate_))
-            radiance_.set(lane, radiance_.get(lane) + direct);
+        const bool arrives = direct != vec3(0.0f) && is_visible(scene_, lights_, lane, estimate_);
+        if (arrives) radiance_.set(lane, radiance_.get(lane) + direct);
+        if (estimate_.light_record) [[unlikely]]
+            estimate_.light_record->push_back({position_.get(lane), geometric_normal_.get(lane), lights_.group[lane],
+                                               arrives ? luminance(weight_.get(lane) * direct) : 0.0f});
     });
 }
 
@@ -187,14 +200,14 @@ void PathLanes::trace_shadow_rays() {
 void PathLanes::advance() {
     trace_rays();
     const bool has_lights = !scene_.lights.empty();
+    const uint32_t reached = bits_of(continues_);
     if (has_lights) sample_lights();
     if (goal_ == PathGoal::lit_color)
         has_lights ? scatter<true, PathGoal::lit_color>() : scatter<false, PathGoal::lit_color>();
     else
         has_lights ? scatter<true, PathGoal::reflection>() : scatter<false, PathGoal::reflection>();
-    if (has_lights) trace_shadow_rays();
-    uint32_t continuing = 0;
-    for (int lane = 0; lane < lane_count; ++lane) continuing |= continues_[lane] << lane;
+    if (has_lights) trace_shadow_rays(reached);
+    const uint32_t continuing = bits_of(continues_);
     for_each_bit(busy_ & ~continuing, [&](int lane) { end(lane); });
     busy_ &= continuing;
 }

@@ -13,6 +13,7 @@ struct PathStart {
     glm::vec3 origin, direction;
     glm::vec3 weight;          ///< f mu_i / pdf of its lobe
     float pdf;                 ///< sr^-1, of its lobe
+    uint32_t light_cell;       ///< of the first hit: see LightSampler::cell()
     uint32_t reversed_sample;  ///< the index of the sample, bits reversed
     bool is_specular;          ///< it leaves along the specular lobe, else the diffuse one
 };
@@ -40,7 +41,7 @@ private:
     void sample_lights();
     template <bool has_lights, PathGoal goal>
     void scatter();
-    void trace_shadow_rays();
+    void trace_shadow_rays(uint32_t reached);
     void end(int lane);
 
     const TracedScene& scene_;
@@ -51,7 +52,8 @@ private:
 
     // Of each path:
     LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
-    Lanes<float> pdf_;  ///< with which direction_ was drawn
+    Lanes<float> pdf_;            ///< with which direction_ was drawn
+    Lanes<uint32_t> light_cell_;  ///< of the last vertex that took a light sample
     Lanes<uint32_t> depth_, pair_, reversed_sample_, is_specular_;
     Lanes<uint32_t> is_on_screen_;  ///< what it met first
     // Of the vertex that it has reached:

@@ -5,6 +5,7 @@
 #include "groundtruth/path_lanes.h"
 
 #include <pmmintrin.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <xmmintrin.h>
 #include <cmath>
@@ -32,6 +33,7 @@ struct FirstVertex {
     mat3 world_from_local{};
     Lobes lobes{};
     bool wants_diffuse = false, wants_specular = false;
+    uint32_t light_cell = 0;  ///< see LightSampler::cell()
 };
 
 /// Fills in all but the hit; false if the surface reflects nothing: the background, unlit materials, and where the
@@ -43,6 +45,7 @@ bool prepare(const TracedScene& scene, FirstVertex& vertex) {
     const vec3 o = hit.view * vertex.world_from_local;
     if (o.z <= 0) return false;
     vertex.lobes = make_lobes(hit.base_color, hit.metalness, hit.roughness, hit.specular, o, scene.settings.model);
+    vertex.light_cell = scene.lights.cell(hit.ray_origin, hit.geometric_normal);
     vertex.wants_diffuse = scene.settings.diffuse && vertex.lobes.has_diffuse;
     vertex.wants_specular = scene.settings.specular && vertex.lobes.has_specular;
     return true;
@@ -88,17 +91,18 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
                       unsigned first_sample, int count, PixelEstimate& estimate) {
     const FirstHit& hit = vertex.hit;
     Lanes<uint32_t> x, y;
-    Lanes<uint32_t> is_wanted;
+    Lanes<uint32_t> is_wanted, cell;
     LanesVec3 point;
     FOR_EACH_LANE {
         const glm::uvec2 bits = sequence.bits(reverse_bits(first_sample + uint32_t(lane)), pair_light);
         x[lane] = bits.x;
         y[lane] = bits.y;
         is_wanted[lane] = lane < count;
-        point.set(lane, hit.position);
+        cell[lane] = vertex.light_cell;
+        point.set(lane, hit.ray_origin);
     }
     LightLanes lights;
-    scene.lights.sample(is_wanted, point, x, y, lights);
+    scene.lights.sample(is_wanted, point, cell, x, y, lights);
 
     // Copies, which no store of the loop can reach.
     const Lobes lobes = vertex.lobes;
@@ -125,15 +129,16 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
                                vertex.wants_specular ? specular.get(lane) : vec3(0.0f),
                                vertex.wants_specular ? incident.get(lane) : vec3(0.0f)};
         const vec3 sum = parts[0] + parts[1] + parts[2];
-        if (sum == vec3(0.0f)) continue;
-        if (!is_finite(sum)) {
-            ++estimate.non_finite;
-        } else if (is_visible(scene, lights, lane, estimate)) {
-            estimate.diffuse += glm::dvec3(parts[0]);
-            estimate.specular += glm::dvec3(parts[1]);
-            estimate.incident += glm::dvec3(parts[2]);
-            if (scene.settings.ladder) add_emission(scene, lights, lane, parts[2], estimate);
-        }
+        estimate.non_finite += !is_finite(sum);
+        const bool arrives = sum != vec3(0.0f) && is_finite(sum) && is_visible(scene, lights, lane, estimate);
+        if (estimate.light_record) [[unlikely]]
+            estimate.light_record->push_back({hit.ray_origin, hit.geometric_normal, lights.group[lane],
+                                              arrives ? luminance(parts[0] + parts[1]) : 0.0f});
+        if (!arrives) continue;
+        estimate.diffuse += glm::dvec3(parts[0]);
+        estimate.specular += glm::dvec3(parts[1]);
+        estimate.incident += glm::dvec3(parts[2]);
+        if (scene.settings.ladder) add_emission(scene, lights, lane, parts[2], estimate);
     }
 }
 
@@ -161,7 +166,7 @@ void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsig
         if (!(pdf[lane] > 0)) continue;
         if (is_specular) ++estimate.lobe_samples;
         if (local_height[lane] <= 0) continue;
-        paths.start({origin.get(lane), direction.get(lane), weight.get(lane), pdf[lane],
+        paths.start({origin.get(lane), direction.get(lane), weight.get(lane), pdf[lane], vertex.light_cell,
                      reverse_bits(first_sample + uint32_t(lane)), is_specular});
     }
 }
@@ -195,6 +200,11 @@ void trace_lit_colors(const TracedScene& scene, const FirstVertex& vertex, const
     estimate.paths += lit.paths;
 }
 
+/// Light samples that teach with which probability to choose lights, at least, and of how many pixels at most. Their
+/// seed is no other's: what a render draws must not depend on what it learnt from.
+constexpr unsigned learning_samples = 1u << 15, learning_pixels = 1u << 11;
+constexpr uint64_t learning_seed = 0x6c69676874730a01u;
+
 /// Made once. Isolated, since a thread that waits for it must not begin other work that waits for it too.
 const HostImage& split_sum_factors() {
     static const HostImage table = tbb::this_task_arena::isolate([] { return split_sum_table(); });
@@ -225,6 +235,24 @@ void PathTracer::State::add_composite_terms(FirstHit& hit) const {
                       specular_f90(hit.metalness, hit.specular) * ab.y;
 }
 
+/// Paths from pixels all over the image, in an order that no number of threads changes.
+void PathTracer::learn_light_choice() {
+    const glm::uvec2 extent = state_->extent;
+    const unsigned pixels = extent.x * extent.y, used = std::min(pixels, learning_pixels);
+    const unsigned samples = std::max(learning_samples / std::max(used, 1u), unsigned(lane_count));
+    std::vector<std::vector<LightObservation>> seen(used);
+    tbb::this_task_arena::isolate([&] {
+        tbb::parallel_for(0u, used, [&](unsigned i) {
+            const unsigned pixel = unsigned(uint64_t(i) * pixels / used), x = pixel % extent.x, y = pixel / extent.x;
+            PixelEstimate estimate{.light_record = &seen[i]};
+            trace(x, y, first_hit(x, y), learning_seed, 0, samples, estimate);
+        });
+    });
+    std::vector<LightObservation> all;
+    for (const auto& part : seen) all.insert(all.end(), part.begin(), part.end());
+    state_->scene.lights.learn(all);
+}
+
 PathTracer::PathTracer(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                        const PathTracerSettings& settings)
     : state_(new State{camera, extent, {scene, pose, CameraView(camera, extent), settings}, {}, {}}) {
@@ -233,6 +261,7 @@ PathTracer::PathTracer(const Scene& scene, const ScenePose& pose, const CameraPo
         state_->split_sum = &split_sum_factors();
     }
     state_->left_out = left_out_features(state_->scene);
+    if (state_->scene.lights.group_count() > 1 && settings.strategy != LightStrategy::bsdf_only) learn_light_choice();
 }
 
 PathTracer::~PathTracer() = default;

@@ -57,6 +57,8 @@ struct RecordedRay {
     bool is_shadow;
 };
 
+struct LightObservation;
+
 /// Sums over the samples of one pixel, to be divided as written here.
 struct PixelEstimate {
     /// / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
@@ -71,9 +73,10 @@ struct PixelEstimate {
     uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
     /// Samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0.
     uint64_t non_finite = 0;
-    uint64_t rays = 0;                           ///< traced, of both kinds
-    uint64_t paths = 0;                          ///< rays that left the first hit along a lobe
-    std::vector<RecordedRay>* record = nullptr;  ///< takes down each ray, if given
+    uint64_t rays = 0;                                      ///< traced, of both kinds
+    uint64_t paths = 0;                                     ///< rays that left the first hit along a lobe
+    std::vector<RecordedRay>* record = nullptr;             ///< takes down each ray, if given
+    std::vector<LightObservation>* light_record = nullptr;  ///< takes down what each light sample found, if given
 };
 
 /// Unbiased path tracer over Embree (next-event estimation and BSDF sampling combined by multiple importance sampling)
@@ -113,6 +116,8 @@ public:
     const std::vector<LeftOut>& left_out() const;
 
 private:
+    void learn_light_choice();
+
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -61,9 +61,9 @@ inline void count_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direc
         record_ray(estimate, origin, direction, far, is_shadow);
 }
 
-/// Aims a shadow ray from a point to the light of a lane, offset at both ends. At the light's end the ray's own rounding
-/// errors, which grow with the places of both ends, add to the light's; a punctual light may lie in a surface, which must
-/// not hide it, so the ray ends before all of them. Branchless, for vector loops.
+/// Aims a shadow ray from a point to the light of a lane, offset at both ends. At the light's end the ray's own
+/// rounding errors, which grow with the places of both ends, add to the light's; a punctual light may lie in a surface,
+/// which must not hide it, so the ray ends before all of them. Branchless, for vector loops.
 inline void aim_shadow_ray(glm::vec3 position, glm::vec3 error, glm::vec3 normal, int lane, LightLanes& lights) {
     const glm::vec3 direction = lights.direction.get(lane);
     const glm::vec3 origin = offset_origin(position, error, normal, direction);

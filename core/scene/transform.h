@@ -8,8 +8,8 @@ glm::mat4 transform(glm::vec3 translation, glm::vec4 rotation, glm::vec3 scale);
 struct NormalTransform {
     /// Moves normals of any length to the side of the surface that they were on, with a length to be normalised after
     /// interpolation: the cofactor matrix, which is the inverse transpose but for a factor, with the sign of the
-    /// determinant and the largest entry 1. A transform that flattens all to a plane moves every normal to that plane's,
-    /// or to zero; one that leaves no area moves all to zero.
+    /// determinant and the largest entry 1. A transform that flattens all to a plane moves every normal to that
+    /// plane's, or to zero; one that leaves no area moves all to zero.
     glm::mat3 matrix{1.0f};
     bool is_mirrored = false;  ///< negative determinant; never if flat
     bool is_flat = false;      ///< no inverse in float32: the volume is below 1e-6 of that of the matrix's columns

@@ -170,7 +170,8 @@ TEST_F(StudyTest, NonFiniteInputsAreCountedOnce) {
         for (const FrameStep& step : shot.steps) store->frame(step, {});
         size_t surfaces = 0;
         const FrameStore::Frame frame = store->frame(shot.steps.back(), {});
-        for (const float material : source->graph().download(frame.gbuffer.material_id).values) surfaces += material > 0;
+        for (const float material : source->graph().download(frame.gbuffer.material_id).values)
+            surfaces += material > 0;
         EXPECT_GT(surfaces, 100u);
         EXPECT_EQ(store->non_finite().at("normal"), surfaces);
         EXPECT_FALSE(store->non_finite().contains("depth"));

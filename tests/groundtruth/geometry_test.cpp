@@ -43,8 +43,14 @@ TEST(geometry, concave_edges_do_not_leak) {
         glm::vec3 center;
         float half;
     };
-    for (const Place& place : {Place{glm::vec3(0), 1}, {{0.3f, -0.7f, 0.1f}, 1}, {{10, 20, -30}, 1}, {glm::vec3(0), 1e-3f},
-                               {glm::vec3(1), 1e-3f}, {glm::vec3(0), 1e4f}, {glm::vec3(1000), 1}, {{1e4f, 0, -1e4f}, 10}}) {
+    for (const Place& place : {Place{glm::vec3(0), 1},
+                               {{0.3f, -0.7f, 0.1f}, 1},
+                               {{10, 20, -30}, 1},
+                               {glm::vec3(0), 1e-3f},
+                               {glm::vec3(1), 1e-3f},
+                               {glm::vec3(0), 1e4f},
+                               {glm::vec3(1000), 1},
+                               {{1e4f, 0, -1e4f}, 10}}) {
         TestScene glowing, dark;
         glowing.room(place.center - place.half, place.center + place.half, glowing.add(lambert_material(0.5f, 0.5f)));
         dark.room(place.center - place.half, place.center + place.half, dark.add(metal_material(0.9f, 0.5f)));
@@ -167,7 +173,7 @@ TEST(geometry, shadow_rays_do_not_meet_the_light_that_they_aim_at) {
                         x[lane] = uint32_t(random()), y[lane] = uint32_t(random()), is_wanted[lane] = 1;
                     }
                     LightLanes lights;
-                    traced.lights.sample(is_wanted, from, x, y, lights);
+                    traced.lights.sample(is_wanted, from, {}, x, y, lights);
                     PixelEstimate cost;
                     for (int lane = 0; lane < lane_count; ++lane) {
                         const bool is_first = glm::length(lights.position.get(lane) - center) < 10 * size;
@@ -228,7 +234,8 @@ TEST(geometry, alpha_mask_cuts_camera_rays_and_shadow_rays) {
 }
 
 TEST(geometry, alpha_mask_cuts_lamps_for_every_light_strategy) {
-    // Alpha falls from 1 to 0 between u = 1/4 and 3/4, so that the part of the lamp with alpha >= cutoff is a rectangle.
+    // Alpha falls from 1 to 0 between u = 1/4 and 3/4, so that the part of the lamp with alpha >= cutoff is a
+    // rectangle.
     Texture ramp{.name = "ramp", .extent = {2, 1}, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}};
     ramp.wrap_u = ramp.wrap_v = TextureWrap::clamp_to_edge;
     for (const bool is_seen_from_behind : {false, true})
@@ -249,8 +256,8 @@ TEST(geometry, alpha_mask_cuts_lamps_for_every_light_strategy) {
             const double edge = 0.25 - 0.5 * double(cutoff);
             const double exact = 5 * polygon_form_factor(glm::dvec3(0), up,
                                                          {{-.5, 1, -.5}, {edge, 1, -.5}, {edge, 1, .5}, {-.5, 1, .5}});
-            for (const LightStrategy strategy : {LightStrategy::power, LightStrategy::balance,
-                                                 LightStrategy::light_only, LightStrategy::bsdf_only}) {
+            for (const LightStrategy strategy :
+                 {LightStrategy::power, LightStrategy::balance, LightStrategy::light_only, LightStrategy::bsdf_only}) {
                 SCOPED_TRACE(testing::Message() << "cutoff " << cutoff << ", strategy " << int(strategy)
                                                 << ", from behind " << is_seen_from_behind);
                 const PixelMoments pixel = render(scene, looking_along({0, .5f, 0}, {0, -1, 0}), 1024,

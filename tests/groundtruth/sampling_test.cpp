@@ -100,6 +100,41 @@ TEST(alias_table, draws_by_weight_and_hands_back_a_uniform_number) {
     EXPECT_EQ(AliasTable(std::vector<double>{0, 5}).sample(0).index, 1u);
 }
 
+TEST(light_choice, draws_groups_with_the_probabilities_that_it_states) {
+    LightChoice choice(3);
+    std::vector<LightObservation> seen;  // group 1 is all that arrives at the floor, group 2 at the ceiling
+    for (int i = 0; i < 300; ++i) {
+        const uint32_t group = uint32_t(i % 3);
+        seen.push_back({vec3(0.1f), vec3(0, 1, 0), group, group == 1 ? 2.0f : 0.0f});
+        seen.push_back({vec3(0.1f), vec3(0, -1, 0), group, group == 2 ? 6.0f : 0.0f});
+    }
+    choice.learn(seen, vec3(-1), vec3(1));
+    const uint32_t floor = choice.cell(vec3(0.1f), vec3(0.1f, 0.9f, 0.2f)),
+                   ceiling = choice.cell(vec3(0.1f), vec3(0, -1, 0));
+    const uint32_t unseen = choice.cell(vec3(0.9f), vec3(1, 0, 0));
+    EXPECT_GT(choice.probability(floor, 1), 0.8f);
+    EXPECT_GT(choice.probability(ceiling, 2), 0.8f);
+    EXPECT_EQ(unseen, 0u);  // the whole scene, where group 2 brings three times as much as group 1
+    EXPECT_NEAR(choice.probability(0, 2), 0.1 / 3 + 0.9 * 0.75, 1e-6);
+    for (const uint32_t cell : {floor, ceiling, unseen}) {
+        const int samples = 1 << 16;
+        double total = 0, count[3] = {}, rest[3] = {};
+        for (uint32_t i = 0; i < samples; ++i) {
+            const LightChoice::Choice chosen = choice.sample(cell, i << 16);
+            count[chosen.group] += 1;
+            rest[chosen.group] += chosen.rest * 0x1p-32;
+        }
+        for (uint32_t g = 0; g < 3; ++g) {
+            total += choice.probability(cell, g);
+            EXPECT_GE(choice.probability(cell, g), 0.033f);  // a third of the even share of 0.1
+            EXPECT_NEAR(count[g] / samples, choice.probability(cell, g), 1.0 / samples);  // an even grid of numbers
+            EXPECT_NEAR(rest[g] / count[g], 0.5, 1e-3);
+        }
+        EXPECT_EQ(total, 1.0);
+        EXPECT_EQ(choice.sample(cell, ~0u).group, 2u);
+    }
+}
+
 TEST(environment_table, density_integrates_to_one_and_is_that_of_the_samples) {
     Environment sky{.type = Environment::Type::image, .latlong = HostImage({48, 24}, 3, 0.1f), .rotation = 0.7f};
     for (int channel = 0; channel < 3; ++channel)
@@ -149,7 +184,7 @@ TEST(light_sampler, densities_are_those_of_the_surfaces_that_rays_meet) {
             x[lane] = bits.x, y[lane] = bits.y, wanted[lane] = 1;
             point.set(lane, vec3(0));
         }
-        traced.lights.sample(wanted, point, x, y, lights);
+        traced.lights.sample(wanted, point, {}, x, y, lights);
         for (int lane = 0; lane < lane_count; ++lane) {
             if (lights.pdf[lane] == 0) continue;  // the far side of the ball
             RTCRayHit ray;
@@ -158,7 +193,7 @@ TEST(light_sampler, densities_are_those_of_the_surfaces_that_rays_meet) {
             const vec3 normal =
                 traced.geometry.point(ray.hit.instID[0], ray.hit.primID, ray.hit.u, ray.hit.v).front_normal;
             const float pdf =
-                traced.lights.triangle_pdf(ray.hit.instID[0], ray.hit.primID, normal, direction, ray.ray.tfar);
+                traced.lights.triangle_pdf(0, ray.hit.instID[0], ray.hit.primID, normal, direction, ray.ray.tfar);
             // A ray along a shared edge may meet the neighbour, whose density is another.
             if (std::abs(pdf - lights.pdf[lane]) < 1e-3f * pdf) solid_angle += 1.0 / pdf / samples;
         }

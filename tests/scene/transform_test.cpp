@@ -35,10 +35,9 @@ void expect_normals_of_moved_triangles(const glm::mat4& matrix, std::mt19937& ra
 TEST(normal_transform, gives_the_normals_of_moved_triangles) {
     std::mt19937 random(7);
     const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), 0.7f, glm::vec3(0.6f, 0.8f, 0));
-    for (const glm::vec3 scale :
-         {glm::vec3(1), glm::vec3(1e-6f), glm::vec3(1e6f), glm::vec3(-1, 1, 1), glm::vec3(2, -3, -0.1f),
-          glm::vec3(-1, -2, -3), glm::vec3(1, 1, 1e-3f), glm::vec3(1, 0, 1), glm::vec3(0, -2, 3), glm::vec3(1, 0, 0),
-          glm::vec3(0)}) {
+    for (const glm::vec3 scale : {glm::vec3(1), glm::vec3(1e-6f), glm::vec3(1e6f), glm::vec3(-1, 1, 1),
+                                  glm::vec3(2, -3, -0.1f), glm::vec3(-1, -2, -3), glm::vec3(1, 1, 1e-3f),
+                                  glm::vec3(1, 0, 1), glm::vec3(0, -2, 3), glm::vec3(1, 0, 0), glm::vec3(0)}) {
         SCOPED_TRACE(testing::Message() << "scale " << scale.x << ", " << scale.y << ", " << scale.z);
         const glm::mat4 scaled = glm::scale(glm::mat4(1.0f), scale);
         const bool is_flat = scale.x * scale.y * scale.z == 0, is_mirrored = scale.x * scale.y * scale.z < 0;
