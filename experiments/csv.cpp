@@ -1,5 +1,6 @@
 #include "experiments/csv.h"
 
+#include "core/digits.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
@@ -89,10 +90,7 @@ size_t CsvReader::count(const std::string& column) const {
     return value;
 }
 
-std::string csv_field(double value) {
-    char digits[32];
-    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
+std::string csv_field(double value) { return shortest_digits(value); }
 
 std::string csv_field(const std::optional<double>& value) { return value ? csv_field(*value) : ""; }
 std::string csv_field(unsigned value) { return std::to_string(value); }

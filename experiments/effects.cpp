@@ -108,13 +108,13 @@ void adjust(std::vector<EffectRow>& effects) {
 }
 
 /// What a point is compared with, and as what.
-struct Comparison {
+struct PointComparison {
     const VariantConfig* point;
     std::string against_variant, against_point, against;
 };
 
-std::vector<Comparison> comparisons_of(const std::vector<VariantConfig>& variants) {
-    std::vector<Comparison> comparisons;
+std::vector<PointComparison> comparisons_of(const std::vector<VariantConfig>& variants) {
+    std::vector<PointComparison> comparisons;
     for (const VariantConfig& baseline : variants) {
         if (!baseline.is_baseline) continue;
         for (const VariantConfig& v : variants)
@@ -131,7 +131,7 @@ template <class Measured>
 std::vector<EffectRow> effects_in(const std::map<Quantity, std::map<Point, Measured>>& table,
                                   const std::vector<VariantConfig>& variants, const Points& not_repeatable) {
     std::vector<EffectRow> effects;
-    for (const Comparison& c : comparisons_of(variants)) {
+    for (const PointComparison& c : comparisons_of(variants)) {
         const Point name(c.point->variant, c.point->point), other(c.against_variant, c.against_point);
         const bool is_repeatable = !not_repeatable.contains(name) && !not_repeatable.contains(other);
         for (const auto& [quantity, points] : table) {

@@ -8,13 +8,13 @@ namespace {
 
 using nlohmann::json;
 
-struct Point {
+struct RunPoint {
     std::string variant, point;
     json parameters;
 };
 
-std::vector<Point> read_points(const json& manifest) {
-    std::vector<Point> points;
+std::vector<RunPoint> read_points(const json& manifest) {
+    std::vector<RunPoint> points;
     const json variants = manifest.value("variants", json::array());
     for (const json& v : variants)
         if (v.is_object() && v.contains("variant") && v["variant"].is_string() && v.contains("point") &&
@@ -36,12 +36,12 @@ std::vector<SingleChange> single_changes(const json& manifest, std::span<const E
     PointSet baselines;
     for (const EffectRow& e : effects)
         if (e.against == baseline_name) baselines.insert({e.against_variant, e.against_point});
-    const std::vector<Point> points = read_points(manifest);
+    const std::vector<RunPoint> points = read_points(manifest);
     std::vector<SingleChange> changes;
-    for (const Point& p : points) {
+    for (const RunPoint& p : points) {
         const bool is_swept = p.point.find('=') != std::string::npos;  // else a preset, which is compared as a whole
         if (!is_swept || baselines.contains({p.variant, p.point})) continue;
-        for (const Point& baseline : points) {
+        for (const RunPoint& baseline : points) {
             if (baseline.variant != p.variant || !baselines.contains({baseline.variant, baseline.point})) continue;
             const std::vector<std::string> names = differing_parameters(p.parameters, baseline.parameters);
             if (names.size() != 1) continue;
@@ -54,7 +54,7 @@ std::vector<SingleChange> single_changes(const json& manifest, std::span<const E
 
 json parameter_defaults(const json& manifest) {
     json defaults = json::object();
-    for (const Point& p : read_points(manifest))
+    for (const RunPoint& p : read_points(manifest))
         if (!defaults.contains(p.variant) &&
             std::ranges::find(variant_table(), p.variant, &VariantEntry::name) != variant_table().end())
             defaults[p.variant] = make_variant(p.variant)->params.values();

@@ -2,28 +2,14 @@
 
 #include "core/gbuffer/prefiltered_environment.h"
 #include "core/split_sum.h"
+#include "groundtruth/flush_denormals.h"
 #include "groundtruth/path_lanes.h"
 
-#include <pmmintrin.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <xmmintrin.h>
 #include <cmath>
 
 namespace {
-
-/// Denormal operands slow BVH traversal down; the mode is a property of each thread.
-class FlushDenormals {
-public:
-    FlushDenormals() : before_(_mm_getcsr()) {
-        _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-        _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-    }
-    ~FlushDenormals() { _mm_setcsr(before_); }
-
-private:
-    unsigned before_;
-};
 
 bool is_finite(vec3 v) { return std::isfinite(v.x + v.y + v.z); }
 

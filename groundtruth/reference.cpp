@@ -1,21 +1,15 @@
 #include "groundtruth/reference.h"
 
+#include "core/digits.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "groundtruth/code_version.h"
 #include "groundtruth/path_tracer.h"
 #include "groundtruth/reference_stopping.h"
 
-#include <charconv>
 #include <span>
 
 namespace {
-
-/// Shortest digits that read back exactly.
-std::string digits(auto value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
-}
 
 void add(ContentHash& hash, const glm::mat4& matrix) {
     for (int column = 0; column < 4; ++column)
@@ -113,10 +107,10 @@ std::string reference_stream(const Scene& scene, const ScenePose& pose, const Ca
 }
 
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings) {
-    std::string key =
-        stream + "-n" + digits(settings.max_samples ? rounded_samples(settings.max_samples) : max_sample_limit);
-    if (settings.target_relative_error > 0) key += "-e" + digits(settings.target_relative_error);
-    if (settings.max_seconds > 0) key += "-t" + digits(settings.max_seconds);
+    std::string key = stream + "-n" +
+                      shortest_digits(settings.max_samples ? rounded_samples(settings.max_samples) : max_sample_limit);
+    if (settings.target_relative_error > 0) key += "-e" + shortest_digits(settings.target_relative_error);
+    if (settings.max_seconds > 0) key += "-t" + shortest_digits(settings.max_seconds);
     return key;
 }
 

@@ -1,5 +1,6 @@
 #include "groundtruth/reference_file.h"
 
+#include "core/digits.h"
 #include "core/error.h"
 #include "core/exr.h"
 
@@ -49,30 +50,24 @@ std::vector<NamedImage> named_images(ReferenceState& state) {
             {"rays_per_sample", "Y", &state.rays_per_sample}};
 }
 
-/// Shortest digits that read back exactly.
-std::string digits(auto value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
-}
-
 std::map<std::string, std::string> attributes(const Reference& reference, const ReferenceSettings& settings,
                                               bool is_pilot) {
     return {
         {"ssrlab.stream", reference.stream},
         {"ssrlab.hash", reference.hash},
         {"ssrlab.passes", reference.passes},
-        {"ssrlab.seconds", digits(reference.seconds)},
-        {"ssrlab.rays", digits(reference.rays)},
-        {"ssrlab.non_finite_samples", digits(reference.non_finite_samples)},
-        {"ssrlab.reached_share", digits(reference.reached_share)},
-        {"ssrlab.max_samples", digits(settings.max_samples)},
-        {"ssrlab.max_seconds", digits(settings.max_seconds)},
-        {"ssrlab.target_relative_error", digits(settings.target_relative_error)},
-        {"ssrlab.max_depth", digits(settings.max_depth)},
-        {"ssrlab.seed", digits(settings.seed)},
-        {"ssrlab.ladder", digits(unsigned(!reference.ladder.is_empty()))},
-        {"ssrlab.keep_all", digits(unsigned(settings.keep_all))},
-        {"ssrlab.is_pilot", digits(unsigned(is_pilot))},
+        {"ssrlab.seconds", shortest_digits(reference.seconds)},
+        {"ssrlab.rays", shortest_digits(reference.rays)},
+        {"ssrlab.non_finite_samples", shortest_digits(reference.non_finite_samples)},
+        {"ssrlab.reached_share", shortest_digits(reference.reached_share)},
+        {"ssrlab.max_samples", shortest_digits(settings.max_samples)},
+        {"ssrlab.max_seconds", shortest_digits(settings.max_seconds)},
+        {"ssrlab.target_relative_error", shortest_digits(settings.target_relative_error)},
+        {"ssrlab.max_depth", shortest_digits(settings.max_depth)},
+        {"ssrlab.seed", shortest_digits(settings.seed)},
+        {"ssrlab.ladder", shortest_digits(unsigned(!reference.ladder.is_empty()))},
+        {"ssrlab.keep_all", shortest_digits(unsigned(settings.keep_all))},
+        {"ssrlab.is_pilot", shortest_digits(unsigned(is_pilot))},
         {"ssrlab.code_version", groundtruth_code_version()},
         {"ssrlab.highlight_policy",
          "image = diffuse + specular + highlights; highlights: punctual lights reflected by the first hit"},

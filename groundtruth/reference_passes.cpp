@@ -1,8 +1,9 @@
 #include "groundtruth/reference_passes.h"
 
+#include "groundtruth/flush_denormals.h"
+
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <xmmintrin.h>
 #include <algorithm>
 #include <atomic>
 #include <mutex>
@@ -11,14 +12,6 @@
 namespace {
 
 constexpr unsigned tile_size = 8;  ///< pixels; neighbours meet the same nodes of the BVH
-
-/// Denormals count as zero while it lives: Embree asks for it, and arithmetic on them is slow. The mode belongs to a
-/// thread.
-struct FlushDenormals {
-    const unsigned before = _mm_getcsr();
-    FlushDenormals() { _mm_setcsr(before | 0x8040); }  // FTZ and DAZ
-    ~FlushDenormals() { _mm_setcsr(before); }
-};
 
 struct Tile {
     unsigned x, y;

@@ -1,5 +1,6 @@
 #include "metrics/compare.h"
 
+#include "core/digits.h"
 #include "core/error.h"
 #include "core/exr.h"
 #include "core/near_miss.h"
@@ -7,7 +8,6 @@
 #include "metrics/color_map.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <ostream>
 
@@ -96,13 +96,8 @@ void write_map(const CompareOptions& options, const std::vector<CompareResult>& 
     write_exr(options.map, image);
 }
 
-std::string shortest(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
-}
-
 nlohmann::json number(double value) {
-    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(shortest(value));  // JSON knows no inf
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(shortest_digits(value));  // JSON knows no inf
 }
 
 nlohmann::json to_json(const PixelCounts& counts) {
@@ -154,7 +149,7 @@ Comparison compare(const CompareOptions& options) {
 void print(const Comparison& comparison, std::ostream& out, std::ostream& warnings) {
     for (const std::string& warning : comparison.warnings) warnings << "warning: " << warning << '\n';
     for (const CompareResult& result : comparison.results)
-        out << result.metric->name << ' ' << shortest(result.value) << '\n';
+        out << result.metric->name << ' ' << shortest_digits(result.value) << '\n';
 }
 
 nlohmann::json to_json(const Comparison& comparison) {

@@ -31,17 +31,15 @@ std::vector<Plane> hdr_flip_layers(const ImagePair& pair) {
                          pair.settings.pixels_per_degree)};
 }
 
-double mean(std::span<const Plane> layers, const Mask& mask) { return masked_mean(layers[0], mask); }
-
 std::vector<Metric> make_table() {
     std::vector<Metric> table = pixel_metrics();
     for (Metric& metric : ssim_metrics()) table.push_back(std::move(metric));
     table.push_back({"flip", "flip_ldr", "1", Better::lower, Domain::display,
-                     "mean LDR-FLIP of the codes (Andersson et al. 2020)", flip_layers, mean});
+                     "mean LDR-FLIP of the codes (Andersson et al. 2020)", flip_layers, pooled_mean});
     table.push_back(
         {"hdr_flip", "flip_hdr", "1", Better::lower, Domain::linear,
          "mean of the greatest LDR-FLIP over a range of exposures that is fixed per scene (Andersson et al. 2021)",
-         hdr_flip_layers, mean});
+         hdr_flip_layers, pooled_mean});
     return table;
 }
 

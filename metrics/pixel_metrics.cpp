@@ -90,7 +90,6 @@ std::vector<Plane> outlier_flags(const ImagePair& pair) {
     return sums;
 }
 
-double mean(std::span<const Plane> layers, const Mask& mask) { return masked_mean(layers[0], mask); }
 double root_of_mean(std::span<const Plane> layers, const Mask& mask) { return std::sqrt(masked_mean(layers[0], mask)); }
 double decibels(std::span<const Plane> layers, const Mask& mask) {
     return -10 * std::log10(masked_mean(layers[0], mask));
@@ -123,33 +122,33 @@ std::vector<Metric> pixel_metrics() {
     // d = x - r: test minus reference, each channel by itself. Why so many relative errors: tools that print the same
     // name differ in the denominator, and the values by factors.
     return {
-        {"mse", "mse", "radiance^2", lower, linear, "mean d^2", weighted_squares<one>, mean, one},
+        {"mse", "mse", "radiance^2", lower, linear, "mean d^2", weighted_squares<one>, pooled_mean, one},
         {"rmse", "rmse", "radiance", lower, linear, "sqrt(mean d^2), the root taken once, at the end",
          weighted_squares<one>, root_of_mean, one},
-        {"mae", "mae", "radiance", lower, linear, "mean |d|", absolutes, mean},
+        {"mae", "mae", "radiance", lower, linear, "mean |d|", absolutes, pooled_mean},
         {"mape", "mape_0.01", "1", lower, linear, "mean |d| / (|r| + 0.01), as OIDN's training", relative_absolutes,
-         mean},
+         pooled_mean},
         {"relmse", "relmse_a", "1", lower, linear,
-         "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO)", weighted_squares<weight_a>, mean,
+         "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO)", weighted_squares<weight_a>, pooled_mean,
          weight_a},
         {"relmse_b", "relmse_b", "1", lower, linear, "mean d^2 / (r + 0.01)^2 (pbrt-v4 imgtool MRSE)",
-         weighted_squares<weight_b>, mean, weight_b},
+         weighted_squares<weight_b>, pooled_mean, weight_b},
         {"relmse_c", "relmse_c", "1", lower, linear, "mean d^2 / (r^2 + 0.001) (Tungsten and Falcor, who call it rmse)",
-         weighted_squares<weight_c>, mean, weight_c},
+         weighted_squares<weight_c>, pooled_mean, weight_c},
         {"relmse_d", "relmse_d", "1", lower, linear, "mean d^2 / (r^2 + 0.0001) (figure-gen)",
-         weighted_squares<weight_d>, mean, weight_d},
+         weighted_squares<weight_d>, pooled_mean, weight_d},
         {"relmse_luminance", "relmse_a_luminance", "1", lower, linear,
-         "mean d^2 / (L(r)^2 + 0.01), L the Rec. 709 luminance of the pixel", squares_over_luminance, mean},
+         "mean d^2 / (L(r)^2 + 0.01), L the Rec. 709 luminance of the pixel", squares_over_luminance, pooled_mean},
         {"relmse_trimmed", "relmse_a_trimmed_0.1%", "1", lower, linear,
          "relmse of each pixel, without the 0.1 % largest: hides fireflies, so read it beside relmse and outliers",
          weighted_squares<weight_a>, trimmed_mean},
         {"outliers", "relative_error_above_10", "pixels", lower, linear,
          "pixels with |d| / (|r| + 0.01) > 10 in any channel", outlier_flags, sum},
         {"smape", "smape_0_1", "1", lower, linear, "mean |d| / (|x| + |r|), 0 where both are 0 (figure-gen)",
-         symmetric_ratios, mean},
+         symmetric_ratios, pooled_mean},
         {"smape_damped", "smape_0.01", "1", lower, linear, "mean |d| / (|x| + |r| + 0.01) (OIDN's training)",
-         damped_symmetric_ratios, mean},
-        {"bias", "bias", "radiance", near_zero, linear, "mean d", differences, mean},
+         damped_symmetric_ratios, pooled_mean},
+        {"bias", "bias", "radiance", near_zero, linear, "mean d", differences, pooled_mean},
         {"energy_ratio", "energy_ratio", "1", near_one, linear, "mean x / mean r", both_means, ratio_of_means},
         {"psnr", "psnr_code", "dB", higher, display,
          "-10 log10(mean d^2) of sRGB codes in [0, 1]; inf for equal images", code_squares, decibels},

@@ -2,6 +2,8 @@
 #include "metrics/plane.h"
 #include "metrics/summation.h"
 
+#include <span>
+
 /// The number of pixels inside the mask where the plane carries values.
 inline size_t pooled_count(const Plane& plane, const Mask& mask) {
     size_t n = 0;
@@ -16,3 +18,6 @@ inline double masked_mean(const Plane& plane, const Mask& mask) {
     });
     return sum / double(pooled_count(plane, mask));
 }
+
+/// How most metrics pool their one layer.
+inline double pooled_mean(std::span<const Plane> layers, const Mask& mask) { return masked_mean(layers[0], mask); }

@@ -121,8 +121,6 @@ std::vector<Plane> luma_map(const ImagePair& pair) {
     return {similarity(luma(pair.reference_codes), luma(pair.test_codes), 1).full};
 }
 
-double mean(std::span<const Plane> layers, const Mask& mask) { return masked_mean(layers[0], mask); }
-
 /// Means of 2x2 pixels; an odd size repeats its last row or column.
 Plane halved(const Plane& in) {
     Plane out((in.extent + 1u) / 2u);
@@ -185,11 +183,11 @@ std::vector<Metric> ssim_metrics() {
         {"ssim", "ssim_gauss1.5_channels", "1", higher, display,
          "mean SSIM of the three code channels, Gaussian window 11x11 of sigma 1.5, biased covariance, windows within "
          "the image (Wang et al. 2004)",
-         channel_map, mean},
+         channel_map, pooled_mean},
         {"ssim_luma", "ssim_gauss1.5_luma709", "1", higher, display, "as ssim, of the Rec. 709 luma of the codes",
-         luma_map, mean},
+         luma_map, pooled_mean},
         {"ssim_sample", "ssim_gauss1.5_sample", "1", higher, display,
-         "as ssim, with covariances of samples: times 121/120 (scikit-image's default)", sample_map, mean},
+         "as ssim, with covariances of samples: times 121/120 (scikit-image's default)", sample_map, pooled_mean},
         {"ms_ssim", "ms_ssim_5", "1", higher, display,
          "five scales with the weights of Wang et al. 2003, mean of the three code channels; its map is that of the "
          "finest scale",

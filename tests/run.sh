@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing (Debian 12), builds everything, and runs all tests. Arguments are handed on to ctest,
-# e.g. tests/run.sh -R golden_. SSRLAB_PRESET=asan runs them under AddressSanitizer and UndefinedBehaviorSanitizer.
+# Installs what is missing (Debian 12), builds everything, runs all tests, and says what took longest. Arguments are
+# handed on to ctest, e.g. tests/run.sh -R golden_. SSRLAB_PRESET=asan runs them under AddressSanitizer and
+# UndefinedBehaviorSanitizer.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source experiments/setup.sh
@@ -14,4 +15,9 @@ preset=${SSRLAB_PRESET:-release}
 install_packages "${build_packages[@]}" "${test_packages[@]}"
 build "$preset"
 say "Testing ($preset)"
-ctest --preset "$preset" --parallel "$(nproc)" "$@"
+results=$PWD/build/$preset/tests.xml
+rm -f "$results"
+status=0
+ctest --preset "$preset" --parallel "$(nproc)" --output-junit "$results" "$@" || status=$?
+python3 tests/slowest.py "build/$preset" "$results"
+exit "$status"

@@ -24,12 +24,12 @@ json parameters(bool float_histories, bool round_up_tiles, bool race) {
     return {{"float_histories", float_histories}, {"round_up_tiles", round_up_tiles}, {"race", race}, {"form", "fast"}};
 }
 
-const StudyPoint points[] = {{"none", "default", 3.0, 1, json::object()},
-                             {"sssr", "first", 1.0, 4, parameters(false, false, false)},
-                             {"sssr", "mended", 0.5, 4, parameters(true, true, false)},
-                             {"sssr", "first float_histories=true", 0.6, 4, parameters(true, false, false)},
-                             {"sssr", "first round_up_tiles=true", 1.0, 4, parameters(false, true, false)},
-                             {"sssr", "first race=true", 0.7, 4, parameters(false, false, true), "it races"}};
+const StudyPoint study_points[] = {{"none", "default", 3.0, 1, json::object()},
+                                   {"sssr", "first", 1.0, 4, parameters(false, false, false)},
+                                   {"sssr", "mended", 0.5, 4, parameters(true, true, false)},
+                                   {"sssr", "first float_histories=true", 0.6, 4, parameters(true, false, false)},
+                                   {"sssr", "first round_up_tiles=true", 1.0, 4, parameters(false, true, false)},
+                                   {"sssr", "first race=true", 0.7, 4, parameters(false, false, true), "it races"}};
 
 struct StudyShot {
     std::string name;
@@ -187,7 +187,7 @@ json study_manifest(const std::vector<StudyShot>& shots) {
                                                  {"second_ms", 6.27},
                                                  {"floor", 0.0112}});
     }
-    for (const StudyPoint& p : points) {
+    for (const StudyPoint& p : study_points) {
         manifest["variants"].push_back({{"variant", p.variant},
                                         {"point", p.point},
                                         {"title", p.variant},
@@ -218,7 +218,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
     std::vector<ResultRow> rows;
     std::vector<SplitRow> splits;
     for (const StudyShot& shot : shots) {
-        for (const StudyPoint& point : points) {
+        for (const StudyPoint& point : study_points) {
             Cell cell;
             for (unsigned seed = 0; seed < point.seeds; ++seed) {
                 const RowMaker make{shot, point, seed, cell};
@@ -233,7 +233,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
         }
     }
     std::vector<VariantConfig> variants;
-    for (const StudyPoint& p : points) {
+    for (const StudyPoint& p : study_points) {
         VariantConfig variant;
         variant.variant = p.variant, variant.point = p.point, variant.is_baseline = p.point == "first";
         if (p.point == "mended")

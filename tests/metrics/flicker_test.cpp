@@ -1,6 +1,6 @@
 #include "metrics/flicker.h"
 #include "core/error.h"
-#include "sequences.h"
+#include "tests/metrics/sequences.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

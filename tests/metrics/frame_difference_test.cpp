@@ -1,7 +1,7 @@
 #include "metrics/frame_difference.h"
 #include "core/error.h"
 #include "metrics/statistics.h"
-#include "sequences.h"
+#include "tests/metrics/sequences.h"
 
 #include <gtest/gtest.h>
 #include <array>

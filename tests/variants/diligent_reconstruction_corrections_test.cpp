@@ -27,7 +27,7 @@ constexpr float float_error = 1e-5f;  // of sums of nine numbers up to 1, and qu
 constexpr double disk_radii[] = {0.3149309, 0.5335386, 0.6461146, 0.6520134,
                                  0.6695386, 0.8346850, 0.8895339, 0.9542373};
 
-StoredRay numbered_by_column(unsigned x, unsigned) { return {.radiance = glm::vec3(float(x))}; }
+TexelRay numbered_by_column(unsigned x, unsigned) { return {.radiance = glm::vec3(float(x))}; }
 
 /// Of a pixel's sample of a perspective ReflectingWall of 32x32 pixels: 60 degrees high, tan^2 30 is a third.
 double distance_over_depth(glm::uvec2 pixel, glm::vec2 jitter = {}) {
@@ -56,7 +56,7 @@ TEST_F(DiligentReconstructionCorrections, OwnRay) {
         const glm::uvec2 ray_extent = is_half ? glm::uvec2(16) : glm::uvec2(32);
         const ReconstructionInputs inputs = reflecting_wall(
             {.ray_extent = ray_extent, .ray = [&](unsigned x, unsigned y) {
-                 return StoredRay{.radiance = glm::vec3(glm::uvec2(x, y) == center * ray_extent / 32u ? 1.0f : 0.0f)};
+                 return TexelRay{.radiance = glm::vec3(glm::uvec2(x, y) == center * ray_extent / 32u ? 1.0f : 0.0f)};
              }});
         // Twice the radius, so that at half resolution, too, no point of the disk is the pixel's own ray.
         for (const bool is_on : {false, true})
@@ -89,7 +89,7 @@ TEST_F(DiligentReconstructionCorrections, AxialHitDepth) {
     for (const glm::vec2 jitter : {glm::vec2(0), glm::vec2(0.4f, -0.3f)}) {
         const ReconstructionInputs inputs =
             reflecting_wall({.is_orthographic = false, .jitter = jitter, .ray = [](unsigned, unsigned) {
-                                 return StoredRay{.direction = {0, 0, 3}};
+                                 return TexelRay{.direction = {0, 0, 3}};
                              }});
         for (const bool is_on : {false, true}) {
             const Reconstruction found =
@@ -108,7 +108,7 @@ TEST_F(DiligentReconstructionCorrections, LinearHitDepth) {
     const auto length = [](unsigned x) { return 2 + float(x) / 16; };
     const ReconstructionInputs inputs =
         reflecting_wall({.is_orthographic = false, .distance = 18, .roughness = 0, .ray = [&](unsigned x, unsigned) {
-                             return StoredRay{.direction = {0, 0, length(x)}};
+                             return TexelRay{.direction = {0, 0, length(x)}};
                          }});
     double greatest_error[2] = {};
     for (const bool is_on : {false, true}) {
@@ -132,7 +132,7 @@ TEST_F(DiligentReconstructionCorrections, FiniteWeights) {
     const float none = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     for (const glm::vec3 direction : {glm::vec3(none), glm::vec3(infinite, 0, 1)}) {
         const ReconstructionInputs inputs = reflecting_wall({.ray = [&](unsigned x, unsigned) {
-            return x % 2 == 0 ? StoredRay{.radiance = glm::vec3(1e4f), .direction = direction} : StoredRay{};
+            return x % 2 == 0 ? TexelRay{.radiance = glm::vec3(1e4f), .direction = direction} : TexelRay{};
         }});
         const auto off_by = [&](bool is_on) {
             const Reconstruction found = run(inputs, precisely({{"finite_weights", is_on}}));
@@ -147,7 +147,7 @@ TEST_F(DiligentReconstructionCorrections, FiniteWeights) {
 TEST_F(DiligentReconstructionCorrections, FiniteWeightsWithoutAnyRay) {
     const glm::vec3 none(std::numeric_limits<float>::quiet_NaN());
     const Reconstruction found =
-        run(reflecting_wall({.ray = [&](unsigned, unsigned) { return StoredRay{.direction = none}; }}),
+        run(reflecting_wall({.ray = [&](unsigned, unsigned) { return TexelRay{.direction = none}; }}),
             precisely({{"finite_weights", true}, {"own_ray", true}}));
     for (const float value : found.radiance.values) EXPECT_EQ(value, 0.0f);
     for (const float value : found.variance.values) EXPECT_EQ(value, 0.0f);
@@ -157,7 +157,7 @@ TEST_F(DiligentReconstructionCorrections, FiniteWeightsWithoutAnyRay) {
 /// it they have the least weight.
 TEST_F(DiligentReconstructionCorrections, ShortRayGuard) {
     const ReconstructionInputs inputs = reflecting_wall({.ray = [](unsigned x, unsigned) {
-        return x % 2 == 0 ? StoredRay{.radiance = glm::vec3(1e4f), .direction = glm::vec3(0)} : StoredRay{};
+        return x % 2 == 0 ? TexelRay{.radiance = glm::vec3(1e4f), .direction = glm::vec3(0)} : TexelRay{};
     }});
     for (const bool is_on : {false, true}) {
         const Reconstruction found = run(inputs, precisely({{"finite_weights", true}, {"short_ray_guard", is_on}}));
@@ -183,7 +183,7 @@ TEST_F(DiligentReconstructionCorrections, ClearTargets) {
 /// A colour that is no half.
 TEST_F(DiligentReconstructionCorrections, FloatHistories) {
     const ReconstructionInputs inputs =
-        reflecting_wall({.ray = [](unsigned, unsigned) { return StoredRay{.radiance = glm::vec3(0.3f)}; }});
+        reflecting_wall({.ray = [](unsigned, unsigned) { return TexelRay{.radiance = glm::vec3(0.3f)}; }});
     for (const bool is_on : {false, true}) {
         const Reconstruction found = run(inputs, {{"float_rays", true}, {"float_histories", is_on}});
         const float error = std::abs(found.radiance.pixel(16, 16)[0] - 0.3f);
@@ -233,8 +233,8 @@ TEST_F(DiligentReconstructionCorrections, DistributionFloor) {
     const auto share_of_left = [&](const glm::vec3& right, bool is_on) {
         const ReconstructionInputs inputs =
             reflecting_wall({.roughness = std::sqrt(alpha), .ray = [&](unsigned x, unsigned) {
-                                 return x < 16 ? StoredRay{.radiance = glm::vec3(1)}
-                                               : StoredRay{.radiance = glm::vec3(0), .direction = right};
+                                 return x < 16 ? TexelRay{.radiance = glm::vec3(1)}
+                                               : TexelRay{.radiance = glm::vec3(0), .direction = right};
                              }});
         const nlohmann::json overrides =
             precisely({{"distribution_floor", is_on}, {"spatial_reconstruction_radius", 32}});

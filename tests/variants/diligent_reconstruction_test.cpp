@@ -19,7 +19,7 @@ struct DiligentReconstruction : VariantTest {
     }
 };
 
-StoredRay white_or_black(unsigned x, unsigned y) {
+TexelRay white_or_black(unsigned x, unsigned y) {
     const float white = (x * 7 + y * 3) % 5 < 2 ? 1.0f : 0.0f;
     return {.radiance = glm::vec3(white), .confidence = white};
 }
@@ -73,8 +73,8 @@ TEST_F(DiligentReconstruction, DividesByTheDensity) {
         return run(reflecting_wall({.ray =
                                         [&](unsigned x, unsigned) {
                                             const bool is_left = x < 16;
-                                            return StoredRay{.radiance = glm::vec3(is_left ? 1.0f : 0.0f),
-                                                             .density = is_left ? left_density : right_density};
+                                            return TexelRay{.radiance = glm::vec3(is_left ? 1.0f : 0.0f),
+                                                            .density = is_left ? left_density : right_density};
                                         }}))
             .radiance.pixel(16, 16)[0];
     };
@@ -101,7 +101,7 @@ TEST_F(DiligentReconstruction, LeavesMirrorsSharp) {
 TEST_F(DiligentReconstruction, RoundsUpAtHalfResolutionUnlessMended) {
     const ReconstructionInputs inputs =
         reflecting_wall({.ray_extent = {16, 16}, .roughness = 0, .ray = [](unsigned x, unsigned y) {
-                             return StoredRay{.radiance = glm::vec3(x, y, 0)};
+                             return TexelRay{.radiance = glm::vec3(x, y, 0)};
                          }});
     for (const bool is_mended : {false, true}) {
         const Reconstruction found = run(inputs, {{"half_resolution", true}, {"nearest_half_rays", is_mended}});
@@ -119,7 +119,7 @@ TEST_F(DiligentReconstruction, WeighsByDistance) {
     const glm::uvec2 center{16, 16};
     const auto white_within_six_pixels = [&](unsigned x, unsigned y) {
         const glm::vec2 offset = glm::vec2(x, y) - glm::vec2(center);
-        return StoredRay{.radiance = glm::vec3(glm::length(offset) < 6.0f ? 1.0f : 0.0f)};
+        return TexelRay{.radiance = glm::vec3(glm::length(offset) < 6.0f ? 1.0f : 0.0f)};
     };
     const ReconstructionInputs inputs = reflecting_wall({.ray = white_within_six_pixels});
     // With a radius of 8 pixels, the points 0.31, 0.53, 0.65, 0.65 and 0.67 of it away are within 6, to half a pixel.
@@ -152,7 +152,7 @@ TEST_F(DiligentReconstruction, IsUnbiasedAmongEqualNeighbors) {
              const glm::vec2 u(uniform(generator), uniform(generator));
              const glm::vec3 direction = sample_ggx_reflection(to_camera, alpha, u);
              const float density = ggx_reflection_pdf(to_camera, direction, alpha);
-             return StoredRay{.radiance = glm::vec3(light(direction)), .direction = direction, .density = density};
+             return TexelRay{.radiance = glm::vec3(light(direction)), .direction = direction, .density = density};
          }});
     const Reconstruction found = run(inputs);
     double sum = 0;
@@ -168,7 +168,7 @@ TEST_F(DiligentReconstruction, IsUnbiasedAmongEqualNeighbors) {
 TEST_F(DiligentReconstruction, WeighsColorsAndConfidenceAlike) {
     const Reconstruction found = run(reflecting_wall({.ray = [](unsigned x, unsigned) {
         const float hit = x < 16 ? 1.0f : 0.0f;
-        return StoredRay{.radiance = glm::vec3(hit), .confidence = hit};
+        return TexelRay{.radiance = glm::vec3(hit), .confidence = hit};
     }}));
     double darkest = 1;
     for (size_t i = 0; i < found.variance.pixel_count(); ++i) {
@@ -183,7 +183,7 @@ TEST_F(DiligentReconstruction, WeighsColorsAndConfidenceAlike) {
 TEST_F(DiligentReconstruction, TakesTheLongestRay) {
     const Reconstruction found = run(reflecting_wall({.ray = [](unsigned x, unsigned y) {
         const float length = (x + y) % 4 != 1 ? 3.0f : 1.0f;
-        return x % 4 == 0 ? StoredRay{.direction = {0, 0, -9}} : StoredRay{.direction = {0, 0, length}};
+        return x % 4 == 0 ? TexelRay{.direction = {0, 0, -9}} : TexelRay{.direction = {0, 0, length}};
     }}));
     const unsigned border = 4;  // of rays clamped to the image, whose pattern is another
     for (unsigned y = border; y < 32 - border; ++y)
@@ -192,7 +192,7 @@ TEST_F(DiligentReconstruction, TakesTheLongestRay) {
 
 TEST_F(DiligentReconstruction, SwitchedOffIsThePixelsOwnRay) {
     const auto numbered = [](unsigned x, unsigned y) {
-        return StoredRay{.radiance = glm::vec3(float(x), float(y), 1), .direction = {0, 0, 1 + x % 3}};
+        return TexelRay{.radiance = glm::vec3(float(x), float(y), 1), .direction = {0, 0, 1 + x % 3}};
     };
     for (const bool is_half : {false, true}) {
         const glm::uvec2 extent{33, 31}, ray_extent = is_half ? extent / 2u : extent;

@@ -43,7 +43,7 @@ ReconstructionInputs reflecting_wall(const ReflectingWall& wall) {
     for (size_t i = 0; i < inputs.normal.pixel_count(); ++i) inputs.normal.set_rgb(i, {0, 0, 1});
     for (unsigned y = 0; y < wall.ray_extent.y; ++y)
         for (unsigned x = 0; x < wall.ray_extent.x; ++x) {
-            const StoredRay ray = wall.ray(x, y);
+            const TexelRay ray = wall.ray(x, y);
             const size_t i = size_t(y) * wall.ray_extent.x + x;
             inputs.ray_radiance.set_rgb(i, ray.radiance);
             inputs.ray_radiance.values[4 * i + 3] = ray.confidence;

@@ -25,7 +25,7 @@ struct ReconstructionBench {
 };
 
 /// One ray as intersection stores it; the default goes back towards an orthographic camera.
-struct StoredRay {
+struct TexelRay {
     glm::vec3 radiance{0.5f};
     float confidence = 1;
     glm::vec3 direction{0, 0, 1};  ///< times length (m)
@@ -39,6 +39,6 @@ struct ReflectingWall {
     glm::vec2 jitter{0};          ///< of the camera (pixels)
     float distance = 4;           ///< m
     float roughness = 0.5f;       ///< perceptual
-    std::function<StoredRay(unsigned x, unsigned y)> ray = [](unsigned, unsigned) { return StoredRay{}; };
+    std::function<TexelRay(unsigned x, unsigned y)> ray = [](unsigned, unsigned) { return TexelRay{}; };
 };
 ReconstructionInputs reflecting_wall(const ReflectingWall& wall);
