@@ -5,8 +5,11 @@
 
 namespace {
 
+using Pyramid = Image(PassGraph&, const Image&, unsigned);
+
 /// Mips of the pyramid of `depth`, as the graph's device makes them.
-std::vector<HostImage> pyramid_of(Device& device, const HostImage& depth, bool is_reversed, unsigned mips) {
+std::vector<HostImage> pyramid_of(Device& device, const HostImage& depth, bool is_reversed, unsigned mips,
+                                  Pyramid& make = nearest_depth_pyramid) {
     PassGraph graph(device, depth.extent);
     AmdParameters parameters;
     CameraData camera{};
@@ -17,7 +20,7 @@ std::vector<HostImage> pyramid_of(Device& device, const HostImage& depth, bool i
     std::vector<HostImage> levels;
     for (int frame = 0; frame < 2; ++frame) {  // the second finds out whether the counter has been rewound
         graph.begin_frame(camera, parameters.params, std::span(&image, 1));
-        const Image pyramid = nearest_depth_pyramid(graph, image, mips);
+        const Image pyramid = make(graph, image, mips);
         levels.clear();
         for (unsigned level = 0; level < pyramid.mips; ++level) levels.push_back(graph.download(pyramid.mip(level)));
         graph.clear(pyramid, glm::vec4(0.5f));
@@ -25,37 +28,39 @@ std::vector<HostImage> pyramid_of(Device& device, const HostImage& depth, bool i
     return levels;
 }
 
-/// The level above, of floor(size / 2), at least 1: nearest of 2x2, of which one exists only where a level is one texel
-/// wide or high.
-HostImage reduce(const HostImage& fine, bool is_reversed) {
+/// The level above, of floor(size / 2), at least 1: largest or smallest of 2x2, of which one exists only where a level
+/// is one texel wide or high.
+HostImage reduce(const HostImage& fine, bool keeps_largest) {
     HostImage coarse(max(fine.extent / 2u, 1u), 1);
     for (unsigned y = 0; y < coarse.extent.y; ++y)
         for (unsigned x = 0; x < coarse.extent.x; ++x) {
-            float nearest = *fine.pixel(2 * x, 2 * y);
+            float kept = *fine.pixel(2 * x, 2 * y);
             for (unsigned i = 1; i < 4; ++i) {
                 const float depth =
                     *fine.pixel(std::min(2 * x + i % 2, fine.extent.x - 1), std::min(2 * y + i / 2, fine.extent.y - 1));
-                nearest = is_reversed ? std::max(nearest, depth) : std::min(nearest, depth);
+                kept = keeps_largest ? std::max(kept, depth) : std::min(kept, depth);
             }
-            *coarse.pixel(x, y) = nearest;
+            *coarse.pixel(x, y) = kept;
         }
     return coarse;
 }
 
-void expect_pyramid(Device& device, const HostImage& depth, bool is_reversed, unsigned mips) {
-    const std::vector<HostImage> levels = pyramid_of(device, depth, is_reversed, mips);
-    HostImage expected = depth;
+/// `expected`: its finest level.
+void expect_pyramid(Device& device, const HostImage& depth, bool is_reversed, Pyramid& make, HostImage expected) {
+    const std::vector<HostImage> levels = pyramid_of(device, depth, is_reversed, 13, make);
+    const bool keeps_largest = is_reversed == (&make == &nearest_depth_pyramid);
     for (size_t level = 0; level < levels.size(); ++level) {
         ASSERT_EQ(levels[level].extent, expected.extent);
         EXPECT_EQ(levels[level].values, expected.values) << "level " << level << " of " << depth.extent.x << "x"
                                                          << depth.extent.y << (is_reversed ? ", reversed" : "");
-        expected = reduce(expected, is_reversed);
+        expected = reduce(expected, keeps_largest);
     }
 }
 
 struct DepthPyramid : VariantTest {};
 
-TEST_F(DepthPyramid, HoldsTheNearestOfEachBlockAtAnySize) {
+/// Each of them also where a third of the pixels shows nothing, which is as near as can be among the farthest.
+TEST_F(DepthPyramid, HoldsTheNearestAndTheFarthestOfEachBlockAtAnySize) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> value(0.0f, 1.0f);
     for (const glm::uvec2 extent :
@@ -63,8 +68,12 @@ TEST_F(DepthPyramid, HoldsTheNearestOfEachBlockAtAnySize) {
           glm::uvec2(641, 361), glm::uvec2(130, 3), glm::uvec2(1037, 517), glm::uvec2(4225, 70)})
         for (const bool is_reversed : {false, true}) {
             HostImage depth(extent, 1);
-            for (float& d : depth.values) d = value(random);
-            expect_pyramid(device(), depth, is_reversed, 13);
+            const float background = is_reversed ? 0.0f : 1.0f;
+            for (float& d : depth.values) d = random() % 3 ? value(random) : background;
+            expect_pyramid(device(), depth, is_reversed, nearest_depth_pyramid, depth);
+            HostImage surfaces = depth;
+            for (float& d : surfaces.values) d = d == background ? 1 - background : d;
+            expect_pyramid(device(), depth, is_reversed, farthest_depth_pyramid, surfaces);
         }
 }
 

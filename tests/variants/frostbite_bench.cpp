@@ -39,15 +39,14 @@ ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const 
     std::vector<glm::uvec4> hits;
     for (const StoredRay& ray : rays) {
         directions.emplace_back(ray.direction, ray.inverse_density);
-        hits.emplace_back(ray.target, std::bit_cast<unsigned>(ray.length), std::bit_cast<unsigned>(ray.confidence),
-                          ray.discarded_draws);
+        hits.emplace_back(ray.target, std::bit_cast<unsigned>(ray.length), std::bit_cast<unsigned>(ray.confidence), 0);
     }
     graph.begin_frame(camera, params, gbuffer.images());
     const FrostbiteRays stored{graph.buffer("directions", directions.size() * sizeof directions[0]),
                                graph.buffer("hits", hits.size() * sizeof hits[0])};
     graph.upload(stored.directions, std::as_bytes(std::span(directions)));
     graph.upload(stored.hits, std::as_bytes(std::span(hits)));
-    const FrostbiteResolved resolved =
-        frostbite_resolve(graph, gbuffer, color, split_sum_.on(graph), stored, resolve_parameters);
+    const FrostbiteResolved resolved = frostbite_resolve(
+        graph, gbuffer, color, split_sum_.on(graph), horizon_.on(graph, ray_parameters), stored, resolve_parameters);
     return {graph.download(resolved.radiance), graph.download(resolved.reflection_depth)};
 }

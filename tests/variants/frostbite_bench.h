@@ -1,16 +1,16 @@
 #pragma once
 #include "core/gbuffer/split_sum_image.h"
 #include "tests/variants/synthetic_gbuffer.h"
+#include "variants/frostbite_sssr/horizon_image.h"
 #include "variants/frostbite_sssr/passes.h"
 
 /// A ray as ray.glsl stores it.
 struct StoredRay {
     glm::vec3 direction{0};     ///< view space
-    float inverse_density = 0;  ///< sr
+    float inverse_density = 0;  ///< with which it comes about (sr)
     unsigned target = 0;        ///< pixel x | y << 16, or one of the markers below
     float length = 0;           ///< m
     float confidence = 1;
-    unsigned discarded_draws = 0;
 };
 inline constexpr unsigned ray_missed = 0xffffffff, ray_below_horizon = 0xfffffffe, ray_into_surface = 0xfffffffd;
 
@@ -47,4 +47,5 @@ private:
     FrameView view_;
     SyntheticScene scene_;
     SplitSumImage split_sum_;
+    FrostbiteHorizonImage horizon_;
 };

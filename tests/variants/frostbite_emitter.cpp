@@ -63,17 +63,20 @@ double bias_of_c(const EmitterTruth& truth) {
     return sum / (1 - truth.below_horizon) / truth.mean() - 1;
 }
 
-double bias_of_b(const EmitterTruth& truth, unsigned rays, unsigned regenerations, bool counts_discarded) {
-    const double below = truth.below_horizon;
+double redrawn_factor(const EmitterTruth& truth, unsigned regenerations) {
+    double sum = 0, reached = 1;  // probability of this draw
+    for (unsigned draw = 0; draw <= regenerations; ++draw, reached *= truth.below_horizon) sum += reached;
+    return 1 / sum;
+}
+
+double bias_of_b(const EmitterTruth& truth, unsigned rays, unsigned regenerations) {
+    const double failed = std::pow(truth.below_horizon, regenerations + 1);
+    // Without regenerations draws below the horizon count their own q / p, which is 1.
+    const double below = regenerations > 0 ? truth.below_horizon : 0;
+    const double above = redrawn_factor(truth, regenerations) + below, else_below = regenerations > 0 ? below : 1;
     const double mean = integral_over_positive([&](double t) {
-        double numerator = 0, denominator = 0, reached = 1;  // probability of this draw
-        for (unsigned draw = 1; draw <= regenerations + 1; ++draw, reached *= below) {
-            const double decay = std::exp(-t * (counts_discarded ? draw : 1));
-            numerator += reached * truth.reflected * decay;
-            denominator += reached * (1 - below) * decay;
-            if (draw == regenerations + 1) denominator += reached * below * decay;
-        }
-        return rays * numerator * std::pow(denominator, rays - 1);
+        const double decay = (1 - failed) * std::exp(-t * above) + failed * std::exp(-t * else_below);
+        return rays * truth.reflected * std::exp(-t * above) * std::pow(decay, rays - 1);
     });
     return mean / truth.reflected - 1;
 }
@@ -85,6 +88,6 @@ DrawnRay draw_ray(const EmitterCase& scene, unsigned lobe, float bias, unsigned 
         const LobeSample drawn = sample_lobe(lobe, scene.o(), scene.alpha(), bias, u);
         const bool is_below_horizon = drawn.direction.z <= 0;
         if (!is_below_horizon || draw == regenerations)
-            return {drawn.direction, drawn.inverse_density, is_below_horizon, draw};
+            return {drawn.direction, drawn.inverse_density, is_below_horizon};
     }
 }

@@ -42,14 +42,17 @@ EmitterTruth emitter_truth(const EmitterCase& scene, unsigned lobe);
 /// sums into an integral of products.
 double bias_of_a(const EmitterTruth& truth, unsigned rays);
 double bias_of_c(const EmitterTruth& truth);
-/// With `regenerations` and the thrown-away draws counted; without, they do not count.
-double bias_of_b(const EmitterTruth& truth, unsigned rays, unsigned regenerations, bool counts_discarded);
+/// With this many `regenerations` at most: each ray counts its q / p and the share of the lobe that is below the
+/// horizon.
+double bias_of_b(const EmitterTruth& truth, unsigned rays, unsigned regenerations);
+
+/// Density of the lobe over that with which a ray above the horizon comes about.
+double redrawn_factor(const EmitterTruth& truth, unsigned regenerations);
 
 /// Rays drawn as a tracer does.
 struct DrawnRay {
-    glm::vec3 direction{0};  ///< local
-    float inverse_density = 0;
+    glm::vec3 direction{0};     ///< local
+    float inverse_density = 0;  ///< of the lobe
     bool is_below_horizon = false;
-    unsigned discarded = 0;
 };
 DrawnRay draw_ray(const EmitterCase& scene, unsigned lobe, float bias, unsigned regenerations, std::mt19937& random);

@@ -157,7 +157,8 @@ TEST_F(FrostbiteHiddenHits, AreShownCountedOrLeftOut) {
                     expect_rule({{"hidden_hits", hidden_hits}, {"misses", misses}, {"filtered_sampling", false}}, 1, 1);
             // A cone of up to 2 pixels' radius, from the first two levels. A texel of level 1 between two others, and
             // where it lies within them: 4 pixels.
-            expect_rule({{"hidden_hits", "miss"}, {"misses", "weight"}, {"grazing_cone", false}}, 2.2f, 4);
+            expect_rule({{"hidden_hits", "miss"}, {"misses", "weight"}, {"grazing_cone", "off"}, {"cone_scale", 0.6}},
+                        2.2f, 4);
         }
 }
 

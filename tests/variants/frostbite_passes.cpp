@@ -1,7 +1,5 @@
 #include "tests/variants/frostbite_passes.h"
 
-#include "variants/common/depth_pyramid.h"
-
 #include <cstring>
 
 namespace {
@@ -24,10 +22,11 @@ std::vector<uint32_t> read_list(PassGraph& graph, const Buffer& list, uint32_t c
 }  // namespace
 
 FrostbiteTraced trace_frostbite(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteParameters& parameters) {
-    const Image pyramid = nearest_depth_pyramid(graph, gbuffer.depth, 7);
-    const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, pyramid, gbuffer.lit, parameters.ray);
+    const DepthPyramids depths = depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips);
+    const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
-    const FrostbiteRays rays = frostbite_trace(graph, pyramid, work, parameters.ray);
+    const FrostbiteRays rays =
+        frostbite_trace(graph, depths, work, FrostbiteHorizonImage().on(graph, parameters.ray), parameters.ray);
     const std::vector<uint32_t> counters = read<uint32_t>(graph, work.counters);
     return {.ray_count = graph.download(tiles.ray_count),
             .hierarchical_list = read_list(graph, work.hierarchical_list, counters[0]),

@@ -1,6 +1,7 @@
 #pragma once
 #include "tests/variants/synthetic_gbuffer.h"
 #include "tests/variants/variant_fixture.h"
+#include "variants/frostbite_sssr/horizon_image.h"
 #include "variants/frostbite_sssr/passes.h"
 
 /// The parameters of all passes, for tests that run them one by one.

@@ -1,5 +1,4 @@
 #include "tests/variants/frostbite_passes.h"
-#include "variants/common/depth_pyramid.h"
 #include "variants/common/halton.h"
 #include "variants/frostbite_sssr/first_turn.h"
 
@@ -66,10 +65,11 @@ struct FrostbiteRandom : VariantTest {
             graph.upload(counts, ray_count);
             camera.frame.x = frame;
             graph.begin_frame(camera, parameters.params, gbuffer.images());
-            const Image pyramid = nearest_depth_pyramid(graph, gbuffer.depth, 7);
+            const DepthPyramids depths = depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips);
             const FrostbiteWork work = frostbite_allocate(graph, gbuffer, {counts}, parameters.ray);
+            const Image horizon = FrostbiteHorizonImage().on(graph, parameters.ray);
             const std::vector<std::byte> bytes =
-                graph.download(frostbite_trace(graph, pyramid, work, parameters.ray).directions);
+                graph.download(frostbite_trace(graph, depths, work, horizon, parameters.ray).directions);
             std::vector<glm::vec4> directions(bytes.size() / sizeof(glm::vec4));
             std::memcpy(directions.data(), bytes.data(), bytes.size());
             see(frame, work.extent, directions);

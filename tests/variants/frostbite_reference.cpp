@@ -45,6 +45,7 @@ FrostbiteReference::Surface FrostbiteReference::surface(glm::uvec2 pixel) const 
     const dvec4 p = view_from_clip_ * dvec4(uv * 2.0 - 1.0, *depth_.pixel(pixel.x, pixel.y), 1);
     s.position = dvec3(p) / p.w;
     s.n = normalize(view_from_world_ * rgb(normal_, pixel));
+    s.geometric_n = normalize(view_from_world_ * rgb(geometric_normal_, pixel));
     s.o = -normalize(s.position);
     s.mu_o = dot(s.n, s.o);
     s.alpha = std::pow(normal_.pixel(pixel.x, pixel.y)[3], 2);
@@ -93,7 +94,6 @@ FrostbiteReference::Result FrostbiteReference::resolve(glm::uvec2 pixel, const s
                                                        const std::function<dvec3(dvec2)>& color) const {
     const auto& parameters = bench_.resolve_parameters;
     const Surface s = surface(pixel);
-    const double left = 1 - double(float(bench_.ray_parameters.importance_bias));
     const unsigned max_rays = bench_.ray_parameters.max_rays, width = bench_.traced_extent().x;
     const bool is_half = bench_.ray_parameters.half_resolution;
     const unsigned turn = (bench_.camera.frame.x + first_turn(bench_.camera.frame.y)) % 4;
@@ -125,15 +125,17 @@ FrostbiteReference::Result FrostbiteReference::resolve(glm::uvec2 pixel, const s
                 confidence = is_inside ? ray.confidence : 0;
                 radiance = color(place);
             }
-            const bool is_black = ray.target == ray_into_surface;
-            if (is_black) confidence = 1;
+            const double height = dot(s.geometric_n, l);
+            const bool is_black = height <= 0;
+            if (ray.target == ray_into_surface && !is_black) continue;
+            if (is_black) confidence = 1, length = 0, radiance = dvec3(0);
             if (parameters.misses.is("fallback") && !is_black) {
                 const glm::vec3 ws = glm::mat3(bench_.camera.world_from_view) * glm::vec3(l);
                 radiance = glm::mix(dvec3(environment_.radiance(ws)), radiance, confidence);
             }
             const double mu_i = dot(s.n, l), ratio = lobe_density(s, l) * inverse;
-            result.is_close_call = result.is_close_call || std::abs(mu_i) < 1e-4 || std::abs(ratio - 1e-3) < 1e-5;
-            density_ratios += ray.discarded_draws * left;
+            const double lowest = std::min(std::abs(mu_i), std::abs(height));
+            result.is_close_call = result.is_close_call || lowest < 1e-4 || std::abs(ratio - 1e-3) < 1e-5;
             const bool is_lost = ray.target == ray_below_horizon;
             if (!is_lost || mu_i <= 0) density_ratios += ratio;
             if (is_lost || mu_i <= 0) continue;

@@ -3,7 +3,7 @@
 #include "tests/variants/frostbite_bench.h"
 
 /// Frostbite's resolve written down once more, in double precision and with every sum in the open: without
-/// filtered_sampling, of pixels whose taps the caller names.
+/// filtered_sampling, of pixels whose taps the caller names; estimator b for max_regenerations = 0 only.
 class FrostbiteReference {
 public:
     /// Reads the bench's G-buffer and parameters as they are now. `environment`: of misses.
@@ -20,7 +20,7 @@ public:
 
 private:
     struct Surface {
-        glm::dvec3 position, n, o;
+        glm::dvec3 position, n, geometric_n, o;
         double alpha, mu_o;
         glm::dvec3 f0;
         double f90;

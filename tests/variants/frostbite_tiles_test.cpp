@@ -1,7 +1,6 @@
 #include "core/gbuffer/split_sum_image.h"
 #include "tests/variants/frostbite_passes.h"
 #include "tests/variants/pixel_march.h"
-#include "variants/common/depth_pyramid.h"
 
 #include <set>
 
@@ -126,8 +125,8 @@ struct FrostbiteProbes : FrostbiteTilesTest {
     }
 
     FrostbiteTiles classify(const GBuffer& gbuffer) {
-        return frostbite_classify(graph, gbuffer, nearest_depth_pyramid(graph, gbuffer.depth, 7), gbuffer.lit,
-                                  parameters.ray);
+        return frostbite_classify(graph, gbuffer, depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips),
+                                  gbuffer.lit, parameters.ray);
     }
 
     HostImage probes_of(const GBuffer& gbuffer) {
@@ -273,13 +272,15 @@ struct FrostbiteTileEdges : FrostbiteProbes {
         camera.frame.y = seed;
         const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, rough_floor);
         graph.begin_frame(camera, parameters.params, gbuffer.images());
-        const Image pyramid = nearest_depth_pyramid(graph, gbuffer.depth, 7);
-        const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, pyramid, gbuffer.lit, parameters.ray);
+        const DepthPyramids depths = depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips);
+        const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
         const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
-        const FrostbiteRays rays = frostbite_trace(graph, pyramid, work, parameters.ray);
+        const Image horizon = FrostbiteHorizonImage().on(graph, parameters.ray);
+        const FrostbiteRays rays = frostbite_trace(graph, depths, work, horizon, parameters.ray);
         ray_count = graph.download(tiles.ray_count);
         return graph.download(
-            frostbite_resolve(graph, gbuffer, gbuffer.lit, split_sum.on(graph), rays, parameters.resolve).radiance);
+            frostbite_resolve(graph, gbuffer, gbuffer.lit, split_sum.on(graph), horizon, rays, parameters.resolve)
+                .radiance);
     }
 
     /// Of those that see some rays of other tiles, and of the others.

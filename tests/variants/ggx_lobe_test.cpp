@@ -1,4 +1,4 @@
-#include "variants/common/ggx_lobe.h"
+#include "tests/variants/lobe_quadrature.h"
 
 #include <gtest/gtest.h>
 #include <random>
@@ -9,20 +9,6 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 
-struct LobeCase {
-    unsigned lobe;
-    float roughness, view_degrees, bias;
-
-    float alpha() const { return ggx_alpha(roughness); }
-    glm::vec3 o() const { return {std::sin(glm::radians(view_degrees)), 0, std::cos(glm::radians(view_degrees))}; }
-};
-
-std::string name_of(const LobeCase& c) {
-    return std::string(c.lobe == lobe_of_normals ? "normals" : "visible normals") + ", roughness " +
-           std::to_string(c.roughness) + ", view " + std::to_string(c.view_degrees) + ", bias " +
-           std::to_string(c.bias);
-}
-
 std::vector<LobeCase> cases(const std::vector<float>& biases) {
     std::vector<LobeCase> all;
     for (const unsigned lobe : {lobe_of_normals, lobe_of_visible_normals})
@@ -32,40 +18,9 @@ std::vector<LobeCase> cases(const std::vector<float>& biases) {
     return all;
 }
 
-/// Whether the normal m is left by truncation: within the cone of that share of the distribution, or within the disk of
-/// that share about the mirror's place.
-bool is_left(const LobeCase& c, dvec3 m) {
-    const double alpha = c.alpha(), tan2 = (m.x * m.x + m.y * m.y) / (m.z * m.z);
-    if (c.lobe == lobe_of_normals) return c.bias == 0 || tan2 <= alpha * alpha * (1 - c.bias) / c.bias;
-    const dvec3 o = c.o(), v = normalize(dvec3(alpha * o.x, alpha * o.y, o.z));
-    const dvec3 n = normalize(dvec3(m.x / alpha, m.y / alpha, m.z)), on_cap = 2 * dot(v, n) * n - v;
-    const dvec2 on_disk = dvec2(on_cap) / std::sqrt((1 + v.z) * (1 + on_cap.z)), mirror = -dvec2(v) / (1 + v.z);
-    const double radius = std::sqrt(1 - double(c.bias));
-    return length(on_disk - (1 - radius) * mirror) <= radius;
-}
-
-/// Density of normals (sr^-1): Walter et al. 2007, eq. 33; Heitz 2018, eq. 1, with Smith's masking.
-double normal_density(const LobeCase& c, dvec3 m) {
-    if (!is_left(c, m)) return 0;
-    const double a2 = double(c.alpha()) * c.alpha(), s = m.x * m.x + m.y * m.y + a2 * m.z * m.z;
-    const double distribution = a2 / (M_PI * s * s);
-    if (c.lobe == lobe_of_normals) return distribution * m.z / (1 - c.bias);
-    const dvec3 o = c.o();
-    const double lambda = (-1 + std::sqrt(1 + a2 * (1 - o.z * o.z) / (o.z * o.z))) / 2;
-    return distribution * std::max(0.0, dot(o, m)) / ((1 + lambda) * o.z) / (1 - c.bias);
-}
-
 // --- Chi-square over cells of equal shares of the distribution of normals, whose sides mirror each other ---
 
 constexpr int rings = 24, sectors = 24;
-
-/// m from the share of all normals nearer to the pole, and its azimuth; with solid angle per share and turn.
-dvec3 normal_at(const LobeCase& c, double share, double azimuth, double& solid_angle) {
-    const double a2 = double(c.alpha()) * c.alpha(), tan2 = a2 * share / (1 - share);
-    solid_angle = 0.5 * std::pow(1 + tan2, -1.5) * a2 / ((1 - share) * (1 - share)) * 2 * M_PI;
-    const double z = 1 / std::sqrt(1 + tan2), r = std::sqrt(tan2) * z;
-    return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-}
 
 double cell_probability(const LobeCase& c, int ring, int sector) {
     const int steps = 24;
@@ -74,8 +29,8 @@ double cell_probability(const LobeCase& c, int ring, int sector) {
         for (int k = 0; k < steps; ++k) {
             const double share = (ring + (i + 0.5) / steps) / rings;
             double solid_angle;
-            const dvec3 m = normal_at(c, share, 2 * M_PI * (sector + (k + 0.5) / steps) / sectors, solid_angle);
-            sum += normal_density(c, m) * solid_angle;
+            const dvec3 m = lobe_normal(c, share, 2 * M_PI * (sector + (k + 0.5) / steps) / sectors, solid_angle);
+            sum += lobe_normal_density(c, m) * solid_angle;
         }
     return sum / (steps * steps * rings * sectors);
 }
@@ -163,7 +118,7 @@ TEST(GgxLobe, OfVisibleNormalsNarrowsAboutTheMirrorAtEveryView) {
     std::mt19937 random(9);
     for (const LobeCase& c : cases({0.99f})) {
         if (c.lobe != lobe_of_visible_normals) continue;
-        EXPECT_TRUE(is_left(c, {0, 0, 1})) << name_of(c);
+        EXPECT_TRUE(is_left_by_truncation(c, {0, 0, 1})) << name_of(c);
         double farthest = 0;
         for (int n = 0; n < 5000; ++n) {
             const glm::vec3 m = sample_normal(c, uniform_pair(random));
@@ -203,7 +158,7 @@ TEST(GgxLobe, DensityOfDirectionsIntegratesToOne) {
         const double integral = integral_over_directions(c, [&](glm::vec3 i) {
             dvec3 m = normalize(dvec3(c.o()) + dvec3(i));
             if (m.z < 0) m = -m;
-            return is_left(c, m) ? lobe_density(c.lobe, c.o(), i, c.alpha()) / (1 - c.bias) : 0;
+            return is_left_by_truncation(c, m) ? lobe_density(c.lobe, c.o(), i, c.alpha()) / (1 - c.bias) : 0;
         });
         EXPECT_NEAR(integral, 1, 0.01) << name_of(c);
     }
@@ -218,8 +173,8 @@ TEST(GgxLobe, SamplesKnowTheirDensity) {
             const dvec3 o = c.o(), m = sample_normal(c, u);
             const LobeSample drawn = sample_lobe(c.lobe, c.o(), c.alpha(), c.bias, u);
             // The density of the mirrored direction is that of the normal over 4 |o . m| (Walter et al. 2007, eq. 38).
-            const double density =
-                normal_density({c.lobe, c.roughness, c.view_degrees, 0}, m) / (1 - c.bias) / (4 * std::abs(dot(o, m)));
+            const double density = lobe_normal_density({c.lobe, c.roughness, c.view_degrees, 0}, m) / (1 - c.bias) /
+                                   (4 * std::abs(dot(o, m)));
             ASSERT_GT(drawn.inverse_density, 0) << name_of(c);
             // Float32 gives m, from o + i, to 1e-7 / (2 |o . m|).
             if (std::abs(dot(o, m)) < 1e-2 || m.z < 1e-2) continue;

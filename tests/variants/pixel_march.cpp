@@ -139,7 +139,9 @@ PixelMarchResult march_equal_steps(const HostImage& depth, const CameraData& cam
             from = to;
             continue;
         }
-        for (unsigned i = 0; i < refinements; ++i) {
+        const double pixel = 1.01;
+        for (unsigned i = 0; i < refinements && to - from > pixel; ++i) {
+            if (to - from < pixel + 1e-3) result.is_close_call = true;
             const double middle = 0.5 * (from + to);
             (meets_at_end(from, middle) ? to : from) = middle;
         }

@@ -22,8 +22,8 @@ struct PixelMarchResult {
 PixelMarchResult march_every_pixel(const HostImage& depth, const CameraData& camera, const PixelRay& ray,
                                    double thickness);
 
-/// Looks at the ends of steps on the screen, `steps` of them to the border, and at the border: there the ray must be behind the surface, and somewhere on
-/// the step not behind (1 + thickness) z. Otherwise the same rule. The step that hits is halved `refinements` times,
-/// and the nearest half that hits counts.
+/// Looks at the ends of steps on the screen, `steps` of them to the border, and at the border: there the ray must be
+/// behind the surface, and somewhere on the step not behind (1 + thickness) z. Otherwise the same rule. The step that
+/// hits is halved down to a pixel, at most `refinements` times, and the nearest half that hits counts.
 PixelMarchResult march_equal_steps(const HostImage& depth, const CameraData& camera, const PixelRay& ray,
                                    double thickness, unsigned steps, unsigned refinements);

@@ -1,7 +1,7 @@
-// All levels of the depth pyramid in one dispatch, as AMD's Single Pass Downsampler: a group reduces 64x64 texels to
-// one, and the group that finishes last reduces what the others have left.
+// All levels of a depth pyramid in one dispatch, as AMD's Single Pass Downsampler: a group reduces 64x64 texels to one,
+// and the group that finishes last reduces what the others have left.
 layout(local_size_x = 256) in;
-layout(push_constant) uniform Levels { uint level_count, group_count; };
+layout(push_constant) uniform Levels { uint level_count, group_count, keeps_farthest; };
 uniform sampler2D depth;
 uniform writeonly image2D mip_0, mip_1, mip_2, mip_3, mip_4, mip_5, mip_7, mip_8, mip_9, mip_10, mip_11, mip_12;
 layout(r32f) uniform coherent image2D mip_6;
@@ -10,7 +10,15 @@ buffer depth_pyramid_counter { uint finished_groups; };
 shared float tile[32 * 32];
 shared bool is_last_group;
 
-float nearest_of(float a, float b) { return camera.depth.w == 1.0 ? max(a, b) : min(a, b); }
+bool is_larger_kept() { return (camera.depth.w == 1.0) != (keeps_farthest == 1u); }
+float kept_of(float a, float b) { return is_larger_kept() ? max(a, b) : min(a, b); }
+
+// Background is no surface: the farthest one is not there.
+float device_depth_of(ivec2 pixel) {
+    float value = texelFetch(depth, pixel, 0).r;
+    float nearest = 1.0 - camera.depth.z;
+    return keeps_farthest == 1u && value == camera.depth.z ? nearest : value;
+}
 
 ivec2 extent_of(uint level) { return max(ivec2(camera.extent.xy) >> int(level), ivec2(1)); }
 
@@ -35,16 +43,16 @@ void store(uint level, ivec2 texel, float value) {
 // Mip 0 or 6. A level that is one texel wide or high has no second one to reduce; the first counts twice.
 float source(uint level, ivec2 texel) {
     texel = min(texel, extent_of(level) - 1);
-    return level == 0u ? texelFetch(depth, texel, 0).r : imageLoad(mip_6, texel).r;
+    return level == 0u ? device_depth_of(texel) : imageLoad(mip_6, texel).r;
 }
 
-float nearest_of_four(float a, float b, float c, float d) { return nearest_of(nearest_of(a, b), nearest_of(c, d)); }
+float kept_of_four(float a, float b, float c, float d) { return kept_of(kept_of(a, b), kept_of(c, d)); }
 
 // Fills `tile` with 32x32 texels of the level above `level`.
 void reduce_source(uint level, ivec2 tile_index) {
     for (uint i = gl_LocalInvocationIndex; i < 32u * 32u; i += 256u) {
         ivec2 inside = ivec2(i % 32u, i / 32u), texel = tile_index * 32 + inside, from = 2 * texel;
-        float value = nearest_of_four(source(level, from), source(level, from + ivec2(1, 0)),
+        float value = kept_of_four(source(level, from), source(level, from + ivec2(1, 0)),
                                       source(level, from + ivec2(0, 1)), source(level, from + ivec2(1, 1)));
         tile[i] = value;
         store(level + 1u, texel, value);
@@ -61,7 +69,7 @@ void reduce_tile(uint level, ivec2 tile_index) {
         float value = 0.0;
         if (is_active) {
             ivec2 a = 2 * inside, b = max(min(a + 1, last), a);
-            value = nearest_of_four(tile[a.y * 32 + a.x], tile[a.y * 32 + b.x], tile[b.y * 32 + a.x],
+            value = kept_of_four(tile[a.y * 32 + a.x], tile[a.y * 32 + b.x], tile[b.y * 32 + a.x],
                                     tile[b.y * 32 + b.x]);
             store(level + 1u, tile_index * width + inside, value);
         }
@@ -74,7 +82,7 @@ void reduce_tile(uint level, ivec2 tile_index) {
 void copy_first_level(ivec2 tile_index) {
     for (uint i = gl_LocalInvocationIndex; i < 64u * 64u; i += 256u) {
         ivec2 texel = tile_index * 64 + ivec2(i % 64u, i / 64u);
-        if (all(lessThan(texel, extent_of(0u)))) imageStore(mip_0, texel, texelFetch(depth, texel, 0));
+        if (all(lessThan(texel, extent_of(0u)))) imageStore(mip_0, texel, vec4(device_depth_of(texel)));
     }
 }
 

@@ -1,6 +1,6 @@
 #include "variants/frostbite_sssr/passes.h"
 
-FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& depth_pyramid,
+FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, const DepthPyramids& depths,
                                   const Image& color, const FrostbiteRayParameters& parameters) {
     const glm::uvec2 extent = gbuffer.depth.extent, tiles = (extent + frostbite_tile - 1u) / frostbite_tile;
     const PassGraph::History ray_count = graph.history("ray_count", Format::r32f, tiles);
@@ -11,7 +11,8 @@ FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, cons
     const glm::uvec2 blocks = (extent + frostbite_probe_spacing - 1u) / frostbite_probe_spacing;
     const Image probes = graph.image_of("probes", Format::rg32f, blocks);
     graph.compute("frostbite_sssr/probe.comp")
-        .read(depth_pyramid)
+        .read(depths.nearest)
+        .read(depths.farthest)
         .read(color.as("hit_color"))
         .write(probes)
         .label("frostbite_sssr/classify")

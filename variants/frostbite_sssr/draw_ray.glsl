@@ -13,10 +13,9 @@ bool starts_rays(ivec2 pixel) {
 bool is_hierarchical(ivec2 pixel) { return texelFetch(normal, pixel, 0).w < hierarchical_below; }
 
 struct DrawnRay {
-    vec3 direction;  // view space, unit
-    float inverse_density;
+    vec3 direction;         // view space, unit
+    float inverse_density;  // of the lobe, however often it was drawn
     bool is_above_horizon;  // of the shading normal
-    uint discarded_draws;
 };
 
 // Ray k of a pixel that starts rays, drawn again while it goes below the horizon.
@@ -25,11 +24,10 @@ DrawnRay draw_ray(ivec2 pixel, vec3 towards_surface, uint k, uint first_dimensio
     vec3 o = -towards_surface * view_from_local;
     float alpha = ggx_alpha(texelFetch(normal, pixel, 0).w);
     LobeSample drawn;
-    uint draw = 0u;
-    for (;; ++draw) {
+    for (uint draw = 0u;; ++draw) {
         drawn = sample_lobe(lobe, o, alpha, importance_bias, random_pair(pixel, k, first_dimension + draw));
         if (drawn.direction.z > 0.0 || draw == max_regenerations) break;
     }
-    return DrawnRay(view_from_local * drawn.direction, drawn.inverse_density, drawn.direction.z > 0.0, draw);
+    return DrawnRay(view_from_local * drawn.direction, drawn.inverse_density, drawn.direction.z > 0.0);
 }
 #endif

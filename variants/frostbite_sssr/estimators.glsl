@@ -1,11 +1,13 @@
-// The three ways to weigh rays. p: density of the ray, q: the pixel's own density of its direction, both of whole lobes
-// but for the factor 1 / (1 - importance_bias) of p; f: the pixel's BRDF times cosine, per colour channel.
+// The three ways to weigh rays. p: density with which the ray comes about, q: the density of its direction in the
+// pixel's own whole lobe; f: the pixel's BRDF times cosine, per colour channel.
 //   a: sum L f / p over sum f / p: Stachowiak and Uludag 2015.
-//   b: sum L f / p over sum q / p, times 1 / reflectance: Stachowiak's kajiya. Draws below the horizon count in the
-//      second sum, which else were too small by their share.
+//   b: sum L f / p over sum q / p, times 1 / reflectance: Stachowiak's kajiya. The second sum estimates the part of
+//      the lobe that rays are drawn from, and includes what of it lies below the horizon: as it is drawn, or, where rays
+//      are drawn again in its place, as the share that it is known to have.
 //   c: sum L q / p over sum q / p: Blender's EEVEE.
 #ifndef FROSTBITE_SSSR_ESTIMATORS_GLSL
 #define FROSTBITE_SSSR_ESTIMATORS_GLSL
+#include "frostbite_sssr/horizon.glsl"
 #include "frostbite_sssr/ray_radiance.glsl"
 
 const bool is_estimator_b = estimator == 1u, is_estimator_c = estimator == 2u;
@@ -32,21 +34,31 @@ void add_ray_length(inout Sums sums, float ray_length, float weight, float densi
     sums.longest = max(sums.longest, ray_length);
 }
 
+// What one ray adds to b's second sum. `density_ratio`: q / p.
+float lobe_share(Surface surface, float mu_i, bool is_traced, float density_ratio) {
+    if (max_regenerations == 0u) return is_traced || mu_i <= 0.0 ? density_ratio : 0.0;
+    float below = (1.0 - importance_bias) * share_below_horizon(surface.o.z, surface.roughness);
+    return below + (is_traced && mu_i > 0.0 ? density_ratio : 0.0);
+}
+
 void add_ray(inout Sums sums, ivec2 pixel, Surface surface, ReusedRay ray) {
     OwnRay own = as_own_ray(surface, ray);
+    // As in the path-traced reference such a direction is known to bring no light, whatever a neighbour saw along it.
+    // One into the neighbour's surface alone was never looked along.
+    bool is_into_surface = dot(own.direction, surface.geometric_normal) <= 0.0;
+    if (ray.traced.target == ray_into_surface && !is_into_surface) return;
     vec3 i = own.direction * surface.view_from_local;
     float density_ratio = lobe_density(lobe, surface.o, i, surface.alpha) * own.inverse_density;
     bool is_traced = ray.traced.target != ray_below_horizon;
-    // A draw that was thrown away is one of the pixel's own, as far as is known of it: q / p = 1 - importance_bias.
-    sums.density_ratio += float(ray.traced.discarded_draws) * (1.0 - importance_bias);
-    if (is_traced || i.z <= 0.0) sums.density_ratio += density_ratio;
+    if (is_estimator_b) sums.density_ratio += lobe_share(surface, i.z, is_traced, density_ratio);
     if (!is_traced || i.z <= 0.0) return;
 
     vec3 weight = is_estimator_c ? vec3(density_ratio) : reflectance_density(surface, i) * own.inverse_density;
-    Seen seen = seen_along(pixel, surface, ray, own);
+    Seen seen = is_into_surface ? Seen(vec3(0.0), 1.0) : seen_along(pixel, surface, ray, own);
     sums.weight += weight;
     sums.known_weight += seen.confidence * weight;
     sums.weighed_radiance += seen.confidence * weight * seen.radiance;
+    if (is_into_surface) return;
     add_ray_length(sums, own.ray_length, ray.traced.confidence * luminance(weight), density_ratio);
 }
 

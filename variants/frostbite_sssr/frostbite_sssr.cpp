@@ -1,24 +1,25 @@
 #include "variants/frostbite_sssr/frostbite_sssr.h"
 
-#include "variants/common/depth_pyramid.h"
 #include "variants/common/lit_history.h"
 #include "variants/frostbite_sssr/passes.h"
 
 Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
-    constexpr unsigned alpha = 3, pyramid_mips = 7;
+    constexpr unsigned alpha = 3;
     if (is_left_out_) {
         const Image nothing = graph.image("reflections", Format::rgba32f);
         graph.clear(nothing, {});
         return {nothing, nothing, alpha};
     }
-    const Image depth_pyramid = nearest_depth_pyramid(graph, gbuffer.depth, pyramid_mips);
+    const DepthPyramids depths = depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips);
     const Image color = resolve_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
     const Image filtered = resolve_.filtered_sampling ? frostbite_color_pyramid(graph, color) : color;
-    const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depth_pyramid, color, ray_);
+    const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, color, ray_);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, ray_);
-    const FrostbiteRays rays = frostbite_trace(graph, depth_pyramid, work, ray_);
+    const Image below_horizon = horizon_.on(graph, ray_);
+    const FrostbiteRays rays = frostbite_trace(graph, depths, work, below_horizon, ray_);
     const Image split_sum = split_sum_.on(graph);
-    const FrostbiteResolved resolved = frostbite_resolve(graph, gbuffer, filtered, split_sum, rays, resolve_);
+    const FrostbiteResolved resolved =
+        frostbite_resolve(graph, gbuffer, filtered, split_sum, below_horizon, rays, resolve_);
     const Image reflections = frostbite_accumulate(graph, gbuffer, split_sum, resolved, resolve_);
     return {reflections, reflections, alpha};
 }

@@ -2,6 +2,7 @@
 #include "core/gbuffer/split_sum_image.h"
 #include "core/variant.h"
 #include "variants/common/lit_history.h"
+#include "variants/frostbite_sssr/horizon_image.h"
 #include "variants/frostbite_sssr/ray_parameters.h"
 #include "variants/frostbite_sssr/resolve_parameters.h"
 
@@ -18,5 +19,6 @@ private:
     FrostbiteResolveParameters resolve_{params};
     LitHistory lit_;
     SplitSumImage split_sum_;
+    FrostbiteHorizonImage horizon_;
     bool is_left_out_ = false;
 };

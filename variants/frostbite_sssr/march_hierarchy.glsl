@@ -1,13 +1,15 @@
-// The march of smooth surfaces' rays through the pyramid of nearest depths: from pixel to pixel, a level coarser where
-// the line stays in front of all that a cell shows, a level finer where it does not (slides).
-// Ours, since the slides stop at the first surface that a ray falls behind: a cell is passed over only if the line is
-// in front of it where it enters and where it leaves, which holds for rays towards the camera, too; at the finest level
-// a ray that meets nothing solid goes on behind it. The result is that of looking at every pixel along the line.
+// The march of smooth surfaces' rays through a depth pyramid: from pixel to pixel, a level coarser where the line meets
+// nothing of a cell, a level finer where it may (slides).
+// Ours, since the slides stop at the first surface that a ray falls behind: a cell is passed over if the line, from
+// where it enters to where it leaves, is in front of the nearest surface in it or behind the solid part of the farthest.
+// That holds for rays towards the camera, too, and lets rays that have fallen behind things climb again, but needs a
+// second pyramid. At the finest level a ray that meets nothing solid goes on. The result is that of looking at every
+// pixel along the line.
 #ifndef FROSTBITE_SSSR_MARCH_HIERARCHY_GLSL
 #define FROSTBITE_SSSR_MARCH_HIERARCHY_GLSL
 #include "frostbite_sssr/solid.glsl"
 
-uniform sampler2D depth_pyramid;
+uniform sampler2D depth_pyramid, farthest_depth_pyramid;
 
 // Where a line leaves a cell.
 struct Exit {
@@ -39,27 +41,37 @@ int existing_level(ivec2 pixel, int level) {
     return level;
 }
 
-// A ray that runs out of steps counts as a miss.
+// Cells that a ray may pass before it counts as a miss. A line crosses no more pixels than a row and a column have
+// together, so that by default no ray runs out of them. Looks at coarser cells that the march then leaves for finer
+// ones do not count; there are no more than one per cell that was passed.
+uint most_cells() {
+    return max_hierarchical_steps > 0u ? max_hierarchical_steps : uint(camera.extent.x + camera.extent.y);
+}
+
 March march_hierarchy(ScreenLine line) {
     int coarsest = textureQueryLevels(depth_pyramid) - 1, level = 0;
     Exit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
-    for (uint step = 0u; step < max_hierarchical_steps && here.t < line.end; ++step) {
+    for (uint passed = 0u, most = most_cells(); passed < most && here.t < line.end;) {
         level = existing_level(here.pixel, level);
-        float surface = texelFetch(depth_pyramid, here.pixel >> level, level).r;
+        ivec2 cell = here.pixel >> level;
         Exit ahead = exit_of_cell(line, here.pixel, level);
         float t_out = min(ahead.t, line.end);
-        float farthest = farther_of(depth_at(line, here.t), depth_at(line, t_out));
-        bool is_in_front = is_nearer(farthest, surface);
-        if (!is_in_front && level > 0) {
+        float depth_in = depth_at(line, here.t), depth_out = depth_at(line, t_out);
+        float nearest = nearer_of(depth_in, depth_out), farthest = farther_of(depth_in, depth_out);
+        float surface = texelFetch(depth_pyramid, cell, level).r;
+        bool is_passed = is_nearer(farthest, surface) ||
+                         is_behind_solid(nearest, texelFetch(farthest_depth_pyramid, cell, level).r);
+        if (!is_passed && level > 0) {
             --level;
             continue;
         }
-        if (!is_in_front) {
+        if (!is_passed) {
             March end = meet(line, here.pixel, surface, here.t, t_out, farthest);
             if (end.is_hit) return end;
         }
         here = ahead;
-        if (is_in_front) level = min(level + 1, coarsest);
+        ++passed;
+        if (is_passed) level = min(level + 1, coarsest);
     }
     return miss;
 }

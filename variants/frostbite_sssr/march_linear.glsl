@@ -14,9 +14,10 @@ March meet_at_end(ScreenLine line, float t_in, float t_out) {
     return meet(line, pixel, texelFetch(depth, pixel, 0).r, t_in, t_out, depth_at(line, t_out));
 }
 
-// Halves the step that hit; the halves' ends may miss what its own end met.
+// Halves the step that hit down to a pixel; the halves' ends may miss what its own end met.
 March refine(ScreenLine line, March end, float t_in, float t_out) {
-    for (uint i = 0u; i < linear_refinements; ++i) {
+    const float pixel = 1.01;  // rounding must not halve steps of one pixel
+    for (uint i = 0u; i < linear_refinements && t_out - t_in > pixel; ++i) {
         float middle = 0.5 * (t_in + t_out);
         March nearer = meet_at_end(line, t_in, middle);
         if (nearer.is_hit) {

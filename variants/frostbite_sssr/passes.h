@@ -1,6 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
 #include "core/gpu/pass_graph.h"
+#include "variants/common/depth_pyramid.h"
 #include "variants/frostbite_sssr/ray_parameters.h"
 #include "variants/frostbite_sssr/resolve_parameters.h"
 
@@ -9,6 +10,9 @@
 
 /// Size of a tile of the classification and distance of its probes (pixels).
 inline constexpr unsigned frostbite_tile = 32, frostbite_probe_spacing = 8;
+
+/// Levels of the depth pyramids.
+inline constexpr unsigned frostbite_pyramid_mips = 7;
 
 /// How many rays each tile gets.
 struct FrostbiteTiles {
@@ -26,8 +30,7 @@ struct FrostbiteWork {
 /// What the rays found, by index of the ray. In 32 bits: densities overflow halves below a roughness of 0.033.
 struct FrostbiteRays {
     Buffer directions;  ///< vec4: xyz view space, unit, w 1 / density of the direction (sr); w = 0: no ray
-    Buffer hits;        ///< uvec4: x pixel (x | y << 16) or a marker of ray.glsl; y, z bits of: length (m), confidence;
-                        ///< w draws that were thrown away
+    Buffer hits;        ///< uvec4: x pixel (x | y << 16) or a marker of ray.glsl; y, z bits of: length (m), confidence
 };
 
 /// What each pixel makes of its own and its neighbours' rays.
@@ -41,20 +44,21 @@ struct FrostbiteResolved {
 Image frostbite_color_pyramid(PassGraph& graph, const Image& color);
 
 /// Probes and the decision per tile.
-FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& depth_pyramid,
+FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, const DepthPyramids& depths,
                                   const Image& color, const FrostbiteRayParameters& parameters);
 
 /// Lists the rays of every traced pixel, and prepares the arguments.
 FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteTiles& tiles,
                                  const FrostbiteRayParameters& parameters);
 
-/// Both tracers.
-FrostbiteRays frostbite_trace(PassGraph& graph, const Image& depth_pyramid, const FrostbiteWork& work,
-                              const FrostbiteRayParameters& parameters);
+/// Both tracers. `below_horizon`: of FrostbiteHorizonImage.
+FrostbiteRays frostbite_trace(PassGraph& graph, const DepthPyramids& depths, const FrostbiteWork& work,
+                              const Image& below_horizon, const FrostbiteRayParameters& parameters);
 
-/// `color`: the lit image that hits show, with its mips for filtered_sampling. `split_sum`: of SplitSumImage.
+/// `color`: the lit image that hits show, with its mips for filtered_sampling. `split_sum`: of SplitSumImage;
+/// `below_horizon`: of FrostbiteHorizonImage.
 FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color,
-                                    const Image& split_sum, const FrostbiteRays& rays,
+                                    const Image& split_sum, const Image& below_horizon, const FrostbiteRays& rays,
                                     const FrostbiteResolveParameters& parameters);
 
 /// rgba32f: rgb incident radiance, a confidence. `split_sum`: of SplitSumImage.

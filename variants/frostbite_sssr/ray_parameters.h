@@ -43,12 +43,14 @@ struct FrostbiteRayParameters {
     Param<float> hierarchical_below{params, "hierarchical_below", 0.2f, {0.0f, 1.0f},
         {"perceptual", "roughness below which rays march through the depth pyramid; rougher ones take linear steps",
          "slides: 20 %, of which roughness they do not say"}};
-    Param<unsigned> max_hierarchical_steps{params, "max_hierarchical_steps", 128, {1, 4096},
-        {"steps", "cells of the depth pyramid that one ray may visit", "ssrlab"}};
+    Param<unsigned> max_hierarchical_steps{params, "max_hierarchical_steps", 0, {0, 65536},
+        {"cells", "of the depth pyramid that one ray may pass before it counts as a miss; 0: as many as it takes, which is "
+         "at most the sum of the screen's width and height", "ssrlab"}};
     Param<unsigned> linear_steps{params, "linear_steps", 32, {1, 4096},
         {"steps", "into which a rough surface's ray is divided between its start and the border of the screen", "ssrlab"}};
-    Param<unsigned> linear_refinements{params, "linear_refinements", 4, {0, 8},
-        {"", "times that the last linear step is halved, to find where on it the ray meets the surface", "ssrlab"}};
+    Param<unsigned> linear_refinements{params, "linear_refinements", 8, {0, 16},
+        {"", "times at most that the last linear step is halved, to find where on it the ray meets the surface; no more "
+         "once it is a pixel or less", "ssrlab"}};
     Switch front_faces_only{params, "front_faces_only", true,
         {"", "a ray that meets a surface from behind counts as a miss: the screen shows the other side of it",
          "ssrlab; AMD FidelityFX SSSR 1.5 rejects such hits, too"}};

@@ -2,16 +2,18 @@
 #ifndef FROSTBITE_SSSR_RAY_RADIANCE_GLSL
 #define FROSTBITE_SSSR_RAY_RADIANCE_GLSL
 #include "core/shaders/gbuffer/environment.glsl"
+#include "frostbite_sssr/lobe_cone.h"
 #include "frostbite_sssr/reuse.glsl"
 
 uniform sampler2D color_pyramid;
 
-// Tangent of half the angle of the cone that one ray stands for: that of the truncated lobe of half vectors.
+// Tangent of half the angle of the cone that one ray stands for.
 float cone_tangent(Surface surface) {
+    const bool is_published = grazing_cone == 0u, is_of_lobe = grazing_cone == 1u;
     float alpha = surface.roughness * surface.roughness;  // not ggx_alpha(): mirrors are not blurred
-    float tangent = cone_scale * alpha * sqrt(1.0 - importance_bias);
-    if (!grazing_cone) return tangent;
-    return tangent * mix(clamp(2.0 * surface.o.z, 0.0, 1.0), 1.0, sqrt(surface.roughness));
+    float tangent = cone_scale * lobe_cone_tangent(alpha, importance_bias);
+    if (is_published) return tangent * mix(clamp(2.0 * surface.o.z, 0.0, 1.0), 1.0, sqrt(surface.roughness));
+    return is_of_lobe ? tangent * lobe_cone_narrowing(surface.o.z) : tangent;
 }
 
 // Pixels of the screen per metre across the view at a view-space position.
@@ -35,7 +37,6 @@ struct Seen {
 
 Seen seen_along(ivec2 pixel, Surface surface, ReusedRay ray, OwnRay own) {
     const bool misses_see_environment = misses == 1u;
-    if (ray.traced.target == ray_into_surface) return Seen(vec3(0.0), 1.0);
     float confidence = is_hit(ray.traced) ? ray.traced.confidence : 0.0;
     vec3 hit = vec3(0.0);
     if (confidence > 0.0) hit = textureLod(color_pyramid, ray.color_uv, color_level(surface, own)).rgb;

@@ -14,7 +14,7 @@ glm::uvec2 groups_of(glm::uvec2 extent, const FrostbiteResolveParameters& parame
 }  // namespace
 
 FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color,
-                                    const Image& split_sum, const FrostbiteRays& rays,
+                                    const Image& split_sum, const Image& below_horizon, const FrostbiteRays& rays,
                                     const FrostbiteResolveParameters& parameters) {
     const glm::uvec2 extent = gbuffer.depth.extent;
     const FrostbiteResolved resolved{graph.image("resolved_radiance", Format::rgba32f),
@@ -22,6 +22,7 @@ FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, co
     PassGraph::Pass pass = graph.compute("frostbite_sssr/resolve.comp");
     pass.read_linear(color.as("color_pyramid"))
         .read(split_sum)
+        .read(below_horizon)
         .use(rays.directions)
         .use(rays.hits)
         .write(resolved.radiance)

@@ -13,14 +13,16 @@ struct FrostbiteResolveParameters {
          "they faced away. show: the colour of what was there; miss: they count as misses; drop: not at all, so that "
          "others, if any, stand in for them", "ssrlab; the slides do not say"}};
     Switch filtered_sampling{params, "filtered_sampling", true,
-        {"", "hits take their colour from a mip level as wide as the whole truncated lobe, however many rays share it; Colbert "
-         "and Krivanek's is as wide as one ray's share, of the solid angle 1 / (rays times density)", "slides; Colbert and "
-         "Krivanek 2007, 'GPU-Based Importance Sampling', GPU Gems 3, chapter 20"}};
+        {"", "hits take their colour from a mip level as wide as the cone that holds half of the truncated lobe, however many rays "
+         "share it; Colbert and Krivanek's is as wide as one ray's share, of the solid angle 1 / (rays times density)",
+         "slides; Colbert and Krivanek 2007, 'GPU-Based Importance Sampling', GPU Gems 3, chapter 20"}};
     Param<float> cone_scale{params, "cone_scale", 1.0f, {0.0f, 8.0f},
-        {"", "tangent of the cone's half angle over that of the truncated lobe, alpha sqrt(1 - importance_bias)",
+        {"", "tangent of the cone's half angle over that which holds half of the truncated lobe seen along the normal: "
+         "2 t / (1 - t^2), t = alpha sqrt((1 - importance_bias) / (1 + importance_bias))",
          "ssrlab; the slides' fit is not published"}};
-    Switch grazing_cone{params, "grazing_cone", true,
-        {"", "narrows the cone towards grazing views: times mix(saturate(2 cos), 1, sqrt(roughness))", "slides"}};
+    Choice grazing_cone{params, "grazing_cone", "published", {"published", "lobe", "off"},
+        {"", "what narrows the cone towards grazing views. published: times mix(saturate(2 cos), 1, sqrt(roughness)); lobe: "
+         "as the lobe does, times sqrt((1 + 2 cos^2) / 3); off: nothing", "slides: published; lobe is ours"}};
 
     // Reuse of neighbours' rays.
     Choice taps{params, "taps", "4", {"1", "4", "16"},
@@ -38,8 +40,8 @@ struct FrostbiteResolveParameters {
         {"", "with hit_point, converts the neighbour's density to the pixel's solid angle", "ssrlab; the slides ignore it"}};
     Choice estimator{params, "estimator", "a", {"a", "b", "c"},
         {"", "a: sum L f / p over sum f / p, times the integral of f; b: sum L f / p over sum q / p; c: as a with q in "
-         "place of f. f is the pixel's BRDF times cosine, q its own density of directions, p the ray's. Draws below the "
-         "horizon count in b's second sum: exactly without max_regenerations, else as if all were the pixel's own",
+         "place of f. f is the pixel's BRDF times cosine, q its own density of directions, p the ray's. The share of the "
+         "lobe below the horizon counts in b's second sum: as drawn, or with max_regenerations as it is known to be",
          "a: slides; b: Stachowiak's kajiya; c: Blender's EEVEE"}};
     Choice misses{params, "misses", "weight", {"weight", "fallback"},
         {"", "what a ray without a hit contributes. weight: only less confidence; fallback: the environment in its "

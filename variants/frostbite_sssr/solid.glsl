@@ -17,6 +17,9 @@ bool is_nearer(float a, float b) { return camera.depth.w == 1.0 ? a > b : a < b;
 float nearer_of(float a, float b) { return is_nearer(a, b) ? a : b; }
 float farther_of(float a, float b) { return is_nearer(a, b) ? b : a; }
 
+// Whether all of a line that comes no nearer than a device depth is behind what counts as solid of a surface.
+bool is_behind_solid(float nearest, float surface) { return view_z(nearest) < view_z(surface) * (1.0 + thickness); }
+
 // Of the plane that the ray leaves, and so not what it meets.
 bool is_own_plane(ScreenLine line, ivec2 pixel, float t) {
     float height = dot(view_position(pixel) - line.vs_origin, line.vs_normal);
@@ -33,7 +36,7 @@ float closest_t(ScreenLine line, float surface, float t_in, float t_out) {
 March meet(ScreenLine line, ivec2 pixel, float surface, float t_in, float t_out, float farthest) {
     if (is_background(surface) || is_nearer(farthest, surface)) return miss;
     float nearest = nearer_of(depth_at(line, t_in), depth_at(line, t_out));
-    if (view_z(nearest) < view_z(surface) * (1.0 + thickness)) return miss;
+    if (is_behind_solid(nearest, surface)) return miss;
     float t = closest_t(line, surface, t_in, t_out);
     return leave_own_plane && is_own_plane(line, pixel, t) ? miss : March(true, pixel, t);
 }

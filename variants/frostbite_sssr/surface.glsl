@@ -6,9 +6,10 @@
 #include "core/shaders/gbuffer/split_sum.glsl"
 
 struct Surface {
-    vec3 position;         // view space
-    mat3 view_from_local;  // local frame of core/shared/brdf.h
-    vec3 o;                // towards the viewer, local
+    vec3 position;          // view space
+    vec3 geometric_normal;  // view space
+    mat3 view_from_local;   // local frame of core/shared/brdf.h
+    vec3 o;                 // towards the viewer, local
     float roughness, alpha;
     vec3 f0;
     float f90;
@@ -20,6 +21,7 @@ Surface surface_of(ivec2 pixel) {
     Surface surface;
     surface.position = view_position(pixel);
     surface.view_from_local = basis_from_normal(view_normal(pixel));
+    surface.geometric_normal = view_geometric_normal(pixel);
     surface.o = -view_direction(surface.position) * surface.view_from_local;
     surface.roughness = texelFetch(normal, pixel, 0).w;
     surface.alpha = ggx_alpha(surface.roughness);

@@ -1,7 +1,7 @@
 // Traces the listed rays of rough surfaces.
 #include "frostbite_sssr/counters.glsl"
 #include "frostbite_sssr/march_linear.glsl"
-#include "frostbite_sssr/trace_ray.glsl"
+#include "frostbite_sssr/trace_listed.glsl"
 
 layout(local_size_x = 64) in;
 buffer linear_list { uint listed_ray[]; };
@@ -11,6 +11,5 @@ March march(ScreenLine line, float random) { return march_linear(line, random); 
 void main() {
     uint place = place_in_list();
     if (place >= linear_count) return;
-    uint index = listed_ray[place];
-    store_ray(index, trace_ray(traced_pixel(traced_of_ray(index), camera.frame.x), index % max_rays, ray_dimension));
+    trace_listed(listed_ray[place]);
 }

@@ -12,12 +12,11 @@ March march(ScreenLine line, float random);
 TracedRay trace_ray(ivec2 pixel, uint k, uint first_dimension) {
     vec3 origin = view_position(pixel), vs_normal = view_geometric_normal(pixel);
     DrawnRay drawn = draw_ray(pixel, view_direction(origin), k, first_dimension);
-    TracedRay ray = TracedRay(drawn.direction, drawn.inverse_density, ray_missed, 0.0, 0.0, drawn.discarded_draws);
+    TracedRay ray = TracedRay(drawn.direction, drawn.inverse_density, ray_missed, 0.0, 0.0);
     if (!drawn.is_above_horizon) {
         ray.target = ray_below_horizon;
     } else if (dot(drawn.direction, vs_normal) <= 0.0) {
         ray.target = ray_into_surface;
-        ray.confidence = 1.0;
     } else {
         ScreenLine line = screen_line(pixel, origin, drawn.direction, vs_normal);
         March end = march(line, random_pair(pixel, k, first_dimension + march_dimension).x);

@@ -31,9 +31,9 @@ private:
     Param<float> relative_thickness{params, "relative_thickness", 0.0f, {0.0f, 1.0f},
         {"of the depth", "added to thickness; grows with the distance from the camera and so fits scenes of any size",
          "ssrlab"}};
-    Param<unsigned> max_steps{params, "max_steps", 4096, {1, 16384},
+    Param<unsigned> max_steps{params, "max_steps", 16384, {1, 16384},
         {"", "tested pixels before a ray is given up: it reaches max_steps * stride pixels",
-         "McGuire & Mara 2014, section 3; the default crosses the screen"}};
+         "McGuire & Mara 2014, section 3; the default crosses any screen"}};
     Param<float> max_distance{params, "max_distance", 0.0f, {0.0f, 1e9f},
         {"m", "length of a ray; 0: twice the distance of the far plane",
          "McGuire & Mara 2014, section 3; the default leaves no ray short in scenes of any size"}};

@@ -1,0 +1,27 @@
+#include "variants/frostbite_sssr/horizon_image.h"
+
+#include "variants/common/ggx_lobe.h"
+#include "variants/common/lobe_horizon.h"
+
+HostImage frostbite_horizon_table(unsigned lobe, float bias) {
+    const unsigned size = 64;
+    HostImage table({size, size}, 1);
+    for (unsigned y = 0; y < size; ++y)
+        for (unsigned x = 0; x < size; ++x) {
+            const float mu_o = (float(x) + 0.5f) / size, roughness = (float(y) + 0.5f) / size;
+            *table.pixel(x, y) = float(share_below_horizon(lobe, mu_o, ggx_alpha(roughness), bias));
+        }
+    return table;
+}
+
+Image FrostbiteHorizonImage::on(PassGraph& graph, const FrostbiteRayParameters& parameters) {
+    const Image image = graph.image_of("below_horizon", Format::r32f, {64, 64});
+    const unsigned lobe = parameters.lobe.is("normals") ? lobe_of_normals : lobe_of_visible_normals;
+    const float bias = parameters.importance_bias;
+    if (uploaded_.lock() == image.storage && lobe == lobe_ && bias == bias_) return image;
+    graph.upload(image, frostbite_horizon_table(lobe, bias));
+    uploaded_ = image.storage;
+    lobe_ = lobe;
+    bias_ = bias;
+    return image;
+}

@@ -1,0 +1,21 @@
+#pragma once
+#include "core/gpu/pass_graph.h"
+#include "variants/frostbite_sssr/ray_parameters.h"
+
+#include <memory>
+
+/// share_below_horizon() of variants/common/lobe_horizon.h on the GPU, for shaders that include horizon.glsl.
+class FrostbiteHorizonImage {
+public:
+    /// The image `below_horizon`, r32f, of the lobe and importance_bias; uploaded when the graph has none for them yet.
+    Image on(PassGraph& graph, const FrostbiteRayParameters& parameters);
+
+private:
+    std::weak_ptr<ImageStorage> uploaded_;
+    unsigned lobe_ = 0;
+    float bias_ = 0;
+};
+
+/// Column = cosine of the viewer, row = perceptual roughness, both at texel centres (i + 0.5) / 64. Read between texels
+/// its error is below 0.01, but for views within 3 degrees of grazing, where it reaches 0.1.
+HostImage frostbite_horizon_table(unsigned lobe, float bias);
