@@ -26,6 +26,10 @@ public:
     /// render() skips the stages returned, which would not have changed a pixel.
     virtual std::vector<LeftOut> leave_out(const SceneFacts&) { return {}; }
 
+    /// Whether another seed may give another result: false where no random number is drawn, so that one seed tells all.
+    /// Called after the parameters are set.
+    virtual bool depends_on_seed() const { return true; }
+
     /// Why a seed's result may differ from run to run, as a clause that names the parameter to blame; empty if it does
     /// not. Called after the parameters are set.
     virtual std::string not_repeatable() const { return {}; }

@@ -29,14 +29,15 @@ struct adl_serializer<std::optional<T>> {
 }  // namespace nlohmann
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ResultRow, shot, scene, camera, frame, width, height, variant, point, seed, target,
-                                   metric, formula, mask, value, is_corrected, uncorrected, low, high, floor, pixels,
-                                   non_finite, negative)
+                                   metric, formula, mask, value, is_corrected, uncorrected, low, high, floor, lit_noise,
+                                   lit_half_width, pixels, non_finite, negative)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SeedPairs, variance, bias_squared)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SplitRow, shot, frame, variant, point, target, mask, seeds, mse, bias_squared,
                                    variance, variance_low, variance_high, pixels, bias_squared_low, bias_squared_high,
-                                   seed_numbers, pairs)
+                                   seed_numbers, pairs, reference_noise)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferenceNoise, shot, frame, variant, point, target, metric, mask, sums)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeRow, shot, variant, point, seed, stage, frame, milliseconds, clock)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cell, rows, splits, times, images, timing, notes)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cell, rows, splits, reference_noise, times, images, timing, notes)
 
 std::optional<Cell> CellStore::load(const std::string& hash) const {
     const std::filesystem::path file = folder_ / (hash + ".json");

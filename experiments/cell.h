@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/reference_noise.h"
 #include "metrics/seed_pairs.h"
 
 #include <filesystem>
@@ -19,6 +20,7 @@ struct ResultRow {
     std::optional<double> value;  ///< none where it is not finite, e.g. the PSNR of equal images
     bool is_corrected = false;
     std::optional<double> uncorrected, low, high, floor;
+    std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
     size_t pixels = 0, non_finite = 0, negative = 0;
 };
 
@@ -30,8 +32,10 @@ struct SplitRow {
     std::optional<double> variance_low, variance_high;
     size_t pixels = 0;
     std::optional<double> bias_squared_low, bias_squared_high;
-    std::vector<unsigned> seed_numbers;  ///< of `pairs`; both are kept in cells, for effects, but not in splits.csv
+    // Kept in cells, for effects, but not in splits.csv.
+    std::vector<unsigned> seed_numbers;  ///< of `pairs`
     SeedPairs pairs;
+    std::vector<float> reference_noise;  ///< of bias_squared, see ReferenceNoise::sums
 };
 
 /// One row of times.csv.
@@ -49,6 +53,7 @@ struct TimeRow {
 struct Cell {
     std::vector<ResultRow> rows;
     std::vector<SplitRow> splits;
+    std::vector<ReferenceNoise> reference_noise;
     std::vector<TimeRow> times;
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed

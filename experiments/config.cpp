@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "experiments/primary_comparisons.h"
 #include "metrics/ghost.h"
 #include "metrics/masks.h"
 #include "metrics/metric.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace {
 
@@ -66,6 +68,23 @@ std::vector<unsigned> numbers(JsonObject& object, const std::string& key, unsign
     if (list.empty() || !ascends)
         fail(object.where(), ": '", key, "' must hold at least one number, each greater than the one before");
     return list;
+}
+
+/// The seeds that a study or a variant names; none if it names none.
+std::optional<std::vector<unsigned>> read_seeds(JsonObject& object) {
+    if (!object.has("seeds")) return {};
+    return numbers(object, "seeds", max_seed, {});
+}
+
+/// A variant's own are obeyed to the letter. Of those that a study names for all, a point that does not depend on them
+/// needs one.
+std::vector<unsigned> seeds_of(const std::optional<std::vector<unsigned>>& own,
+                               const std::optional<std::vector<unsigned>>& of_study, bool depends_on_seed) {
+    if (own) return *own;
+    if (of_study) return depends_on_seed ? *of_study : std::vector{of_study->front()};
+    std::vector<unsigned> seeds(depends_on_seed ? default_seeds : 1);
+    std::iota(seeds.begin(), seeds.end(), 0u);
+    return seeds;
 }
 
 glm::uvec2 read_extent(JsonObject& shot) {
@@ -201,14 +220,15 @@ nlohmann::json with_values(nlohmann::json parameters, const nlohmann::json& chan
     return parameters;
 }
 
-void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, std::vector<VariantConfig>& variants) {
+void read_variant(JsonObject entry, const std::optional<std::vector<unsigned>>& study_seeds,
+                  std::vector<VariantConfig>& variants) {
     const std::string name = entry.text("variant");
     make_checked(entry, name);
     const std::vector<std::string> presets = one_or_more(entry, "preset", "");
     const nlohmann::json parameters = entry.has("parameters") ? entry.any("parameters") : nlohmann::json::object();
     if (!parameters.is_object()) fail(entry.where(), ": 'parameters' must be an object, not ", shown(parameters));
     const std::vector<nlohmann::json> points = read_points(entry, name);
-    const std::vector<unsigned> seeds = numbers(entry, "seeds", max_seed, study_seeds);
+    const std::optional<std::vector<unsigned>> own_seeds = read_seeds(entry);
     const nlohmann::json against = entry.has("against") ? entry.any("against") : nlohmann::json();
     if (entry.has("against") && (!against.is_object() || against.empty()))
         fail(entry.where(), ": 'against' must be an object of parameter values, not ", shown(against));
@@ -220,14 +240,15 @@ void read_variant(JsonObject entry, const std::vector<unsigned>& study_seeds, st
                                   .preset = preset,
                                   .parameters = parameters,
                                   .point = preset,
-                                  .seeds = seeds,
+                                  .seeds = {},
                                   .is_baseline = is_baseline,
                                   .against = against,
                                   .is_timed = is_timed};
             variant.parameters.update(point);
             if (!point.empty()) variant.point += (preset.empty() ? "" : " ") + label_of(point);
             if (variant.point.empty()) variant.point = "default";
-            make_checked(entry, name, variant.parameters, preset);
+            variant.depends_on_seed = make_checked(entry, name, variant.parameters, preset)->depends_on_seed();
+            variant.seeds = seeds_of(own_seeds, study_seeds, variant.depends_on_seed);
             if (!against.is_null()) make_checked(entry, name, with_values(variant.parameters, against), preset);
             variants.push_back(std::move(variant));
         }
@@ -307,8 +328,8 @@ Config read_config(const std::filesystem::path& file) {
     if (object.has("$schema")) object.text("$schema");
 
     for (JsonObject& shot : object.objects("shots")) read_shot(shot, file.parent_path(), config.shots);
-    config.seeds = numbers(object, "seeds", max_seed, {0});
-    for (JsonObject& variant : object.objects("variants")) read_variant(variant, config.seeds, config.variants);
+    const std::optional<std::vector<unsigned>> seeds = read_seeds(object);
+    for (JsonObject& variant : object.objects("variants")) read_variant(variant, seeds, config.variants);
     if (object.has("reference")) config.reference = read_reference(object.object("reference"));
     config.direct_lit = object.choice("lit", {"path_traced", "direct"}, "path_traced") == "direct";
 
@@ -339,6 +360,7 @@ Config read_config(const std::filesystem::path& file) {
     config.targets = known_names(object, "targets", target_names(), {"specular", "image", "incident"});
     config.frame_metrics = known_names(object, "frame_metrics", metric_names(), {"mse", "relmse", "bias"}, true);
     config.frame_masks = known_names(object, "frame_masks", config.masks, default_frame_masks(config.masks));
+    config.primary = read_primary(object, config);
     config.reflective_max_roughness =
         object.number("reflective_max_roughness", 0.0f, 1.0f, config.reflective_max_roughness);
     config.reflective_min_reflectance =

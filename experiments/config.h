@@ -35,6 +35,7 @@ struct VariantConfig {
     nlohmann::json parameters;  ///< values that differ from the preset's or default ones
     std::string point;          ///< its label in results: the preset and the swept values, or "default"
     std::vector<unsigned> seeds;
+    bool depends_on_seed = true;  ///< else one seed tells all, see Variant::depends_on_seed()
     bool is_baseline = false;  ///< all other points are compared with it, over the seeds that both have
     nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
     std::string against_point;  ///< of the same variant; "" for that point itself
@@ -49,6 +50,15 @@ struct TimingConfig {
     unsigned warm_up = 3;
 };
 
+/// The comparisons that a study is made for: one error of all points and shots. All others are exploratory.
+struct PrimaryComparisons {
+    std::string metric = "relmse", mask = "reflective", target = "specular";
+};
+
+/// Seeds of a point whose result depends on them, if the config names none: few seeds give wide intervals, and those of
+/// fewer skewed errors do not cover.
+inline constexpr unsigned default_seeds = 8;
+
 /// A study: everything that `ssrlab run` is told.
 struct Config {
     std::string title;
@@ -59,10 +69,10 @@ struct Config {
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     TimingConfig timing;
-    std::vector<unsigned> seeds{0};    ///< of variants that name none of their own
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;
     std::vector<std::string> targets;
+    PrimaryComparisons primary;
     std::vector<std::string> frame_metrics;    ///< of all measured frames but the last, and of their mean; may be empty
     std::vector<std::string> frame_masks;      ///< of each of those frames; their mean has all masks
     float reflective_max_roughness = 0.6f;     ///< the mask `reflective`: perceptual roughness at most this ...

@@ -100,6 +100,7 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"frame_metrics", {{"anyOf", {list_of(metric_names()), {{"type", "array"}, {"maxItems", 0}}}}}},
                 {"frame_masks", masks()},
                 {"targets", list_of(target_names())},
+                {"primary", object({{"metric", text}, {"mask", text}, {"target", {{"enum", target_names()}}}})},
                 {"reflective_max_roughness", number(0, 1)},
                 {"reflective_min_reflectance", number(0, 1)}},
                {"shots", "variants"});

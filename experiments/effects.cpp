@@ -2,6 +2,7 @@
 
 #include "core/files.h"
 #include "experiments/csv.h"
+#include "experiments/interval.h"
 #include "metrics/statistics.h"
 #include "metrics/temporal.h"
 
@@ -35,7 +36,14 @@ std::vector<const ResultRow*> chosen_rows(std::span<const ResultRow> rows) {
 }
 
 using Point = std::pair<std::string, std::string>;  // variant, point
-using Points = std::set<Point>;
+
+/// Everything about one quantity of one point that its comparisons need.
+struct Side {
+    std::map<unsigned, const ResultRow*> seeds;
+    const ReferenceNoise* noise = nullptr;
+    const SplitRow* split = nullptr;
+    bool depends_on_seed = true;
+};
 
 /// An effect on what two rows of one quantity measure, as yet without numbers.
 template <class Row>
@@ -51,134 +59,205 @@ EffectRow effect_between(const Row& point, const Row& baseline) {
             .mask = point.mask};
 }
 
-void set_ratio(EffectRow& row, const Jackknifed& error, const Jackknifed& base_error) {
-    if (!(error.value > 0 && base_error.value > 0)) return;
-    const RatioEstimate e = jackknifed_ratio(error, base_error);
+/// The variance that the reference's noise gives to ln(a / b); see ReferenceNoise. The groups are as many components of
+/// one degree of freedom each, of which few may have most of the variance (Satterthwaite 1946).
+SharedScatter shared_scatter(const std::vector<float>& sums, double error, const std::vector<float>& base_sums,
+                             double base_error) {
+    double variance = 0, squares = 0;
+    for (size_t g = 0; g < sums.size(); ++g) {
+        const double change = sums[g] / error - base_sums[g] / base_error, square = change * change;
+        variance += square, squares += square * square;
+    }
+    if (variance == 0) return {};
+    return {.variance = variance, .degrees = variance * variance / squares};
+}
+
+void set_ratio(EffectRow& row, const Jackknifed& error, const Jackknifed& base_error, const SharedScatter& shared) {
+    if (!(error.value > 0 && base_error.value > 0)) {
+        row.interval = interval::not_positive;
+        return;
+    }
+    const RatioEstimate e = jackknifed_ratio(error, base_error, shared);
     row.ratio = e.value, row.low = e.low, row.high = e.high, row.p = e.p_value;
 }
 
-using Seeds = std::map<unsigned, const ResultRow*>;
+/// Takes the interval away where it would hold less than it seems to.
+void withhold_interval(EffectRow& row, const char* why) {
+    row.low = row.high = row.p = std::nullopt;
+    row.interval = why;
+}
 
-std::vector<EffectRow> effects_of(const Seeds& point, const Seeds& baseline) {
-    const ResultRow& first = *point.begin()->second;
-    EffectRow row = effect_between(first, *baseline.begin()->second);
+/// The seeds that a comparison is made over: those that both sides have, a side that does not depend on them having
+/// all.
+std::vector<unsigned> common_seeds(const Side& point, const Side& baseline) {
+    const Side& deciding = point.depends_on_seed ? point : baseline;
+    std::vector<unsigned> common;
+    for (const auto& [seed, row] : deciding.seeds)
+        if (!deciding.depends_on_seed || !baseline.depends_on_seed || baseline.seeds.contains(seed)) {
+            common.push_back(seed);
+            if (!deciding.depends_on_seed) break;  // both: one seed tells all
+        }
+    return common;
+}
+
+/// The row of a seed.
+const ResultRow& row_of(const Side& side, unsigned seed) {
+    return side.depends_on_seed ? *side.seeds.at(seed) : *side.seeds.begin()->second;
+}
+
+std::vector<EffectRow> effects_of_rows(const Side& point, const Side& baseline) {
+    const ResultRow& first = *point.seeds.begin()->second;
+    EffectRow row = effect_between(first, *baseline.seeds.begin()->second);
     row.metric = first.metric, row.formula = first.formula;
     std::vector<double> errors, base_errors;
     bool has_values = true;
-    for (const auto& [seed, r] : point) {
-        const auto found = baseline.find(seed);
-        if (found == baseline.end()) continue;
-        ++row.seeds;
-        has_values = has_values && r->value && found->second->value;
-        errors.push_back(r->value.value_or(0)), base_errors.push_back(found->second->value.value_or(0));
+    for (const unsigned seed : common_seeds(point, baseline)) {
+        const ResultRow &a = row_of(point, seed), &b = row_of(baseline, seed);
+        has_values = has_values && a.value && b.value;
+        errors.push_back(a.value.value_or(0)), base_errors.push_back(b.value.value_or(0));
     }
-    if (row.seeds > 0 && has_values) set_ratio(row, jackknifed_mean(errors), jackknifed_mean(base_errors));
+    row.seeds = errors.size();
+    if (errors.empty() || !has_values) {
+        row.interval = interval::no_value;
+        return {row};
+    }
+    const Jackknifed error = jackknifed_mean(errors), base_error = jackknifed_mean(base_errors);
+    const bool has_noise = point.noise && baseline.noise;
+    set_ratio(row, error, base_error,
+              has_noise ? shared_scatter(point.noise->sums, error.value, baseline.noise->sums, base_error.value)
+                        : SharedScatter{});
+    if (!row.ratio) return {row};
+    const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;
+    row.interval = has_seeds ? (has_noise ? interval::reference_and_seeds : interval::seeds) : interval::reference;
+    if (has_seeds && row.seeds < 2)
+        withhold_interval(row, interval::one_seed);
+    else if (!has_seeds && has_noise && !row.low)  // the reference is exact
+        row.low = row.high = row.ratio, row.p = *row.ratio == 1 ? 1.0 : 0.0;
+    else if (!has_seeds && !has_noise)
+        withhold_interval(row, interval::unknown_reference);
+    else if (!row.low)
+        withhold_interval(row, interval::too_few_seeds);
     return {row};
 }
 
-std::vector<EffectRow> effects_of(const SplitRow* point, const SplitRow* baseline) {
-    std::vector<size_t> chosen, base_chosen;  // the common seeds, as places among those of either
-    for (size_t i = 0; i < point->seed_numbers.size(); ++i) {
-        const auto& numbers = baseline->seed_numbers;
-        const auto found = std::ranges::find(numbers, point->seed_numbers[i]);
-        if (found != numbers.end()) chosen.push_back(i), base_chosen.push_back(size_t(found - numbers.begin()));
+/// The seeds of two splits that both have, as places among those of either; a side without seeds has each.
+std::pair<std::vector<size_t>, std::vector<size_t>> common_places(const Side& point, const Side& baseline) {
+    std::vector<size_t> chosen, base_chosen;
+    const auto &numbers = point.split->seed_numbers, &base_numbers = baseline.split->seed_numbers;
+    if (!point.depends_on_seed || !baseline.depends_on_seed) {
+        const size_t count = (point.depends_on_seed ? numbers : base_numbers).size();
+        for (size_t i = 0; i < (point.depends_on_seed || baseline.depends_on_seed ? count : 1); ++i)
+            chosen.push_back(i), base_chosen.push_back(i);
+        return {chosen, base_chosen};
     }
-    if (chosen.size() < 2) return {};
+    for (size_t i = 0; i < numbers.size(); ++i) {
+        const auto found = std::ranges::find(base_numbers, numbers[i]);
+        if (found != base_numbers.end())
+            chosen.push_back(i), base_chosen.push_back(size_t(found - base_numbers.begin()));
+    }
+    return {chosen, base_chosen};
+}
+
+/// A point that does not depend on seeds tells the same without any of them.
+Jackknifed part_of(const Side& side, std::vector<double> SeedPairs::*part, std::span<const size_t> chosen) {
+    const std::vector<double>& pairs = side.split->pairs.*part;
+    if (side.depends_on_seed) return jackknifed_pairs(pairs, chosen);
+    return {.value = pairs.front(), .without = std::vector(chosen.size() > 2 ? chosen.size() : 0, pairs.front())};
+}
+
+std::vector<EffectRow> effects_of_splits(const Side& point, const Side& baseline) {
+    const auto [chosen, base_chosen] = common_places(point, baseline);
+    const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;
+    if (chosen.size() < (has_seeds ? 2 : 1)) return {};
     std::vector<EffectRow> effects;
-    for (const auto& [name, pairs] :
+    for (const auto& [name, part] :
          {std::pair("bias_squared", &SeedPairs::bias_squared), std::pair("variance", &SeedPairs::variance)}) {
-        EffectRow& row = effects.emplace_back(effect_between(*point, *baseline));
+        EffectRow& row = effects.emplace_back(effect_between(*point.split, *baseline.split));
         row.metric = name, row.formula = "seed_pairs", row.seeds = chosen.size();
-        set_ratio(row, jackknifed_pairs(point->pairs.*pairs, chosen),
-                  jackknifed_pairs(baseline->pairs.*pairs, base_chosen));
+        const Jackknifed error = part_of(point, part, chosen), base_error = part_of(baseline, part, base_chosen);
+        const bool is_bias = part == &SeedPairs::bias_squared;
+        const bool has_noise = is_bias && !point.split->reference_noise.empty() &&
+                               point.split->reference_noise.size() == baseline.split->reference_noise.size();
+        set_ratio(row, error, base_error,
+                  has_noise ? shared_scatter(point.split->reference_noise, error.value, baseline.split->reference_noise,
+                                             base_error.value)
+                            : SharedScatter{});
+        if (!row.ratio) continue;
+        row.interval = !has_seeds ? interval::reference : has_noise ? interval::reference_and_seeds : interval::seeds;
+        if (!row.low || (has_seeds && chosen.size() < 3)) withhold_interval(row, interval::too_few_seeds);
     }
     return effects;
 }
 
-void adjust(std::vector<EffectRow>& effects) {
-    std::map<std::tuple<bool, std::string, std::string, std::string>, std::vector<EffectRow*>> families;
-    for (EffectRow& e : effects)
-        if (e.p) families[{e.against == baseline_name, e.target, e.metric, e.mask}].push_back(&e);
-    for (auto& [name, family] : families) {
-        std::vector<double> p;
-        for (const EffectRow* e : family) p.push_back(*e->p);
-        const std::vector<double> adjusted = holm_adjusted(p);
-        for (size_t i = 0; i < family.size(); ++i) family[i]->p_holm = adjusted[i];
-    }
-}
-
-/// What a point is compared with, and as what.
-struct PointComparison {
-    const VariantConfig* point;
-    std::string against_variant, against_point, against;
-};
-
-std::vector<PointComparison> comparisons_of(const std::vector<VariantConfig>& variants) {
-    std::vector<PointComparison> comparisons;
-    for (const VariantConfig& baseline : variants) {
-        if (!baseline.is_baseline) continue;
-        for (const VariantConfig& v : variants)
-            if (v.variant != baseline.variant || v.point != baseline.point)
-                comparisons.push_back({&v, baseline.variant, baseline.point, baseline_name});
-    }
-    for (const VariantConfig& v : variants)
-        if (!v.against_point.empty()) comparisons.push_back({&v, v.variant, v.against_point, label_of(v.against)});
-    return comparisons;
-}
+using Table = std::map<Quantity, std::map<Point, Side>>;
 
 /// `table` holds what was measured, by quantity and point.
-template <class Measured>
-std::vector<EffectRow> effects_in(const std::map<Quantity, std::map<Point, Measured>>& table,
-                                  const std::vector<VariantConfig>& variants, const Points& not_repeatable) {
+std::vector<EffectRow> effects_in(Table& table, const std::vector<VariantConfig>& variants,
+                                  const PointNames& not_repeatable,
+                                  std::vector<EffectRow> (*effects_of)(const Side&, const Side&)) {
+    for (auto& [quantity, points] : table)
+        for (const VariantConfig& v : variants)
+            if (const auto found = points.find({v.variant, v.point}); found != points.end())
+                found->second.depends_on_seed = v.depends_on_seed;
     std::vector<EffectRow> effects;
     for (const PointComparison& c : comparisons_of(variants)) {
-        const Point name(c.point->variant, c.point->point), other(c.against_variant, c.against_point);
+        const Point name(c.point->variant, c.point->point), other(c.baseline->variant, c.baseline->point);
         const bool is_repeatable = !not_repeatable.contains(name) && !not_repeatable.contains(other);
         for (const auto& [quantity, points] : table) {
             const auto a = points.find(name), b = points.find(other);
             if (a == points.end() || b == points.end()) continue;
             for (EffectRow& e : effects_of(a->second, b->second)) {
-                e.against = c.against;
-                if (!is_repeatable) e.low = e.high = e.p = std::nullopt;
+                e.against = c.against, e.family = "exploratory";
+                if (!is_repeatable && e.ratio) withhold_interval(e, interval::not_repeatable);
                 effects.push_back(std::move(e));
             }
         }
     }
-    adjust(effects);
     return effects;
 }
 
 }  // namespace
 
-bool is_error(const std::string& metric) {
-    const auto is_lower_better = [&](const auto& table, auto name, auto better) {
-        const auto found = std::ranges::find(table, metric, name);
-        return found != table.end() && (*found).*better == Better::lower;
-    };
-    return is_lower_better(all_metrics(), &Metric::name, &Metric::better) ||
-           is_lower_better(temporal_metrics(), &TemporalMetric::name, &TemporalMetric::better);
-}
-
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
-                                      const std::set<std::pair<std::string, std::string>>& not_repeatable) {
-    std::map<Quantity, std::map<Point, Seeds>> table;
-    for (const ResultRow* r : chosen_rows(rows)) table[quantity_of(*r)][{r->variant, r->point}][r->seed] = r;
-    return effects_in(table, variants, not_repeatable);
+                                      const PointNames& not_repeatable, std::span<const ReferenceNoise> noise) {
+    Table table;
+    for (const ResultRow* r : chosen_rows(rows)) table[quantity_of(*r)][{r->variant, r->point}].seeds[r->seed] = r;
+    for (const ReferenceNoise& n : noise) {
+        const auto points = table.find({n.shot, n.target, n.metric, n.mask});
+        if (points == table.end()) continue;
+        const auto side = points->second.find({n.variant, n.point});
+        if (side != points->second.end() && side->second.seeds.begin()->second->frame == n.frame)
+            side->second.noise = &n;
+    }
+    return effects_in(table, variants, not_repeatable, effects_of_rows);
 }
 
 std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<VariantConfig>& variants,
-                                     const std::set<std::pair<std::string, std::string>>& not_repeatable) {
-    std::map<Quantity, std::map<Point, const SplitRow*>> table;
-    for (const SplitRow& r : rows) table[{r.shot, r.target, "", r.mask}][{r.variant, r.point}] = &r;
-    return effects_in(table, variants, not_repeatable);
+                                     const PointNames& not_repeatable) {
+    Table table;
+    for (const SplitRow& r : rows) table[{r.shot, r.target, "", r.mask}][{r.variant, r.point}].split = &r;
+    return effects_in(table, variants, not_repeatable, effects_of_splits);
+}
+
+void set_families(std::span<EffectRow> effects, const PrimaryComparisons& primary) {
+    std::vector<EffectRow*> told;
+    std::vector<double> p;
+    for (EffectRow& e : effects) {
+        const bool is_primary = e.metric == primary.metric && e.mask == primary.mask && e.target == primary.target;
+        e.family = is_primary ? "primary" : "exploratory", e.p_holm.reset();
+        if (is_primary && e.p) told.push_back(&e), p.push_back(*e.p);
+    }
+    const std::vector<double> adjusted = holm_adjusted(p);
+    for (size_t i = 0; i < told.size(); ++i) told[i]->p_holm = adjusted[i];
 }
 
 void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects) {
     std::string text =
         "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,"
-        "ratio,low,high,p,p_holm\n";
+        "ratio,low,high,interval,p,family,p_holm\n";
     for (const EffectRow& e : effects)
-        text += csv_line(e.shot, e.frame, e.variant, e.point, e.against, e.against_variant, e.against_point, e.target,
-                         e.metric, e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.p, e.p_holm);
+        text +=
+            csv_line(e.shot, e.frame, e.variant, e.point, e.against, e.against_variant, e.against_point, e.target,
+                     e.metric, e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.interval, e.p, e.family, e.p_holm);
     write_text(folder / "effects.csv", text);
 }

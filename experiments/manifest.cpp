@@ -42,7 +42,8 @@ nlohmann::json variant_entries(const Config& config) {
                            {"point", v.point},
                            {"title", entry.title},
                            {"source", entry.source},
-                           {"parameters", variant->params.values()}});
+                           {"parameters", variant->params.values()},
+                           {"depends_on_seed", variant->depends_on_seed()}});
         if (variant->limits != Limits::none) entries.back()["limits"] = name_of(variant->limits);
         if (const std::string why = variant->not_repeatable(); !why.empty()) entries.back()["not_repeatable"] = why;
     }
@@ -145,6 +146,8 @@ nlohmann::json study_entry(const Config& config, Device& device) {
             {"warnings", warnings},
             {"shots", nlohmann::json::array()},
             {"variants", variant_entries(config)},
+            {"primary",
+             {{"metric", config.primary.metric}, {"mask", config.primary.mask}, {"target", config.primary.target}}},
             {"parameter_docs", parameter_docs(config)},
             {"images", nlohmann::json::array()}};
 }

@@ -116,6 +116,7 @@ HostImage sum(const HostImage& a, const HostImage& b) {
 
 PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use) {
     PoseTruth truth{.diffuse = reference.diffuse.mean,
+                    .lit_halves = ReferenceHalves{reference.diffuse.half_a, reference.diffuse.half_b},
                     .direct = sum(reference.diffuse.mean, reference.highlights),
                     .targets = {},
                     .rungs = {},
@@ -202,8 +203,8 @@ std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows) {
         };
         ResultRow r = *group.front();
         r.frame = "all";
-        for (const auto member :
-             {&ResultRow::value, &ResultRow::uncorrected, &ResultRow::low, &ResultRow::high, &ResultRow::floor})
+        for (const auto member : {&ResultRow::value, &ResultRow::uncorrected, &ResultRow::low, &ResultRow::high,
+                                  &ResultRow::floor, &ResultRow::lit_noise, &ResultRow::lit_half_width})
             r.*member = mean(member);
         r.pixels = r.non_finite = r.negative = 0;
         for (const ResultRow* row : group)

@@ -26,6 +26,7 @@ struct RungHalves {
 /// What all frames of one pose are measured against: made once, used for every variant, point and seed.
 struct PoseTruth {
     HostImage diffuse;  ///< the truth's own: the lit colour that variants read
+    std::optional<ReferenceHalves> lit_halves;  ///< of it
     HostImage direct;   ///< and what `image` adds to every result: the same with the highlights of punctual lights
     std::map<std::string, MetricReference> targets;  ///< by name, with all metrics; where everything is measured
     std::optional<MetricReference>
@@ -65,8 +66,9 @@ std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedI
 std::vector<ResultRow> measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,
                                      const ResultRow& row);
 
-/// The mean over frames of rows that differ in nothing but the frame; intervals and floors are averaged too, as if the
-/// references' noises were the same in all frames. Pixels are summed. No value if one frame has none.
+/// The mean over frames of rows that differ in nothing but the frame; intervals, floors and what the lit colour's noise
+/// adds are averaged too, as if the references' noises were the same in all frames. Pixels are summed. No value if one
+/// frame has none.
 std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows);
 
 /// direct + specular.

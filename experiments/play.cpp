@@ -2,6 +2,7 @@
 
 #include "core/gbuffer/composite.h"
 #include "core/gpu/device.h"
+#include "experiments/lit_noise.h"
 #include "experiments/manifest.h"
 #include "experiments/render_variant.h"
 #include "experiments/splits.h"
@@ -41,6 +42,8 @@ struct Play {
     const PlaySettings& settings;
     Cell cell;
     std::map<std::string, SeedSplit> splits;  ///< by target, of the last frame
+    ReferenceNoiseMeans noise = {};
+    LitNoises lit_noise = {};
     std::map<std::pair<std::string, std::string>, std::set<std::string>>
         untold;  ///< masks, by temporal metric and reason
     size_t rendered = 0;
@@ -69,6 +72,12 @@ SeedRun start(Play& play, unsigned seed) {
     return run;
 }
 
+/// Whether the lit colour that variants read is that of the reference, and so has noise.
+bool reads_reference_light(const Play& play) {
+    return !play.config.direct_lit && play.truth.is_measured() &&
+           std::ranges::all_of(play.truth.poses, [](const auto& pose) { return pose.second->lit_halves.has_value(); });
+}
+
 /// How many seeds' images are held at once: those of a technique take some 400 bytes per pixel, so this is about 1.6
 /// GB.
 size_t seeds_at_once(glm::uvec2 extent) {
@@ -79,10 +88,15 @@ size_t seeds_at_once(glm::uvec2 extent) {
 /// The full measure of the shot's last frame, its images, and its part in the split over seeds.
 void measure_last(Play& play, const FrameTruth& truth, const CompositedImages& images, const ResultRow& row,
                   std::span<const Mask> masks) {
-    for (ResultRow& r : measure_targets(*truth.pose, images, masks, row)) play.cell.rows.push_back(std::move(r));
+    std::vector<ResultRow> rows = measure_targets(*truth.pose, images, masks, row);
+    play.lit_noise.set(rows);
+    play.cell.rows.insert(play.cell.rows.end(), rows.begin(), rows.end());
     const HostImage image = composited_image(*truth.pose, images);
-    for (const auto& [target, reference] : truth.pose->targets)
-        play.splits.try_emplace(target, reference).first->second.add(row.seed, tested_image(target, images, image));
+    for (const auto& [target, reference] : truth.pose->targets) {
+        const HostImage& tested = tested_image(target, images, image);
+        play.splits.try_emplace(target, reference).first->second.add(row.seed, tested);
+        play.noise.add(row.frame, target, reference, tested, masks);
+    }
 }
 
 /// Whether the full measure of the last frame holds this row already.
@@ -104,10 +118,19 @@ void measure_step(Play& play, SeedRun& run, const FrameStep& step, const Composi
                            *truth->pose->frame_reference, masks);
     if (!step.is_measured) return;
     const ResultRow row = play.row(std::to_string(step.frame), run.seed);
-    if (truth->pose->frame_reference && play.shot.config.frames.size() > 1)
-        for (ResultRow& r : measure_frame(*truth->pose, images.specular, masks, row))
-            run.frame_rows.push_back(std::move(r));
+    if (truth->pose->frame_reference && play.shot.config.frames.size() > 1) {
+        std::vector<ResultRow> rows = measure_frame(*truth->pose, images.specular, masks, row);
+        play.lit_noise.set(rows);
+        run.frame_rows.insert(run.frame_rows.end(), rows.begin(), rows.end());
+        if (!play.shot.config.measures_last_only)
+            play.noise.add("all", "specular", *truth->pose->frame_reference, images.specular, masks);
+    }
     if (&step == &play.last_step()) measure_last(play, *truth, images, row, masks);
+}
+
+void report_step(Play& play) {
+    const size_t runs = play.variant.seeds.size() + (reads_reference_light(play) ? 2 : 0);
+    play.settings.report(double(++play.rendered) / double(play.shot.steps.size() * runs));
 }
 
 void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameStore::Frame& frame) {
@@ -125,7 +148,41 @@ void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameSto
                 play.cell.images.push_back(std::move(entry));
         run.before = images.specular;
     }
-    play.settings.report(double(++play.rendered) / double(play.shot.steps.size() * play.variant.seeds.size()));
+    report_step(play);
+}
+
+/// The result of a step for which the variant reads `lit` (RGB).
+CompositedImages rendered_with(Play& play, SeedRun& run, const FrameStep& step, FrameStore::Frame frame,
+                               const HostImage& lit) {
+    HostImage rgba(lit.extent, 4);
+    for (size_t i = 0; i < lit.pixel_count(); ++i) rgba.set_rgb(i, lit.rgb(i));
+    frame.gbuffer.lit = run.graph->image("lit_of_half", Format::rgba32f).as("lit");
+    run.graph->upload(frame.gbuffer.lit, rgba);
+    const Reflections reflections = render_variant(*run.graph, *run.variant, frame.camera, run.seed, frame.gbuffer);
+    report_step(play);
+    const FrameTruth* truth = play.truth.frame(step);
+    if (!step.is_measured || !truth) return {};
+    const Composite composite = run.compositor->render(frame.gbuffer, reflections);
+    return download_results(*run.graph, frame.gbuffer, reflections, composite, truth->reflectance);
+}
+
+/// Plays the shot with the light of each half of the reference, to tell what the noise of the light adds.
+void measure_lit_noise(Play& play) {
+    SeedRun of_a = start(play, play.variant.seeds.front()), of_b = start(play, play.variant.seeds.front());
+    for (const FrameStep& step : play.shot.steps) {
+        const FrameStore::Frame frame = play.store.frame(step, play.truth.lit(step));
+        const auto pose = play.truth.poses.find(step.frame);
+        if (pose == play.truth.poses.end()) return;  // a frame that is read but whose light is not known
+        const CompositedImages a = rendered_with(play, of_a, step, frame, pose->second->lit_halves->a),
+                               b = rendered_with(play, of_b, step, frame, pose->second->lit_halves->b);
+        const FrameTruth* truth = play.truth.frame(step);
+        if (!step.is_measured || !truth) continue;
+        const std::vector<Mask> masks = masks_of(*truth, a.confidence, play.config);
+        const std::string name = std::to_string(step.frame);
+        if (truth->pose->frame_reference && play.shot.config.frames.size() > 1)
+            play.lit_noise.add_frame(*truth->pose, a, b, masks, name);
+        if (&step == &play.last_step()) play.lit_noise.add_targets(*truth->pose, a, b, masks, name);
+    }
 }
 
 /// Rows of temporal metrics, which speak of `specular` over several frames.
@@ -180,7 +237,8 @@ void add_splits(Play& play) {
                               .point = play.variant.point,
                               .target = target,
                               .mask = {}};
-        for (SplitRow& row : split_rows(split, masks, shared)) play.cell.splits.push_back(std::move(row));
+        for (SplitRow& row : split_rows(split, masks, shared, play.variant.depends_on_seed))
+            play.cell.splits.push_back(std::move(row));
     }
 }
 
@@ -205,6 +263,7 @@ Cell play_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameS
               .config = config,
               .variant = variant,
               .settings = settings};
+    if (reads_reference_light(play)) measure_lit_noise(play);
     const size_t batch = seeds_at_once(shot.config.extent);
     for (size_t first = 0; first < variant.seeds.size(); first += batch) {
         std::vector<SeedRun> runs;
@@ -217,6 +276,8 @@ Cell play_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameS
         for (SeedRun& run : runs) finish(play, run);
     }
     add_splits(play);
+    play.cell.reference_noise =
+        play.noise.means({.shot = shot.name(), .variant = variant.variant, .point = variant.point});
     add_notes(play);
     return std::move(play.cell);
 }

@@ -107,7 +107,7 @@ json image_description(const ReportImage& image) {
 void write_report(const std::filesystem::path& folder) {
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
-    const ReportTables tables = read_report_tables(folder);
+    const ReportTables tables = read_report_tables(folder, manifest);
     write_summaries(folder, tables.errors, tables.times);
 
     const std::vector<SingleChange> changes = single_changes(manifest, tables.effects);

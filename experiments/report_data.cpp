@@ -85,7 +85,10 @@ json error_row(const MetricSummary& e, Texts& code) {
             e.pixels,
             e.non_finite,
             e.negative,
-            code(e.frame)};
+            code(e.frame),
+            code(e.interval),
+            e.holds_all_noise ? 1 : 0,
+            optional_json(e.lit_noise)};
 }
 
 json split_row(const SplitRow& s, Texts& code) {
@@ -120,7 +123,24 @@ json effect_row(const EffectRow& e, Texts& code) {
             optional_json(e.ratio),
             optional_json(e.low),
             optional_json(e.high),
-            optional_json(e.p_holm)};
+            optional_json(e.p_holm),
+            optional_json(e.p),
+            code(e.interval),
+            e.family == "primary" ? 1 : 0};
+}
+
+json time_effect_row(const TimeEffectRow& e, Texts& code) {
+    return {code(e.shot),
+            code(e.variant),
+            code(e.point),
+            code(e.against),
+            code(e.against_variant),
+            code(e.against_point),
+            code(e.stage),
+            e.rounds,
+            e.ratio,
+            e.low,
+            e.high};
 }
 
 json time_row(const TimeSummary& t, Texts& code) {
@@ -130,12 +150,17 @@ json time_row(const TimeSummary& t, Texts& code) {
 
 }  // namespace
 
-ReportTables read_report_tables(const std::filesystem::path& folder) {
-    ReportTables tables{
-        .errors = summarise(read_result_rows(folder / "results.csv")), .splits = {}, .effects = {}, .times = {}};
-    if (std::filesystem::exists(folder / "splits.csv")) tables.splits = read_split_rows(folder / "splits.csv");
-    if (std::filesystem::exists(folder / "effects.csv")) tables.effects = read_effect_rows(folder / "effects.csv");
-    if (std::filesystem::exists(folder / "times.csv")) tables.times = summarise(read_time_rows(folder / "times.csv"));
+ReportTables read_report_tables(const std::filesystem::path& folder, const json& manifest) {
+    ReportTables tables{.errors = summarise(read_result_rows(folder / "results.csv"), points_without_seeds(manifest)),
+                        .splits = {},
+                        .effects = {},
+                        .time_effects = {},
+                        .times = {}};
+    const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
+    if (has("splits.csv")) tables.splits = read_split_rows(folder / "splits.csv");
+    if (has("effects.csv")) tables.effects = read_effect_rows(folder / "effects.csv");
+    if (has("time_effects.csv")) tables.time_effects = read_time_effect_rows(folder / "time_effects.csv");
+    if (has("times.csv")) tables.times = summarise(read_time_rows(folder / "times.csv"));
     return tables;
 }
 
@@ -155,17 +180,20 @@ json report_data(const ReportTables& tables, std::span<const SingleChange> chang
     const PointSet singles = points_of(changes);
     const std::set<Quantity> over_frames = quantities_over_frames(tables.errors);
     json errors = json::array(), frames = json::array(), splits = json::array(), effects = json::array(),
-         times = json::array(), single = json::array();
+         time_effects = json::array(), times = json::array(), single = json::array();
     for (const MetricSummary* e : rows_for_shots(tables.errors)) errors.push_back(error_row(*e, code));
     for (const MetricSummary& e : tables.errors)
         if (e.frame != "all" && over_frames.contains(quantity_of(e)) && !singles.contains({e.variant, e.point}))
             frames.push_back(error_row(e, code));
     for (const SplitRow& s : tables.splits) splits.push_back(split_row(s, code));
     for (const EffectRow& e : tables.effects) effects.push_back(effect_row(e, code));
+    for (const TimeEffectRow& e : tables.time_effects) time_effects.push_back(time_effect_row(e, code));
     for (const TimeSummary& t : tables.times) times.push_back(time_row(t, code));
     for (const SingleChange& c : changes)
         single.push_back({{"variant", c.variant}, {"point", c.point}, {"parameter", c.parameter}, {"value", c.value}});
-    return {{"texts", std::move(code.list)},       {"errors", std::move(errors)},     {"frames", std::move(frames)},
-            {"splits", std::move(splits)},         {"effects", std::move(effects)},   {"times", std::move(times)},
-            {"single_changes", std::move(single)}, {"metrics", metric_descriptions()}};
+    return {{"texts", std::move(code.list)},   {"errors", std::move(errors)},
+            {"frames", std::move(frames)},     {"splits", std::move(splits)},
+            {"effects", std::move(effects)},   {"time_effects", std::move(time_effects)},
+            {"times", std::move(times)},       {"single_changes", std::move(single)},
+            {"metrics", metric_descriptions()}};
 }

@@ -2,6 +2,7 @@
 #include "experiments/effects.h"
 #include "experiments/report_points.h"
 #include "experiments/summary.h"
+#include "experiments/time_effects.h"
 
 #include <nlohmann/json.hpp>
 
@@ -10,11 +11,12 @@ struct ReportTables {
     std::vector<MetricSummary> errors;
     std::vector<SplitRow> splits;
     std::vector<EffectRow> effects;
+    std::vector<TimeEffectRow> time_effects;
     std::vector<TimeSummary> times;
 };
 
-/// results.csv must be there; tables that are not are empty.
-ReportTables read_report_tables(const std::filesystem::path& folder);
+/// results.csv must be there; tables that are not are empty. `manifest` is the folder's.
+ReportTables read_report_tables(const std::filesystem::path& folder, const nlohmann::json& manifest);
 
 /// The rows that speak for their shot: those over its frames ("all") where there are such, else those of its last
 /// frame.

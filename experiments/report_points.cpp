@@ -61,6 +61,15 @@ json parameter_defaults(const json& manifest) {
     return defaults;
 }
 
+PointSet points_without_seeds(const json& manifest) {
+    PointSet points;
+    const json variants = manifest.value("variants", json::array());
+    for (const json& v : variants)
+        if (v.is_object() && v.contains("depends_on_seed") && v["depends_on_seed"] == false)
+            points.insert({v.value("variant", ""), v.value("point", "")});
+    return points;
+}
+
 PointSet points_of(std::span<const SingleChange> changes) {
     PointSet points;
     for (const SingleChange& c : changes) points.insert({c.variant, c.point});

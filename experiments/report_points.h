@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/effects.h"
+#include "experiments/summary.h"
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -22,6 +23,7 @@ std::vector<SingleChange> single_changes(const nlohmann::json& manifest, std::sp
 /// left out.
 nlohmann::json parameter_defaults(const nlohmann::json& manifest);
 
-/// (variant, point) of each.
-using PointSet = std::set<std::pair<std::string, std::string>>;
+/// Points that do not depend on seeds, as the manifest has them. Those of which it does not tell are none of them.
+PointSet points_without_seeds(const nlohmann::json& manifest);
+
 PointSet points_of(std::span<const SingleChange> changes);

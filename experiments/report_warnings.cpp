@@ -88,6 +88,25 @@ void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
                            " samples of the reference were not finite and were left out: its mean may be biased.");
 }
 
+constexpr double most_lit_noise = 0.1;  ///< share of an error
+
+/// The worst of each shot: techniques read light that is too noisy.
+void warn_of_light(std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
+    std::map<std::string, std::pair<double, const MetricSummary*>> worst;
+    for (const MetricSummary& e : errors) {
+        if (!e.lit_noise || !e.value || e.mask != "reflective") continue;
+        const double share = *e.lit_noise / std::max(std::abs(*e.value), 1e-300);
+        auto& [most, row] = worst.try_emplace(e.shot, most_lit_noise, nullptr).first->second;
+        if (share > most) most = share, row = &e;
+    }
+    for (const auto& [shot, found] : worst)
+        if (const MetricSummary* e = found.second)
+            warnings.push_back(shot + ": the noise of the path-traced light that techniques read makes up to " +
+                               percent(found.first) + " of an error (" + e->variant + " " + e->point + ", " +
+                               e->metric + " of " + e->target +
+                               "): intervals allow for it, more samples of the reference lower it.");
+}
+
 constexpr size_t most_pixel_warnings = 12;  ///< the rest is counted: nobody reads a hundred
 
 std::vector<std::string> pixel_warnings(std::span<const MetricSummary> errors) {
@@ -129,6 +148,7 @@ std::vector<std::string> report_warnings(const json& manifest, std::span<const M
     warn_of_variation(warnings, member(manifest, "variants"));
     warn_of_clock(warnings, member(manifest, "clock"), !times.empty());
     for (const json& shot : member(manifest, "shots")) warn_of_shot(warnings, shot);
+    warn_of_light(warnings, errors);
     warn_of_pixels(warnings, errors);
     return warnings;
 }

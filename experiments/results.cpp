@@ -10,7 +10,7 @@
 void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& cells) {
     std::string rows =
         "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,"
-        "uncorrected,low,high,floor,pixels,non_finite,negative\n";
+        "uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative\n";
     std::string splits =
         "shot,frame,variant,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels,bias_"
         "squared_low,bias_squared_high\n";
@@ -19,7 +19,7 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& 
         for (const ResultRow& r : cell.rows)
             rows += csv_line(r.shot, r.scene, r.camera, r.frame, r.width, r.height, r.variant, r.point, r.seed,
                              r.target, r.metric, r.formula, r.mask, r.value, r.is_corrected, r.uncorrected, r.low,
-                             r.high, r.floor, r.pixels, r.non_finite, r.negative);
+                             r.high, r.floor, r.lit_noise, r.lit_half_width, r.pixels, r.non_finite, r.negative);
         for (const SplitRow& s : cell.splits)
             splits += csv_line(s.shot, s.frame, s.variant, s.point, s.target, s.mask, s.seeds, s.mse, s.bias_squared,
                                s.variance, s.variance_low, s.variance_high, s.pixels, s.bias_squared_low,

@@ -11,6 +11,7 @@
 #include "experiments/results.h"
 #include "experiments/rung_errors.h"
 #include "experiments/study.h"
+#include "experiments/time_effects.h"
 #include "experiments/timing.h"
 #include "groundtruth/reference_cache.h"
 
@@ -157,8 +158,8 @@ void run_gbuffer_shot(Study& study, const ShotConfig& config) {
 }
 
 /// (variant, point) of those whose results differ from run to run.
-std::set<std::pair<std::string, std::string>> not_repeatable_points(const nlohmann::json& manifest) {
-    std::set<std::pair<std::string, std::string>> points;
+PointNames not_repeatable_points(const nlohmann::json& manifest) {
+    PointNames points;
     for (const nlohmann::json& v : manifest["variants"])
         if (v.contains("not_repeatable")) points.emplace(v["variant"], v["point"]);
     return points;
@@ -169,9 +170,12 @@ void write_results(Study& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
     std::vector<ResultRow> rows;
     std::vector<SplitRow> splits;
+    std::vector<ReferenceNoise> noise;
+    std::vector<TimeRow> times;
+    const auto append = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
     for (const Cell& cell : study.finished) {
-        rows.insert(rows.end(), cell.rows.begin(), cell.rows.end());
-        splits.insert(splits.end(), cell.splits.begin(), cell.splits.end());
+        append(rows, cell.rows), append(splits, cell.splits);
+        append(noise, cell.reference_noise), append(times, cell.times);
         for (const nlohmann::json& entry : cell.images) manifest["images"].push_back(entry);
         for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
         if (!cell.timing.is_null()) add_timing(manifest, cell.timing);
@@ -180,9 +184,12 @@ void write_results(Study& study, bool is_last) {
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
     write_tables(study.settings.out, study.finished);
     const auto not_repeatable = not_repeatable_points(study.manifest);
-    std::vector<EffectRow> effects = paired_effects(rows, study.config.variants, not_repeatable);
-    for (EffectRow& e : split_effects(splits, study.config.variants, not_repeatable)) effects.push_back(std::move(e));
+    const std::vector<VariantConfig>& variants = study.config.variants;
+    std::vector<EffectRow> effects = paired_effects(rows, variants, not_repeatable, noise);
+    append(effects, split_effects(splits, variants, not_repeatable));
+    set_families(effects, study.config.primary);
     write_effects(study.settings.out, effects);
+    write_time_effects(study.settings.out, time_effects(times, variants));
     write_report(study.settings.out);
 }
 

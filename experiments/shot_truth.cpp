@@ -90,6 +90,7 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
 ShotTruth truth_of_lit(HostImage lit) {
     ShotTruth truth;
     PoseTruth pose{.diffuse = lit,
+                   .lit_halves = {},
                    .direct = std::move(lit),
                    .targets = {},
                    .rungs = {},

@@ -36,13 +36,15 @@ double mean_of(const std::vector<double>& pairs) {
     return std::accumulate(pairs.begin(), pairs.end(), 0.0) / double(pairs.size());
 }
 
-void set_intervals(SplitRow& row, double noise_half_width) {
-    const std::optional<double> half_width = half_width_of_successive(row.pairs.variance, row.seeds);
+void set_intervals(SplitRow& row, double noise_half_width, bool depends_on_seed) {
+    const auto half_width_of = [&](const std::vector<double>& pairs) {
+        return depends_on_seed ? half_width_of_successive(pairs, row.seeds) : 0.0;
+    };
+    const std::optional<double> half_width = half_width_of(row.pairs.variance);
     if (!half_width) return;
     row.variance_low = std::max(0.0, row.variance - *half_width);
     row.variance_high = row.variance + *half_width;
-    const double bias_half_width =
-        std::hypot(*half_width_of_successive(row.pairs.bias_squared, row.seeds), noise_half_width);
+    const double bias_half_width = std::hypot(*half_width_of(row.pairs.bias_squared), noise_half_width);
     row.bias_squared_low = row.bias_squared - bias_half_width;
     row.bias_squared_high = row.bias_squared + bias_half_width;
 }
@@ -54,9 +56,12 @@ void SeedSplit::add(unsigned seed, const HostImage& rgb) {
     seeds.push_back(seed), images.push_back(rgb);
 }
 
-std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared) {
+std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared,
+                                 bool depends_on_seed) {
     std::vector<SplitRow> rows;
-    if (split.images.size() < 2) return rows;
+    if (split.images.empty() || (depends_on_seed && split.images.size() < 2)) return rows;
+    const std::vector<HostImage> twice(2, split.images.front());
+    const std::vector<HostImage>& images = split.images.size() < 2 ? twice : split.images;
     const MetricReference& reference = split.reference;
     const Plane swapped = swapped_bias(split);
     for (const Mask& mask : masks) {
@@ -65,10 +70,11 @@ std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> m
         SplitRow row = shared;
         row.mask = mask.name, row.pixels = inside.count();
         row.seeds = unsigned(split.seeds.size()), row.seed_numbers = split.seeds;
-        row.pairs = seed_pairs(split.images, half_a(reference), half_b(reference), inside);
+        row.pairs = seed_pairs(images, half_a(reference), half_b(reference), inside);
         row.variance = mean_of(row.pairs.variance), row.bias_squared = mean_of(row.pairs.bias_squared);
         row.mse = row.bias_squared + row.variance;
-        set_intervals(row, noise_half_width(swapped, inside));
+        set_intervals(row, noise_half_width(swapped, inside), depends_on_seed);
+        for (const double sum : group_sums(swapped, inside)) row.reference_noise.push_back(float(sum));
         rows.push_back(std::move(row));
     }
     return rows;

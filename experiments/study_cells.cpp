@@ -106,8 +106,10 @@ CellTask timing_task(Study& study, ShotRun& run) {
     const TimingConfig& timing = study.config.timing;
     nlohmann::json timed = {
         {"variants", study.manifest["variants"]}, {"frames", timing.frames}, {"warm_up", timing.warm_up}};
-    for (const VariantConfig& variant : study.config.variants) timed["timed"].push_back(variant.is_timed);
-    return {.hash = cell_hash(study, run, "times", timed, study.config.seeds),
+    std::vector<unsigned> seeds;
+    for (const VariantConfig& variant : study.config.variants)
+        timed["timed"].push_back(variant.is_timed), seeds.push_back(variant.seeds.front());
+    return {.hash = cell_hash(study, run, "times", timed, seeds),
             .what = run.shot.name() + ": timing",
             .kind = "times",
             .units = 1,

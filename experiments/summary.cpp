@@ -3,8 +3,10 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/csv.h"
+#include "experiments/interval.h"
 #include "experiments/results.h"
 #include "metrics/quantiles.h"
+#include "metrics/temporal.h"
 
 #include <algorithm>
 #include <array>
@@ -46,21 +48,39 @@ std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>
 /// Whether a row's interval is open to one side: the length of a ghost that may never end has no upper end.
 bool is_one_sided(const ResultRow* row) { return row->low.has_value() != row->high.has_value(); }
 
-void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows) {
-    if (std::ranges::any_of(rows, is_one_sided)) return;
+/// Flicker and ghosts are told from the pixels of one sequence: their rows' intervals are those of the choice of
+/// pixels.
+bool is_of_pixels(const std::string& metric) {
+    return std::ranges::count(temporal_metrics(), metric, &TemporalMetric::name) > 0 &&
+           !metric.starts_with("frame_difference");
+}
+
+void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows, bool depends_on_seed) {
     const auto lows = values_of(rows, &ResultRow::low), highs = values_of(rows, &ResultRow::high);
-    const bool has_interval = lows && highs, reference_is_exact = s.floor == 0.0;
-    if (!has_interval && !(reference_is_exact && s.seed_deviation)) return;
-    const double from_seeds = s.seed_deviation ? student_t_quantile(0.975, double(s.seeds - 1)) * *s.seed_deviation /
-                                                     std::sqrt(double(s.seeds))
-                                               : 0.0;
-    s.low = *s.value - std::hypot(from_seeds, has_interval ? *s.value - mean(*lows) : 0.0);
-    s.high = *s.value + std::hypot(from_seeds, has_interval ? mean(*highs) - *s.value : 0.0);
+    const bool has_rows = lows && highs, reference_is_exact = s.floor == 0.0;
+    s.interval = depends_on_seed && s.seeds < 2            ? interval::one_seed
+                 : std::ranges::any_of(rows, is_one_sided) ? interval::open_end
+                 : depends_on_seed && has_rows
+                     ? (is_of_pixels(s.metric) ? interval::pixels_and_seeds : interval::reference_and_seeds)
+                 : depends_on_seed                    ? interval::seeds
+                 : has_rows && is_of_pixels(s.metric) ? interval::pixels
+                 : has_rows || reference_is_exact     ? interval::reference
+                                                      : interval::unknown_reference;
+    if (std::string_view(s.interval).starts_with("none")) return;
+    s.holds_all_noise = s.interval != interval::seeds || reference_is_exact;
+    const double from_seeds = depends_on_seed ? student_t_quantile(0.975, double(s.seeds - 1)) * *s.seed_deviation /
+                                                    std::sqrt(double(s.seeds))
+                                              : 0.0;
+    const auto lit_half_widths = values_of(rows, &ResultRow::lit_half_width);
+    const double from_light = lit_half_widths ? mean(*lit_half_widths) : 0.0;
+    s.low = *s.value - std::hypot(from_seeds, has_rows ? *s.value - mean(*lows) : 0.0, from_light) -
+            s.lit_noise.value_or(0.0);
+    s.high = *s.value + std::hypot(from_seeds, has_rows ? mean(*highs) - *s.value : 0.0, from_light);
     // Corrected for the reference's noise an error may come out below 0 itself; no interval leaves its value out.
     if (is_error(s.metric)) s.low = std::max(*s.low, std::min(0.0, *s.value));
 }
 
-MetricSummary summary_of(const std::vector<const ResultRow*>& rows) {
+MetricSummary summary_of(const std::vector<const ResultRow*>& rows, bool depends_on_seed) {
     const ResultRow& first = *rows.front();
     MetricSummary s{first.shot,   first.frame,  first.variant, first.point,
                     first.target, first.metric, first.formula, first.mask};
@@ -72,11 +92,13 @@ MetricSummary summary_of(const std::vector<const ResultRow*>& rows) {
         s.negative = std::max(s.negative, row->negative);
     }
     if (const auto floors = values_of(rows, &ResultRow::floor)) s.floor = mean(*floors);
+    if (const auto lit = values_of(rows, &ResultRow::lit_noise)) s.lit_noise = mean(*lit);
     const auto values = values_of(rows, &ResultRow::value);
+    s.interval = interval::no_value;
     if (!values) return s;
     s.value = mean(*values);
     if (s.seeds > 1) s.seed_deviation = standard_deviation(*values);
-    set_interval(s, rows);
+    set_interval(s, rows, depends_on_seed);
     return s;
 }
 
@@ -108,6 +130,7 @@ std::vector<ResultRow> read_result_rows(const std::filesystem::path& file) {
         r.uncorrected = csv.optional_number("uncorrected");
         r.low = csv.optional_number("low"), r.high = csv.optional_number("high"),
         r.floor = csv.optional_number("floor");
+        r.lit_noise = csv.optional_number("lit_noise"), r.lit_half_width = csv.optional_number("lit_half_width");
         r.pixels = csv.count("pixels"), r.non_finite = csv.count("non_finite"), r.negative = csv.count("negative");
         rows.push_back(std::move(r));
     }
@@ -132,7 +155,8 @@ std::vector<EffectRow> read_effect_rows(const std::filesystem::path& file) {
                         csv.text("against"), csv.text("against_variant"), csv.text("against_point"), csv.text("target"),
                         csv.text("metric"), csv.text("formula"), csv.text("mask"), csv.count("seeds"),
                         csv.optional_number("ratio"), csv.optional_number("low"), csv.optional_number("high"),
-                        csv.optional_number("p"), csv.optional_number("p_holm")});
+                        csv.optional_number("p"), csv.text("interval"), csv.text("family"),
+                        csv.optional_number("p_holm")});
     return rows;
 }
 
@@ -144,12 +168,13 @@ std::vector<TimeRow> read_time_rows(const std::filesystem::path& file) {
     return rows;
 }
 
-std::vector<MetricSummary> summarise(std::span<const ResultRow> rows) {
+std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds) {
     std::vector<MetricSummary> summaries;
     const auto key = [](const ResultRow& r) {
         return std::tie(r.shot, r.frame, r.variant, r.point, r.target, r.metric, r.formula, r.mask);
     };
-    for (const auto& group : grouped(rows, key)) summaries.push_back(summary_of(group));
+    for (const auto& group : grouped(rows, key))
+        summaries.push_back(summary_of(group, !without_seeds.contains({group.front()->variant, group.front()->point})));
     return summaries;
 }
 
@@ -172,12 +197,12 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
 void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors,
                      std::span<const TimeSummary> times) {
     std::string text =
-        "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,seed_deviation,floor,corrected,"
-        "pixels,non_"
-        "finite,negative\n";
+        "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,seed_deviation,"
+        "floor,lit_noise,corrected,pixels,non_finite,negative\n";
     for (const MetricSummary& e : errors)
         text += csv_line(e.shot, e.frame, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value,
-                         e.low, e.high, e.seed_deviation, e.floor, e.is_corrected, e.pixels, e.non_finite, e.negative);
+                         e.low, e.high, e.interval, e.seed_deviation, e.floor, e.lit_noise, e.is_corrected, e.pixels,
+                         e.non_finite, e.negative);
     write_text(folder / "summary.csv", text);
 
     text = "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms\n";

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,17 +22,27 @@ struct MetricSummary {
     unsigned seeds = 0;
     std::optional<double> value;           ///< mean over the seeds; none if one of them has none
     std::optional<double> low, high;       ///< 95 % interval, see summarise()
+    std::string interval = {};             ///< what it holds, or why there is none (interval.h)
+    bool holds_all_noise = false;          ///< so that it can be told from those of other points: only such are ranked
     std::optional<double> seed_deviation;  ///< standard deviation over the seeds; none for a single one
     std::optional<double> floor;           ///< what the reference's own noise scores
+    std::optional<double> lit_noise;       ///< what the noise of the lit colour adds to the value (LitNoise)
     bool is_corrected = false;
     size_t pixels = 0, non_finite = 0, negative = 0;  ///< the last two are the worst seed's
 };
 
+/// (variant, point)
+using PointSet = std::set<std::pair<std::string, std::string>>;
+
 /// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same
 /// reference for all seeds, so the mean of the rows' intervals) and Student's t interval of the seeds, t(0.975, n-1) s
-/// / sqrt(n). The seeds alone would understate it, so a metric gets none if a row lacks one end of its interval or
-/// both; unless the reference is known to be exact (a floor of 0). Intervals of errors end at 0.
-std::vector<MetricSummary> summarise(std::span<const ResultRow> rows);
+/// / sqrt(n). Metrics whose rows have no interval, since what the reference's noise adds to them is not known, get that
+/// of the seeds alone: what another run with other seeds would give against the same reference; `floor` bounds the
+/// rest. Points in `without_seeds` do not depend on seeds: the reference's noise is all of their interval. Of the
+/// others a single seed has none. Where the noise of the lit colour is known, what it leaves of the value joins, too,
+/// and the lower end reaches down by what it adds: `value` still holds that, as it may be less. Intervals of errors end
+/// at 0.
+std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds = {});
 
 /// One stage of one variant point: the median over the measured frames of all seeds of its time in a frame, with its
 /// interval from order statistics.

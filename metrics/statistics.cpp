@@ -43,7 +43,7 @@ Jackknifed jackknifed_mean(std::span<const double> values) {
     return mean;
 }
 
-RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b) {
+RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const SharedScatter& shared) {
     if (a.without.size() != b.without.size())
         fail("a paired comparison needs as many seeds on each side, found ", a.without.size(), " and ",
              b.without.size());
@@ -53,14 +53,18 @@ RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b) {
     std::vector<double> logarithms;
     for (size_t i = 0; i < n; ++i)
         if (a.without[i] > 0 && b.without[i] > 0) logarithms.push_back(std::log(a.without[i] / b.without[i]));
-    if (n < 2 || logarithms.size() < n) return ratio;
+    if (logarithms.size() < n || (n < 2 && shared.variance <= 0)) return ratio;
     // Values without one seed share all others and scatter N - 1 times less than single seeds would.
-    const double standard_error = moments(logarithms).standard_error * double(n - 1), logarithm = std::log(ratio.value);
-    const double half_width = student_t_quantile(0.975, double(n - 1)) * standard_error;
+    const double of_seeds = n < 2 ? 0.0 : moments(logarithms).standard_error * double(n - 1);
+    const double variance = of_seeds * of_seeds + shared.variance, logarithm = std::log(ratio.value);
+    const double degrees_share =
+        (n < 2 ? 0.0 : std::pow(of_seeds, 4) / double(n - 1)) + shared.variance * shared.variance / shared.degrees;
+    const double degrees = degrees_share > 0 ? variance * variance / degrees_share : double(n - 1);
+    const double half_width = student_t_quantile(0.975, degrees) * std::sqrt(variance);
     if (!std::isfinite(std::exp(logarithm + half_width))) return ratio;
     ratio.low = std::exp(logarithm - half_width), ratio.high = std::exp(logarithm + half_width);
-    const double t = logarithm == 0 ? 0 : std::abs(logarithm) / standard_error;
-    ratio.p_value = 2 * student_t_cdf(-t, double(n - 1));
+    const double t = logarithm == 0 ? 0 : std::abs(logarithm) / std::sqrt(variance);
+    ratio.p_value = 2 * student_t_cdf(-t, degrees);
     return ratio;
 }
 

@@ -29,17 +29,26 @@ struct RatioEstimate {
     std::optional<double> p_value;    ///< two-sided, of "the ratio is 1": below 0.05 where the interval leaves out 1
 };
 
+/// What is uncertain of ln(a / b) beside the scatter of the seeds, and independent of it: its variance, and the degrees
+/// of freedom that the variance is known with.
+struct SharedScatter {
+    double variance = 0, degrees = 1;
+};
+
 /// a / b, both estimated from the same N seeds: seed i shares random numbers, camera and scene, so what they have in
 /// common cancels. The interval is the jackknife's of ln(a / b) with Student's t of N - 1 degrees (Tukey 1958, "Bias
 /// and Confidence in Not-Quite Large Samples"; Miller 1974, "The Jackknife - A Review"). Without one for a single seed,
 /// and where an estimate without one of the seeds is not above 0 or so near to it that the interval has no end among
-/// finite numbers. Fails if a or b is not above 0, or if they hold unequal numbers of seeds.
+/// finite numbers. `shared` joins it: variances add up, with Welch's and Satterthwaite's degrees of freedom
+/// (Satterthwaite 1946, "An Approximate Distribution of Estimates of Variance Components"). Two single values, whose
+/// `without` are empty, have an interval of what is shared alone, if anything is. Fails if a or b is not above 0, or if
+/// they hold unequal numbers of seeds.
 ///
 /// Coverage of ratios of means in 40000 simulated studies of 4, 8, 16 seeds: 94.9, 95.1, 95.1 % for log-normal values
 /// of deviation 0.05 and correlation 0.9; 93.3, 93.1, 93.7 % for deviation 1 without correlation; 90.5, 89.7, 90.1 %
 /// where only one of a and b has deviation 1, as a mean of few skewed values mostly misses its tail. Bootstraps of
 /// percentiles cover 78 to 80 % at 4 seeds, Fieller's interval (1954) of heavy tails is mostly unbounded there.
-RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b);
+RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const SharedScatter& shared = {});
 
 /// p-values adjusted so that all can be judged at one level together, in the order given (Holm 1979, "A Simple
 /// Sequentially Rejective Multiple Test Procedure").

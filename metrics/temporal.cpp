@@ -35,6 +35,15 @@ const TemporalMetric& temporal_metric_named(const std::string& name) {
     fail("no temporal metric named '", name, "'", suggestion(name, names));
 }
 
+bool is_error(const std::string& metric) {
+    const auto is_lower_better = [&](const auto& table, auto name, auto better) {
+        const auto found = std::ranges::find(table, metric, name);
+        return found != table.end() && (*found).*better == Better::lower;
+    };
+    return is_lower_better(all_metrics(), &Metric::name, &Metric::better) ||
+           is_lower_better(temporal_metrics(), &TemporalMetric::name, &TemporalMetric::better);
+}
+
 TemporalScore empty_score(const std::string& metric, const Mask& mask, const Mask& finite) {
     TemporalScore row{.metric = &temporal_metric_named(metric), .mask = mask.name};
     row.pixels = intersection(mask, finite).count();

@@ -23,6 +23,10 @@ const std::vector<TemporalMetric>& temporal_metrics();
 /// Fails on an unknown name, with the nearest known one.
 const TemporalMetric& temporal_metric_named(const std::string& name);
 
+/// Whether less of the metric, of one frame or of a sequence, is better: such are never negative, but for the
+/// correction of noise. False for names that are not known.
+bool is_error(const std::string& metric);
+
 /// One row of results.
 struct TemporalScore {
     const TemporalMetric* metric;

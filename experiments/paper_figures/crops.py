@@ -125,7 +125,11 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
             ""
             if error is None
             else f"\n{chosen.metric} {style.number(error.value)}"
-            + ("" if error.low is None else f"\n[{style.number(error.low)}, {style.number(error.high)}]")
+            + (
+                "\n1 seed: no interval"
+                if error.is_one_seed
+                else "" if error.low is None else f"\n[{style.number(error.low)}, {style.number(error.high)}]"
+            )
         )
         grid[0, column].set_title(label(*key) + number)
         for index, box in enumerate(boxes):

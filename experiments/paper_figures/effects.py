@@ -89,10 +89,16 @@ def _draw(results, chosen, rows, groups, against):
     _limit(grid[0, 0], results, rows)
     figure.supxlabel(
         f"{legend}{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
-        f"95 % intervals over seeds; filled: p (Holm) < {SIGNIFICANT}",
+        f"95 % intervals; {_family(rows)}",
         fontsize=7,
     )
     return figure
+
+
+def _family(rows):
+    if any(e["family"] == "primary" for e in rows):
+        return f"filled: p (Holm, over all primary comparisons) < {SIGNIFICANT}"
+    return "exploratory: each interval by itself, not adjusted for their number"
 
 
 def _draw_shot(results, axes, rows, keys):

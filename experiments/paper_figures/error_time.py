@@ -32,7 +32,8 @@ def _draw_points(axes, errors, times, shot):
                 yerr=error.whiskers(),
                 fmt=mark,
                 color=color,
-                markeredgewidth=0,
+                markerfacecolor="white" if error.is_one_seed else color,
+                markeredgewidth=0.8 if error.is_one_seed else 0,
                 label=variant if is_first else None,
             )
             if point != "default":
@@ -59,9 +60,15 @@ def draw(results, shot, errors, chosen):
     style.log_axis(axes.xaxis)
     style.log_axis(axes.yaxis)
     axes.margins(0.12)
-    if has_nonpositive:
-        axes.text(
-            0.02, 0.02, "errors not above 0 after noise correction are not shown", transform=axes.transAxes, fontsize=7
+    notes = [
+        text
+        for is_needed, text in (
+            (has_nonpositive, "errors not above 0 after noise correction are not shown"),
+            (any(e.is_one_seed for (s, _, _), e in errors.items() if s == shot), style.ONE_SEED_NOTE),
         )
+        if is_needed
+    ]
+    if notes:
+        axes.text(0.02, 0.02, "\n".join(notes), transform=axes.transAxes, fontsize=7)
     axes.legend(loc="best")
     return figure

@@ -16,6 +16,7 @@ def draw_lines(axes, lines, is_log, dodge):
         if not shown:
             continue
         color, mark = style.series(index)
+        is_one_seed = any(m.is_one_seed for _, m in shown)
         shift = dodge * (index - (len(lines) - 1) / 2)
         whiskers = [m.whiskers() for _, m in shown]
         axes.errorbar(
@@ -26,10 +27,11 @@ def draw_lines(axes, lines, is_log, dodge):
             linestyle="-",
             linewidth=0.6,
             markersize=3.2 if len(shown) <= 12 else 2.2,
-            markeredgewidth=0,
+            markeredgewidth=0.8 if is_one_seed else 0,
+            markerfacecolor="white" if is_one_seed else color,
             elinewidth=0.8,
             color=color,
-            label=label(*key),
+            label=label(*key) + (" (1 seed: no interval)" if is_one_seed else ""),
         )
     if is_log:
         axes.set_yscale("log")

@@ -12,6 +12,9 @@ class ResultsError(Exception):
     """A mistake in the results folder or in what was asked of it: one sentence."""
 
 
+ONE_SEED = "none: 1 seed"  # experiments/interval.h
+
+
 @dataclass
 class Measured:
     """A value with its 95 % interval; low and high are None where there is none."""
@@ -19,6 +22,7 @@ class Measured:
     value: float
     low: float
     high: float
+    is_one_seed: bool = False  # of a technique that draws random numbers: another seed might tell anything
 
     def whiskers(self):
         """Lengths below and above the value, as matplotlib's errorbar takes them."""
@@ -111,7 +115,7 @@ class Results:
     def measured(self, row, columns=("value", "low", "high"), name="summary.csv"):
         """None where the row has no value."""
         numbers = [self._number(row, c, name) for c in columns]
-        return None if numbers[0] is None else Measured(*numbers)
+        return None if numbers[0] is None else Measured(*numbers, row.get("interval") == ONE_SEED)
 
     def _number(self, row, column, name):
         text = row.get(column)

@@ -51,7 +51,8 @@ def _draw_metric(results, axes, rows, metric):
             xerr=value.whiskers(),
             fmt=mark,
             color=color,
-            markeredgewidth=0,
+            markerfacecolor="white" if value.is_one_seed else color,
+            markeredgewidth=0.8 if value.is_one_seed else 0,
             label=label(r["variant"], r["point"]),
         )
     if is_log:

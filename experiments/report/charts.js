@@ -21,6 +21,8 @@ function showScatter() {
             (isLog ? "An arrow marks a value whose noise-corrected error is not above zero; the grey steps join the " +
                      "points that none other beats in both, whatever the intervals say. " :
                      "") +
+            (timed.some(isOneSeed) ? "Hollow: one seed alone, which has no interval and is left out of the steps. " :
+                                     "") +
             "Point at a mark, or tab to it, for its numbers.";
     at("legend").replaceChildren(timed.length ? scatterLegend() : "");
     at("scatter").replaceChildren(
@@ -38,8 +40,9 @@ function scatterLegend() {
     return h("div", {class: "legend"}, variants.map((v, i) => legendEntry(i, v)));
 }
 
-/// Those that none other beats in both: a hint, by medians and means alone.
-function paretoFront(timed) {
+/// Those that none other beats in both: a hint, by medians and means alone. Single seeds may stand anywhere by chance.
+function paretoFront(all) {
+    const timed = all.filter(p => !isOneSeed(p.row));
     const isBeaten = p => timed.some(
         q => q !== p && q.time.value <= p.time.value && q.row.value <= p.row.value &&
             (q.time.value < p.time.value || q.row.value < p.row.value));
@@ -85,8 +88,9 @@ function scatterMark(row, time, x, y) {
         "g", {class: "point", "data-variant": row.variant, "data-point": row.point},
         bar(x.toPixel(time.low), py, x.toPixel(time.high), py),
         row.low === null ? null : bar(px, y.toPixel(row.low), px, y.toPixel(row.high)),
-        y.isInside(row.value) ? mark(scatterSeries(row), px, py) :
-                                svg("text", {x: px, y: py - 4, "text-anchor": "middle", style: `fill:${color}`}, "▼"));
+        y.isInside(row.value) ?
+            mark(scatterSeries(row), px, py, 1, isOneSeed(row)) :
+            svg("text", {x: px, y: py - 4, "text-anchor": "middle", style: `fill:${color}`}, "▼"));
     return withTip(
         group,
         `${pointLabel(row)}\n${row.metric} ${number(row.value)} ${interval(row)}\n${number(time.value)} ms ${

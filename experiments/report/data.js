@@ -24,7 +24,10 @@ function readData() {
         pixels: r[14],
         nonFinite: r[15],
         negative: r[16],
-        frame: t[r[17]]
+        frame: t[r[17]],
+        interval: t[r[18]],
+        isRanked: r[19] === 1,  // its interval holds all that is random
+        litNoise: r[20]
     });
     const split = r => ({
         shot: t[r[0]],
@@ -53,7 +56,23 @@ function readData() {
         value: r[11],
         low: r[12],
         high: r[13],
-        holm: r[14]
+        holm: r[14],
+        p: r[15],
+        interval: t[r[16]],
+        isPrimary: r[17] === 1
+    });
+    const timeEffect = r => ({
+        shot: t[r[0]],
+        variant: t[r[1]],
+        point: t[r[2]],
+        against: t[r[3]],
+        againstVariant: t[r[4]],
+        againstPoint: t[r[5]],
+        stage: t[r[6]],
+        rounds: r[7],
+        value: r[8],
+        low: r[9],
+        high: r[10]
     });
     const time = r => ({
         shot: t[r[0]],
@@ -78,6 +97,7 @@ function readData() {
         frames: raw.frames.map(error),  // those of each frame, where the ones above are over all of them
         splits: raw.splits.map(split),
         effects: raw.effects.map(effect),
+        timeEffects: raw.time_effects.map(timeEffect),
         times: raw.times.map(time)
     };
 }

@@ -41,11 +41,12 @@ function showEffects() {
         shot: ["all shots", ...effectShots()],
         scale: Object.keys(scales)
     };
+    const primary = rows.find(e => e.isPrimary);
     Object.assign(effectChoice, {
         against: options.against[0],
-        target: preferred(options.target, "specular"),
-        metric: headlineMetric(rows),
-        mask: preferred(options.mask, "reflective")
+        target: primary?.target ?? preferred(options.target, "specular"),
+        metric: primary ? metricKey(primary) : headlineMetric(rows),
+        mask: primary?.mask ?? preferred(options.mask, "reflective")
     });
     const box = (label, key, show = o => o) => options[key].length < 2 ?
         null :
@@ -56,7 +57,8 @@ function showEffects() {
     at("effects").append(
         h("div", {class: "controls"}, box("Against", "against"), box("Shot", "shot"), box("Target", "target"),
           box("Metric", "metric", metricName), box("Mask", "mask"), box("Scale", "scale", o => scales[o])),
-        h("div", {id: "effect-legend"}), h("div", {class: "scroll strips", id: "effect-table"}));
+        h("p", {class: "note", id: "effect-family"}), h("div", {id: "effect-legend"}),
+        h("div", {class: "scroll strips", id: "effect-table"}));
     drawEffects();
 }
 
@@ -93,16 +95,18 @@ function otherEffects() {
         .map(rows => ({name: errorParts[rows[0].metric] ?? rows[0].metric, rows}));
 }
 
+const isChosen = e => againstLabel(e) === effectChoice.against && e.target === effectChoice.target &&
+    metricKey(e) === effectChoice.metric && e.mask === effectChoice.mask;
+
 function drawEffects() {
     const isAll = effectChoice.shot === "all shots", shots = effectShots();
-    const rows = effectsShown().filter(
-        e => againstLabel(e) === effectChoice.against && e.target === effectChoice.target &&
-            metricKey(e) === effectChoice.metric && e.mask === effectChoice.mask &&
-            (isAll || e.shot === effectChoice.shot));
+    const rows = effectsShown().filter(e => isChosen(e) && (isAll || e.shot === effectChoice.shot));
     const scale = effectScale(rows, !isAll);
     const legend = h("div", {class: "legend"}, shots.map((s, i) => legendEntry(i, s)));
     at("effect-legend").replaceChildren(isAll ? legend : "");
-    const others = otherEffects();
+    const hasTimes = totalTimeEffects(rows).length > 0;
+    const others = [...otherEffects(), ...(hasTimes ? [{name: "time", rows: totalTimeEffects(rows)}] : [])];
+    at("effect-family").textContent = familyText(rows);
     const isPair = (a, b) => isSamePoint(a, b) && againstLabel(a) === againstLabel(b);
     const cells = rows => {
         const beside = others.map(o => o.rows.filter(r => rows.some(e => isPair(r, e))));
@@ -119,14 +123,25 @@ function drawEffects() {
     at("effect-table").replaceChildren(table(columns, lines));
 }
 
+function familyText(rows) {
+    const {metric, mask, target} = report.manifest.primary ?? {};
+    if (rows.some(e => e.isPrimary))
+        return `Primary: ${metric} of ${target}, ${mask} pixels, all points and shots, is what this study was made to ` +
+            "compare. Filled marks differ from 1 after Holm's correction over all of these.";
+    return "Exploratory: not among the comparisons that this study was made for" +
+        (metric ? ` (${metric} of ${target}, ${mask} pixels)` : "") +
+        ". Each interval and p holds by itself; among many some leave out 1 by chance.";
+}
+
 const otherColumns = (others, text) => others.map(other => ({name: `${other}: ${text}`, number: true}));
 const pooledColumns = others =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio, one mark per shot"},
      {name: "Mean ratio (range over shots)", number: true}, ...otherColumns(others, "mean ratio"),
      {name: "Helps", number: true}, {name: "Harms", number: true}, {name: "Shots", number: true}];
+const pName = () => effectsShown().some(e => isChosen(e) && e.isPrimary) ? "p (Holm)" : "p, exploratory";
 const effectColumns = others =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true},
-     ...otherColumns(others, "ratio"), {name: "p (Holm)", number: true}, {name: "Seeds", number: true},
+     ...otherColumns(others, "ratio"), {name: pName(), number: true}, {name: "Seeds", number: true},
      {name: "Result"}];
 
 /// All ratios fit unless a narrower scale is asked for; an interval of few seeds may reach far beyond them and is cut.
@@ -149,12 +164,20 @@ function whyNotRepeatable(e) {
     return reason(e.variant, e.point) || reason(e.againstVariant, e.againstPoint) || null;
 }
 
-const isSignificant = e => e.holm !== null && e.holm < significant && !whyNotRepeatable(e);
+/// Of the primary family alone: among many exploratory ones some p are small by chance.
+const isSignificant = e => e.isPrimary && e.holm !== null && e.holm < significant && !whyNotRepeatable(e);
+
+/// The times of the points that are compared, as ratios like the errors'.
+const totalTimeEffects = rows => report.timeEffects.filter(
+    t => t.stage === "total" && rows.some(e => isSamePoint(e, t) && againstLabel(e) === againstLabel(t)));
 
 function repeatNote(rows) {
     const reasons = unique(rows.map(whyNotRepeatable).filter(Boolean));
     return reasons.length ? h("small", {class: "not-repeatable"}, "no interval: " + reasons.join("; ")) : null;
 }
+
+const shownP = e => e.isPrimary ? e.holm : e.p;
+const pText = e => e.isPrimary ? `p (Holm) ${number(e.holm, 2)}` : `p ${number(e.p, 2)}, exploratory`;
 
 function effectMark(e, shots, isAll) {
     return {
@@ -162,7 +185,7 @@ function effectMark(e, shots, isAll) {
         row: isAll ? {value: e.value} : e,
         isHollow: !isSignificant(e),
         tip: `${e.shot}\n${e.point}\n${e.metric} × ${number(e.value)} ${interval(e)}\n${
-            whyNotRepeatable(e) ?? `p (Holm) ${number(e.holm, 2)}, ${e.seeds} seeds`}`
+            whyNotRepeatable(e) ?? `${pText(e)}, ${e.seeds} seeds`}`
     };
 }
 
@@ -178,7 +201,8 @@ function meanCell(rows) {
 
 /// How many shots the change helps or harms beyond chance.
 function pooledCells(rows, others) {
-    const countCell = n => cell(n, n ? h("b", {}, String(n)) : "0"), count = f => rows.filter(f).length;
+    const isPrimary = rows.some(e => e.isPrimary), count = f => rows.filter(f).length;
+    const countCell = n => isPrimary ? cell(n, n ? h("b", {}, String(n)) : "0") : cell(null, "–");
     const told = count(e => e.value > 0);
     return [
         meanCell(rows), ...others.map(meanCell),
@@ -198,16 +222,21 @@ function whyNoRatio(e) {
                     `${errorParts[e.metric] ?? "an error"} is not above 0`;
 }
 
+const exploratoryText = e => "exploratory: the interval " +
+    (e.high < 1 ? "lies below 1" : e.low > 1 ? "lies above 1" : "holds 1");
+
 function effectCells(e, others) {
     const result = e.value === null                              ? whyNoRatio(e) :
         whyNotRepeatable(e)                                      ? "not repeatable: no interval" :
         e.low === e.value && e.high === e.value && e.value === 1 ? "changes nothing" :
+        !e.isPrimary && e.low !== null                           ? exploratoryText(e) :
         !isSignificant(e)                                        ? "not told from chance" :
         e.value < 1                                              ? `${number(100 * (1 - e.value), 2)} % less error` :
                                                                    `${number(100 * (e.value - 1), 2)} % more error`;
     const ratioCell = r => cell(r.value, number(r.value), " ", h("small", {}, interval(r)));
     return [
         ratioCell(e), ...others.map(other => other ? ratioCell(other) : "–"),
-        cell(e.holm, number(e.holm, 2)), cell(e.seeds, String(e.seeds)), isSignificant(e) ? h("b", {}, result) : result
+        cell(shownP(e), number(shownP(e), 2)), cell(e.seeds, String(e.seeds)),
+        isSignificant(e) ? h("b", {}, result) : result
     ];
 }

@@ -1,4 +1,4 @@
-// Rungs of the truth ladder: where targets, and their own errors, which bound what techniques can reach.
+// Rungs of the truth ladder: where targets, and their own errors, which bound what one frame tells.
 
 const isLadderRung = target => target === "camera_radiance" || target === "on_screen";
 
@@ -12,6 +12,8 @@ function ladderRows(key) {
                         r => ({
                             ...r,
                             shot: shot.shot,
+                            frame: String(shot.frame),
+                            isRanked: false,
                             variant: "truth ladder",
                             point: r.rung + (list(shot.frames).length > 1 ? ", last frame" : ""),
                             floor: null,

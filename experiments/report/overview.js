@@ -25,6 +25,7 @@ function overviewTable(rows) {
         const marks = own.map((r, lane) => ({
                                   series: chartedIndex(r),
                                   row: r,
+                                  isHollow: isOneSeed(r),
                                   lane,
                                   tip: `${pointLabel(r)}\n${name} ${number(r.value)} ${interval(r)}`
                               }));
@@ -43,4 +44,6 @@ function overviewTable(rows) {
     return table(columns, lines);
 }
 
-const overviewCell = (row, best) => row ? h(best.has(row) ? "b" : "span", {}, number(row.value, 3)) : "–";
+const overviewCell = (row, best) => row ?
+    [h(best.has(row) ? "b" : "span", {}, number(row.value, 3)), isOneSeed(row) ? h("small", {}, " 1 seed") : null] :
+    "–";

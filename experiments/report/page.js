@@ -37,8 +37,16 @@ function number(x, digits = 4) {
     return String(Number(x.toPrecision(digits)));
 }
 
-const interval = (row, digits = 4) =>
-    row.low === null || row.low === undefined ? "" : `[${number(row.low, digits)}, ${number(row.high, digits)}]`;
+/// Why a value has no interval, as experiments/interval.h has it; empty where that is not told.
+const whyNoInterval = row => row.value !== null && row.interval?.startsWith("none: ") ?
+    `${row.interval.slice("none: ".length)}: no interval` :
+    "";
+const interval = (row, digits = 4) => row.low === null || row.low === undefined ?
+    whyNoInterval(row) :
+    `[${number(row.low, digits)}, ${number(row.high, digits)}]`;
+
+/// A single seed of a point that depends on it: another one might tell anything.
+const isOneSeed = row => row.interval === "none: 1 seed";
 
 function select(label, options, value, changed) {
     const box = h("select", {change: event => changed(event.target.value)}, options.map(o => {

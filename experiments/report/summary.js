@@ -72,8 +72,10 @@ function badnessInterval(row) {
     return [least, Math.max(...ends)];
 }
 
-/// The row that is best in its shot with an interval that no other one touches, or null.
-function clearlyBest(rows) {
+/// Of the rows whose intervals hold all that is random, the one that is best in its shot with an interval that no other
+/// one touches, or null. The others take no part.
+function clearlyBest(all) {
+    const rows = all.filter(r => r.isRanked);
     const intervals = rows.map(badnessInterval);
     if (rows.length < 2 || intervals.includes(null)) return null;
     const first = intervals.reduce((b, x, i) => x[1] < intervals[b][1] ? i : b, 0);
@@ -83,9 +85,14 @@ function clearlyBest(rows) {
 const clearlyBestRows = rows =>
     new Set(unique(rows.map(r => r.shot)).map(shot => clearlyBest(rows.filter(r => r.shot === shot))));
 
+/// The row of `none` over the same frames.
+const noneLike = (row, rows) => [...rows, ...report.frames].find(
+    r => r.shot === row.shot && r.variant === "none" && r.frame === row.frame && r.target === row.target &&
+        r.mask === row.mask && metricKey(r) === metricKey(row));
+
 /// value / none with the worst case of both intervals; only where a quotient of errors makes sense.
 function againstNone(row, rows) {
-    const none = rows.find(r => r.shot === row.shot && r.variant === "none");
+    const none = noneLike(row, rows);
     if (!none || none === row || better(row.metric) !== "lower" || row.value === null || !(none.value > 0)) return null;
     const isBounded = row.low !== null && none.low > 0;
     const ends = isBounded ?
@@ -93,6 +100,12 @@ function againstNone(row, rows) {
         [null, null];
     return {value: row.value / none.value, low: ends[0], high: ends[1]};
 }
+
+/// Worth a column: from 2 % of the error.
+const isLitNoisy = row => row.litNoise > 0.02 * Math.abs(row.value);
+
+/// What an interval lacks, which keeps its row from being ranked.
+const intervalNote = row => row.low !== null && row.interval === "seeds" && !row.isRanked ? "seeds alone" : "";
 
 function valueCell(row, isBest) {
     const notes = [];
@@ -104,7 +117,7 @@ function valueCell(row, isBest) {
         notes.push("within the floor");
     return cell(
         row.value, h(isBest ? "b" : "span", {class: notes.length ? "below-floor" : null}, number(row.value)), " ",
-        h("small", {}, [interval(row), ...notes].join(" ")));
+        h("small", {}, [interval(row), intervalNote(row), ...notes].filter(Boolean).join(" ")));
 }
 
 function summaryRow(row, rows, best, others, otherBest) {
@@ -113,6 +126,7 @@ function summaryRow(row, rows, best, others, otherBest) {
         row.shot, row.variant, row.point, valueCell(row, best.has(row)),
         ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
         cell(row.floor, number(row.floor)),
+        ...(rows.some(isLitNoisy) ? [cell(row.litNoise ?? null, number(row.litNoise))] : []),
         cell(
             ratio?.value ?? null, ratio ? number(ratio.value, 3) : "", " ",
             h("small", {}, ratio ? interval({low: ratio.low, high: ratio.high}) : "")),
@@ -133,6 +147,7 @@ function showSummary() {
     const columns = [
         {name: "Shot"}, {name: "Variant"}, {name: "Point"}, {name: name, number: true},
         ...(others.length ? [{name: others[0].metric, number: true}] : []), {name: "Noise floor", number: true},
+        ...(rows.some(isLitNoisy) ? [{name: "Lit noise", number: true}] : []),
         {name: "× none", number: true}, {name: "Total ms", number: true}, {name: "Seeds", number: true},
         {name: "Pixels", number: true}, ...(rows.some(r => r.nonFinite) ? [{name: "Non-finite", number: true}] : [])
     ];
@@ -160,6 +175,13 @@ function showSummary() {
                 `Noise floor and × none are those of ${name}.`,
         ladder.length &&
             "Truth ladder: the truth with less of its light, see How to read this. Nothing to rank, so never bold.",
-        "Brackets: 95 % interval. ± after the seeds: their standard deviation."
+        rows.some(isLitNoisy) && "Lit noise: what the noise of the path-traced light that techniques read adds to the " +
+            "value; intervals reach down by it.",
+        "Brackets: 95 % interval" +
+            (rows.some(intervalNote) ? "; seeds alone: without what the reference's noise adds, which the noise floor " +
+                                       "bounds, and so not ranked." :
+                                       ".") +
+            (rows.some(isOneSeed) ? " One seed of a technique that draws random numbers has none, and is not ranked." : ""),
+        "± after the seeds: their standard deviation."
     ].filter(Boolean).join(" ").replaceAll("..", ".");
 }

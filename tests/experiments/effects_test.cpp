@@ -1,5 +1,6 @@
 // What is told of seeds: bias and variance, and the effects of points against a baseline.
 #include "experiments/effects.h"
+#include "experiments/interval.h"
 #include "experiments/measure.h"
 #include "experiments/splits.h"
 
@@ -54,10 +55,10 @@ TEST(Effects, AreRatiosPairedBySeed) {
     EXPECT_LT(*e.high, 1.0);
     EXPECT_GT(*e.low, 0.3);
     EXPECT_LT(*e.p, 0.05);
-    EXPECT_EQ(*e.p_holm, *e.p) << "a family of one";
+    EXPECT_EQ(e.interval, interval::seeds) << "nothing is known of the reference's noise";
 }
 
-/// Beside the baseline's comparisons, under a name of their own and adjusted apart from them.
+/// Beside the baseline's comparisons, under a name of their own.
 TEST(Effects, AreAlsoToldAgainstThePointThatIsOtherwiseTheSame) {
     const std::vector<VariantConfig> variants = {
         {.variant = "v", .point = "base", .is_baseline = true},
@@ -76,10 +77,28 @@ TEST(Effects, AreAlsoToldAgainstThePointThatIsOtherwiseTheSame) {
     ASSERT_TRUE(found.contains("changed/form=x taps=4/plain"));
     const EffectRow& e = *found["changed/form=x taps=4/plain"];
     EXPECT_NEAR(*e.ratio, 0.5, 1e-12);
-    EXPECT_EQ(*e.p_holm, *e.p) << "a family of one";
-    ASSERT_TRUE(found.contains("plain/baseline/base") && found.contains("changed/baseline/base"));
-    const EffectRow &plain = *found["plain/baseline/base"], &changed = *found["changed/baseline/base"];
-    EXPECT_TRUE(*plain.p_holm > *plain.p || *changed.p_holm > *changed.p) << "a family of two";
+    EXPECT_TRUE(found.contains("plain/baseline/base") && found.contains("changed/baseline/base"));
+}
+
+/// A point that does not depend on its seed is as it is for every seed of the other.
+TEST(Effects, CompareWithAPointWithoutSeeds) {
+    std::vector<ResultRow> rows = {row("0", "base", 0, "mse", 2)};
+    for (unsigned seed = 3; seed < 6; ++seed) rows.push_back(row("0", "better", seed, "mse", 0.9 + 0.1 * (seed - 3)));
+    std::vector<VariantConfig> variants = two_points;
+    EXPECT_EQ(paired_effects(rows, variants).at(0).interval, interval::no_value) << "no seed in common";
+    variants[0].depends_on_seed = false;
+    const EffectRow e = paired_effects(rows, variants).at(0);
+    EXPECT_EQ(e.seeds, 3u);
+    EXPECT_NEAR(*e.ratio, 0.5, 1e-12);
+    // Student's interval of the mean of 0.9, 1, 1.1 over 2: 4.303 * 0.1 / sqrt(3) / 2 about 0.5, a little more above
+    // than below as the logarithm is what is normal.
+    EXPECT_NEAR(*e.high / *e.low, std::exp(2 * 4.3027 * 0.1 / std::sqrt(3.0)), 0.005);
+    std::swap(variants[0].is_baseline, variants[1].is_baseline);
+    EXPECT_NEAR(*paired_effects(rows, variants).at(0).low, 1 / *e.high, 1e-12);
+    // Nothing is random but the reference, of which nothing is known.
+    rows.back().seed = 0, variants[1].depends_on_seed = false;
+    EXPECT_EQ(paired_effects(std::vector{rows.front(), rows.back()}, variants).at(0).interval,
+              interval::unknown_reference);
 }
 
 TEST(Effects, PairSeedsByTheirNumber) {
@@ -92,30 +111,39 @@ TEST(Effects, PairSeedsByTheirNumber) {
     EXPECT_NEAR(*effects[0].ratio, 0.5, 1e-12) << "rounding of logarithms";
 }
 
-TEST(Effects, AreAdjustedTogetherOverShotsOfOneTarget) {
+TEST(Effects, OfThePrimaryErrorAreOneFamilyAndAllOthersExploratory) {
     std::vector<ResultRow> rows;
     // The scatter over three seeds, and so p, is another for each shot and target.
     const std::map<std::pair<std::string, std::string>, double> scatters = {
         {{"a", "specular"}, 1.01}, {{"b", "specular"}, 1.9}, {{"a", "image"}, 1.1}, {{"b", "image"}, 1.4}};
     for (const auto& [key, scatter] : scatters)
         for (unsigned seed = 0; seed < 3; ++seed)
-            for (const char* point : {"base", "better"}) {
-                ResultRow r = row("0", point, seed, "mse", point == std::string("base") ? 1 : 0.5);
-                if (point == std::string("better")) r.value = *r.value * std::pow(scatter, double(seed) - 1);
-                r.shot = key.first, r.target = key.second;
-                rows.push_back(r);
-            }
-    const std::vector<EffectRow> effects = paired_effects(rows, two_points);
-    ASSERT_EQ(effects.size(), 4u);
-    const auto effect_of = [&](const std::string& shot, const std::string& target) {
-        return *std::ranges::find_if(effects, [&](const EffectRow& e) { return e.shot == shot && e.target == target; });
+            for (const char* point : {"base", "better"})
+                for (const char* metric : {"mse", "relmse"}) {
+                    ResultRow r = row("0", point, seed, metric, point == std::string("base") ? 1 : 0.5);
+                    if (point == std::string("better")) r.value = *r.value * std::pow(scatter, double(seed) - 1);
+                    r.shot = key.first, r.target = key.second;
+                    rows.push_back(r);
+                }
+    std::vector<EffectRow> effects = paired_effects(rows, two_points);
+    ASSERT_EQ(effects.size(), 8u);
+    set_families(effects, {.metric = "mse", .mask = "all", .target = "specular"});
+    const auto effect_of = [&](const std::string& shot, const std::string& target, const std::string& metric) {
+        return *std::ranges::find_if(
+            effects, [&](const EffectRow& e) { return e.shot == shot && e.target == target && e.metric == metric; });
     };
-    for (const char* target : {"specular", "image"}) {
-        const EffectRow sure = effect_of("a", target), unsure = effect_of("b", target);
-        ASSERT_LT(*sure.p, *unsure.p);
-        EXPECT_DOUBLE_EQ(*sure.p_holm, 2 * *sure.p) << "of two, in both shots";
-        EXPECT_DOUBLE_EQ(*unsure.p_holm, std::max(*unsure.p, 2 * *sure.p));
+    const EffectRow sure = effect_of("a", "specular", "mse"), unsure = effect_of("b", "specular", "mse");
+    ASSERT_LT(*sure.p, *unsure.p);
+    EXPECT_DOUBLE_EQ(*sure.p_holm, 2 * *sure.p) << "of two, in both shots";
+    EXPECT_DOUBLE_EQ(*unsure.p_holm, std::max(*unsure.p, 2 * *sure.p));
+    size_t exploratory = 0;
+    for (const EffectRow& e : effects) {
+        EXPECT_EQ(e.family == "primary", e.target == "specular" && e.metric == "mse");
+        EXPECT_EQ(e.p_holm.has_value(), e.family == "primary");
+        EXPECT_TRUE(e.p);
+        exploratory += e.family == "exploratory";
     }
+    EXPECT_EQ(exploratory, 6u);
 }
 
 TEST(Effects, OfRowsOverFramesComeBeforeThoseOfOneFrame) {
@@ -151,6 +179,7 @@ TEST(Effects, AreNotMadeUp) {
         paired_effects(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", 0.25)}, two_points);
     EXPECT_EQ(effects[0].ratio, 0.25);
     EXPECT_FALSE(effects[0].low || effects[0].high || effects[0].p || effects[0].p_holm);
+    EXPECT_EQ(effects[0].interval, interval::one_seed);
     // Equal errors differ by nothing.
     std::vector<ResultRow> equal;
     for (const char* point : {"base", "better"})
@@ -176,10 +205,9 @@ TEST(Effects, OfWhatVariesFromRunToRunAreRatiosAlone) {
         for (const EffectRow& e : effects) {
             EXPECT_LT(e.ratio, 1.0);
             const bool can_tell = e.point == "third" && varies == std::string("better");
-            for (const auto& number : {e.low, e.high, e.p, e.p_holm})
+            for (const auto& number : {e.low, e.high, e.p})
                 EXPECT_EQ(number.has_value(), can_tell) << e.point << " while " << varies << " varies";
-            if (!can_tell) continue;
-            EXPECT_EQ(e.p_holm, e.p) << "the other is not of its family";
+            EXPECT_EQ(e.interval, can_tell ? interval::seeds : interval::not_repeatable);
         }
     }
 }
@@ -241,7 +269,6 @@ TEST(Effects, TellBiasFromVariance) {
         EXPECT_LE(*e.low, is_bias ? 0.25 : 4.0001);
         EXPECT_GE(*e.high, is_bias ? 0.25 : 3.9999);
         EXPECT_LT(*e.p, 1e-3);
-        EXPECT_EQ(e.p, e.p_holm) << "bias and variance are families of their own";
     }
     for (const EffectRow& e : split_effects(rows, two_points, {{"v", "base"}})) EXPECT_TRUE(e.ratio && !e.low && !e.p);
     rows[0].seed_numbers = {10, 11, 12, 13, 14, 15, 16, 2};
@@ -319,21 +346,26 @@ TEST(Splits, NeedTwoSeeds) {
     EXPECT_FALSE(rows[0].variance_low) << "one pair has no interval";
 }
 
-TEST(Measure, ReportsAResultWithoutAnyFinitePixel) {
-    PoseTruth truth;
-    truth.diffuse = HostImage({16, 16}, 3);
-    truth.targets.emplace("specular", metric_reference(HostImage({16, 16}, 3, 1.0f), {}, {"mse", "relmse"}, {}));
-    CompositedImages images{.specular = HostImage({16, 16}, 3, NAN),
-                            .incident = HostImage({16, 16}, 3),
-                            .confidence = HostImage({16, 16}, 1)};
-    Mask empty{.name = "empty", .extent = {16, 16}, .inside = std::vector<uint8_t>(256)};
-    const auto rows = measure_targets(truth, images, std::vector{full_mask({16, 16}), empty}, {});
-    ASSERT_EQ(rows.size(), 2u) << "one for each metric of the full mask, none of the empty one";
-    for (const ResultRow& r : rows) {
-        EXPECT_FALSE(r.value);
-        EXPECT_EQ(r.pixels, 0u);
-        EXPECT_EQ(r.non_finite, 256u);
-    }
+TEST(Splits, OfAPointWithoutSeedsAreAllBias) {
+    std::mt19937 random(3);
+    std::normal_distribution<float> noise(1.0f, 0.2f);
+    ReferenceHalves halves{HostImage({16, 16}, 3), HostImage({16, 16}, 3)};
+    for (HostImage* half : {&halves.a, &halves.b})
+        for (float& v : half->values) v = noise(random);
+    HostImage mean = halves.a;
+    for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = (halves.a.values[i] + halves.b.values[i]) / 2;
+    const std::vector<Mask> masks = {full_mask({16, 16})};
+    const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
+    SeedSplit split{reference};
+    split.add(5, HostImage({16, 16}, 3, 1.5f));
+    EXPECT_TRUE(split_rows(split, masks, {}).empty());
+    const SplitRow row = split_rows(split, masks, {}, false).at(0);
+    EXPECT_EQ(row.variance, 0.0);
+    EXPECT_EQ(row.seeds, 1u);
+    // Doubles in another order.
+    EXPECT_NEAR(row.bias_squared, score(reference, split.images[0], masks).at(0).value, 1e-12);
+    EXPECT_LT(*row.bias_squared_low, row.bias_squared);
+    EXPECT_GT(*row.bias_squared_high, row.bias_squared);
 }
 
 TEST(Measure, AveragesOverFrames) {

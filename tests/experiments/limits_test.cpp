@@ -35,7 +35,7 @@ TEST(Limits, HoldForTheVariantsPassesOnly) {
 TEST_F(StudyTest, RunsTechniquesWithinTheirLimits) {
     write_text(folder / "study.json", R"({"shots": [{"scene": "mirror_pillars", "resolution": [64, 36]}],
         "reference": {"samples": 16}, "metrics": "mse", "targets": "specular", "masks": "reflective",
-        "timing": {"frames": 0},
+        "timing": {"frames": 0}, "seeds": 1,
         "variants": [{"variant": "diligent_ssr", "sweep": {"hierarchy": ["intermediate", "mip_views"]}}]})");
     const nlohmann::json manifest = read_json(run(read_config(folder / "study.json"), "a") / "manifest.json");
     ASSERT_EQ(manifest["variants"].size(), 2u);

@@ -1,6 +1,7 @@
 #include "experiments/measure.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 TEST(Measure, ImageIsAllLightOfTheTruth) {
     const auto constant = [](float value) {
@@ -21,4 +22,21 @@ TEST(Measure, ImageIsAllLightOfTheTruth) {
     EXPECT_EQ(composited_image(truth, perfect).values, reference.image.mean.values);
     EXPECT_EQ(truth.targets.at("image").image.values, reference.image.mean.values);
     EXPECT_EQ(truth.diffuse.values, reference.diffuse.mean.values) << "the lit colour has no highlights";
+}
+
+TEST(Measure, ReportsAResultWithoutAnyFinitePixel) {
+    PoseTruth truth;
+    truth.diffuse = HostImage({16, 16}, 3);
+    truth.targets.emplace("specular", metric_reference(HostImage({16, 16}, 3, 1.0f), {}, {"mse", "relmse"}, {}));
+    CompositedImages images{.specular = HostImage({16, 16}, 3, NAN),
+                            .incident = HostImage({16, 16}, 3),
+                            .confidence = HostImage({16, 16}, 1)};
+    Mask empty{.name = "empty", .extent = {16, 16}, .inside = std::vector<uint8_t>(256)};
+    const auto rows = measure_targets(truth, images, std::vector{full_mask({16, 16}), empty}, {});
+    ASSERT_EQ(rows.size(), 2u) << "one for each metric of the full mask, none of the empty one";
+    for (const ResultRow& r : rows) {
+        EXPECT_FALSE(r.value);
+        EXPECT_EQ(r.pixels, 0u);
+        EXPECT_EQ(r.non_finite, 256u);
+    }
 }

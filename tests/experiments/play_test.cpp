@@ -91,7 +91,7 @@ TEST_F(StudyTest, AHistoryGhosts) {
         "frames": [29, 30], "change": 30, "repeat": 40, "measure": "last"}], "reference": {"samples": 256},
         "variants": [{"variant": "amd_sssr", "preset": "corrected",
                       "parameters": {"max_samples": 12, "min_history_samples": 6, "clip_scale": 100}}],
-        "metrics": "mse", "targets": "specular", "masks": "reflective", "timing": {"frames": 0}})");
+        "metrics": "mse", "targets": "specular", "masks": "reflective", "seeds": 1, "timing": {"frames": 0}})");
     std::map<std::string, std::optional<double>> lengths;
     for (const ResultRow& r : read_result_rows(run(read_config(folder / "step.json"), "step") / "results.csv"))
         if (r.frame == "all") lengths[r.metric] = r.value;

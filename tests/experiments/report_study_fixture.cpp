@@ -3,7 +3,9 @@
 #include "core/exr.h"
 #include "core/files.h"
 #include "experiments/effects.h"
+#include "experiments/interval.h"
 #include "experiments/results.h"
+#include "experiments/time_effects.h"
 
 #include <random>
 #include <vector>
@@ -29,7 +31,8 @@ const StudyPoint study_points[] = {{"none", "default", 3.0, 1, json::object()},
                                    {"sssr", "mended", 0.5, 4, parameters(true, true, false)},
                                    {"sssr", "first float_histories=true", 0.6, 4, parameters(true, false, false)},
                                    {"sssr", "first round_up_tiles=true", 1.0, 4, parameters(false, true, false)},
-                                   {"sssr", "first race=true", 0.7, 4, parameters(false, false, true), "it races"}};
+                                   {"sssr", "first race=true", 0.7, 4, parameters(false, false, true), "it races"},
+                                   {"sssr", "lucky", 0.1, 1, parameters(false, true, true)}};
 
 struct StudyShot {
     std::string name;
@@ -135,17 +138,17 @@ void add_split(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     }
 }
 
-/// Ten stages: more than there are colours.
-void add_times(const StudyShot& shot, Cell& cell) {
+/// Ten stages: more than there are colours. `slowness` scales every frame's time a little differently.
+void add_times(const StudyShot& shot, const StudyPoint& point, double slowness, Cell& cell) {
     for (unsigned frame = 0; frame < 15; ++frame) {
         double total = 0;
         for (unsigned stage = 0; stage < 10; ++stage) {
-            const double time = 0.1 * (stage + 1) + 0.01 * frame;
+            const double time = (0.1 * (stage + 1) + 0.01 * frame) * (slowness + 0.001 * (frame * 7 % 15));
             cell.times.push_back(
-                {shot.name, "sssr", "first", 0, "sssr/stage_" + std::to_string(stage), frame, time, "host_fence"});
+                {shot.name, "sssr", point.point, 0, "sssr/stage_" + std::to_string(stage), frame, time, "host_fence"});
             total += time;
         }
-        cell.times.push_back({shot.name, "sssr", "first", 0, "total", frame, total, "host_fence"});
+        cell.times.push_back({shot.name, "sssr", point.point, 0, "total", frame, total, "host_fence"});
     }
 }
 
@@ -154,6 +157,7 @@ json study_manifest(const std::vector<StudyShot>& shots) {
         {"title", "A study of changes"},
         {"started", "2026-01-31T12:00:00Z"},
         {"finished", "2026-01-31T12:05:00Z"},
+        {"primary", {{"metric", "relmse"}, {"mask", "reflective"}, {"target", "specular"}}},
         {"clock",
          {{"method", "host_fence"},
           {"aa_floor", 0.02},
@@ -192,7 +196,8 @@ json study_manifest(const std::vector<StudyShot>& shots) {
                                         {"point", p.point},
                                         {"title", p.variant},
                                         {"source", ""},
-                                        {"parameters", p.parameters}});
+                                        {"parameters", p.parameters},
+                                        {"depends_on_seed", p.variant != "none"}});
         if (!p.not_repeatable.empty()) manifest["variants"].back()["not_repeatable"] = p.not_repeatable;
     }
     return manifest;
@@ -217,6 +222,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
     std::vector<Cell> cells;
     std::vector<ResultRow> rows;
     std::vector<SplitRow> splits;
+    std::vector<TimeRow> times;
     for (const StudyShot& shot : shots) {
         for (const StudyPoint& point : study_points) {
             Cell cell;
@@ -226,7 +232,9 @@ void write_study_fixture(const std::filesystem::path& folder) {
                 add_temporal(make);
             }
             add_split(shot, point, cell);
-            if (point.point == "first") add_times(shot, cell);
+            if (point.point == "first") add_times(shot, point, 1, cell);
+            if (point.point == "mended") add_times(shot, point, 2, cell);
+            times.insert(times.end(), cell.times.begin(), cell.times.end());
             rows.insert(rows.end(), cell.rows.begin(), cell.rows.end());
             splits.insert(splits.end(), cell.splits.begin(), cell.splits.end());
             cells.push_back(std::move(cell));
@@ -236,6 +244,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
     for (const StudyPoint& p : study_points) {
         VariantConfig variant;
         variant.variant = p.variant, variant.point = p.point, variant.is_baseline = p.point == "first";
+        variant.depends_on_seed = p.variant != "none";
         if (p.point == "mended")
             variant.against = {{"float_histories", false}}, variant.against_point = "first round_up_tiles=true";
         variants.push_back(variant);
@@ -244,8 +253,10 @@ void write_study_fixture(const std::filesystem::path& folder) {
     std::vector<EffectRow> effects = paired_effects(rows, variants);
     for (EffectRow& e : split_effects(splits, variants)) effects.push_back(std::move(e));
     for (EffectRow& e : effects)
-        if (e.point == "first race=true") e.low = e.high = e.p = e.p_holm = std::nullopt;
+        if (e.point == "first race=true") e.low = e.high = e.p = std::nullopt, e.interval = interval::not_repeatable;
+    set_families(effects, {});
     write_effects(folder, effects);
+    write_time_effects(folder, time_effects(times, variants));
     json manifest = study_manifest(shots);
     add_rung_images(folder, shots.front().name, manifest["images"]);
     write_text(folder / "manifest.json", manifest.dump(1));

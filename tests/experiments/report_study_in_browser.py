@@ -65,7 +65,25 @@ def test_results(page, folder):
         "return [...document.querySelectorAll('#summary tbody tr')]"
         f".filter(r => r.cells[1].textContent !== '{LADDER}').map(r => r.cells[4].textContent.includes('['))"
     )
-    check(all(intervals) and intervals, f"absolute errors have intervals: {intervals}")
+    equal(intervals, [r["low"] != "" for r in absolute], "which absolute errors have intervals")
+    lucky = [c for c in shown if c[2][0] == "lucky"]
+    equal(len(lucky), 7, "a point of one seed in each shot")
+    for cells in lucky:
+        for cell in cells[3:5]:
+            check("1 seed: no interval" in cell[0] and "[" not in cell[0], f"why it has no interval: {cell[0]}")
+    bold = page.execute_script(
+        """return ['#summary', '#overview'].map(id => [...document.querySelectorAll(id + ' td b')].length)"""
+    )
+    equal(bold, [14, 14], "the best of each shot by both errors")
+    bold = page.execute_script(
+        "return [...document.querySelectorAll('#summary td b')].map(b => b.closest('tr').cells[2].textContent)"
+    )
+    equal(set(bold), {"mended"}, "a single seed is never the best, however small its error")
+    hollow = page.execute_script(
+        """return [...document.querySelectorAll('#overview .point')].map(p =>
+        [p.getAttribute('aria-label').includes('1 seed'), p.querySelector('[fill="var(--card)"]') !== null])"""
+    )
+    check(any(h[0] for h in hollow) and all(h[0] == h[1] for h in hollow), "marks of single seeds are hollow")
     equal(values(page, "#overview .point"), [float(r["value"]) for r in compared + absolute], "the overview")
     page.find_element(By.ID, "single-changes").click()
     equal(
@@ -76,13 +94,20 @@ def test_results(page, folder):
     page.find_element(By.ID, "single-changes").click()
 
 
-def test_truth_ladder(page):
+def test_truth_ladder(page, folder):
     """What bounds the techniques stands below them, is never the best, and says which frames it speaks of."""
     rungs = [c for c in table_of(page, "#summary") if c[1][0] == LADDER]
     equal([c[0][0].split(".")[0] for c in rungs], ["still_a", "moving"], "shots with a ladder")
     equal([c[2][0] for c in rungs], ["on_screen", "on_screen, last frame"], "rungs")
     for cells in rungs:
         equal(float(cells[3][1]), 0.0123, "the limit")
+        none = next(
+            r
+            for r in rows_of(folder, "summary.csv", variant="none", metric="relmse", mask="reflective")
+            if r["shot"] == cells[0][0] and r["frame"] == ("6" if cells[0][0] == MOVING else "0")
+        )
+        ratio = 0.0123 / float(none["value"])
+        check(abs(float(cells[6][1]) - ratio) < 1e-12 * ratio, f"over none of the same frame: {cells[6]}, not {ratio}")
         check("[0.0113, 0.0133]" in cells[3][0], f"its interval: {cells[3][0]}")
         equal(cells[8][0], "–", "seeds of the truth")
     shots = [c[0][0] for c in table_of(page, "#summary")]
@@ -167,9 +192,13 @@ def test_stages(page):
     text = page.find_element(By.ID, "stage-table").text
     for part in ("1.12 % (sssr · first, 6.2 ms)", "A/A floor of the study: 2 %"):
         check(part in text, f"the A/A floor: {text!r}")
-    equal(page.find_element(By.ID, "forms").text.split("\n")[1:], ['sssr · first: form = "fast"'], "what was timed")
+    equal(
+        page.find_element(By.ID, "forms").text.split("\n")[1:],
+        ['sssr · first: form = "fast"', 'sssr · mended: form = "fast"'],
+        "what was timed",
+    )
     check(
-        page.execute_script("return document.querySelector('#stage-table details').open"), "11 rows need not be folded"
+        not page.execute_script("return document.querySelector('#stage-table details').open"), "22 rows are folded"
     )
 
 
@@ -192,11 +221,11 @@ def test_effects(page, folder):
         for metric in ("relmse", "mse", "bias_squared", "variance")
     )
     rows = relative
-    points = ["first float_histories=true", "first round_up_tiles=true", RACING, "mended"]
+    points = ["first float_histories=true", "first round_up_tiles=true", RACING, "mended", "lucky"]
     shown = table_of(page, "#effect-table")[:-1]
     equal(
         [c[0][0].split("\n")[0] for c in shown],
-        ["float_histories = true", "round_up_tiles = true", "race = true", "sssr · mended"],
+        ["float_histories = true", "round_up_tiles = true", "race = true", "sssr · mended", "sssr · lucky"],
         "changes",
     )
     equal(shown[0][0][0].split("\n")[1], "keeps <b>32</b> bits & drifts less", "what the parameter means, as text")
@@ -204,6 +233,9 @@ def test_effects(page, folder):
         for cell, ratios in zip(cells[2:6], (relative, absolute, bias_squared, variance)):
             if (point, ratios) == ("mended", bias_squared):
                 equal(cell, ["–", "null"], "the bias² of a point that has none")
+                continue
+            if point == "lucky" and ratios in (bias_squared, variance):
+                equal(cell, ["–", "null"], "parts of the error of one seed")
                 continue
             mean, least, largest = mean_ratio(ratios, point)
             check(abs(float(cell[1]) - mean) < 1e-12 * mean, f"mean ratio of {point}: {cell}, expected {mean}")
@@ -217,20 +249,40 @@ def test_effects(page, folder):
             for r in rows
             if r["point"] == point and r["p_holm"] and float(r["p_holm"]) < 0.05 and float(r["ratio"]) < 1
         ]
-        equal([int(cells[i][1]) for i in (6, 7, 8)], [len(helped), 0, 7], f"shots that {point} helps, harms, and all")
+        equal([int(cells[i][1]) for i in (7, 8, 9)], [len(helped), 0, 7], f"shots that {point} helps, harms, and all")
+        times = rows_of(folder, "time_effects.csv", point=point, against_point="first", stage="total")
+        equal(len(times), 7 if point == "mended" else 0, f"times of {point}")
+        if times:
+            mean, _, _ = mean_ratio(times, point)
+            check(abs(float(cells[6][1]) - mean) < 1e-12 * mean, f"mean ratio of times: {cells[6]}, expected {mean}")
     choose(page, "effects", "Shot", STEP)
     for cells, point in zip(table_of(page, "#effect-table"), points):
         row = next(r for r in rows if r["point"] == point and r["shot"] == STEP)
         equal(float(cells[2][1]), float(row["ratio"]), f"ratio of {point}")
         for cell, ratios in zip(cells[3:6], (absolute, bias_squared, variance)):
-            other = next(r for r in ratios if r["point"] == point and r["shot"] == STEP)
+            other = next((r for r in ratios if r["point"] == point and r["shot"] == STEP), None)
+            if other is None:
+                equal((point, cell[0]), ("lucky", "–"), "a ratio that there is none of")
+                continue
             equal(cell[1], other["ratio"] or "null", f"ratio of {other['metric']} of {point}")
             equal("[" in cell[0], other["low"] != "", f"whether that ratio has an interval: {cell[0]}")
         equal("[" in cells[2][0], row["low"] != "", f"whether the ratio of {point} has an interval")
-        equal(cells[6][1] == "null", row["p_holm"] == "", f"whether {point} has a p")
+        times = rows_of(folder, "time_effects.csv", point=point, against_point="first", stage="total", shot=STEP)
+        if times:
+            low, high = (float(x) for x in cells[6][0].split("[")[1].rstrip("]").split(","))
+            expected = [float(times[0][k]) for k in ("low", "high")]
+            check(
+                all(abs(a - b) <= 5.1e-4 * b for a, b in zip((low, high), expected)),
+                f"interval of the ratio of times: {cells[6][0]}, expected {expected}",
+            )
+        equal(cells[7][1] == "null", row["p_holm"] == "", f"whether {point} has a p")
         is_significant = row["p_holm"] and float(row["p_holm"]) < 0.05
-        result = "not repeatable" if point == RACING else "less error" if is_significant else "changes nothing"
-        check(result in cells[8][0], f"result of {point}: {cells[8][0]!r}, expected {result!r}")
+        result = (
+            "not repeatable"
+            if point == RACING
+            else "not told" if point == "lucky" else "less error" if is_significant else "changes nothing"
+        )
+        check(result in cells[9][0], f"result of {point}: {cells[9][0]!r}, expected {result!r}")
     marks = values(page, "#effect-table .point")
     equal(
         marks,
@@ -249,7 +301,7 @@ def test_effects(page, folder):
     arrows = page.execute_script(
         "return [...document.querySelectorAll('#effect-table .point text')].map(t => t.textContent)"
     )
-    equal(arrows, ["◀"] * 3, "ratios beyond the scale")
+    equal(arrows, ["◀"] * 4, "ratios beyond the scale")
     for metric, point, reason in (
         ("settling_length", "sssr · mended", "no value for mended: not within the first half of 15 frames"),
         ("ghost_length", "round_up_tiles = true", "an error is not above 0"),
@@ -259,6 +311,16 @@ def test_effects(page, folder):
         choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith(metric)))
         row = next(c for c in table_of(page, "#effect-table") if c[0][0].split("\n")[0] == point)
         equal(row[-1][0], reason, f"why {point} has no ratio of {metric}")
+    choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("mse")))
+    note = page.find_element(By.ID, "effect-family").text
+    check(note.startswith("Exploratory") and "relmse of specular, reflective" in note, f"what mse stands for: {note}")
+    heads = [e.text for e in page.find_elements(By.CSS_SELECTOR, "#effect-table th")]
+    check("p, exploratory" in heads and "p (Holm)" not in heads, f"heads of an exploratory metric: {heads}")
+    filled = page.execute_script(
+        """return [...document.querySelectorAll('#effect-table .point')].filter(
+        p => !p.querySelector('[fill="var(--card)"]') && !p.querySelector('text')).length"""
+    )
+    equal(filled, 0, "filled marks among exploratory ratios")
     choose(page, "effects", "Against", "sssr with float_histories=false and otherwise the same")
     choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("relmse")))
     quantity = dict(target="specular", metric="relmse", mask="reflective", shot=STEP)
@@ -271,7 +333,7 @@ def test_effects(page, folder):
 def test_temporal(page, folder):
     text = page.find_element(By.ID, "temporal-tables").text
     check("not within the first half of 15 frames" in text, f"why a value is missing: {text}")
-    equal(text.count("no such pixel"), 3, "points of the shot that has no disoccluded pixel")
+    equal(text.count("no such pixel"), 4, "points of the shot that has no disoccluded pixel")
     for metric in ("flicker_relative", "frame_difference_relative", "ghost_length"):
         rows = [r for r in rows_of(folder, "summary.csv", metric=metric) if not is_single_change(r)]
         shown = page.execute_script(
@@ -285,13 +347,13 @@ def test_temporal(page, folder):
     frames = [
         r
         for shot in (MOVING, STEP)
-        for point in ("default", "first", "mended")
+        for point in ("default", "first", "mended", "lucky")
         for r in rows_of(
             folder, "summary.csv", shot=shot, point=point, target="specular", metric="relmse", mask="reflective"
         )
         if r["frame"] != "all"
     ]
-    frames.sort(key=lambda r: (r["shot"] != MOVING, ["default", "first", "mended"].index(r["point"]), int(r["frame"])))
+    frames.sort(key=lambda r: (r["shot"] != MOVING, ["default", "first", "mended", "lucky"].index(r["point"]), int(r["frame"])))
     equal(values(page, "#frame-charts .point"), [float(r["value"]) for r in frames], "errors of frames")
     check("the scene changes at frame 30" in page.find_element(By.ID, "frame-charts").text, "the change is not told")
 
@@ -320,7 +382,7 @@ def main():
                 lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
             )
             test_results(page, folder)
-            test_truth_ladder(page)
+            test_truth_ladder(page, folder)
             test_images_of_a_rung(page)
             test_roughness(page, folder)
             test_splits(page, folder)

@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "experiments/csv.h"
+#include "experiments/interval.h"
 #include "experiments/report_images.h"
 #include "experiments/report_warnings.h"
 #include "experiments/summary.h"
@@ -99,17 +100,14 @@ TEST(Summary, JoinsTheSpreadOfSeedsWithTheNoiseOfTheReference) {
     const double t = 0.95 * std::sqrt(2.0 / (4.0 * 0.975 * 0.025));
     EXPECT_NEAR(*s.high - 6.0, std::hypot(t / std::sqrt(3.0), 0.5), 1e-9);
     EXPECT_NEAR(6.0 - *s.low, *s.high - 6.0, 1e-12);
-    const auto one = summarise(seed_rows({2}, 0.5, 0.1)).at(0);
-    EXPECT_EQ(one.low, 1.5);
-    EXPECT_FALSE(one.seed_deviation);
+    EXPECT_FALSE(summarise(seed_rows({2}, 0.5, 0.1)).at(0).seed_deviation);
 }
 
-TEST(Summary, GivesNoIntervalWhereTheNoiseOfTheReferenceIsNotInIt) {
-    EXPECT_FALSE(summarise(seed_rows({1, 2, 3}, {}, 0.1)).at(0).low);
-    EXPECT_TRUE(summarise(seed_rows({1, 2, 3}, {}, 0.0)).at(0).low);  // an exact reference: the seeds are all there is
+TEST(Summary, GivesNoMeanWhereASeedHasNoValue) {
     auto rows = seed_rows({1, 2}, 0.5, 0.1);
     rows[1].value.reset();
     EXPECT_FALSE(summarise(rows).at(0).value);
+    EXPECT_EQ(summarise(rows).at(0).interval, interval::no_value);
 }
 
 TEST(Summary, AddsUpAStageThatRunsTwiceInAFrame) {
@@ -196,6 +194,20 @@ TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
         contains(report_warnings(manifest, errors, times), "mirror_pillars.front.160x90: a texture is missing."));
     EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "not finished"));
     EXPECT_TRUE(contains(report_warnings(nlohmann::json::object(), errors, times), "not proven"));
+}
+
+TEST_F(Report, WarnsOfLightThatIsTooNoisy) {
+    auto errors = summarise(read_result_rows(folder / "results.csv"));
+    const auto manifest = read_json(folder / "manifest.json");
+    const size_t before = report_warnings(manifest, errors, {}).size();
+    for (MetricSummary& e : errors) e.lit_noise = 0.09 * std::abs(*e.value);
+    EXPECT_EQ(report_warnings(manifest, errors, {}).size(), before);
+    for (MetricSummary& e : errors)
+        if (e.shot == fixture_shots[0] && e.mask == "reflective") e.lit_noise = 0.23 * std::abs(*e.value);
+    const auto warnings = report_warnings(manifest, errors, {});
+    EXPECT_EQ(warnings.size(), before + 1) << "one of each shot";
+    EXPECT_TRUE(contains(warnings, fixture_shots[0] + ": the noise of the path-traced light"));
+    EXPECT_TRUE(contains(warnings, "23 % of an error"));
 }
 
 TEST_F(Report, IsOneSmallFileThatNeedsNothingElse) {

@@ -106,9 +106,40 @@ TEST_F(TemporaryConfig, GivesVariantsTheirSeeds) {
         R"({"scene": "fence"})",
         R"(, "seeds": 3, "variants": [{"variant": "none", "seeds": 1}, {"variant": "mcguire_dda", "baseline": true}])");
     EXPECT_EQ(config.variants[0].seeds, (std::vector<unsigned>{0}));
-    EXPECT_EQ(config.variants[1].seeds, (std::vector<unsigned>{0, 1, 2}));
+    EXPECT_EQ(config.variants[1].seeds, (std::vector<unsigned>{0})) << "no seed changes it";
     EXPECT_FALSE(config.variants[0].is_baseline);
     EXPECT_TRUE(config.variants[1].is_baseline);
+}
+
+TEST_F(TemporaryConfig, GivesPointsThatDependOnSeedsSeveral) {
+    const std::string all = R"(, "variants": [{"variant": "mcguire_dda"}, {"variant": "amd_sssr"},
+        {"variant": "amd_sssr", "sweep": {"roughness_threshold_alpha": [0]}},
+        {"variant": "mcguire_dda", "preset": "coarse", "seeds": [4, 6]}, {"variant": "diligent_ssr", "seeds": [7]}])";
+    const auto seeds = [&](const std::string& of_study) {
+        std::vector<std::vector<unsigned>> found;
+        for (const VariantConfig& v : read(R"({"scene": "fence"})", of_study + all).variants) found.push_back(v.seeds);
+        return found;
+    };
+    const std::vector<unsigned> eight = {0, 1, 2, 3, 4, 5, 6, 7}, two = {2, 9};
+    EXPECT_EQ(seeds(""), (std::vector<std::vector<unsigned>>{{0}, eight, {0}, {4, 6}, {7}}));
+    EXPECT_EQ(seeds(R"(, "seeds": [2, 9])"), (std::vector<std::vector<unsigned>>{{2}, two, {2}, {4, 6}, {7}}));
+}
+
+TEST_F(TemporaryConfig, NamesThePrimaryComparisons) {
+    const auto primary = [&](const std::string& more) {
+        const PrimaryComparisons p =
+            read(R"({"scene": "fence"})", more + R"(, "variants": [{"variant": "none"}])").primary;
+        return p.metric + " " + p.mask + " " + p.target;
+    };
+    EXPECT_EQ(primary(""), "relmse reflective specular");
+    EXPECT_EQ(primary(R"(, "metrics": ["ssim", "flip"], "frame_metrics": [], "masks": ["all"], "targets": "image")"),
+              "flip all image");
+    EXPECT_EQ(primary(R"(, "primary": {"metric": "mse", "mask": "edge"})"), "mse edge specular");
+    EXPECT_EQ(primary(R"(, "primary": {"metric": "flicker_relative"})"), "flicker_relative reflective specular");
+    const std::string none = R"(, "variants": [{"variant": "none"}])";
+    for (const char* bad :
+         {R"({"metric": "bias"})", R"({"metric": "rmse"})", R"({"mask": "alll"})", R"({"masks": "all"})"})
+        EXPECT_NE(mistake(R"({"scene": "fence"})", R"(, "primary": )" + std::string(bad) + none), "no mistake") << bad;
 }
 
 TEST_F(TemporaryConfig, SaysWhatIsWrong) {

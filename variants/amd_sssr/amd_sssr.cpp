@@ -36,6 +36,9 @@ std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
     return left_out;
 }
 
+/// Without it no surface is smooth enough to start a ray.
+bool AmdSssr::depends_on_seed() const { return tracing_.roughness_threshold_alpha > 0; }
+
 std::string AmdSssr::not_repeatable() const {
     std::string why;
     // Pixels enter the ray list in the order in which atomics let them, and a subgroup gives rays up by their number.

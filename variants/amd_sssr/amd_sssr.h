@@ -12,6 +12,7 @@ class AmdSssr final : public Variant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
+    bool depends_on_seed() const override;
     std::string not_repeatable() const override;
 
 private:

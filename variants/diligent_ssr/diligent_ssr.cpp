@@ -31,6 +31,13 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
     return {reflections, reflections, alpha};
 }
 
+/// Perfect mirrors draw nothing, nor does a lobe of which the mirror direction alone is left.
+bool DiligentSsr::depends_on_seed() const {
+    const bool has_lobes = tracing_.roughness_threshold > 0;
+    const bool has_mirror_rays_only = tracing_.bias_towards_mirror && tracing_.ggx_importance_sample_bias == 1;
+    return has_lobes && !has_mirror_rays_only;
+}
+
 std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
     const float min_roughness =
         tracing_.float_roughness ? facts.min_roughness : diligent_roughness_of_8_bits(facts.min_roughness);

@@ -13,6 +13,7 @@ class DiligentSsr final : public Variant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
+    bool depends_on_seed() const override;
 
 private:
     DiligentTracingParameters tracing_{params};

@@ -8,6 +8,7 @@ class McGuireDda final : public Variant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
+    bool depends_on_seed() const override { return false; }
 
 private:
     bool is_left_out_ = false;

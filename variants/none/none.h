@@ -5,4 +5,5 @@
 class None final : public Variant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
+    bool depends_on_seed() const override { return false; }
 };
