@@ -59,8 +59,7 @@ struct AmdIntersectionOf : VariantTest, testing::WithParamInterface<std::string>
 /// its direction is rounding; so are all but two of the 34 that end elsewhere among the 20 805 unstable ones. The
 /// bounds leave room for devices that round otherwise.
 TEST_P(AmdIntersectionOf, EndsRaysWhereTheOriginalDoes) {
-    for (const char* parameters : {"p1", "p2", "p3", "p4"}) {
-        if (!is_golden(file("hit", parameters))) continue;
+    for (const std::string& parameters : golden_names(GetParam() + "/hit_", {"p1", "p2", "p3", "p4"})) {
         SCOPED_TRACE(parameters);
         const Agreement found = compare_hits(parameters);
         EXPECT_GT(found.rays, 5000u);
@@ -71,9 +70,8 @@ TEST_P(AmdIntersectionOf, EndsRaysWhereTheOriginalDoes) {
 }
 
 TEST_P(AmdIntersectionOf, BlendsTheOriginalsColours) {
-    if (!is_golden(file("color", "p1"))) GTEST_SKIP() << "no recorded colours";
+    if (!has_all_golden_kinds()) GTEST_SKIP() << "no recorded colours";
     for (const char* parameters : {"p1", "p2", "p3", "p4"}) {
-        if (!is_golden(file("color", parameters))) continue;
         SCOPED_TRACE(parameters);
         const HostImage found = trace(gbuffer, parameters).radiance;
         const HostImage golden = golden_layer(read_golden(file("color", parameters)), "rad");
@@ -95,7 +93,7 @@ TEST_P(AmdIntersectionOf, BlendsTheOriginalsColours) {
 /// AMD's defaults give up thinly occupied subgroups, which depends on the order of the ray list: between runs of the
 /// original on several threads up to 2.4 % of its pixels changed between hit and miss.
 TEST_P(AmdIntersectionOf, HasTheOriginalsRatesWithItsDefaults) {
-    if (!is_golden(file("hit", "pdef"))) GTEST_SKIP() << "no recorded frame with the original's defaults";
+    if (!has_all_golden_kinds()) GTEST_SKIP() << "no recorded frame with the original's defaults";
     const AmdTraced traced = trace(hit_gbuffer, "pdef");
     const nlohmann::json recorded = golden_meta(GetParam())["parameter_sets"]["pdef"];
     EXPECT_EQ(traced.rays.size(), recorded["rays_traced"]);

@@ -45,8 +45,6 @@ std::vector<Recorded> recorded_outputs(const std::string& stage, const std::stri
 
 struct DiligentAccumulationOf : VariantTest, testing::WithParamInterface<Recorded> {};
 struct DiligentCleanupOf : VariantTest, testing::WithParamInterface<Recorded> {};
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentAccumulationOf);
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentCleanupOf);
 
 AccumulationInputs accumulation_inputs(const Recorded& recorded) {
     const HostGBuffer gbuffer = diligent_golden_frame(recorded.sequence, recorded.frame);

@@ -127,7 +127,7 @@ struct DiligentChainOf : VariantTest, testing::WithParamInterface<Chain> {
         return diligent_frame_folder(sequence(), frame) + stage + "_" + GetParam().variant + factor + ".exr";
     }
 };
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentChainOf);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentChainOf);  // GoldenVectors tells where they must be
 
 /// By the tolerance that the index suggests for all three stages, in any channel.
 bool is_off(const HostImage& ours, const HostImage& theirs, size_t pixel) {
@@ -210,7 +210,8 @@ TEST_P(DiligentChainOf, RecordedSequence) {
         const LayeredImage aux = read_golden(diligent_frame_folder(sequence(), frame) + "aux.exr");
         for (const auto& [name, stage] : stages) {
             const std::string file = recorded_file(frame, name);
-            if (!is_golden(file)) continue;
+            const bool is_last = frame + 1 == runs[0].size();
+            if (name == "bilateral" && !is_last) continue;  // recorded of the last frame only
             const LayeredImage golden = read_golden(file);
             const Compared compared =
                 compare(runs, frame, stage, golden_layer(golden, "rad"), golden_layer(aux, "mask"));

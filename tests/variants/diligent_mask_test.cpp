@@ -219,7 +219,6 @@ INSTANTIATE_TEST_SUITE_P(golden_diligent_mask, DiligentMaskOf,
                          [](const auto& info) { return golden_test_name(info.param); });
 
 struct DiligentMasksOf : VariantTest, testing::WithParamInterface<std::string> {};
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentMasksOf);
 
 /// With the roughness that older frames left where the mask leaves out.
 TEST_P(DiligentMasksOf, EqualTheOriginals) {

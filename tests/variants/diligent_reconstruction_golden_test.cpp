@@ -81,7 +81,6 @@ ReconstructionInputs read_inputs(const Recorded& recorded) {
 class DiligentReconstructionOf : public testing::TestWithParam<Recorded> {
     void TearDown() override { EXPECT_EQ(VariantTest::device().validation_messages(), std::vector<std::string>()); }
 };
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentReconstructionOf);
 
 }  // namespace
 

@@ -80,6 +80,5 @@ TEST_P(DiligentReprojectedDepthOf, EqualsTheOriginals) {
 INSTANTIATE_TEST_SUITE_P(golden_diligent_reprojected_depth, DiligentReprojectedDepthOf,
                          testing::ValuesIn(diligent_sets_with("f0/aux.exr")),
                          [](const auto& info) { return golden_test_name(info.param); });
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentReprojectedDepthOf);
 
 }  // namespace

@@ -233,6 +233,20 @@ TEST_F(FrostbiteMarch, TakesTheStepsThatItSays) {
     expect_agreement(true);
 }
 
+TEST_F(FrostbiteMarch, TakesTheStepsThatItSaysForReversedDepthAndJitter) {
+    view.depth_direction = DepthDirection::reversed;
+    view.jitter = {0.3f, -0.4f};
+    make_depth();
+    expect_agreement(true);
+}
+
+TEST_F(FrostbiteMarch, TakesTheStepsThatItSaysForOrthographicCameras) {
+    pose.is_orthographic = true;
+    pose.orthographic_height = 8.0f;
+    make_depth();
+    expect_agreement(true);
+}
+
 TEST_F(FrostbiteMarch, EndsWithItsSteps) {
     make_depth();
     params.assign({{"max_hierarchical_steps", 1}});

@@ -68,6 +68,15 @@ std::vector<std::string> golden_sets(const std::string& prefix) {
 
 bool is_golden(const std::string& file) { return find_entry(file); }
 
+bool has_all_golden_kinds() { return std::getenv("SSRLAB_VECTORS"); }
+
+std::vector<std::string> golden_names(const std::string& prefix, const std::vector<std::string>& names) {
+    std::vector<std::string> found = names;
+    std::erase_if(found, [&](const std::string& name) { return !is_golden(prefix + name + ".exr"); });
+    if (found.empty()) fail("none of the files ", prefix, "*.exr in ", golden_folder().string(), "/index.json");
+    return found;
+}
+
 LayeredImage read_golden(const std::string& file) {
     const nlohmann::json* entry = find_entry(file);
     if (!entry) fail("no file '", file, "' in ", golden_folder().string(), "/index.json");

@@ -158,6 +158,17 @@ TEST_F(McGuireMarch, AgreesWithBruteForceForOrthographicCameras) {
     expect_agreement(random_rays(4000), {.max_distance = 50}, 0.1);
 }
 
+/// All options at once, where depth is reversed and the samples lie beside the pixel centres.
+TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThicknessWithReversedDepthAndJitter) {
+    view.depth_direction = DepthDirection::reversed;
+    view.jitter = {-0.45f, 0.2f};
+    make_depth();
+    variant->params.assign({{"stride", 3}, {"jitter", 1.25}, {"thickness", 0.02}, {"relative_thickness", 0.1}});
+    expect_agreement(random_rays(4000),
+                     {.stride = 3, .jitter = 1.25, .thickness = 0.02, .relative_thickness = 0.1, .max_distance = 50},
+                     0.1);
+}
+
 TEST_F(McGuireMarch, IsTheSameAtEveryScale) {
     // A world 1e6 times larger: the thickness is relative, so each pixel must do what it did. Powers of two round
     // alike.
