@@ -18,14 +18,14 @@ struct LitMaps {
 LitMaps squared_error_maps(const Metric& metric, const MetricReference& reference, const HostImage& of_a,
                            const HostImage& of_b) {
     const auto weight = metric.squared_error_weight;
-    const auto& [a, b] = *reference.halves;
-    LitMaps maps{Plane(of_a.extent), cross_error(of_a, a, b, reference.smooth, weight)};
-    const Plane error_of_b = cross_error(of_b, a, b, reference.smooth, weight);
+    const ReferenceHalves& halves = *reference.halves;
+    LitMaps maps{Plane(of_a.extent), cross_error(of_a, halves.a, halves.b, halves.guide, weight)};
+    const Plane error_of_b = cross_error(of_b, halves.a, halves.b, halves.guide, weight);
     for (size_t i = 0; i < maps.added.values.size(); ++i) {
         maps.swapped.values[i] = (maps.swapped.values[i] - error_of_b.values[i]) / 2;
         for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
             const double difference = double(of_a.values[c]) - of_b.values[c];
-            maps.added.values[i] += weight(reference.smooth.values[c]) * difference * difference / 4 / 3;
+            maps.added.values[i] += weight(halves.guide.values[c]) * difference * difference / 4 / 3;
         }
     }
     return maps;
@@ -70,9 +70,9 @@ void LitNoises::add(const MetricReference& reference, const std::string& target,
             if (inside.count() == 0) continue;
             LitNoise noise{masked_mean(maps.added, inside), half_width_of(maps.swapped, inside)};
             if (is_root) {
-                const auto& [a, b] = *reference.halves;
+                const ReferenceHalves& halves = *reference.halves;
                 const double square =
-                    masked_mean(cross_error(of_a, a, b, reference.smooth, metric->squared_error_weight), inside);
+                    masked_mean(cross_error(of_a, halves.a, halves.b, halves.guide, metric->squared_error_weight), inside);
                 if (square <= 0) continue;
                 noise.added /= 2 * std::sqrt(square), noise.half_width /= 2 * std::sqrt(square);
             }

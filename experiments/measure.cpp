@@ -25,7 +25,8 @@ std::string content_hash(const Reference& reference) {
         for (const ReferenceOutput* output : {&reference.ladder.camera_radiance, &reference.ladder.on_screen})
             for (const HostImage* image : {&output->half_a, &output->half_b})
                 hash.add(std::as_bytes(std::span(image->values)));
-    for (const HostImage* image : {&reference.highlights, &reference.depth, &reference.normal, &reference.material_id})
+    for (const HostImage* image : {&reference.highlights, &reference.depth, &reference.normal, &reference.material_id,
+                                   &reference.guide.specular, &reference.guide.incident, &reference.guide.diffuse})
         hash.add(std::as_bytes(std::span(image->values)));
     return hash.hex();
 }
@@ -49,22 +50,42 @@ const ReferenceOutput& target_output(const std::string& target, const Reference&
     return target == "on_screen" ? reference.ladder.on_screen : reference.ladder.camera_radiance;
 }
 
+/// The least count of samples of a pixel that reflects or not, but is no background.
+double least_samples(const Reference& reference) {
+    double least = 0;
+    for (size_t i = 0; i < reference.material_id.values.size(); ++i)
+        if (reference.material_id.values[i] != 0 && (least == 0 || reference.sample_count.values[i] < least))
+            least = reference.sample_count.values[i];
+    return least;
+}
+
+ReferenceHalves halves_of(const ReferenceOutput& output, const HostImage& guide, const Reference& reference) {
+    return {.a = output.half_a,
+            .b = output.half_b,
+            .variance = output.variance,
+            .guide = guide,
+            .samples = least_samples(reference)};
+}
+
 RungHalves rung_halves(const std::string& rung, const Reference& reference) {
     const ReferenceOutput& incident = target_output(rung, reference);
-    ReferenceOutput specular = reflected(reference, incident);
-    return {rung, {incident.half_a, incident.half_b}, {std::move(specular.half_a), std::move(specular.half_b)}};
+    return {rung, halves_of(incident, reference.guide.incident, reference),
+            halves_of(reflected(reference, incident), reference.guide.specular, reference)};
 }
 
 MetricReference target_reference(const std::string& target, const Reference& reference,
                                  const std::vector<std::string>& metrics, const MetricSettings& settings) {
     const ReferenceOutput& output = target_output(target, reference);
+    const ReferenceGuide& guide = reference.guide;
     HostImage mean = output.mean;
-    ReferenceHalves halves{output.half_a, output.half_b};
+    ReferenceHalves halves =
+        halves_of(output, &output == &reference.specular ? guide.specular : guide.incident, reference);
     if (target == "image") {
         // A result's `image` adds the truth's own direct light, so the noise in it is that of the specular halves
         // alone.
         const HostImage direct = sum(reference.diffuse.mean, reference.highlights);
-        mean = sum(direct, mean), halves = {sum(direct, halves.a), sum(direct, halves.b)};
+        mean = sum(direct, mean), halves.a = sum(direct, halves.a), halves.b = sum(direct, halves.b);
+        halves.guide = sum(sum(guide.diffuse, reference.highlights), guide.specular);
     }
     return metric_reference(std::move(mean), std::move(halves), metrics, settings);
 }
@@ -72,18 +93,21 @@ MetricReference target_reference(const std::string& target, const Reference& ref
 /// One row per score. A mask that holds no pixel of this scene gives none; one whose pixels are all non-finite gives a
 /// row without a value.
 void add_rows(std::vector<ResultRow>& rows, const MetricReference& reference, const std::string& target,
-              const HostImage& test, std::span<const Mask> masks, const ResultRow& shared) {
+              const HostImage& test, std::span<const Mask> masks, const ResultRow& shared,
+              std::vector<NoiseTerms>* noise = nullptr) {
     PixelCounts counts;
-    const std::vector<Score> scores = score(reference, test, masks, &counts);
+    std::vector<NoiseTerms> terms;
+    const std::vector<Score> scores = score(reference, test, masks, &counts, noise ? &terms : nullptr);
     for (size_t i = 0; i < scores.size(); ++i) {
         const Score& s = scores[i];
         if (masks[i % masks.size()].count() == 0) continue;
         ResultRow r = shared;
-        r.target = target, r.metric = s.metric->name, r.formula = s.metric->formula, r.mask = s.mask;
+        r.target = target, r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
         r.value = if_finite(s.value), r.is_corrected = s.corrected, r.uncorrected = if_finite(s.uncorrected);
         r.low = if_finite(s.low), r.high = if_finite(s.high), r.floor = if_finite(s.floor);
         r.pixels = s.pixels, r.non_finite = counts.non_finite(), r.negative = counts.negative;
         rows.push_back(std::move(r));
+        if (noise) noise->push_back(std::move(terms[i]));
     }
 }
 
@@ -116,7 +140,7 @@ HostImage sum(const HostImage& a, const HostImage& b) {
 
 PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use) {
     PoseTruth truth{.diffuse = reference.diffuse.mean,
-                    .lit_halves = ReferenceHalves{reference.diffuse.half_a, reference.diffuse.half_b},
+                    .lit_halves = ReferenceHalves{.a = reference.diffuse.half_a, .b = reference.diffuse.half_b},
                     .direct = sum(reference.diffuse.mean, reference.highlights),
                     .targets = {},
                     .rungs = {},
@@ -181,35 +205,9 @@ std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedI
     return rows;
 }
 
-std::vector<ResultRow> measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,
-                                     const ResultRow& row) {
-    std::vector<ResultRow> rows;
-    add_rows(rows, *truth.frame_reference, "specular", specular, masks, row);
-    return rows;
-}
-
-std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows) {
-    std::map<std::tuple<std::string, std::string, std::string>, std::vector<const ResultRow*>> groups;
-    for (const ResultRow& row : rows) groups[{row.metric, row.formula, row.mask}].push_back(&row);
-    std::vector<ResultRow> means;
-    for (const auto& [key, group] : groups) {
-        const auto mean = [&](std::optional<double> ResultRow::*member) -> std::optional<double> {
-            double total = 0;
-            for (const ResultRow* row : group) {
-                if (!(row->*member)) return {};
-                total += *(row->*member);
-            }
-            return total / double(group.size());
-        };
-        ResultRow r = *group.front();
-        r.frame = "all";
-        for (const auto member : {&ResultRow::value, &ResultRow::uncorrected, &ResultRow::low, &ResultRow::high,
-                                  &ResultRow::floor, &ResultRow::lit_noise, &ResultRow::lit_half_width})
-            r.*member = mean(member);
-        r.pixels = r.non_finite = r.negative = 0;
-        for (const ResultRow* row : group)
-            r.pixels += row->pixels, r.non_finite += row->non_finite, r.negative += row->negative;
-        means.push_back(std::move(r));
-    }
-    return means;
+FrameRows measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,
+                        const ResultRow& row) {
+    FrameRows frame;
+    add_rows(frame.rows, *truth.frame_reference, "specular", specular, masks, row, &frame.noise);
+    return frame;
 }

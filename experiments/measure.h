@@ -30,7 +30,7 @@ struct PoseTruth {
     HostImage direct;   ///< and what `image` adds to every result: the same with the highlights of punctual lights
     std::map<std::string, MetricReference> targets;  ///< by name, with all metrics; where everything is measured
     std::optional<MetricReference>
-        frame_reference;  ///< `specular` with Config::frame_metrics; in shots of several frames
+        frame_reference;            ///< `specular` with Config::frame_metrics; in shots of several frames
     std::vector<RungHalves> rungs;  ///< those among Config::targets, where everything is measured
     HostImage view_depth, normal, material_id;
     FlipExposures flip_exposures;
@@ -62,17 +62,19 @@ std::vector<Mask> masks_of(const FrameTruth& truth, const HostImage& confidence,
 std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result,
                                        std::span<const Mask> masks, const ResultRow& row);
 
-/// Config::frame_metrics x masks of one frame's specular.
-std::vector<ResultRow> measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,
-                                     const ResultRow& row);
+/// What one frame of a shot adds to the mean over its frames.
+struct FrameRows {
+    std::vector<ResultRow> rows;
+    std::vector<NoiseTerms> noise;  ///< of each row's value, as score() gives it
+};
 
-/// The mean over frames of rows that differ in nothing but the frame; intervals, floors and what the lit colour's noise
-/// adds are averaged too, as if the references' noises were the same in all frames. Pixels are summed. No value if one
-/// frame has none.
-std::vector<ResultRow> mean_over_frames(std::span<const ResultRow> rows);
+/// Config::frame_metrics x masks of one frame's specular.
+FrameRows measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,
+                        const ResultRow& row);
 
 /// direct + specular.
 HostImage composited_image(const PoseTruth& truth, const CompositedImages& result);
 
-/// What a target compares with the truth: for the rungs of the truth ladder the incident radiance. `image` is composited_image() of the same result.
+/// What a target compares with the truth: for the rungs of the truth ladder the incident radiance. `image` is
+/// composited_image() of the same result.
 const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image);

@@ -2,6 +2,7 @@
 
 #include "core/gbuffer/composite.h"
 #include "core/gpu/device.h"
+#include "experiments/frame_means.h"
 #include "experiments/lit_noise.h"
 #include "experiments/manifest.h"
 #include "experiments/render_variant.h"
@@ -25,6 +26,7 @@ struct SeedRun {
     std::unique_ptr<Compositor> compositor;
 
     std::vector<ResultRow> frame_rows;
+    FrameMeans means;
     FlickerMoments held;
     FrameDifference difference;
     std::vector<HostImage> after_change;
@@ -78,10 +80,10 @@ bool reads_reference_light(const Play& play) {
            std::ranges::all_of(play.truth.poses, [](const auto& pose) { return pose.second->lit_halves.has_value(); });
 }
 
-/// How many seeds' images are held at once: those of a technique take some 400 bytes per pixel, so this is about 1.6
-/// GB.
+/// How many seeds' images are held at once: those of a technique take some 400 bytes per pixel, and what means over
+/// frames need 150 more, so this is about 1.6 GB.
 size_t seeds_at_once(glm::uvec2 extent) {
-    constexpr size_t pixels = 4'000'000;
+    constexpr size_t pixels = 3'000'000;
     return std::max<size_t>(1, pixels / (size_t(extent.x) * extent.y));
 }
 
@@ -106,6 +108,17 @@ bool is_in_full_measure(const Play& play, const ResultRow& row) {
            std::ranges::count(play.config.metrics, row.metric) > 0;
 }
 
+/// A frame of several.
+void measure_in_passing(Play& play, SeedRun& run, const PoseTruth& truth, const HostImage& specular,
+                        std::span<const Mask> masks, const ResultRow& row) {
+    FrameRows frame = measure_frame(truth, specular, masks, row);
+    play.lit_noise.set(frame.rows);
+    run.frame_rows.insert(run.frame_rows.end(), frame.rows.begin(), frame.rows.end());
+    if (play.shot.config.measures_last_only) return;
+    run.means.add(frame);
+    play.noise.add("all", "specular", *truth.frame_reference, specular, masks);
+}
+
 /// What one rendered frame adds to the results of its seed.
 void measure_step(Play& play, SeedRun& run, const FrameStep& step, const CompositedImages& images) {
     if (step.is_held) run.held.add(images.specular);
@@ -118,13 +131,8 @@ void measure_step(Play& play, SeedRun& run, const FrameStep& step, const Composi
                            *truth->pose->frame_reference, masks);
     if (!step.is_measured) return;
     const ResultRow row = play.row(std::to_string(step.frame), run.seed);
-    if (truth->pose->frame_reference && play.shot.config.frames.size() > 1) {
-        std::vector<ResultRow> rows = measure_frame(*truth->pose, images.specular, masks, row);
-        play.lit_noise.set(rows);
-        run.frame_rows.insert(run.frame_rows.end(), rows.begin(), rows.end());
-        if (!play.shot.config.measures_last_only)
-            play.noise.add("all", "specular", *truth->pose->frame_reference, images.specular, masks);
-    }
+    if (truth->pose->frame_reference && play.shot.config.frames.size() > 1)
+        measure_in_passing(play, run, *truth->pose, images.specular, masks, row);
     if (&step == &play.last_step()) measure_last(play, *truth, images, row, masks);
 }
 
@@ -190,7 +198,7 @@ void add_temporal_rows(Play& play, const SeedRun& run, const std::vector<Tempora
     for (const TemporalScore& s : scores) {
         if (s.pixels + s.left_out == 0) continue;  // nothing of this scene lies under the mask
         ResultRow r = play.row("all", run.seed);
-        r.target = "specular", r.metric = s.metric->name, r.formula = s.metric->formula, r.mask = s.mask;
+        r.target = "specular", r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
         const auto if_finite = [](std::optional<double> v) { return v && std::isfinite(*v) ? v : std::nullopt; };
         r.value = if_finite(s.value), r.uncorrected = s.uncorrected ? if_finite(s.uncorrected) : r.value,
         r.is_corrected = s.corrected;
@@ -204,8 +212,7 @@ void finish(Play& play, SeedRun& run) {
     for (const ResultRow& r : run.frame_rows)
         if (std::ranges::count(play.config.frame_masks, r.mask) > 0 && !is_in_full_measure(play, r))
             play.cell.rows.push_back(r);
-    const std::vector<ResultRow> means =
-        play.shot.config.measures_last_only ? std::vector<ResultRow>{} : mean_over_frames(run.frame_rows);
+    const std::vector<ResultRow> means = run.means.rows();
     play.cell.rows.insert(play.cell.rows.end(), means.begin(), means.end());
 
     const FrameTruth* last = play.truth.frame(play.last_step());

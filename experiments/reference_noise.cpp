@@ -31,11 +31,7 @@ std::vector<double> group_sums(const Plane& plane, const Mask& mask) {
 }
 
 Plane swapped_error(const Metric& metric, const MetricReference& reference, const HostImage& test) {
-    const auto& [a, b] = *reference.halves;
-    Plane swapped = cross_error(test, a, a, reference.smooth, metric.squared_error_weight);
-    const Plane from_b = cross_error(test, b, b, reference.smooth, metric.squared_error_weight);
-    for (size_t i = 0; i < swapped.values.size(); ++i) swapped.values[i] = (swapped.values[i] - from_b.values[i]) / 2;
-    return swapped;
+    return squared_error_noise(test, *reference.halves, reference.halves->guide, metric.squared_error_weight).swapped;
 }
 
 void ReferenceNoiseMeans::add(const std::string& frame, const std::string& target, const MetricReference& reference,
@@ -47,7 +43,7 @@ void ReferenceNoiseMeans::add(const std::string& frame, const std::string& targe
         const Plane swapped = swapped_error(*metric, reference, test);
         Plane error;
         if (is_root)
-            error = cross_error(test, reference.halves->a, reference.halves->b, reference.smooth,
+            error = cross_error(test, reference.halves->a, reference.halves->b, reference.halves->guide,
                                 metric->squared_error_weight);
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, reference.finite);

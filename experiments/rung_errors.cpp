@@ -1,35 +1,47 @@
 #include "experiments/rung_errors.h"
 
-#include "metrics/noise.h"
 #include "metrics/pooling.h"
 
 #include <cmath>
 
 namespace {
 
-/// Per pixel an error, and half its change when one half alone is believed in place of the other.
+/// Per pixel an error, and how the noise of both moves it.
 struct ErrorMaps {
-    Plane error, swapped;
+    Plane error;
+    NoiseTerms noise;
+
+    ErrorMaps(glm::uvec2 extent, double samples) : error(extent), noise(extent, samples) {}
 };
 
-ErrorMaps squared_error(const ReferenceHalves& rung, const MetricReference& truth, double (*weight)(double)) {
-    ErrorMaps maps{Plane(truth.image.extent), Plane(truth.image.extent)};
-    for (size_t i = 0; i < truth.image.values.size(); ++i) {
-        const double a = double(rung.a.values[i]) - truth.halves->a.values[i],
-                     b = double(rung.b.values[i]) - truth.halves->b.values[i], w = weight(truth.smooth.values[i]) / 3;
-        maps.error.values[i / 3] += w * a * b;
-        maps.swapped.values[i / 3] += w * (a * a - b * b) / 2;
+ErrorMaps squared_error(const ReferenceHalves& rung, const ReferenceHalves& truth, double (*weight)(double)) {
+    ErrorMaps maps(truth.a.extent, truth.samples);
+    for (size_t p = 0; p < maps.error.values.size(); ++p) {
+        SquaredErrorVariance variance;
+        for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
+            const double a = double(rung.a.values[i]) - truth.a.values[i],
+                         b = double(rung.b.values[i]) - truth.b.values[i], w = weight(truth.guide.values[i]) / 3;
+            maps.error.values[p] += w * a * b;
+            maps.noise.swapped.values[p] += w * (a * a - b * b) / 2;
+            variance.add(w, (a + b) / 2, difference_variance(a, b, rung.variance.values[i], truth.variance.values[i]));
+        }
+        maps.noise.variance.values[p] = variance.value();
     }
     return maps;
 }
 
-ErrorMaps bias(const ReferenceHalves& rung, const MetricReference& truth) {
-    ErrorMaps maps{Plane(truth.image.extent), Plane(truth.image.extent)};
-    for (size_t i = 0; i < truth.image.values.size(); ++i) {
-        const double a = double(rung.a.values[i]) - truth.halves->a.values[i],
-                     b = double(rung.b.values[i]) - truth.halves->b.values[i];
-        maps.error.values[i / 3] += (a + b) / 2 / 3;
-        maps.swapped.values[i / 3] += (a - b) / 2 / 3;
+ErrorMaps bias(const ReferenceHalves& rung, const ReferenceHalves& truth) {
+    ErrorMaps maps(truth.a.extent, truth.samples);
+    for (size_t p = 0; p < maps.error.values.size(); ++p) {
+        double deviation = 0;
+        for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
+            const double a = double(rung.a.values[i]) - truth.a.values[i],
+                         b = double(rung.b.values[i]) - truth.b.values[i];
+            maps.error.values[p] += (a + b) / 2 / 3;
+            maps.noise.swapped.values[p] += (a - b) / 2 / 3;
+            deviation += std::sqrt(difference_variance(a, b, rung.variance.values[i], truth.variance.values[i])) / 3;
+        }
+        maps.noise.variance.values[p] = deviation * deviation;
     }
     return maps;
 }
@@ -37,16 +49,24 @@ ErrorMaps bias(const ReferenceHalves& rung, const MetricReference& truth) {
 /// What the rung is where the target is compared.
 ReferenceHalves tested_halves(const RungHalves& rung, const std::string& target, const HostImage& direct) {
     if (target == "incident") return rung.incident;
-    if (target == "specular") return rung.specular;
-    return {sum(rung.specular.a, direct), sum(rung.specular.b, direct)};
+    ReferenceHalves halves = rung.specular;
+    if (target == "image") halves.a = sum(halves.a, direct), halves.b = sum(halves.b, direct);
+    return halves;
 }
 
 nlohmann::json entry(const ErrorMaps& maps, const Metric& metric, const Mask& inside) {
-    const double value = masked_mean(maps.error, inside), half_width = noise_half_width(maps.swapped, inside);
+    const double value = masked_mean(maps.error, inside);
     const auto finished = [&](double v) { return metric.name == "rmse" ? std::sqrt(std::max(v, 0.0)) : v; };
-    return {{"metric", metric.name},    {"formula", metric.formula},           {"mask", inside.name},
-            {"value", finished(value)}, {"low", finished(value - half_width)}, {"high", finished(value + half_width)},
-            {"pixels", inside.count()}};
+    nlohmann::json entry = {
+        {"metric", metric.name},   {"formula", metric.guided_formula.empty() ? metric.formula : metric.guided_formula},
+        {"mask", inside.name},     {"value", finished(value)},
+        {"low", nullptr},          {"high", nullptr},
+        {"pixels", inside.count()}};
+    if (std::optional<double> half_width = noise_half_width(maps.noise, inside)) {
+        *half_width /= double(inside.count());
+        entry["low"] = finished(value - *half_width), entry["high"] = finished(value + *half_width);
+    }
+    return entry;
 }
 
 void add_entries(nlohmann::json& entries, const RungHalves& rung, const std::string& target,
@@ -54,8 +74,9 @@ void add_entries(nlohmann::json& entries, const RungHalves& rung, const std::str
     const ReferenceHalves tested = tested_halves(rung, target, direct);
     for (const Metric* metric : truth.metrics) {
         if (!metric->squared_error_weight && metric->name != "bias") continue;
-        const ErrorMaps maps = metric->squared_error_weight ? squared_error(tested, truth, metric->squared_error_weight)
-                                                            : bias(tested, truth);
+        const ErrorMaps maps = metric->squared_error_weight
+                                   ? squared_error(tested, *truth.halves, metric->squared_error_weight)
+                                   : bias(tested, *truth.halves);
         for (const Mask& mask : masks) {
             if (mask.inside.empty()) continue;  // a technique's own
             Mask inside = intersection(mask, truth.finite);

@@ -10,6 +10,6 @@
 ///
 /// Metrics are those that are freed of noise: means of weighted squares and their roots, and `bias`. A rung shares its
 /// samples with the truth; of the differences a, b of their halves the product is without noise on average, and with
-/// the noise that both share. Intervals (95 %) are of noise_half_width(). Masks without any pixel, and those of a
-/// technique's own confidence, have none.
+/// the noise that both share. Intervals (95 %) are of noise_half_width(), null where it gives none. Masks without any
+/// pixel, and those of a technique's own confidence, have no entry.
 nlohmann::json rung_entries(const PoseTruth& truth, std::span<const Mask> masks);

@@ -1,6 +1,5 @@
 #include "experiments/splits.h"
 
-#include "metrics/noise.h"
 #include "metrics/seed_pairs.h"
 
 #include <algorithm>
@@ -12,15 +11,13 @@ namespace {
 const HostImage& half_a(const MetricReference& r) { return r.halves ? r.halves->a : r.image; }
 const HostImage& half_b(const MetricReference& r) { return r.halves ? r.halves->b : r.image; }
 
-/// Half the change of (m - A)(m - B) when A alone, in place of B, is the reference: see noise_half_width().
-Plane swapped_bias(const SeedSplit& split) {
-    const HostImage &a = half_a(split.reference), &b = half_b(split.reference);
-    Plane swapped(a.extent);
-    for (size_t i = 0; i < split.moments.mean.size(); ++i) {
-        const double from_a = split.moments.mean[i] - a.values[i], from_b = split.moments.mean[i] - b.values[i];
-        swapped.values[i / 3] += (from_a * from_a - from_b * from_b) / 2 / 3;
-    }
-    return swapped;
+/// Of (m - A)(m - B), m the mean over the seeds; without halves there is none.
+NoiseTerms bias_noise(const SeedSplit& split) {
+    const MetricReference& reference = split.reference;
+    if (!reference.halves) return {reference.image.extent, 0};
+    HostImage mean(reference.image.extent, 3);
+    std::ranges::transform(split.moments.mean, mean.values.begin(), [](double v) { return float(v); });
+    return squared_error_noise(mean, *reference.halves, reference.image, [](double) { return 1.0; });
 }
 
 /// Half the width of Student's interval over the pairs of seeds 0 and 1, 2 and 3 and so on; none below two pairs.
@@ -36,7 +33,7 @@ double mean_of(const std::vector<double>& pairs) {
     return std::accumulate(pairs.begin(), pairs.end(), 0.0) / double(pairs.size());
 }
 
-void set_intervals(SplitRow& row, double noise_half_width, bool depends_on_seed) {
+void set_intervals(SplitRow& row, std::optional<double> of_noise, bool depends_on_seed) {
     const auto half_width_of = [&](const std::vector<double>& pairs) {
         return depends_on_seed ? half_width_of_successive(pairs, row.seeds) : 0.0;
     };
@@ -44,7 +41,8 @@ void set_intervals(SplitRow& row, double noise_half_width, bool depends_on_seed)
     if (!half_width) return;
     row.variance_low = std::max(0.0, row.variance - *half_width);
     row.variance_high = row.variance + *half_width;
-    const double bias_half_width = std::hypot(*half_width_of(row.pairs.bias_squared), noise_half_width);
+    if (!of_noise) return;
+    const double bias_half_width = std::hypot(*half_width_of(row.pairs.bias_squared), *of_noise);
     row.bias_squared_low = row.bias_squared - bias_half_width;
     row.bias_squared_high = row.bias_squared + bias_half_width;
 }
@@ -63,7 +61,7 @@ std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> m
     const std::vector<HostImage> twice(2, split.images.front());
     const std::vector<HostImage>& images = split.images.size() < 2 ? twice : split.images;
     const MetricReference& reference = split.reference;
-    const Plane swapped = swapped_bias(split);
+    const NoiseTerms noise = bias_noise(split);
     for (const Mask& mask : masks) {
         const Mask inside = intersection(intersection(mask, split.moments.finite), reference.finite);
         if (inside.count() == 0) continue;
@@ -73,8 +71,10 @@ std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> m
         row.pairs = seed_pairs(images, half_a(reference), half_b(reference), inside);
         row.variance = mean_of(row.pairs.variance), row.bias_squared = mean_of(row.pairs.bias_squared);
         row.mse = row.bias_squared + row.variance;
-        set_intervals(row, noise_half_width(swapped, inside), depends_on_seed);
-        for (const double sum : group_sums(swapped, inside)) row.reference_noise.push_back(float(sum));
+        std::optional<double> of_noise = noise_half_width(noise, inside);
+        if (of_noise) *of_noise /= double(row.pixels);
+        set_intervals(row, of_noise, depends_on_seed);
+        for (const double sum : group_sums(noise.swapped, inside)) row.reference_noise.push_back(float(sum));
         rows.push_back(std::move(row));
     }
     return rows;

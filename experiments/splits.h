@@ -15,7 +15,7 @@ struct SeedSplit {
 /// What all pairs of seeds tell (seed_pairs()) under each mask that holds finite pixels; nothing below two seeds, but
 /// of a point that does not depend on them, whose one seed is as good as two: all of its error is bias. Intervals are
 /// Student's over the pairs of successive seeds, which are independent (two pairs or more), around the value that all
-/// pairs give; it is a little more certain. That of the squared bias has the reference's noise added in quadrature.
-/// `shared` holds shot, frame, variant, point and target.
+/// pairs give; it is a little more certain. That of the squared bias has the reference's noise added in quadrature
+/// (noise_half_width(); none where that cannot be told). `shared` holds shot, frame, variant, point and target.
 std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared,
                                  bool depends_on_seed = true);

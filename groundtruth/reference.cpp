@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "groundtruth/code_version.h"
 #include "groundtruth/path_tracer.h"
+#include "groundtruth/reference_guide.h"
 #include "groundtruth/reference_stopping.h"
 
 #include <span>
@@ -118,13 +119,10 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
                            const ReferenceSettings& settings, const ReferenceRun& run) {
     check(extent, settings);
     const std::string stream = reference_stream(scene, pose, camera, extent, settings);
-    RenderClock clock{.run = run};
     ReferenceState state = pick_up(run, stream, extent, settings);
     state.settings = settings;
     state.reference.stream = stream;
     state.reference.hash = reference_key(stream, settings);
-    clock.seconds_before = state.reference.seconds;
-    clock.rays_before = state.reference.rays;
 
     const PathTracer path_tracer(
         scene, pose, camera, extent,
@@ -133,6 +131,9 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
         .trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
                      PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }};
+    if (state.reference.guide.specular.values.empty()) state.reference.guide = render_guide(tracer, extent, run);
+
+    RenderClock clock{.run = run, .seconds_before = state.reference.seconds, .rays_before = state.reference.rays};
     render_until_limits(state, tracer, clock);
     return std::move(state.reference);
 }

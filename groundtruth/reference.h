@@ -35,8 +35,15 @@ struct TruthLadder {
     bool is_empty() const { return on_screen.mean.values.empty(); }
 };
 
+/// Radiances from a small, fixed set of samples of their own: the same bits whatever the seed, number and stop of the
+/// reference's samples are, and independent of their noise. Relative errors are weighted by it: a weight made of the
+/// reference's own noise would be correlated with what it weighs, and 1 / r^2 of a noisy r is too large on average.
+struct ReferenceGuide {
+    HostImage specular, incident, diffuse;  ///< RGB, as the outputs of that name
+};
+
 /// What the path tracer knows of one frame of one camera. Pixel centres and first hits are those of the G-buffer.
-/// 248 bytes per pixel, 48 of them for each output; with the truth ladder 372.
+/// 284 bytes per pixel, 48 of them for each output; with the truth ladder 408.
 struct Reference {
     glm::uvec2 extent{0, 0};
     ReferenceOutput image;     ///< full path-traced radiance: diffuse + specular + highlights
@@ -53,9 +60,10 @@ struct Reference {
     HostImage depth;         ///< one channel: distance along -z (m), 0 where nothing was hit
     HostImage geometric_normal, normal;  ///< XYZ, world space, as in the G-buffer
     HostImage material_id;               ///< one channel: material index + 1, 0: background
-    TruthLadder ladder;                  ///< empty unless ReferenceSettings::ladder
-    double seconds = 0;                  ///< wall clock, over all continued runs
-    double rays = 0;                     ///< of both kinds, over all runs, the pilot of an adaptive render included
+    ReferenceGuide guide;
+    TruthLadder ladder;  ///< empty unless ReferenceSettings::ladder
+    double seconds = 0;  ///< wall clock, over all continued runs, without the guide's
+    double rays = 0;     ///< of both kinds, over all runs, the pilot of an adaptive render included, but not the guide
     /// Samples with NaN or Inf, whose parts count as zero: an image is valid only if 0.
     uint64_t non_finite_samples = 0;
     float reached_share = 1.0f;  ///< share of the pixels that reached target_relative_error

@@ -35,6 +35,9 @@ std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
         images.push_back({name + ".b", "RGB", &output->half_b});
         images.push_back({name + ".variance", "RGB", &output->variance});
     }
+    images.push_back({"guide.specular", "RGB", &reference.guide.specular});
+    images.push_back({"guide.incident", "RGB", &reference.guide.incident});
+    images.push_back({"guide.diffuse", "RGB", &reference.guide.diffuse});
     images.push_back({"highlights", "RGB", &reference.highlights});
     images.push_back({"sample_count", "Y", &reference.sample_count, PixelType::uint32});
     images.push_back({"lobe_samples", "XY", &reference.lobe_samples, PixelType::uint32});
@@ -139,6 +142,9 @@ void take_layer(const std::filesystem::path& file, LayeredImage& layers, const N
         *into.image = std::move(layer.image);
         return;
     }
+    if (into.name.starts_with("guide."))
+        fail(file.string(), " lacks the layer '", into.name,
+             "', which weighs relative errors: an older version wrote it; render it again with `ssrlab reference`");
     fail(file.string(), " is no reference: it lacks the layer '", into.name, "'");
 }
 

@@ -18,7 +18,7 @@ struct PixelCost {
 };
 
 /// Which of the independent sets of samples a pass draws from.
-enum class SampleSet : uint64_t { final, pilot };
+enum class SampleSet : uint64_t { final, pilot, guide };
 
 /// Adds batch_count batches of `batch_samples` samples to the outputs of one pixel, and writes its first-hit layers.
 /// The scrambles depend on seed, set, and the samples that the pixel has already, and so on nothing that threads or

@@ -24,7 +24,7 @@ FlickerPlanes flicker_planes(const FlickerMoments& m, const MetricReference* ref
         planes.variance.values[p] += variance / 3;
         planes.steps.values[p] += m.steps[i] / (m.frames.count - 1) / 3;
         if (reference)
-            planes.relative.values[p] += relative_weight(weighing_image(*reference).values[i]) * variance / 3;
+            planes.relative.values[p] += relative_weight(reference->weighing_image().values[i]) * variance / 3;
     }
     return planes;
 }
@@ -88,6 +88,7 @@ std::vector<TemporalScore> flicker_scores(const FlickerMoments& moments, const M
         const std::vector<double> counts = tile_counts(inside), variances = tile_sums(planes.variance, inside);
         TemporalScore flicker = empty_score("flicker", mask, finite);
         TemporalScore relative = empty_score("flicker_relative", mask, finite);
+        relative.formula = formula_of(*relative.metric, reference && reference->halves);
         TemporalScore lag = empty_score("flicker_correlation", mask, finite);
         if (flicker.pixels > 0) {
             set_value(lag, std::to_array({counts, variances, tile_sums(planes.steps, inside)}), correlation, -1, 1);

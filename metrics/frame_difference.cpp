@@ -1,7 +1,6 @@
 #include "metrics/frame_difference.h"
 
 #include "core/error.h"
-#include "metrics/noise.h"
 #include "metrics/pooling.h"
 
 #include <algorithm>
@@ -9,9 +8,10 @@
 namespace {
 
 /// Of one step and each pixel: the squared error of the frame difference without and with the reference's noise, and
-/// half its change when the halves are swapped.
+/// what that noise does to it.
 struct DifferencePlanes {
-    Plane corrected, uncorrected, swapped;
+    Plane corrected, uncorrected;
+    NoiseTerms noise;
 };
 
 double step_of(const HostImage& before, const HostImage& now, size_t i) {
@@ -20,26 +20,39 @@ double step_of(const HostImage& before, const HostImage& now, size_t i) {
 
 DifferencePlanes difference_planes(const HostImage& test_before, const HostImage& test, const MetricReference& before,
                                    const MetricReference& now, bool is_relative, const Mask& finite) {
-    DifferencePlanes planes{Plane(test.extent), Plane(test.extent), Plane(test.extent)};
     const bool has_halves = before.halves && now.halves;
-    for (size_t i = 0; i < test.values.size(); ++i) {
-        const size_t p = i / 3;
+    const double samples = has_halves ? std::min(before.halves->samples, now.halves->samples) : 0;
+    DifferencePlanes planes{Plane(test.extent), Plane(test.extent), {test.extent, samples}};
+    for (size_t p = 0; p < finite.inside.size(); ++p) {
         if (!finite.inside[p]) continue;
-        const double weight = (is_relative ? relative_weight(weighing_image(now).values[i]) : 1.0) / 3;
-        const double step = step_of(test_before, test, i), error = step - step_of(before.image, now.image, i);
-        planes.uncorrected.values[p] += weight * error * error;
-        if (!has_halves) continue;
-        const double from_a = step - step_of(before.halves->a, now.halves->a, i);
-        const double from_b = step - step_of(before.halves->b, now.halves->b, i);
-        planes.corrected.values[p] += weight * from_a * from_b;
-        planes.swapped.values[p] += weight * (from_a * from_a - from_b * from_b) / 2;
+        SquaredErrorVariance variance;
+        for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
+            const double weight = (is_relative ? relative_weight(now.weighing_image().values[i]) : 1.0) / 3;
+            const double step = step_of(test_before, test, i), error = step - step_of(before.image, now.image, i);
+            planes.uncorrected.values[p] += weight * error * error;
+            if (!has_halves) continue;
+            const double step_a = step_of(before.halves->a, now.halves->a, i);
+            const double step_b = step_of(before.halves->b, now.halves->b, i);
+            const double from_a = step - step_a, from_b = step - step_b;
+            planes.corrected.values[p] += weight * from_a * from_b;
+            planes.noise.swapped.values[p] += weight * (from_a * from_a - from_b * from_b) / 2;
+            variance.add(
+                weight, error,
+                difference_variance(step_a, step_b, before.halves->variance.values[i], now.halves->variance.values[i]));
+        }
+        planes.noise.variance.values[p] = variance.value();
     }
     return planes;
 }
 
-void add_masked(Plane& sum, const Plane& plane, const Mask& mask) {
-    for (size_t i = 0; i < plane.values.size(); ++i)
-        if (mask.inside[i]) sum.values[i] += plane.values[i];
+void add_masked(NoiseTerms& sum, const NoiseTerms& terms, const Mask& mask) {
+    if (sum.is_empty()) sum = NoiseTerms(terms.swapped.extent, terms.samples);
+    sum.samples = std::min(sum.samples, terms.samples);
+    for (size_t i = 0; i < mask.inside.size(); ++i)
+        if (mask.inside[i]) {
+            sum.swapped.values[i] += terms.swapped.values[i];
+            sum.variance.values[i] += terms.variance.values[i];
+        }
 }
 
 double masked_sum(const Plane& plane, const Mask& mask) {
@@ -54,8 +67,7 @@ void FrameDifference::add(const HostImage& test_before, const HostImage& test, c
     for (const HostImage* image : {&test_before, &test, &reference_before.image, &reference.image})
         keep_finite(finite, *image);
     if (sums.empty())
-        for (const Mask& mask : masks)
-            sums.push_back({.mask = mask.name, .swapped = {Plane(test.extent), Plane(test.extent)}});
+        for (const Mask& mask : masks) sums.push_back({.mask = mask.name});
     if (!std::ranges::equal(sums, masks, {}, &Sums::mask, &Mask::name))
         fail("frame differences need the same masks at each step");
     has_halves = has_halves && reference_before.halves && reference.halves;
@@ -66,7 +78,7 @@ void FrameDifference::add(const HostImage& test_before, const HostImage& test, c
             const Mask inside = intersection(masks[m], finite);
             sums[m].corrected[is_relative] += masked_sum(planes.corrected, inside);
             sums[m].uncorrected[is_relative] += masked_sum(planes.uncorrected, inside);
-            add_masked(sums[m].swapped[is_relative], planes.swapped, inside);
+            add_masked(sums[m].noise[is_relative], planes.noise, inside);
             if (is_relative) continue;
             sums[m].pixels += inside.count();
             sums[m].left_out += masks[m].count() - inside.count();
@@ -80,8 +92,11 @@ std::vector<TemporalScore> FrameDifference::scores() const {
         for (const bool is_relative : {false, true}) {
             const TemporalMetric& metric =
                 temporal_metric_named(is_relative ? "frame_difference_relative" : "frame_difference");
-            TemporalScore& row = scores.emplace_back(
-                TemporalScore{.metric = &metric, .mask = s.mask, .pixels = s.pixels, .left_out = s.left_out});
+            TemporalScore& row = scores.emplace_back(TemporalScore{.metric = &metric,
+                                                                   .formula = formula_of(metric, has_halves),
+                                                                   .mask = s.mask,
+                                                                   .pixels = s.pixels,
+                                                                   .left_out = s.left_out});
             if (s.pixels == 0) {
                 row.note = no_pixel;
                 continue;
@@ -92,11 +107,11 @@ std::vector<TemporalScore> FrameDifference::scores() const {
             row.value = has_halves ? s.corrected[is_relative] / n : *row.uncorrected;
             if (!has_halves) continue;
             // The halves of all frames are exchanged together, so noise that steps share is counted as it adds up.
-            const Plane& swapped = s.swapped[is_relative];
-            const double half_width =
-                noise_half_width(swapped, full_mask(swapped.extent)) * double(swapped.values.size()) / n;
-            row.low = row.value - half_width;
-            row.high = row.value + half_width;
+            const NoiseTerms& noise = s.noise[is_relative];
+            const std::optional<double> half_width = noise_half_width(noise, full_mask(noise.swapped.extent));
+            if (!half_width) continue;
+            row.low = row.value - *half_width / n;
+            row.high = row.value + *half_width / n;
         }
     return scores;
 }

@@ -1,17 +1,17 @@
 #include "metrics/ghost.h"
 
 #include "core/error.h"
-#include "metrics/noise.h"
 #include "metrics/pooling.h"
 #include "metrics/tiles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
 constexpr double limit = 0.05;
 constexpr double least_energy_in_noise = 4;  // half-widths
-constexpr const char* lost_in_noise = "the change is lost in the noise of the reference";
+constexpr const char* lost_in_noise = "the change cannot be told from the noise of the reference";
 
 using Columns = std::vector<std::vector<double>>;  // tile sums
 using Totals = std::span<const double>;
@@ -20,19 +20,29 @@ using Totals = std::span<const double>;
 struct Change {
     HostImage difference;  ///< R_before - R_after
     Plane energy;          ///< its square, free of noise where there are halves
-    Plane swapped;         ///< of the energy, see noise_half_width(); 0 without halves
+    NoiseTerms noise;      ///< of the energy; 0 without halves
 };
 
 Change change_between(const MetricReference& before, const MetricReference& after) {
-    Change change{before.image, Plane(after.image.extent), Plane(after.image.extent)};
+    const glm::uvec2 extent = after.image.extent;
     const bool has_halves = before.halves && after.halves;
-    for (size_t i = 0; i < after.image.values.size(); ++i) {
-        const double d = double(before.image.values[i]) - after.image.values[i];
-        change.difference.values[i] = float(d);
-        const double a = has_halves ? double(before.halves->a.values[i]) - after.halves->a.values[i] : d;
-        const double b = has_halves ? double(before.halves->b.values[i]) - after.halves->b.values[i] : d;
-        change.energy.values[i / 3] += a * b / 3;
-        change.swapped.values[i / 3] += (a * a - b * b) / 2 / 3;
+    const double samples = has_halves ? std::min(before.halves->samples, after.halves->samples) : 0;
+    Change change{before.image, Plane(extent), {extent, samples}};
+    for (size_t p = 0; p < change.energy.values.size(); ++p) {
+        SquaredErrorVariance variance;
+        for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
+            const double d = double(before.image.values[i]) - after.image.values[i];
+            change.difference.values[i] = float(d);
+            const double a = has_halves ? double(before.halves->a.values[i]) - after.halves->a.values[i] : d;
+            const double b = has_halves ? double(before.halves->b.values[i]) - after.halves->b.values[i] : d;
+            change.energy.values[p] += a * b / 3;
+            change.noise.swapped.values[p] += (a * a - b * b) / 2 / 3;
+            if (has_halves)
+                variance.add(
+                    1.0 / 3, d,
+                    difference_variance(a, b, before.halves->variance.values[i], after.halves->variance.values[i]));
+        }
+        change.noise.variance.values[p] = variance.value();
     }
     return change;
 }
@@ -166,7 +176,7 @@ std::vector<Ghost> ghost_scores(std::span<const HostImage> frames, const MetricR
         s.counts = tile_counts(s.inside);
         s.energy = tile_sums(change.energy, s.inside);
         s.mean_energy = masked_mean(change.energy, s.inside);
-        s.energy_half_width = noise_half_width(change.swapped, s.inside);
+        s.energy_half_width = noise_half_width(change.noise, s.inside).value_or(INFINITY) / double(s.inside.count());
     }
     for (const HostImage& frame : frames) {
         const Plane projected = projection(frame, change.difference), error = squared_error(frame, after);

@@ -62,6 +62,9 @@ struct Metric {
     /// mean over pixels and channels of weight(r) (x - r)^2, of which noise in r can be subtracted (metrics/noise.h);
     /// nullptr for all other metrics.
     double (*squared_error_weight)(double reference) = nullptr;
+    /// Id of the formula where the weight is that of a path-traced reference's guide in place of its own noisy pixels;
+    /// empty if the weight does not depend on the reference.
+    std::string guided_formula = {};
 };
 
 /// All metrics, in the order of lists and tables.

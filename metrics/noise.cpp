@@ -1,11 +1,9 @@
 #include "metrics/noise.h"
 
-#include "metrics/pooling.h"
-#include "metrics/tiles.h"
+#include "metrics/quantiles.h"
+#include "metrics/summation.h"
 
-#include <algorithm>
 #include <cmath>
-#include <random>
 
 Plane cross_error(const HostImage& test, const HostImage& half_a, const HostImage& half_b, const HostImage& weighing,
                   double (*weight)(double)) {
@@ -19,49 +17,53 @@ Plane cross_error(const HostImage& test, const HostImage& half_a, const HostImag
     return map;
 }
 
-HostImage without_noise(const HostImage& half_a, const HostImage& half_b) {
-    HostImage out(half_a.extent, 3);
-    const auto clamped = [](unsigned i, int step, unsigned size) {
-        return unsigned(std::clamp(int(i) + step, 0, int(size) - 1));
-    };
-    tbb::parallel_for(0u, out.extent.y, [&](unsigned y) {
-        for (unsigned x = 0; x < out.extent.x; ++x)
-            for (int c = 0; c < 3; ++c) {
-                double neighbours = 0, variance = 0;
-                for (int dy = -1; dy <= 1; ++dy)
-                    for (int dx = -1; dx <= 1; ++dx) {
-                        const unsigned px = clamped(x, dx, out.extent.x), py = clamped(y, dy, out.extent.y);
-                        const double a = half_a.pixel(px, py)[c], b = half_b.pixel(px, py)[c];
-                        variance += (a - b) * (a - b) / 4 / 9;
-                        if (dx != 0 || dy != 0) neighbours += (a + b) / 2 / 8;
-                    }
-                const double own = (double(half_a.pixel(x, y)[c]) + half_b.pixel(x, y)[c]) / 2;
-                const double distance = (own - neighbours) * (own - neighbours);
-                const double kept = distance > 4 * variance ? 1 - 4 * variance / distance : 0.0;
-                out.pixel(x, y)[c] = float(variance == 0 ? own : neighbours + kept * (own - neighbours));
-            }
-    });
-    return out;
+void SquaredErrorVariance::add(double weight, double error, double variance) {
+    const double of_half = 2 * variance;
+    linear += weight * std::abs(error) * std::sqrt(of_half);
+    product += weight * of_half;
 }
 
-double noise_half_width(const Plane& swapped, const Mask& mask) {
-    constexpr unsigned draws = 2000, seed = 0x5eed;
-    std::vector<double> sums = tile_sums(swapped, mask);
-    std::erase(sums, 0.0);
-
-    std::mt19937_64 random(seed);
-    std::vector<double> sizes(draws);
-    for (double& size : sizes) {
-        double sum = 0;
-        uint64_t bits = 0;
-        for (size_t i = 0; i < sums.size(); ++i) {
-            if (i % 64 == 0) bits = random();
-            sum += bits >> (i % 64) & 1 ? sums[i] : -sums[i];
+NoiseTerms squared_error_noise(const HostImage& test, const ReferenceHalves& halves, const HostImage& weighing,
+                               double (*weight)(double)) {
+    NoiseTerms terms(test.extent, halves.samples);
+    for (size_t i = 0; i < terms.swapped.values.size(); ++i) {
+        SquaredErrorVariance variance;
+        for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            const double w = weight(weighing.values[c]) / 3;
+            const double from_a = double(test.values[c]) - halves.a.values[c];
+            const double from_b = double(test.values[c]) - halves.b.values[c];
+            terms.swapped.values[i] += w * (from_a * from_a - from_b * from_b) / 2;
+            variance.add(w, (from_a + from_b) / 2, halves.variance.values[c]);
         }
-        size = std::abs(sum);
+        terms.variance.values[i] = variance.value();
     }
-    // The sums are symmetric about 0, so the 95 % quantile of their sizes bounds the central 95 %.
-    const auto quantile = sizes.begin() + draws * 95 / 100;
-    std::ranges::nth_element(sizes, quantile);
-    return *quantile / double(pooled_count(swapped, mask));
+    return terms;
+}
+
+NoiseTerms mean_noise(const ReferenceHalves& halves) {
+    NoiseTerms terms(halves.a.extent, halves.samples);
+    for (size_t i = 0; i < terms.swapped.values.size(); ++i) {
+        double deviation = 0;  // as if the channels' noises were one
+        for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            terms.swapped.values[i] += (double(halves.b.values[c]) - halves.a.values[c]) / 2 / 3;
+            deviation += std::sqrt(double(halves.variance.values[c])) / 3;
+        }
+        terms.variance.values[i] = deviation * deviation;
+    }
+    return terms;
+}
+
+std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask) {
+    const auto sum = [&](const auto& term) {
+        return ordered_sum(mask.inside.size(), [&](size_t i) { return mask.inside[i] ? term(i) : 0.0; });
+    };
+    const std::vector<double>&swapped = terms.swapped.values, &variance = terms.variance.values;
+    const double squares = sum([&](size_t i) { return swapped[i] * swapped[i]; });
+    if (squares == 0) return 0.0;
+    const double total = sum([&](size_t i) { return variance[i]; });
+    const double of_squares = sum([&](size_t i) { return variance[i] * variance[i]; });
+    const double noisy_pixels = sum([&](size_t i) { return variance[i] > 0 ? 1.0 : 0.0; });
+    const double degrees = of_squares > 0 ? total * total / of_squares : 0.0;
+    if (degrees < least_noise_pixels || noisy_pixels * terms.samples < least_noise_samples) return std::nullopt;
+    return student_t_quantile(0.975, degrees) * std::sqrt(squares);
 }

@@ -2,28 +2,74 @@
 #include "core/host_image.h"
 #include "metrics/plane.h"
 
+#include <optional>
+
 // A path-traced reference R = (A + B) / 2 has noise of its own, which a squared error counts as the test image's. With
 // two independent halves it can be taken out without bias, since their noises are uncorrelated:
 //     E[(x - A)(x - B)] = (x - truth)^2,     (x - A)(x - B) = (x - R)^2 - (A - B)^2 / 4.
-// Single pixels may be negative and must not be clamped before they are averaged.
+// Single pixels may be negative and must not be clamped before they are averaged. Weights of relative errors come from
+// the guide, which is independent of both halves, so that the weighted mean has no bias either.
+
+/// What a path-traced reference of limited samples knows of itself: two independent halves of equal sample counts,
+/// whose mean is the reference. A noise-free reference has none. All images: linear, three channels, of one extent.
+struct ReferenceHalves {
+    HostImage a, b;
+    HostImage variance;  ///< of the mean, per channel, as batches within the halves tell
+    HostImage guide;     ///< what relative errors are weighted by: near the truth, and independent of the noise of both
+    double samples = 0;  ///< of each pixel, at least
+};
 
 /// mean over channels of weight(w) (x - A)(x - B) of each pixel, w the pixel of `weighing`.
 Plane cross_error(const HostImage& test, const HostImage& half_a, const HostImage& half_b, const HostImage& weighing,
                   double (*weight)(double));
 
-/// R with its noise removed where its halves show that it is noise. Of a pixel's distance d from the mean of its 8
-/// neighbours, d max(0, 1 - 4 v / d^2) is kept, where v is the noise variance, (A - B)^2 / 4 averaged over 3x3 pixels:
-/// less than two standard deviations pass for noise (the non-negative garrote of Breiman 1995, "Better Subset
-/// Regression Using the Nonnegative Garrote"). Where A = B it is R itself. Relative errors are weighted by it, since a
-/// weight made of the pixel's own noise would be correlated with the error that it weighs, and 1 / r^2 of a noisy r is
-/// too large on average.
-HostImage without_noise(const HostImage& half_a, const HostImage& half_b);
+/// How the reference's noise moves a sum over pixels.
+struct NoiseTerms {
+    /// Of each pixel, half the change when half A alone is the reference in place of B: (A, B) and (B, A) are equally
+    /// likely, and its square is on average the variance of the pixel's own term. For squared errors both are
+    /// 2 s^2 (x - truth)^2 + s^4 if the noise is Gaussian with s^2 that of a half.
+    Plane swapped;
+    Plane variance;      ///< that variance again, from the batches: only its shares among the pixels matter
+    double samples = 0;  ///< of each pixel, at least
 
-/// Half the width of the 95 % interval that the reference's noise leaves to the masked mean of a per-pixel quantity.
-/// `swapped` is half its change when A alone is the reference in place of B: (A, B) and (B, A) are equally likely, and
-/// to first order it varies as much as the quantity does. For squared errors the agreement is exact if the noise is
-/// Gaussian: both have the variance 2 s^2 (x - truth)^2 + s^4 with s^2 that of a half. Bootstrap: 2000 draws of a
-/// random swap for each tile of 16x16 pixels, so that noise may be correlated inside of a tile (a wild bootstrap with
-/// Rademacher signs: Davidson, Flachaire 2008, "The Wild Bootstrap, Tamed at Last"). Pixels are not resampled: they are
-/// the whole image, not a sample of one. Seeded; the same bits each time.
-double noise_half_width(const Plane& swapped, const Mask& mask);
+    NoiseTerms() = default;
+    NoiseTerms(glm::uvec2 extent, double samples) : swapped(extent), variance(extent), samples(samples) {}
+    bool is_empty() const { return swapped.values.empty(); }
+};
+
+/// The variance of sum over channels of weight (d - a)(d - b), where a and b are the noises of the halves: as if the
+/// channels' noises were one, for they share paths.
+struct SquaredErrorVariance {
+    double linear = 0, product = 0;
+
+    /// `variance` is that of (a + b) / 2.
+    void add(double weight, double error, double variance);
+    double value() const { return 2 * linear * linear + product * product; }
+};
+
+/// The variance to give to the difference of two references, `a` and `b` in the halves: where samples are shared it is
+/// at most that of both, and nothing where the two are equal.
+inline double difference_variance(double a, double b, double of_one, double of_other) {
+    return a == 0 && b == 0 ? 0 : of_one + of_other;
+}
+
+/// Of cross_error() with the same weights; the reference's own halves are `halves`.
+NoiseTerms squared_error_noise(const HostImage& test, const ReferenceHalves& halves, const HostImage& weighing,
+                               double (*weight)(double));
+
+/// Of a pixel's x - R, mean over channels.
+NoiseTerms mean_noise(const ReferenceHalves& halves);
+
+/// Half the width of the 95 % interval that the reference's noise leaves to the sum of a per-pixel quantity over the
+/// mask: t sqrt(sum of swapped^2), as pixels have random numbers of their own and are independent. Each square has one
+/// degree of freedom, so Student's t has nu = (sum of v)^2 / (sum of v^2) (Satterthwaite 1946, "An Approximate
+/// Distribution of Estimates of Variance Components"), the number of pixels that bear the noise. It is told by the
+/// batches' variances v, with 14 degrees for each pixel: squares that tell both width and nu find the width certain
+/// just where they are small by chance.
+///
+/// None below nu = 2, where few pixels bear nearly all noise, or below least_noise_samples under the mask, where rare
+/// bright paths are missed too often; 0 without noise. metrics/README.md has the measured coverage.
+std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask);
+
+inline constexpr double least_noise_pixels = 2;     ///< nu
+inline constexpr double least_noise_samples = 480;  ///< of all noisy pixels under the mask

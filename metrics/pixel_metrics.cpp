@@ -120,7 +120,8 @@ std::vector<Metric> pixel_metrics() {
     using enum Better;
     using enum Domain;
     // d = x - r: test minus reference, each channel by itself. Why so many relative errors: tools that print the same
-    // name differ in the denominator, and the values by factors.
+    // name differ in the denominator, and the values by factors. Where r is path-traced its guide g stands in the
+    // denominator of those that are corrected, and the formula says so: mean d^2 / (g^2 + 0.01).
     return {
         {"mse", "mse", "radiance^2", lower, linear, "mean d^2", weighted_squares<one>, pooled_mean, one},
         {"rmse", "rmse", "radiance", lower, linear, "sqrt(mean d^2), the root taken once, at the end",
@@ -129,14 +130,15 @@ std::vector<Metric> pixel_metrics() {
         {"mape", "mape_0.01", "1", lower, linear, "mean |d| / (|r| + 0.01), as OIDN's training", relative_absolutes,
          pooled_mean},
         {"relmse", "relmse_a", "1", lower, linear,
-         "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO)", weighted_squares<weight_a>, pooled_mean,
-         weight_a},
+         "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO); relmse_a_guided: with the guide of a "
+         "path-traced reference in the denominator",
+         weighted_squares<weight_a>, pooled_mean, weight_a, "relmse_a_guided"},
         {"relmse_b", "relmse_b", "1", lower, linear, "mean d^2 / (r + 0.01)^2 (pbrt-v4 imgtool MRSE)",
-         weighted_squares<weight_b>, pooled_mean, weight_b},
+         weighted_squares<weight_b>, pooled_mean, weight_b, "relmse_b_guided"},
         {"relmse_c", "relmse_c", "1", lower, linear, "mean d^2 / (r^2 + 0.001) (Tungsten and Falcor, who call it rmse)",
-         weighted_squares<weight_c>, pooled_mean, weight_c},
+         weighted_squares<weight_c>, pooled_mean, weight_c, "relmse_c_guided"},
         {"relmse_d", "relmse_d", "1", lower, linear, "mean d^2 / (r^2 + 0.0001) (figure-gen)",
-         weighted_squares<weight_d>, pooled_mean, weight_d},
+         weighted_squares<weight_d>, pooled_mean, weight_d, "relmse_d_guided"},
         {"relmse_luminance", "relmse_a_luminance", "1", lower, linear,
          "mean d^2 / (L(r)^2 + 0.01), L the Rec. 709 luminance of the pixel", squares_over_luminance, pooled_mean},
         {"relmse_trimmed", "relmse_a_trimmed_0.1%", "1", lower, linear,

@@ -1,7 +1,6 @@
 #include "metrics/score.h"
 
 #include "core/error.h"
-#include "metrics/noise.h"
 #include "metrics/pooling.h"
 
 #include <cmath>
@@ -14,44 +13,87 @@ HostImage blackened(HostImage image, const Mask& kept) {
     return image;
 }
 
-/// Per pixel, the two things that the halves tell of a metric: its value without the reference's noise, and half its
-/// change when the halves are swapped.
+/// What the halves tell of a metric at each pixel.
 struct NoiseMaps {
-    Plane corrected, swapped;
+    Plane corrected;   ///< its value without the reference's noise; empty if it is not corrected
+    NoiseTerms terms;  ///< empty if the metric has no interval
 };
 
-NoiseMaps squared_error_maps(const Metric& metric, const MetricReference& reference, const ReferenceHalves& halves,
-                             const HostImage& test) {
-    const auto weight = metric.squared_error_weight;
-    NoiseMaps maps{cross_error(test, halves.a, halves.b, reference.smooth, weight), Plane(test.extent)};
-    const Plane from_a = cross_error(test, halves.a, halves.a, reference.smooth, weight);
-    const Plane from_b = cross_error(test, halves.b, halves.b, reference.smooth, weight);
-    for (size_t i = 0; i < from_a.values.size(); ++i)
-        maps.swapped.values[i] = (from_a.values[i] - from_b.values[i]) / 2;
-    return maps;
+bool is_guided(const Metric& metric) { return !metric.guided_formula.empty(); }
+
+NoiseMaps noise_maps(const Metric& metric, const ReferenceHalves& halves, const HostImage& test) {
+    if (const auto weight = metric.squared_error_weight)
+        return {cross_error(test, halves.a, halves.b, halves.guide, weight),
+                squared_error_noise(test, halves, halves.guide, weight)};
+    if (metric.name == "bias" || metric.name == "energy_ratio") return {{}, mean_noise(halves)};
+    return {};
 }
 
-/// The bias is linear in the reference: it needs no correction, but has an interval.
-Plane swapped_bias(const ReferenceHalves& halves) {
-    Plane map(halves.a.extent);
-    for (size_t i = 0; i < map.values.size(); ++i) {
-        const glm::dvec3 d = glm::dvec3(halves.b.rgb(i)) - glm::dvec3(halves.a.rgb(i));
-        map.values[i] = (d.x + d.y + d.z) / 3 / 2;
-    }
-    return map;
+std::vector<Plane> layers_of(const Metric& metric, const ImagePair& pair,
+                             const std::optional<ReferenceHalves>& halves) {
+    if (!halves || !is_guided(metric)) return metric.layers(pair);
+    return {cross_error(pair.test, pair.reference, pair.reference, halves->guide, metric.squared_error_weight)};
 }
 
 /// An error whose square is not above 0 after the correction is lost in the reference's noise: 0.
 double root(double square) { return std::sqrt(square < 0 ? 0.0 : square); }
 
-void correct(Score& score, const NoiseMaps& maps, const Mask& mask) {
-    const double value = masked_mean(maps.corrected, mask), half_width = noise_half_width(maps.swapped, mask);
-    const bool is_root = score.metric->name == "rmse";
-    const auto finished = [&](double v) { return is_root ? root(v) : v; };
-    score.value = finished(value);
-    score.corrected = true;
-    score.low = finished(value - half_width);
-    score.high = finished(value + half_width);
+/// From raw +- half_width by `finish`, which is monotonic between the two.
+template <class Finish>
+void set_interval(Score& row, double raw, double half_width, const Finish& finish) {
+    const double ends[2] = {finish(raw - half_width), finish(raw + half_width)};
+    row.low = std::min(ends[0], ends[1]);
+    row.high = std::max(ends[0], ends[1]);
+}
+
+/// d(value) / d(raw) if the row has a value that moves in proportion, as far as its noise goes; else nothing.
+using Slope = std::optional<double>;
+
+Slope set_corrected(Score& row, double raw, std::optional<double> half_width) {
+    const bool is_root = row.metric->name == "rmse";
+    const auto finish = [&](double v) { return is_root ? root(v) : v; };
+    row.value = finish(raw);
+    row.corrected = true;
+    if (half_width) set_interval(row, raw, *half_width, finish);
+    if (!is_root) return 1.0;
+    return half_width && raw > *half_width ? Slope(0.5 / row.value) : std::nullopt;
+}
+
+/// The mean of the test image is fixed, so the interval is exact where that of the reference's mean is.
+Slope set_ratio(Score& row, double reference_mean, std::optional<double> half_width) {
+    const double test_mean = row.value * reference_mean;
+    if (!half_width || !(std::abs(reference_mean) > *half_width)) return {};
+    set_interval(row, reference_mean, *half_width, [&](double mean) { return test_mean / mean; });
+    return test_mean / (reference_mean * reference_mean);
+}
+
+/// The terms of the mean over `inside`, times the slope.
+NoiseTerms scaled(const NoiseTerms& terms, const Mask& inside, double slope, double pixels) {
+    NoiseTerms scaled(terms.swapped.extent, terms.samples);
+    for (size_t i = 0; i < inside.inside.size(); ++i)
+        if (inside.inside[i]) {
+            scaled.swapped.values[i] = terms.swapped.values[i] * slope / pixels;
+            scaled.variance.values[i] = terms.variance.values[i] * slope * slope / (pixels * pixels);
+        }
+    return scaled;
+}
+
+/// Corrects the row where it can be, and gives it its interval; returns how noise moves its value.
+NoiseTerms set_noise(Score& row, const NoiseMaps& maps, std::span<const Plane> layers, const Mask& inside,
+                     bool wants_terms) {
+    if (maps.terms.is_empty()) return {};
+    std::optional<double> half_width = noise_half_width(maps.terms, inside);
+    if (half_width) *half_width /= double(row.pixels);
+    Slope slope = 1.0;
+    if (!maps.corrected.values.empty()) {
+        slope = set_corrected(row, masked_mean(maps.corrected, inside), half_width);
+    } else if (row.metric->name == "energy_ratio") {
+        slope = set_ratio(row, masked_mean(layers[1], inside), half_width);
+    } else if (half_width) {
+        set_interval(row, row.value, *half_width, [](double v) { return v; });
+    }
+    if (!wants_terms || !slope) return {};
+    return scaled(maps.terms, inside, *slope, double(row.pixels));
 }
 
 }  // namespace
@@ -64,44 +106,42 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
         reference.finite = full_mask(reference.image.extent);
         return reference;
     }
-    const ImagePair pair = image_pair(reference.halves->a, reference.halves->b, settings);
-    reference.finite = intersection(pair.finite, image_pair(reference.image, pair.reference, settings).finite);
-    *reference.halves = {blackened(reference.halves->a, reference.finite),
-                         blackened(reference.halves->b, reference.finite)};
-    for (const Metric* metric : reference.metrics) reference.floor_layers.push_back(metric->layers(pair));
-    reference.smooth = without_noise(reference.halves->a, reference.halves->b);
+    ReferenceHalves& h = *reference.halves;
+    const ImagePair pair = image_pair(h.a, h.b, settings);
+    reference.finite = pair.finite;
+    for (const HostImage* other : {&reference.image, &h.variance, &h.guide})
+        reference.finite = intersection(reference.finite, image_pair(*other, pair.reference, settings).finite);
+    for (HostImage* each : {&h.a, &h.b, &h.variance, &h.guide}) *each = blackened(std::move(*each), reference.finite);
+    for (const Metric* metric : reference.metrics)
+        reference.floor_layers.push_back(layers_of(*metric, pair, reference.halves));
     return reference;
 }
 
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
-                         PixelCounts* counts) {
+                         PixelCounts* counts, std::vector<NoiseTerms>* noise) {
     const ImagePair pair = image_pair(reference.image, test, reference.settings);
     if (counts) *counts = pair.test_counts;
     const Mask finite = intersection(pair.finite, reference.finite);
     std::vector<Score> scores;
     for (size_t m = 0; m < reference.metrics.size(); ++m) {
         const Metric& metric = *reference.metrics[m];
-        const std::vector<Plane> layers = metric.layers(pair);
-        const bool is_correctable = reference.halves && metric.squared_error_weight;
-        NoiseMaps maps;
-        if (is_correctable) maps = squared_error_maps(metric, reference, *reference.halves, pair.test);
-        if (reference.halves && metric.name == "bias") maps.swapped = swapped_bias(*reference.halves);
-
+        const std::vector<Plane> layers = layers_of(metric, pair, reference.halves);
+        const NoiseMaps maps = reference.halves ? noise_maps(metric, *reference.halves, pair.test) : NoiseMaps{};
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, finite);
             const double value = metric.pool(layers, inside);
             Score& row = scores.emplace_back(
-                Score{.metric = &metric, .mask = mask.name, .value = value, .uncorrected = value, .corrected = false});
+                Score{.metric = &metric,
+                      .formula = reference.halves && is_guided(metric) ? metric.guided_formula : metric.formula,
+                      .mask = mask.name,
+                      .value = value,
+                      .uncorrected = value,
+                      .corrected = false});
             row.pixels = inside.count();
-            if (!reference.halves || row.pixels == 0) continue;
-            row.floor = metric.pool(reference.floor_layers[m], inside);
-            if (is_correctable) {
-                correct(row, maps, inside);
-            } else if (!maps.swapped.values.empty()) {
-                const double half_width = noise_half_width(maps.swapped, inside);
-                row.low = value - half_width;
-                row.high = value + half_width;
-            }
+            const bool has_noise = reference.halves && row.pixels > 0;
+            if (has_noise) row.floor = metric.pool(reference.floor_layers[m], inside);
+            NoiseTerms terms = has_noise ? set_noise(row, maps, layers, inside, noise != nullptr) : NoiseTerms{};
+            if (noise) noise->push_back(std::move(terms));
         }
     }
     return scores;

@@ -1,22 +1,18 @@
 #pragma once
 #include "metrics/metric.h"
+#include "metrics/noise.h"
 
 #include <optional>
 #include <span>
 #include <vector>
 
-/// What a path-traced reference of limited samples knows of itself: two independent halves of equal sample counts,
-/// whose mean is the reference. A noise-free reference has none.
-struct ReferenceHalves {
-    HostImage a, b;  ///< linear, three channels
-};
-
 /// One row of results.
 struct Score {
     const Metric* metric;
+    std::string formula;  ///< id: the metric's, or its guided one
     std::string mask;
     double value;        ///< noise-corrected if `corrected`; NaN if no pixel is inside the mask
-    double uncorrected;  ///< what `measure` says
+    double uncorrected;  ///< with the reference's noise in it, by the same formula
     bool corrected;
     std::optional<double> low,
         high;                     ///< 95 % interval of `value` that the reference's noise leaves, where it can be told
@@ -33,12 +29,20 @@ struct MetricReference {
     MetricSettings settings;
     Mask finite;                                   ///< pixels finite in the image and in both halves
     std::vector<std::vector<Plane>> floor_layers;  ///< per metric, of (A, B)
-    HostImage smooth;  ///< the image freed of noise as well as its halves allow: weights of relative errors
+
+    /// What relative errors are weighted by: the guide where there is one, else the image.
+    const HostImage& weighing_image() const { return halves ? halves->guide : image; }
 };
 
 MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves> halves,
                                  const std::vector<std::string>& metric_names, const MetricSettings& settings);
 
-/// All metrics under all masks: masks vary fastest. `counts`, if given, gets the bad pixels of the test image.
+/// All metrics under all masks: masks vary fastest. `counts`, if given, gets the bad pixels of the test image. `noise`,
+/// if given, gets for each score how the reference's noise moves its value, to first order, so that the noise of means
+/// of several scores can be told: 0 outside of the mask; empty where that cannot be said.
+///
+/// Intervals: of metrics that are corrected (means of weighted squares, and rmse, the root of one), `bias` and
+/// `energy_ratio`, the ratio of a fixed mean to that of the reference. All others carry the reference's noise as it
+/// comes, which `floor` tells the size of, and have none.
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
-                         PixelCounts* counts = nullptr);
+                         PixelCounts* counts = nullptr, std::vector<NoiseTerms>* noise = nullptr);

@@ -11,13 +11,14 @@ const std::vector<TemporalMetric>& temporal_metrics() {
         {"flicker", "temporal_deviation", "radiance", lower,
          "sqrt(mean over pixels and channels of the variance over the frames of a converged shot where nothing moves)"},
         {"flicker_relative", "temporal_variance_a", "1", lower,
-         "mean of that variance / (r^2 + 0.01), the weight of relmse"},
+         "mean of that variance / (r^2 + 0.01), the weight of relmse", "temporal_variance_a_guided"},
         {"flicker_correlation", "temporal_lag_1", "1", near_zero,
          "1 - mean (x_t - x_(t-1))^2 / (2 mean variance over the frames): 0 where frames are independent, towards 1 "
          "where each repeats the last, which buys little flicker by lag"},
         {"frame_difference", "frame_difference_mse", "radiance^2", lower,
          "mean ((x_t - x_(t-1)) - (r_t - r_(t-1)))^2: changes that are not the truth's"},
-        {"frame_difference_relative", "frame_difference_a", "1", lower, "that / (r_t^2 + 0.01), the weight of relmse"},
+        {"frame_difference_relative", "frame_difference_a", "1", lower, "that / (r_t^2 + 0.01), the weight of relmse",
+         "frame_difference_a_guided"},
         {"ghost_length", "ghost_projection_0.05", "frames", lower,
          "frames after a change that still hold 5 % of the old image or more: (x_t - plateau) projected onto the "
          "truth's change"},
@@ -45,7 +46,8 @@ bool is_error(const std::string& metric) {
 }
 
 TemporalScore empty_score(const std::string& metric, const Mask& mask, const Mask& finite) {
-    TemporalScore row{.metric = &temporal_metric_named(metric), .mask = mask.name};
+    const TemporalMetric& named = temporal_metric_named(metric);
+    TemporalScore row{.metric = &named, .formula = named.formula, .mask = mask.name};
     row.pixels = intersection(mask, finite).count();
     row.left_out = mask.count() - row.pixels;
     if (row.pixels == 0) row.note = no_pixel;
@@ -65,4 +67,6 @@ double relative_weight(double reference) {
     return weight(reference);
 }
 
-const HostImage& weighing_image(const MetricReference& r) { return r.halves ? r.smooth : r.image; }
+std::string formula_of(const TemporalMetric& metric, bool has_guide) {
+    return has_guide && !metric.guided_formula.empty() ? metric.guided_formula : metric.formula;
+}

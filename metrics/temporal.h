@@ -14,6 +14,7 @@ struct TemporalMetric {
     std::string unit;
     Better better;
     std::string doc;
+    std::string guided_formula = {};  ///< as Metric::guided_formula
 };
 
 /// flicker, flicker_relative, flicker_correlation (flicker.h); frame_difference, frame_difference_relative
@@ -30,6 +31,7 @@ bool is_error(const std::string& metric);
 /// One row of results.
 struct TemporalScore {
     const TemporalMetric* metric;
+    std::string formula;  ///< id: the metric's, or its guided one
     std::string mask;
     double value = NAN;  ///< freed of the reference's noise if `corrected`; NaN if `note` says why there is none
     bool corrected = false;
@@ -52,5 +54,5 @@ void keep_finite(Mask& mask, const HostImage& rgb);
 /// 1 / (r^2 + 0.01), the weight of relmse.
 double relative_weight(double reference);
 
-/// The image that relative errors are weighted by: the reference, freed of its noise where it has halves.
-const HostImage& weighing_image(const MetricReference& reference);
+/// The metric's own formula, or its guided one where the reference has a guide.
+std::string formula_of(const TemporalMetric& metric, bool has_guide);

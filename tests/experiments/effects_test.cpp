@@ -1,5 +1,6 @@
 // What is told of seeds: bias and variance, and the effects of points against a baseline.
 #include "experiments/effects.h"
+#include "experiments/frame_means.h"
 #include "experiments/interval.h"
 #include "experiments/measure.h"
 #include "experiments/splits.h"
@@ -285,7 +286,11 @@ TEST(Splits, FindTheBiasAndTheVariance) {
         for (float& v : image.values) v = noise(random);
         return image;
     };
-    ReferenceHalves halves{noisy(1.0f, 0.2f), noisy(1.0f, 0.2f)};
+    const ReferenceHalves halves{.a = noisy(1.0f, 0.2f),
+                                 .b = noisy(1.0f, 0.2f),
+                                 .variance = HostImage({64, 64}, 3, 0.02f),
+                                 .guide = HostImage({64, 64}, 3, 1.0f),
+                                 .samples = 64};
     HostImage mean = halves.a;
     for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = 0.5f * (halves.a.values[i] + halves.b.values[i]);
     const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
@@ -315,7 +320,11 @@ TEST(Splits, HoldTheNoiseOfTheReferenceInTheIntervalOfTheBias) {
     // standard deviation of 0.2 in 12288 values.
     std::mt19937 random(2);
     std::normal_distribution<float> noise(1.0f, 0.2f);
-    ReferenceHalves halves{HostImage({64, 64}, 3), HostImage({64, 64}, 3)};
+    ReferenceHalves halves{.a = HostImage({64, 64}, 3),
+                           .b = HostImage({64, 64}, 3),
+                           .variance = HostImage({64, 64}, 3, 0.02f),
+                           .guide = HostImage({64, 64}, 3, 1.0f),
+                           .samples = 64};
     HostImage mean({64, 64}, 3);
     for (size_t i = 0; i < mean.values.size(); ++i) {
         halves.a.values[i] = noise(random), halves.b.values[i] = noise(random);
@@ -327,10 +336,11 @@ TEST(Splits, HoldTheNoiseOfTheReferenceInTheIntervalOfTheBias) {
     const SplitRow row = split_rows(split, std::vector{full_mask({64, 64})}, {.shot = "s"}).at(0);
     EXPECT_EQ(row.variance, 0.0);
     EXPECT_EQ(*row.variance_high, 0.0);
-    // d(bias^2) = 2 bias d(bias); the interval's own estimate comes from 16 tiles, +-18 %: three of that.
+    // d(bias^2) = 2 bias d(bias); the interval's own estimate comes from 4096 pixels, +-1.1 %: five of that, and what
+    // the square of the noise adds.
     const double half_width = 1.96 * 2 * 0.5 * 0.2 / std::sqrt(2.0 * 12288);
-    EXPECT_NEAR(*row.bias_squared_high - row.bias_squared, half_width, 0.54 * half_width);
-    EXPECT_NEAR(row.bias_squared - *row.bias_squared_low, half_width, 0.54 * half_width);
+    EXPECT_NEAR(*row.bias_squared_high - row.bias_squared, half_width, 0.08 * half_width);
+    EXPECT_NEAR(row.bias_squared - *row.bias_squared_low, half_width, 0.08 * half_width);
 }
 
 TEST(Splits, NeedTwoSeeds) {
@@ -349,7 +359,11 @@ TEST(Splits, NeedTwoSeeds) {
 TEST(Splits, OfAPointWithoutSeedsAreAllBias) {
     std::mt19937 random(3);
     std::normal_distribution<float> noise(1.0f, 0.2f);
-    ReferenceHalves halves{HostImage({16, 16}, 3), HostImage({16, 16}, 3)};
+    ReferenceHalves halves{.a = HostImage({16, 16}, 3),
+                           .b = HostImage({16, 16}, 3),
+                           .variance = HostImage({16, 16}, 3, 0.02f),
+                           .guide = HostImage({16, 16}, 3, 1.0f),
+                           .samples = 64};
     for (HostImage* half : {&halves.a, &halves.b})
         for (float& v : half->values) v = noise(random);
     HostImage mean = halves.a;
@@ -374,7 +388,9 @@ TEST(Measure, AveragesOverFrames) {
     rows[0].low = 0.5, rows[0].high = 1.5, rows[0].pixels = 10;
     rows[1].low = 3.0, rows[1].high = 5.0, rows[1].pixels = 20;
     rows[3].value.reset();
-    const std::vector<ResultRow> means = mean_over_frames(rows);
+    FrameMeans frames;
+    for (const ResultRow& r : rows) frames.add({{r}, {NoiseTerms({4, 4}, 16)}});
+    const std::vector<ResultRow> means = frames.rows();
     ASSERT_EQ(means.size(), 2u);
     for (const ResultRow& m : means) {
         EXPECT_EQ(m.frame, "all");
@@ -383,8 +399,35 @@ TEST(Measure, AveragesOverFrames) {
             continue;
         }
         EXPECT_EQ(m.value, 2.5);
-        EXPECT_EQ(m.low, 1.75);
-        EXPECT_EQ(m.high, 3.25);
         EXPECT_EQ(m.pixels, 30u);
     }
+}
+
+TEST(Measure, NoiseThatFramesShareAddsUp) {
+    // Two frames of 64 pixels whose parts of the value move by 0.5 each: with the same noise their mean moves as one of
+    // them, with noises of its own by 1 / sqrt(2) of that, and with opposite ones not at all.
+    std::mt19937 random(1);
+    const glm::uvec2 extent(8, 8);
+    const auto width = [&](int relation) {
+        FrameRows frames[2];
+        for (FrameRows& frame : frames) {
+            frame.rows = {row("0", "p", 0, "mse", 1)};
+            frame.noise = {NoiseTerms(extent, 64)};
+            frame.noise[0].variance.values.assign(64, 0.25);
+        }
+        for (size_t p = 0; p < 64; ++p) {
+            frames[0].noise[0].swapped.values[p] = random() % 2 ? 0.5 : -0.5;
+            frames[1].noise[0].swapped.values[p] = relation != 0  ? relation * frames[0].noise[0].swapped.values[p]
+                                                   : random() % 2 ? 0.5
+                                                                  : -0.5;
+        }
+        FrameMeans means;
+        for (const FrameRows& frame : frames) means.add(frame);
+        const ResultRow mean = means.rows().at(0);
+        return (*mean.high - *mean.low) / 2;
+    };
+    const double one = 1.9977 * 0.5 * 8;  // Student's t of 64 degrees
+    EXPECT_NEAR(width(1), one, 1e-3);
+    EXPECT_EQ(width(-1), 0);
+    EXPECT_NEAR(width(0), one / std::sqrt(2), 0.25 * one);  // 64 signs: 1/8 of the square, 4 of that
 }

@@ -50,9 +50,10 @@ TEST(LitNoise, IsWhatNoisyLightAddsToAnError) {
     std::mt19937 random(4);
     HostImage light(small, 3);
     for (size_t i = 0; i < light.values.size(); ++i) light.values[i] = 1 + 0.5f * std::sin(float(i) * 0.01f);
-    const MetricReference reference =
-        metric_reference(HostImage(small, 3, 0.9f),
-                         ReferenceHalves{HostImage(small, 3, 0.9f), HostImage(small, 3, 0.9f)}, {"mse", "bias"}, {});
+    const HostImage exact(small, 3, 0.9f);
+    const MetricReference reference = metric_reference(
+        exact, ReferenceHalves{.a = exact, .b = exact, .variance = HostImage(small, 3), .guide = exact, .samples = 16},
+        {"mse", "bias"}, {});
     const std::vector<Mask> masks = {full_mask(small)};
     const auto score_of = [&](const HostImage& lit, size_t metric) {
         return score(reference, technique(lit), masks).at(metric).value;

@@ -1,5 +1,6 @@
 // References: their halves and variances, their stops, their states and the cache.
 #include "core/error.h"
+#include "core/exr.h"
 #include "core/scene/load_scene.h"
 #include "groundtruth/reference_cache.h"
 #include "groundtruth/reference_error.h"
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
+#include <algorithm>
 #include <cmath>
 
 namespace fs = std::filesystem;
@@ -145,6 +147,67 @@ TEST_F(References, SurviveTheirFile) {
     EXPECT_EQ(back.normal.values, normal);
     EXPECT_EQ(back.extent, extent);
     EXPECT_THROW(read_reference(folder / "none.exr"), Error);
+}
+
+TEST_F(References, HaveTheSameGuideWhateverTheirSamplesAre) {
+    const Reference first = render(samples(16));
+    const auto expect_same = [&](const Reference& other, const char* what) {
+        EXPECT_EQ(other.guide.specular.values, first.guide.specular.values) << what;
+        EXPECT_EQ(other.guide.incident.values, first.guide.incident.values) << what;
+        EXPECT_EQ(other.guide.diffuse.values, first.guide.diffuse.values) << what;
+    };
+    expect_same(render(samples(16, 99)), "another seed");
+    expect_same(render(samples(256)), "more samples");
+    expect_same(render({.max_samples = 64, .target_relative_error = 0.5f, .seed = 1}), "a target");
+    expect_same(render({.max_samples = 16, .seed = 1, .ladder = true}), "a ladder");
+    expect_same(render({.max_samples = 16, .seed = 1, .keep_all = true}), "nothing left out");
+    Reference one;
+    tbb::task_arena(1).execute([&] { one = render(samples(16)); });
+    expect_same(one, "one thread");
+    const auto cached = [&](unsigned count) {
+        return cached_reference(scene, pose, camera, extent, samples(count), folder);
+    };
+    expect_same(cached(256), "a file");
+    expect_same(cached(512), "samples added to a file");
+    expect_same(cached(512), "the file of those");
+    EXPECT_NE(render({.max_samples = 16, .max_depth = 1, .seed = 1}).guide.specular.values,
+              first.guide.specular.values);
+}
+
+TEST_F(References, AreIndependentOfTheirGuide) {
+    // If a seed's samples were the guide's, its noise would be the guide's: their difference from a good reference has
+    // no correlation but for that of chance, 1 / sqrt(500 noisy pixels), six of which are 0.27.
+    const Reference good = render(samples(4096, 77));
+    for (const unsigned seed : {0u, 1u, 0x9d1deu}) {
+        const Reference r = render(samples(64, seed));
+        double products = 0, squares = 0, guide_squares = 0;
+        for (size_t i = 0; i < r.specular.mean.values.size(); ++i) {
+            if (good.specular.variance.values[i] == 0) continue;
+            const double deviation = std::sqrt(double(good.specular.variance.values[i]));
+            const double own = (double(r.specular.mean.values[i]) - good.specular.mean.values[i]) / deviation;
+            const double guide = (double(r.guide.specular.values[i]) - good.specular.mean.values[i]) / deviation;
+            const auto bounded = [](double z) { return std::clamp(z, -30.0, 30.0); };  // no pixel decides alone
+            products += bounded(own) * bounded(guide);
+            squares += bounded(own) * bounded(own), guide_squares += bounded(guide) * bounded(guide);
+        }
+        EXPECT_LT(std::abs(products / std::sqrt(squares * guide_squares)), 0.27) << seed;
+    }
+}
+
+TEST_F(References, WithoutAGuideSayWhatToDo) {
+    Reference r = render(samples(16));
+    write_reference(folder / "new.exr", r, samples(16));
+    LayeredImage layers = read_exr(folder / "new.exr");
+    std::erase_if(layers.layers, [](const Layer& layer) { return layer.name.starts_with("guide."); });
+    write_exr(folder / "old.exr", layers);
+    try {
+        read_reference(folder / "old.exr");
+        ADD_FAILURE() << "a file without a guide was read";
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("old.exr lacks the layer 'guide.specular'"), std::string::npos) << message;
+        EXPECT_NE(message.find("render it again with `ssrlab reference`"), std::string::npos) << message;
+    }
 }
 
 TEST(ReferenceOfNothing, IsTheSkyExactly) {

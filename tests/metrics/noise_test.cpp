@@ -22,21 +22,45 @@ HostImage truth_image(glm::uvec2 extent) {
     return image;
 }
 
-/// The truth plus noise whose standard deviation is `relative` of it; neighbours in blocks of `correlated` pixels share
-/// it.
-HostImage with_noise(const HostImage& truth, float relative, Random& random, unsigned correlated = 1) {
+/// The truth plus noise whose standard deviation is `relative` of it.
+HostImage with_noise(const HostImage& truth, const Plane& relative, Random& random) {
     HostImage image = truth;
     std::normal_distribution<float> normal;
-    for (unsigned y = 0; y < truth.extent.y; ++y)
-        for (unsigned x = 0; x < truth.extent.x; ++x)
-            for (int c = 0; c < 3; ++c) {
-                const float drawn = normal(random);
-                const bool is_first = x % correlated == 0 && y % correlated == 0;
-                const unsigned bx = x - x % correlated, by = y - y % correlated;
-                const float shared = is_first ? drawn : image.pixel(bx, by)[c] / truth.pixel(bx, by)[c] - 1;
-                image.pixel(x, y)[c] *= is_first ? 1 + relative * drawn : 1 + shared;
-            }
+    for (size_t i = 0; i < image.values.size(); ++i)
+        image.values[i] *= 1 + float(relative.values[i / 3]) * normal(random);
     return image;
+}
+
+Plane constant(glm::uvec2 extent, double value) {
+    Plane plane(extent);
+    plane.values.assign(plane.values.size(), value);
+    return plane;
+}
+
+HostImage with_noise(const HostImage& truth, float relative, Random& random) {
+    return with_noise(truth, constant(truth.extent, relative), random);
+}
+
+/// A guide that is no good: it is off by a third, and more where it is dark.
+HostImage poor_guide(const HostImage& truth) {
+    HostImage guide = truth;
+    for (float& v : guide.values) v = 1.3f * v + 0.1f;
+    return guide;
+}
+
+/// Halves whose noise relative to the truth is `relative` each. Batches tell the variance with 14 degrees of freedom.
+ReferenceHalves noisy_halves(const HostImage& truth, const Plane& relative, Random& random) {
+    ReferenceHalves halves{.a = with_noise(truth, relative, random),
+                           .b = with_noise(truth, relative, random),
+                           .variance = truth,
+                           .guide = poor_guide(truth),
+                           .samples = 256};
+    std::chi_squared_distribution<float> chi_squared(14);
+    for (size_t i = 0; i < truth.values.size(); ++i) {
+        const float deviation = float(relative.values[i / 3]) * truth.values[i];
+        halves.variance.values[i] = deviation * deviation / 2 * chi_squared(random) / 14;
+    }
+    return halves;
 }
 
 HostImage mean_of(const HostImage& a, const HostImage& b) {
@@ -45,77 +69,159 @@ HostImage mean_of(const HostImage& a, const HostImage& b) {
     return mean;
 }
 
+/// What the metric says of the truth itself, with the weights of the guide.
 double exact(const char* metric, const HostImage& truth, const HostImage& test) {
-    return measure(metric_named(metric), image_pair(truth, test, {}));
+    const ReferenceHalves halves{
+        .a = truth, .b = truth, .variance = HostImage(truth.extent, 3), .guide = poor_guide(truth), .samples = 256};
+    const Mask all = full_mask(truth.extent);
+    return score(metric_reference(truth, halves, {metric}, {}), test, std::span(&all, 1)).front().value;
 }
 
 struct Simulation {
-    std::vector<double> corrected, naive;
-    int covered = 0;
+    std::vector<double> values, naive;
+    int intervals = 0, covered = 0;
+    double half_width = 0;  ///< mean
 };
 
 /// Many references of the same truth against one test image.
-Simulation simulate(const char* metric, const HostImage& truth, const HostImage& test, float relative_noise,
-                    int repeats, unsigned correlated) {
+Simulation simulate(const char* metric, const HostImage& truth, const HostImage& test, const Plane& relative_noise,
+                    int repeats, const Mask& mask) {
     Random random(11);
     Simulation result;
-    const Mask all = full_mask(truth.extent);
-    const double expected = exact(metric, truth, test);
+    const auto value_of = [&](const MetricReference& reference) {
+        return score(reference, test, std::span(&mask, 1)).front();
+    };
+    const ReferenceHalves none = noisy_halves(truth, constant(truth.extent, 0), random);
+    const double expected = value_of(metric_reference(truth, none, {metric}, {})).value;
     for (int i = 0; i < repeats; ++i) {
-        const HostImage a = with_noise(truth, relative_noise, random, correlated),
-                        b = with_noise(truth, relative_noise, random, correlated);
-        const MetricReference reference = metric_reference(mean_of(a, b), ReferenceHalves{a, b}, {metric}, {});
-        const Score s = score(reference, test, std::span(&all, 1)).front();
-        result.corrected.push_back(s.value);
+        const ReferenceHalves halves = noisy_halves(truth, relative_noise, random);
+        const Score s = value_of(metric_reference(mean_of(halves.a, halves.b), halves, {metric}, {}));
+        result.values.push_back(s.value);
         result.naive.push_back(s.uncorrected);
+        if (!s.low) continue;
+        ++result.intervals;
         result.covered += *s.low <= expected && expected <= *s.high;
+        result.half_width += (*s.high - *s.low) / 2;
     }
+    result.half_width /= result.intervals;
     return result;
+}
+
+/// Four standard deviations of 400 trials that cover 95 %, and 1 % that Student's t of a guessed number of degrees may
+/// be off by: a false alarm of 6e-5, and the seed is fixed.
+void expect_coverage(const Simulation& s, const char* what) {
+    EXPECT_EQ(s.intervals, 400) << what;
+    EXPECT_GE(s.covered, 400 * 0.94 - 4 * 4.36) << what;
+    EXPECT_LE(s.covered, 400 * 0.96 + 4 * 4.36 - 1) << what << ": wider than needed";
+}
+
+Mask some_pixels(glm::uvec2 extent, const std::vector<size_t>& pixels) {
+    Mask mask = full_mask(extent);
+    mask.inside.assign(mask.inside.size(), 0);
+    for (const size_t p : pixels) mask.inside[p] = 1;
+    return mask;
 }
 
 double standard_error(const Estimate& e, size_t n) { return (e.high - e.value) / (n > 100 ? 1.97 : 2.02); }
 
 }  // namespace
 
-TEST(Noise, CorrectedSquaredErrorIsUnbiased) {
-    const HostImage truth = truth_image({64, 64});
+TEST(Noise, CorrectedSquaredErrorsAreUnbiasedWhateverTheGuideIs) {
+    const HostImage truth = truth_image({24, 24});
     Random random(3);
     const HostImage test = with_noise(truth, 0.2f, random);
-    const double expected = exact("mse", truth, test);
-    const Simulation s = simulate("mse", truth, test, 0.3f, 200, 1);
-    const Estimate corrected = mean_estimate(s.corrected), naive = mean_estimate(s.naive);
-    // Four standard errors: a false alarm of 6e-5, and the seed is fixed.
-    EXPECT_NEAR(corrected.value, expected, 4 * standard_error(corrected, 200));
-    EXPECT_GT(naive.value, expected * 1.5);  // the reference's own noise: 0.3^2 / 2 on top of 0.2^2
+    for (const char* metric : {"mse", "relmse", "relmse_b", "relmse_c", "relmse_d"}) {
+        const double expected = exact(metric, truth, test);
+        const Simulation s = simulate(metric, truth, test, constant(truth.extent, 0.3), 200, full_mask(truth.extent));
+        const Estimate corrected = mean_estimate(s.values), naive = mean_estimate(s.naive);
+        // Four standard errors: a false alarm of 6e-5, and the seed is fixed.
+        EXPECT_NEAR(corrected.value, expected, 4 * standard_error(corrected, 200)) << metric;
+        EXPECT_LT(std::abs(corrected.value - expected), 0.25 * s.half_width) << metric;
+        EXPECT_GT(naive.value, expected * 1.5) << metric;  // the reference's own noise: 0.3^2 / 2 on top of 0.2^2
+    }
 }
 
 TEST(Noise, IntervalsCoverTheTruthAtTheirRate) {
-    const HostImage truth = truth_image({96, 96});
+    const glm::uvec2 extent(24, 24);
+    const HostImage truth = truth_image(extent);
     Random random(3);
     const HostImage test = with_noise(truth, 0.1f, random);
-    // 200 trials at 95 %: a standard deviation of 1.5 %; 3.5 of them either way, and 36 tiles leave 1 % of
-    // under-coverage. Noise shared by blocks of 8x8 pixels would be covered far too rarely if pixels were taken as
-    // independent.
-    for (const unsigned correlated : {1u, 8u}) {
-        const int covered = simulate("mse", truth, test, 0.2f, 200, correlated).covered;
-        EXPECT_GE(covered, 177) << correlated;
-        EXPECT_LE(covered, 199) << correlated;
-    }
-    const int covered = simulate("bias", truth, test, 0.2f, 200, 8).covered;
-    EXPECT_GE(covered, 177);
-    EXPECT_LE(covered, 199);
+    const Mask all = full_mask(extent);
+    const Plane even = constant(extent, 0.2);
+    for (const char* metric : {"mse", "rmse", "relmse", "bias", "energy_ratio"})
+        expect_coverage(simulate(metric, truth, test, even, 400, all), metric);
+
+    // One corner of 8x8 pixels is five times noisier.
+    Plane corner = constant(extent, 0.1);
+    for (unsigned y = 0; y < 8; ++y)
+        for (unsigned x = 0; x < 8; ++x) corner.row(y)[x] = 0.5;
+    expect_coverage(simulate("mse", truth, test, corner, 400, all), "a noisy corner");
+    const Mask ten = some_pixels(extent, {3, 19, 99, 140, 207, 300, 341, 441, 499, 570});
+    expect_coverage(simulate("bias", truth, test, even, 400, ten), "ten pixels");
+    // Three pixels of which each has ten times the deviation of the others.
+    Plane few = constant(extent, 0.02);
+    for (const size_t p : {100, 300, 500}) few.values[p] = 0.4;
+    expect_coverage(simulate("bias", truth, test, few, 400, all), "three pixels bear the noise");
 }
 
-TEST(Noise, RelativeErrorsAreCorrectedToAFewPercent) {
-    const HostImage truth = truth_image({64, 64});
+TEST(Noise, NoIntervalIsGivenWhereNoneWouldCover) {
+    const glm::uvec2 extent(48, 48);
+    const HostImage truth = truth_image(extent), test = poor_guide(truth);
+    Plane one = constant(extent, 0.001);
+    one.values[1000] = 0.5;
+    EXPECT_EQ(simulate("mse", truth, test, one, 20, full_mask(extent)).intervals, 0) << "one pixel bears the noise";
+    const Mask ten = some_pixels(extent, {3, 99, 300, 441, 640, 807, 999, 1203, 1500, 2001});
+    NoiseTerms terms(extent, 48);
+    for (double& v : terms.swapped.values) v = 2;
+    for (double& v : terms.variance.values) v = 4;
+    ASSERT_TRUE(noise_half_width(terms, ten));
+    EXPECT_NEAR(*noise_half_width(terms, ten), 2.228138852 * 2 * std::sqrt(10), 1e-8);  // t of 10 degrees, from tables
+    EXPECT_NEAR(*noise_half_width(terms, full_mask(extent)), 1.961003 * 2 * 48, 1e-3);  // of 2304
+    terms.samples = 16;
+    EXPECT_FALSE(noise_half_width(terms, ten)) << "160 samples miss what is rare";
+    EXPECT_TRUE(noise_half_width(terms, full_mask(extent)));
+}
+
+TEST(Noise, TheRatioOfMeansHasAnIntervalOfItsOwn) {
+    // x = 2 and R = 1 +- h: 2 / (1 + h) to 2 / (1 - h), not 2 +- 2 h.
+    const glm::uvec2 extent(20, 20);
+    ReferenceHalves halves{.a = HostImage(extent, 3, 1.1f),
+                           .b = HostImage(extent, 3, 0.9f),
+                           .variance = HostImage(extent, 3, 0.01f),
+                           .guide = HostImage(extent, 3, 1.0f),
+                           .samples = 16};
+    const Mask all = full_mask(extent);
+    const MetricReference reference = metric_reference(HostImage(extent, 3, 1.0f), halves, {"energy_ratio"}, {});
+    const Score s = score(reference, HostImage(extent, 3, 2.0f), std::span(&all, 1)).front();
+    const double h = 1.965912 * 0.1 / 20;  // t of 400 degrees; all pixels are off by 0.1
+    EXPECT_NEAR(s.value, 2, 1e-6);
+    EXPECT_NEAR(*s.low, 2 / (1 + h), 1e-6);
+    EXPECT_NEAR(*s.high, 2 / (1 - h), 1e-6);
+}
+
+TEST(Noise, ValuesOfSeveralFramesMoveAsTheirNoiseTells) {
+    // The noise of a score is its derivative: swapping the halves of one pixel moves the value by twice its term.
+    const glm::uvec2 extent(24, 24);
+    const HostImage truth = truth_image(extent);
     Random random(3);
-    const HostImage test = with_noise(truth, 0.2f, random);
-    const double expected = exact("relmse", truth, test);
-    const Simulation s = simulate("relmse", truth, test, 0.2f, 50, 1);
-    // The weight 1 / (r^2 + 0.01) comes from an estimate of r, so a bias of second order stays; the naive one is off by
-    // half.
-    EXPECT_NEAR(mean_estimate(s.corrected).value / expected, 1, 0.05);
-    EXPECT_GT(mean_estimate(s.naive).value / expected, 1.4);
+    const HostImage test = poor_guide(truth);
+    ReferenceHalves halves = noisy_halves(truth, constant(extent, 1e-3), random);
+    const Mask all = full_mask(extent);
+    for (const char* metric : {"mse", "rmse", "relmse", "bias", "energy_ratio"}) {
+        const auto value_of = [&](const HostImage& a, std::vector<NoiseTerms>* noise) {
+            ReferenceHalves only = halves;
+            only.a = only.b = a;
+            const MetricReference reference = metric_reference(a, noise ? halves : only, {metric}, {});
+            return score(reference, test, std::span(&all, 1), nullptr, noise).front().value;
+        };
+        std::vector<NoiseTerms> noise;
+        value_of(mean_of(halves.a, halves.b), &noise);
+        ASSERT_EQ(noise.size(), 1u);
+        double sum = 0;
+        for (const double v : noise[0].swapped.values) sum += v;
+        const double moved = (value_of(halves.a, nullptr) - value_of(halves.b, nullptr)) / 2;
+        EXPECT_NEAR(std::abs(sum), std::abs(moved), 2e-3 * std::abs(moved)) << metric << ": to first order";
+    }
 }
 
 TEST(Noise, EqualHalvesChangeNothing) {
@@ -124,34 +230,32 @@ TEST(Noise, EqualHalvesChangeNothing) {
     const HostImage test = with_noise(truth, 0.2f, random);
     const Mask all = full_mask(truth.extent);
     for (const char* name : {"mse", "rmse", "relmse", "relmse_b", "relmse_c", "relmse_d"}) {
-        const MetricReference reference = metric_reference(truth, ReferenceHalves{truth, truth}, {name}, {});
-        const Score s = score(reference, test, std::span(&all, 1)).front();
+        ReferenceHalves halves = noisy_halves(truth, constant(truth.extent, 0), random);
+        halves.guide = truth;
+        const Score s = score(metric_reference(truth, halves, {name}, {}), test, std::span(&all, 1)).front();
         EXPECT_TRUE(s.corrected);
         EXPECT_NEAR(s.value / s.uncorrected, 1, 1e-12) << name;  // the same sum, in another association
         EXPECT_EQ(*s.low, s.value) << name;
         EXPECT_EQ(*s.floor, 0) << name;
+        // With the truth as guide it is the metric of two images, whose formula has another name.
+        const Score plain = score(metric_reference(truth, std::nullopt, {name}, {}), test, std::span(&all, 1)).front();
+        EXPECT_NEAR(s.value / plain.value, 1, 1e-12) << name;
+        EXPECT_EQ(plain.formula, metric_named(name).formula);
+        EXPECT_EQ(s.formula == plain.formula, std::string(name) == "mse" || std::string(name) == "rmse") << s.formula;
     }
-}
-
-TEST(Noise, TheSmoothedReferenceIsNearerToTheTruth) {
-    const HostImage truth = truth_image({64, 64});
-    Random random(3);
-    const HostImage a = with_noise(truth, 0.3f, random), b = with_noise(truth, 0.3f, random);
-    EXPECT_LT(exact("mse", truth, without_noise(a, b)), 0.5 * exact("mse", truth, mean_of(a, b)));
-    EXPECT_EQ(without_noise(truth, truth).values, truth.values);
 }
 
 TEST(Score, RowsHoldMetricsTimesMasks) {
     const HostImage truth = truth_image({40, 30});
     Random random(3);
-    const HostImage a = with_noise(truth, 0.1f, random), b = with_noise(truth, 0.1f, random);
+    const ReferenceHalves halves = noisy_halves(truth, constant(truth.extent, 0.1), random);
     HostImage test = with_noise(truth, 0.1f, random);
     test.set_rgb(5, glm::vec3(NAN));
     std::vector<Mask> masks = {full_mask(truth.extent), full_mask(truth.extent)};
     masks[1].name = "none";
     masks[1].inside.assign(masks[1].inside.size(), 0);
     const MetricReference reference =
-        metric_reference(mean_of(a, b), ReferenceHalves{a, b}, {"mse", "flip", "bias"}, {});
+        metric_reference(mean_of(halves.a, halves.b), halves, {"mse", "flip", "bias"}, {});
     PixelCounts counts;
     const std::vector<Score> scores = score(reference, test, masks, &counts);
     ASSERT_EQ(scores.size(), 6u);

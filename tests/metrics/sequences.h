@@ -14,7 +14,11 @@ inline HostImage plus_noise(HostImage image, float deviation, Random& random) {
 
 /// A reference whose halves have noise of that deviation each.
 inline MetricReference noisy_reference(const HostImage& truth, float deviation, Random& random) {
-    ReferenceHalves halves{plus_noise(truth, deviation, random), plus_noise(truth, deviation, random)};
+    ReferenceHalves halves{.a = plus_noise(truth, deviation, random),
+                           .b = plus_noise(truth, deviation, random),
+                           .variance = HostImage(truth.extent, 3, deviation * deviation / 2),
+                           .guide = truth,
+                           .samples = 16};
     HostImage mean = truth;
     for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = (halves.a.values[i] + halves.b.values[i]) / 2;
     return metric_reference(std::move(mean), std::move(halves), {}, {});
