@@ -85,7 +85,7 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
         y[lane] = bits.y;
         is_wanted[lane] = lane < count;
         cell[lane] = vertex.light_cell;
-        point.set(lane, hit.ray_origin);
+        point.set(lane, hit.position);
     }
     LightLanes lights;
     scene.lights.sample(is_wanted, point, cell, x, y, lights);
