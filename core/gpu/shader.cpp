@@ -14,8 +14,13 @@
 
 namespace {
 
-const char* const fullscreen_triangle =
-    "void main() { gl_Position = vec4(vec2(gl_VertexIndex << 1 & 2, gl_VertexIndex & 2) * 2.0 - 1.0, 0.0, 1.0); }\n";
+/// `vertex`: the language's number of the vertex, 0 to 2.
+std::string fullscreen_triangle(const std::string& vertex) {
+    return "void main() { gl_Position = vec4(vec2(" + vertex + " << 1 & 2, " + vertex +
+           " & 2) * 2.0 - 1.0, 0.0, 1.0); }\n";
+}
+
+const char* const webgl2_version = "#version 300 es\n";
 
 /// GLSL ES 3.00 gives samplers low or no default precision, and knows no push constants: a uniform block takes their
 /// place, in which floats, ints and vec4 lie at the same offsets.
@@ -52,6 +57,16 @@ std::string expand_includes(const std::string& text, size_t file, std::vector<st
             << expand_includes(read_shader(name), included, files) << "#line " << number + 1 << ' ' << file << '\n';
     }
     return out.str();
+}
+
+/// The shader `files[index]` behind the prelude, which is file 0, with its includes, which are added to `files`.
+std::string complete_source(const std::string& prelude, size_t index, std::vector<std::string>& files) {
+    const std::string begin = expand_includes(prelude, 0, files);
+    return begin + "#line 1 " + std::to_string(index) + "\n" + expand_includes(read_shader(files[index]), index, files);
+}
+
+std::string webgl2_fragment(const std::string& prelude, std::vector<std::string>& files) {
+    return std::string(webgl2_version) + webgl2_preamble + "#line 1 0\n" + complete_source(prelude, 1, files);
 }
 
 /// glslang writes "ERROR: 3:17: ..." for line 17 of file 3.
@@ -122,6 +137,11 @@ std::string shader_prelude(const ParameterSet& params, ShaderLanguage language) 
            params.glsl(language == ShaderLanguage::webgl2);
 }
 
+Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude) {
+    std::vector<std::string> files = {"prelude", file};
+    return {.vertex = webgl2_version + fullscreen_triangle("gl_VertexID"), .fragment = webgl2_fragment(prelude, files)};
+}
+
 Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,
                ShaderLanguage language) {
     static const bool initialised = glslang::InitializeProcess();
@@ -129,20 +149,17 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
     const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
 
     std::vector<std::string> files = {"prelude", file};
-    const auto complete = [&](const std::string& name, size_t index) {
-        return expand_includes(prelude, 0, files) + "#line 1 " + std::to_string(index) + "\n" +
-               expand_includes(read_shader(name), index, files);
-    };
     std::vector<std::pair<EShLanguage, std::string>> sources;
     if (!is_compute && !webgl2) {
         if (vertex_file.empty()) {
-            sources.emplace_back(EShLangVertex, fullscreen_triangle);
+            sources.emplace_back(EShLangVertex, fullscreen_triangle("gl_VertexIndex"));
         } else {
             files.push_back(vertex_file);
-            sources.emplace_back(EShLangVertex, complete(vertex_file, files.size() - 1));
+            sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, files));
         }
     }
-    sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment, complete(file, 1));
+    sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment,
+                         webgl2 ? webgl2_fragment(prelude, files) : complete_source(prelude, 1, files));
 
     Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
@@ -154,9 +171,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         shader.setStrings(&lines, 1);
         shader.setEnvInput(glslang::EShSourceGlsl, stage, webgl2 ? glslang::EShClientOpenGL : glslang::EShClientVulkan,
                            100);
-        if (webgl2) {
-            shader.setPreamble(webgl2_preamble);
-        } else {
+        if (!webgl2) {
             // Vulkan 1.3 would make glslang emit LocalSizeId, which asks for a maintenance4 that 1.2 does without.
             shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
             shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
@@ -166,7 +181,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
                                     glslang::EResSsbo, glslang::EResUav})
                 shader.setShiftBinding(type, is_vertex ? first_vertex_binding : 0);
         }
-        if (!shader.parse(GetDefaultResources(), webgl2 ? 300 : 460, webgl2 ? EEsProfile : ECoreProfile, true, false,
+        if (!shader.parse(GetDefaultResources(), webgl2 ? 300 : 460, webgl2 ? EEsProfile : ECoreProfile, !webgl2, false,
                           rules))
             fail("cannot compile ", is_vertex ? vertex_file : file, ":\n", with_file_names(shader.getInfoLog(), files));
         program.addShader(&shader);

@@ -1,4 +1,4 @@
-"""What the tests of the report in a browser share: the browser, checks, canvas pixels."""
+"""What the tests in a browser share: the browser, and for those of the report checks and canvas pixels."""
 
 import os
 import sys
@@ -10,7 +10,7 @@ try:
     from selenium.webdriver.support.ui import Select
 except ImportError:
     sys.exit(
-        "the report is tested in a browser: install python3-selenium, chromium and chromium-driver (tests/run.sh does)"
+        "these tests run in a browser: install python3-selenium, chromium and chromium-driver (tests/run.sh does)"
     )
 
 CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
@@ -28,13 +28,13 @@ FLAGS = [
 ]
 
 
-def open_browser(profile):
+def open_browser(profile, flags=()):
     for program in (CHROMIUM, DRIVER):
         if not os.path.exists(program):
             sys.exit(f"{program} is missing: install chromium and chromium-driver (tests/run.sh does)")
     options = webdriver.ChromeOptions()
     options.binary_location = CHROMIUM
-    for flag in FLAGS + [f"--user-data-dir={profile}"]:
+    for flag in [*FLAGS, *flags, f"--user-data-dir={profile}"]:
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     try:

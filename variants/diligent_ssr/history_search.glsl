@@ -106,9 +106,13 @@ History search_by_device_depth(vec2 position, float now) {
 History history_near(vec2 position, float now) {
     bool is_found = is_alike(now, device_depth_before(ivec2(position)), alike);
     History history = History(radiance_before(position), position, is_found);
-    if (!history.is_found)
-        history = history_search == by_device_depth ? search_by_device_depth(position, now)
-                                                    : search_by_camera_depth(position, now);
+    // No ternary: browsers refuse it for structures, which GLSL ES 3.00 itself allows.
+    if (!history.is_found) {
+        if (history_search == by_device_depth)
+            history = search_by_device_depth(position, now);
+        else
+            history = search_by_camera_depth(position, now);
+    }
     history.is_found = history.is_found && is_inside(history.position);
     return history;
 }
