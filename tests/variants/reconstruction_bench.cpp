@@ -7,7 +7,8 @@ ReconstructionBench::ReconstructionBench(Device& device, glm::uvec2 extent, cons
     parameters.params.assign(overrides);
 }
 
-Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs) {
+Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs,
+                                         const DiligentFilterParameters* targets) {
     const auto upload = [&](const char* name, Format format, const HostImage& pixels) {
         const Image image = graph.image_of(name, format, pixels.extent);
         graph.upload(image, pixels);
@@ -23,7 +24,8 @@ Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs) {
     const DiligentMask mask{
         .roughness = upload("roughness", Format::r32f, inputs.roughness), .full = kept, .traced = kept};
     graph.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.depth, gbuffer.normal});
-    const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, parameters.filter);
+    const DiligentResolved resolved =
+        diligent_reconstruct(graph, gbuffer, rays, mask, targets ? *targets : parameters.filter);
     return {.radiance = graph.download(resolved.radiance),
             .variance = graph.download(resolved.variance),
             .hit_depth = graph.download(resolved.hit_depth)};

@@ -15,13 +15,14 @@ struct Reconstruction {
     HostImage radiance, variance, hit_depth;
 };
 
-/// Runs that pass on given inputs; what it leaves out keeps the values of the run before.
+/// Runs that pass on given inputs; what it leaves out keeps the values of the run before. `targets`: decides the formats
+/// in place of `parameters`, of which alone the shader knows.
 struct ReconstructionBench {
     PassGraph graph;
     DiligentParameters parameters;
 
     ReconstructionBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides);
-    Reconstruction run(const ReconstructionInputs& inputs);
+    Reconstruction run(const ReconstructionInputs& inputs, const DiligentFilterParameters* targets = nullptr);
 };
 
 /// One ray as intersection stores it; the default goes back towards an orthographic camera.

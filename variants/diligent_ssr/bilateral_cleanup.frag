@@ -3,6 +3,7 @@
 #include "core/shaders/view.glsl"
 #include "diligent_ssr/background.glsl"
 #include "diligent_ssr/camera_depth.glsl"
+#include "diligent_ssr/half.glsl"
 
 layout(location = 0) out vec4 reflections;
 
@@ -57,4 +58,5 @@ void main() {
     vec4 radiance = radius > 0 ? filtered(pixel, radius, depth_gradient) : texelFetch(accumulated_radiance, pixel, 0);
     if (premultiply_confidence) radiance.rgb = radiance.a > 0.0 ? radiance.rgb / radiance.a : vec3(0.0);
     reflections = vec4(radiance.rgb, radiance.a * alpha_interpolation);
+    if (!float_histories) reflections = as_halves(reflections);  // rgb / a may exceed what a half holds
 }

@@ -1,4 +1,5 @@
 // One ray per pixel of the targets, and what it meets.
+#include "diligent_ssr/half.glsl"
 #include "diligent_ssr/hit.glsl"
 #include "diligent_ssr/ray.glsl"
 
@@ -50,4 +51,7 @@ void main() {
     }
     float distance = length(view_from_march(end.position) - vs_origin);
     ray_direction = vec4(ws_direction * distance, sampled.density);
+    if (float_rays) return;
+    ray_radiance = as_halves(ray_radiance);
+    ray_direction = as_halves(ray_direction);
 }

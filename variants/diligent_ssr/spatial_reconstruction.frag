@@ -1,4 +1,5 @@
 // Second pass of DiligentFX's denoising, after the rays: each pixel reuses the rays of eight neighbours.
+#include "diligent_ssr/half.glsl"
 #include "diligent_ssr/luminance.glsl"
 #include "diligent_ssr/neighbor_rays.glsl"
 #include "diligent_ssr/reuse.glsl"
@@ -54,7 +55,7 @@ float mirrored_depth(Receiver receiver, float hit_distance) {
     vec3 ws_mirrored = receiver.ws_position - receiver.ws_to_camera * hit_distance;
     float camera_depth = axial_hit_depth ? dot(ws_eye() - ws_mirrored, ws_backward())
                                          : receiver.camera_distance + hit_distance;
-    return linear_hit_depth ? camera_depth : device_depth(camera_depth);
+    return linear_hit_depth ? camera_depth : as_half(device_depth(camera_depth));
 }
 
 void main() {
@@ -62,7 +63,7 @@ void main() {
     Receiver receiver = receiver_at(pixel);
     if (!spatial_reconstruction) {
         Ray ray = ray_at(own_ray_of(pixel));
-        resolved_radiance = ray.radiance;
+        resolved_radiance = float_histories ? ray.radiance : as_halves(ray.radiance);
         resolved_variance = unknown_variance;
         hit_depth = mirrored_depth(receiver, length(ray.ws_direction));
         return;
@@ -71,5 +72,9 @@ void main() {
     float weight = max(reuse.weight, 1e-6);
     resolved_radiance = reuse.radiance / weight;
     resolved_variance = reuse.squares / weight;
+    if (!float_histories) {
+        resolved_radiance = as_halves(resolved_radiance);
+        resolved_variance = as_half(resolved_variance);
+    }
     hit_depth = mirrored_depth(receiver, reuse.hit_distance);
 }
