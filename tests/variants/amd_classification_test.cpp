@@ -1,6 +1,7 @@
 #include "tests/variants/amd_golden.h"
 #include "tests/variants/variant_fixture.h"
 
+#include <cmath>
 #include <random>
 
 namespace {
@@ -108,6 +109,32 @@ TEST_F(AmdClassification, GivesRoughSurfacesTheFallbackAndAllOthersBlack) {
         for (unsigned x = 0; x < 96; ++x) {
             const bool is_rough_surface = *gbuffer.depth.pixel(x, y) != 1.0f && *found.confidence.pixel(x, y) == 0;
             EXPECT_EQ(found.radiance.pixel(x, y)[1], is_rough_surface ? 0.75f : 0.0f) << x << ", " << y;
+        }
+}
+
+/// Widths that 8 bits round across a limit. What later passes make of a pixel hangs on the alpha that they read: a glossy
+/// one below the threshold of 0.2, a mirror below 1e-4. By what is not rounded yet the original traces 0.199, which is
+/// then 51/255 and never denoised, and sends one ray per quad into 0.001, which is then a mirror's 0.
+TEST_F(AmdClassification, RateStoredRoughnessRatesAsLaterPassesDo) {
+    HostGBuffer gbuffer = patchwork({96, 64}, false);
+    for (const float alpha : {0.199f, 0.001f})
+        for (const bool is_rated_as_stored : {false, true}) {
+            SCOPED_TRACE(testing::Message() << alpha << ", as stored " << is_rated_as_stored);
+            for (size_t i = 3; i < gbuffer.normal.values.size(); i += 4) gbuffer.normal.values[i] = std::sqrt(alpha);
+            const AmdTraced found = amd_classify_frame(
+                device(), gbuffer,
+                {{"rate_stored_roughness", is_rated_as_stored}, {"guided_tracing", false}, {"samples_per_quad", 1}});
+            const HostImage rays = map_of_rays(found, gbuffer.extent());
+            unsigned glossy = 0, glossy_as_read = 0, traced = 0, mirrors_as_read = 0;
+            for (size_t i = 0; i < rays.pixel_count(); ++i) {
+                glossy += found.confidence.values[i] > 0;
+                glossy_as_read += found.roughness.values[i] < 0.2f;
+                traced += rays.values[i] > 0;
+                mirrors_as_read += found.roughness.values[i] < 1e-4f;
+            }
+            EXPECT_EQ(glossy == glossy_as_read, is_rated_as_stored || alpha < 0.1f);
+            EXPECT_EQ(traced >= mirrors_as_read, is_rated_as_stored || alpha > 0.1f);
+            EXPECT_GT(alpha < 0.1f ? mirrors_as_read : found.roughness.pixel_count() - glossy_as_read, 1000u);
         }
 }
 

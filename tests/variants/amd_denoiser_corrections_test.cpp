@@ -295,6 +295,25 @@ TEST_F(AmdDenoiserCorrections, FloatHistories) {
     EXPECT_LT(error[1], 0.5 * error[0]);
 }
 
+/// A variance of 1e-9 is 0 among halves, and a pixel without variance is not filtered: the checkered wall stays as it is.
+TEST_F(AmdDenoiserCorrections, FloatHistoriesFilterWhatHalvesTakeForNothing) {
+    for (const bool is_on : {false, true}) {
+        const DenoiserInputs inputs = facing_wall({.color = checkered});
+        DenoiserBench bench(device(), inputs.depth.extent, with("float_histories", is_on, "fast"));
+        bench.begin_frame(inputs, nullptr);
+        bench.fill(bench.histories.variance.current, glm::vec4(1e-9f));
+        bench.fill(bench.histories.average_radiance.current, glm::vec4(0.5f));
+        amd_prefilter(bench.graph, bench.work, bench.histories, bench.denoiser);
+        const float change = std::abs(at_center(bench, bench.histories.radiance.previous) -
+                                      at_center(bench, bench.histories.radiance.current));
+        if (is_on) {
+            EXPECT_GT(change, 0.05f);
+        } else {
+            EXPECT_EQ(change, 0);
+        }
+    }
+}
+
 /// The averages of the frame before the first are black.
 TEST_F(AmdDenoiserCorrections, WithoutStaleAverage) {
     for (const bool is_stale : {true, false}) {

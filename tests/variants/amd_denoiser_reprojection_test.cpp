@@ -2,6 +2,7 @@
 #include "tests/variants/variant_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 // Where in the last frame's image the denoiser looks for history: of a wall at z = 0, whose history is a ramp that
 // tells its own place.
@@ -58,12 +59,16 @@ struct AmdDenoiserReprojection : VariantTest {
     CameraPose before{.world_from_view = glm::translate(glm::mat4(1), {0, 0, 4}), .orthographic_height = 3};
     FrameView view{.extent = extent, .frame = 1};
 
-    /// Compares where history is found with where the point that each pixel shows was, in pixels.
-    void expect_true_history(const CameraPose& pose, float reflected_at, nlohmann::json parameters = {}) {
-        parameters["denoiser_form"] = "faithful";
+    /// Compares where history is found with where the point that each pixel shows was, in pixels; or with where the
+    /// point that far behind the wall was (m).
+    void expect_true_history(const CameraPose& pose, float reflected_at, nlohmann::json parameters = {},
+                             std::optional<float> looked_up_at = {}) {
+        if (!parameters.contains("denoiser_form")) parameters["denoiser_form"] = "faithful";
         parameters["float_histories"] = true;
         HostImage expected(extent, 2);
-        const DenoiserInputs now = wall_seen_by(pose, camera_data(pose, &before, view), reflected_at, &expected);
+        DenoiserInputs now =
+            wall_seen_by(pose, camera_data(pose, &before, view), looked_up_at.value_or(reflected_at), &expected);
+        for (size_t i = 0; i < now.radiance.pixel_count(); ++i) now.radiance.values[4 * i + 3] = reflected_at;
         const FrameView view_before{.extent = extent, .jitter = view.previous_jitter};
         const DenoiserInputs last = wall_seen_by(before, camera_data(before, nullptr, view_before), reflected_at);
         DenoiserBench bench(device(), extent, parameters);
@@ -107,6 +112,16 @@ TEST_F(AmdDenoiserReprojection, FollowsTheReflectedPointOrTheSurface) {
         expect_true_history(pose, 2);
         expect_true_history(pose, 0, along_surface);
     }
+}
+
+/// A camera that was behind the wall and looked at its back, so that what the wall reflects was behind it: the projection
+/// puts that on the other side of the screen. The wall itself was before it.
+TEST_F(AmdDenoiserReprojection, GuardPreviousClipDoesNotLookBehindTheCamera) {
+    const CameraPose pose{.world_from_view = glm::translate(glm::mat4(1), {0, 0, 4})};
+    before.world_from_view = glm::rotate(glm::translate(glm::mat4(1), {0, 0, -4}), 3.1f, glm::vec3(0, 1, 0));
+    for (const char* form : {"faithful", "fast"})
+        expect_true_history(
+            pose, 10, {{"guard_previous_clip", true}, {"reproject_history_depth", true}, {"denoiser_form", form}}, 0.0f);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "tests/variants/amd_scenes.h"
 #include "tests/variants/variant_fixture.h"
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace {
@@ -206,6 +207,19 @@ TEST_F(AmdSssrVariant, LeavesEverythingOutWhereNothingIsGlossy) {
 
     facts.min_roughness = 0.44f;  // alpha 0.194
     EXPECT_TRUE(make_variant("amd_sssr")->leave_out(facts).empty());
+
+    // What 8 bits make of alpha, 0.2 of both, decides with rate_stored_roughness.
+    const auto is_left_out = [&](float alpha, float threshold, bool is_rated_as_stored) {
+        facts.min_roughness = std::sqrt(alpha);
+        return !make_variant("amd_sssr", {{"roughness_threshold_alpha", threshold},
+                                          {"rate_stored_roughness", is_rated_as_stored}})
+                    ->leave_out(facts)
+                    .empty();
+    };
+    EXPECT_FALSE(is_left_out(0.199f, 0.1999f, false));
+    EXPECT_TRUE(is_left_out(0.199f, 0.1999f, true));
+    EXPECT_TRUE(is_left_out(0.2015f, 0.2005f, false));
+    EXPECT_FALSE(is_left_out(0.2015f, 0.2005f, true));
 }
 
 /// The first frame's noise, and with it its rays, are a function of seed and frame alone.

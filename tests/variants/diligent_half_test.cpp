@@ -49,7 +49,7 @@ TEST_F(DiligentHalves, OfRaysHoldWhatTheyAreGiven) {
         const HostImage radiance = graph.download(rays.radiance), direction = graph.download(rays.direction);
         HostImage density(direction.extent, 1);
         for (size_t i = 0; i < density.pixel_count(); ++i) density.values[i] = direction.values[4 * i + 3];
-        for (const HostImage* image : {&radiance, &direction, &density}) {
+        for (const HostImage* image : std::initializer_list<const HostImage*>{&radiance, &direction, &density}) {
             if (float_rays) {
                 EXPECT_GT(largest_of(*image), 1.2f * largest_half);
             } else {

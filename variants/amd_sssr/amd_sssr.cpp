@@ -22,7 +22,9 @@ Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
 }
 
 std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
-    const float smoothest_alpha = facts.min_roughness * facts.min_roughness;
+    const float exact_alpha = facts.min_roughness * facts.min_roughness;
+    const bool is_rounded = tracing_.rate_stored_roughness && !tracing_.float_roughness;
+    const float smoothest_alpha = is_rounded ? amd_alpha_of_8_bits(exact_alpha) : exact_alpha;
     is_left_out_ = !facts.has_reflective || smoothest_alpha >= tracing_.roughness_threshold_alpha;
     if (!is_left_out_) return {};
     const std::string fact =

@@ -24,8 +24,8 @@ Pixel classify(ivec2 position) {
     if (!pixel.is_surface || !has_specular(position)) return pixel;
     float perceptual = texelFetch(normal, position, 0).w;
     pixel.alpha = perceptual * perceptual;
-    pixel.is_glossy = pixel.alpha < roughness_threshold_alpha;
-    pixel.is_mirror = pixel.alpha < mirror_alpha;
+    pixel.is_glossy = is_glossy(pixel.alpha);
+    pixel.is_mirror = is_mirror(pixel.alpha);
     return pixel;
 }
 

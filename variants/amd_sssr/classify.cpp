@@ -1,5 +1,9 @@
 #include "variants/amd_sssr/passes.h"
 
+#include <cmath>
+
+float amd_alpha_of_8_bits(float alpha) { return std::floor(alpha * 255.0f + 0.5f) / 255.0f; }  // as lists.glsl
+
 AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& pyramid, const AmdHistories& histories,
                      const Image& confidence) {
     const glm::uvec2 extent = graph.extent(), tiles = (extent + 7u) / 8u;

@@ -14,6 +14,7 @@ struct Surface {
     float alpha;
     float history_depth;                // that the surface is expected to have in history (m)
     vec2 surface_uv, reflected_uv;      // in the last frame's images: of the surface; of the point it reflects
+    bool may_show_reflected;            // false where that point was behind the camera
 };
 
 // A look-up of the last frame.
@@ -25,12 +26,11 @@ struct History {
 
 const float history_rejected = -1.0;  // a factor
 
-// Where the point at `length_of_ray` beyond the surface, on the same line of sight, was on the last frame's screen: a
+// The point at `length_of_ray` beyond the surface, on the same line of sight, in the last frame's clip space: a
 // plane mirror shows it there (Stachowiak 2015, "Stochastic Screen-Space Reflections", hit point reprojection).
-vec2 uv_of_reflected_point(vec3 vs_position, float length_of_ray) {
+vec4 previous_clip_of_reflected_point(vec3 vs_position, float length_of_ray) {
     vec3 vs_point = vs_position + view_direction(vs_position) * length_of_ray;
-    vec4 clip = camera.previous_clip_from_world * (camera.world_from_view * vec4(vs_point, 1.0));
-    return clip.xy / clip.w * 0.5 + 0.5;
+    return camera.previous_clip_from_world * (camera.world_from_view * vec4(vs_point, 1.0));
 }
 
 Surface surface_of(ivec2 pixel, float alpha, float length_of_ray) {
@@ -38,10 +38,11 @@ Surface surface_of(ivec2 pixel, float alpha, float length_of_ray) {
     vec3 vs_position = view_from_screen(uv, texel(depth, pixel).r);
     vec4 ws_position = camera.world_from_view * vec4(vs_position, 1.0);
     float depth_before = (camera.previous_view_from_world * ws_position).z;
+    vec4 clip = previous_clip_of_reflected_point(vs_position, length_of_ray);
     return Surface(unit_or_zero(texel(normal, pixel).xyz), alpha,
                    abs(reproject_history_depth ? depth_before : vs_position.z),
                    uv - texel(motion, pixel).xy - jitter_before,
-                   uv_of_reflected_point(vs_position, length_of_ray) - jitter_before);
+                   clip.xy / clip.w * 0.5 + 0.5 - jitter_before, !guard_previous_clip || clip.w > 0.0);
 }
 
 float depth_in_history(vec2 uv, float device_depth) {
@@ -77,8 +78,8 @@ Candidate candidate_at(Surface surface, vec2 uv) {
                      abs(textureLod(previous_roughness, uv, 0.0).r - surface.alpha));
 }
 
-bool is_better(Candidate reflected, Candidate on_surface) {
-    return reflected.similarity > normal_similarity_threshold && reflected.similarity + 1e-3 > on_surface.similarity &&
+bool is_better(Surface surface, Candidate reflected, Candidate on_surface) {
+    return surface.may_show_reflected && reflected.similarity > normal_similarity_threshold && reflected.similarity + 1e-3 > on_surface.similarity &&
            reflected.alpha_change < on_surface.alpha_change + 1e-3;
 }
 

@@ -89,6 +89,9 @@ struct AmdDenoiserParameters {
     Switch reproject_history_depth{params, "reproject_history_depth", false,
         {"", "compares the depth of history with the depth that the surface had in the last frame's camera; the original "
          "compares with this frame's, and loses history when the camera moves along its axis", "ssrlab"}};
+    Switch guard_previous_clip{params, "guard_previous_clip", false,
+        {"", "points that were behind the camera have no history. The original divides by their negative w, and looks the "
+         "reflected point up on the other side of the screen", "ssrlab"}};
     Switch finite_neighborhood{params, "finite_neighborhood", false,
         {"", "clamps radiance to the largest half float before it is shared, and leaves non-finite neighbours out",
          "ssrlab; the overflow is FidelityFX SDK issue 186"}};

@@ -30,9 +30,6 @@ vec4 texel(sampler2D image, ivec2 pixel) { return is_in_image(pixel) ? texelFetc
 uvec2 packed_halves(vec4 color) { return uvec2(packHalf2x16(color.xy), packHalf2x16(color.zw)); }
 vec4 unpacked_halves(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
 
-bool is_glossy(float alpha) { return alpha < roughness_threshold_alpha; }
-bool is_mirror(float alpha) { return alpha < mirror_alpha; }
-
 bool is_finite(vec3 color) { return !any(isnan(color)) && !any(isinf(color)); }
 
 // Length 0 where there is no surface, as all comparisons with the original's NaN come out.

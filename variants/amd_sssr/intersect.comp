@@ -22,21 +22,21 @@ vec3 lit_at(vec2 uv) {
 
 Traced trace(ivec2 pixel) {
     float alpha = texelFetch(roughness, pixel, 0).r;
-    bool is_mirror = alpha < mirror_alpha;
-    int finest = is_mirror ? 0 : min(int(most_detailed_mip), textureQueryLevels(depth_pyramid) - 1);
+    bool shows_mirror = is_mirror(alpha);
+    int finest = shows_mirror ? 0 : min(int(most_detailed_mip), textureQueryLevels(depth_pyramid) - 1);
 
     vec2 uv = (vec2(pixel) + 0.5) * camera.extent.zw;
     vec3 origin = vec3(uv, surface_depth(ivec2(uv * camera.extent.xy / float(1 << finest)), finest));
     vec3 vs_origin = view_from_image(origin);
     vec3 view = view_direction(vs_origin), vs_normal = view_normal(pixel);
     vec2 u = texelFetch(blue_noise, pixel & 127, 0).xy;
-    vec3 direction = sample_reflection(pixel, view, vs_normal, alpha, is_mirror, u);
+    vec3 direction = sample_reflection(pixel, view, vs_normal, alpha, shows_mirror, u);
     // Where a mirror's lobe has no direction (guard_mirror_normal) the original's ray, too, is a miss of length 0.
     bool is_nowhere = any(isnan(direction));
     if (is_nowhere) direction = reflect(view, vs_normal);
     if (above_horizon && dot(direction, view_geometric_normal(pixel)) <= 0.0) return Traced(vec3(0.0), 0.0);
 
-    MarchEnd end = march_pyramid(screen_ray(origin, vs_origin, direction), finest, is_mirror);
+    MarchEnd end = march_pyramid(screen_ray(origin, vs_origin, direction), finest, shows_mirror);
     vec3 vs_ray = view_from_image(end.position) - vs_origin;
     bool is_rejected = is_nowhere || (reject_unfinished && end.is_unfinished);
     float confidence = is_rejected ? 0.0 : hit_confidence(origin, end.position, vs_ray, finest);

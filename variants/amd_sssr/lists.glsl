@@ -13,4 +13,12 @@ ivec2 pixel_of_ray(uint ray) { return ivec2(ray & 0x7fffu, ray >> 15 & 0x3fffu);
 // Below this alpha a surface is a mirror: it needs no random numbers, traces in every pixel and is not filtered in
 // space (SSSR 1.5, ffx_sssr_common.h).
 const float mirror_alpha = 1e-4;
+
+// The alpha by which a pixel is rated: as it is stored for the passes after classification; in 8 bits the nearest code,
+// rounded again, so that no device's conversion from and to it matters.
+float rated_alpha(float alpha) {
+    return rate_stored_roughness && !float_roughness ? floor(alpha * 255.0 + 0.5) / 255.0 : alpha;
+}
+bool is_glossy(float alpha) { return rated_alpha(alpha) < roughness_threshold_alpha; }
+bool is_mirror(float alpha) { return rated_alpha(alpha) < mirror_alpha; }
 #endif

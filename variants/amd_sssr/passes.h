@@ -20,6 +20,9 @@ struct AmdHistories {
 /// the original has 16 (11, 11, 10 for averages); `is_float_roughness`: alpha in 32 in place of 8 bits.
 AmdHistories amd_histories(PassGraph& graph, bool is_float, bool is_float_roughness);
 
+/// The alpha that 8 bits make of one: what pixels are rated by with rate_stored_roughness, unless float_roughness is on.
+float amd_alpha_of_8_bits(float alpha);
+
 /// What classification found to do, and the indirect arguments that start it.
 struct AmdWork {
     /// Bits 0-14 x, 15-28 y; copy to a neighbour in the quad: 29 the horizontal, 30 the vertical, 31 the diagonal one.

@@ -18,7 +18,7 @@ void share_neighborhood(ivec2 pixel, ivec2 local) {
 History first_history(Surface surface, Neighborhood around) {
     Candidate reflected = candidate_at(surface, surface.reflected_uv);
     Candidate on_surface = candidate_at(surface, surface.surface_uv);
-    if (is_better(reflected, on_surface))
+    if (is_better(surface, reflected, on_surface))
         return History(reflected.uv, textureLod(previous_radiance, reflected.uv, 0.0).rgb,
                        sameness_at(surface, reflected.uv, reflected.ws_normal));
     vec3 found = textureLod(previous_radiance, on_surface.uv, 0.0).rgb;

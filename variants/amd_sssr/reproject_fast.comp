@@ -21,7 +21,7 @@ struct Lookup {
 Lookup first_lookup(Surface surface, Neighborhood around) {
     Candidate candidate = candidate_at(surface, surface.reflected_uv);
     Candidate on_surface = candidate_at(surface, surface.surface_uv);
-    bool is_reflected = is_better(candidate, on_surface);
+    bool is_reflected = is_better(surface, candidate, on_surface);
     if (!is_reflected) candidate = on_surface;
     vec3 found = textureLod(previous_radiance, candidate.uv, 0.0).rgb;
     // Where all colours are nearly the same, their variance is what the rounding of sums has left, and so is the answer

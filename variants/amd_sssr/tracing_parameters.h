@@ -76,8 +76,12 @@ struct AmdTracingParameters {
     Switch far_misses{params, "far_misses", false,
         {"", "a ray that misses is as long as the far plane is away. The original stores the length to wherever it was "
          "given up, and the denoiser reprojects the environment from there", "ssrlab"}};
+    Switch rate_stored_roughness{params, "rate_stored_roughness", false,
+        {"", "classification rates pixels by alpha as the passes after it read it, rounded to 8 bits. The original rates "
+         "them by what is not rounded yet: an alpha between 0.198 and 0.2 is traced and never denoised, one below 0.002 "
+         "is rated as glossy here and as a mirror there", "ssrlab"}};
     Switch float_roughness{params, "float_roughness", false,
-        {"", "keeps alpha in 32 bits. In 8 bits an alpha below 0.002 is rated as glossy by one pass and as a mirror by "
-         "the next", "ssrlab; SSSR 1.5 stores R8_UNORM"}};
+        {"", "keeps alpha in 32 bits, by which all passes then rate pixels; in 8 bits widths differ from the surface's by "
+         "up to 0.002", "ssrlab; SSSR 1.5 stores R8_UNORM"}};
     // clang-format on
 };

@@ -23,7 +23,7 @@ mat3 basis_about(vec3 n) {
 vec3 sample_normal_near_mirror(vec3 o, float alpha, vec2 u, float bias) {
     vec3 v = normalize(vec3(alpha * o.xy, o.z));
     float height = (1.0 + v.z) * (1.0 - bias);  // of the kept cap
-    float cos_kept = 1.0 - height, sin_kept = sqrt(height * (2.0 - height));
+    float cos_kept = 1.0 - height, sin_kept = sqrt(max(height * (2.0 - height), 0.0));
     float sin_v = length(v.xy);
     // The margin between whole and kept cap: the whole reaches from z as far as -v does.
     float cos_margin = -v.z * cos_kept + sin_v * sin_kept, sin_margin = sin_v * cos_kept + v.z * sin_kept;
