@@ -8,6 +8,9 @@ TEST(NearMiss, SuggestsWhatWasProbablyMeant) {
     EXPECT_EQ(nearest_name("thicknes", names), "thickness");
     EXPECT_EQ(nearest_name("strdie", names), "stride");
     EXPECT_EQ(nearest_name("roughness_cutoff", names), "");
+    EXPECT_EQ(nearest_name("thickness", std::vector<std::string>{"stride", "relative_thickness"}),
+              "relative_thickness");
+    EXPECT_EQ(nearest_name("max", std::vector<std::string>{"stride", "max_rays_of_a_pixel"}), "");
     EXPECT_EQ(suggestion("zzz", names), "; known are: thickness, stride, max_steps");
 }
 

@@ -116,7 +116,7 @@ struct FrostbiteTruth : testing::Test {
                                      {"reuse_jacobian", true},
                                      {"half_resolution", false},
                                      {"hierarchical_below", 1.0},
-                                     {"thickness", 0.001},
+                                     {"relative_thickness", 0.001},
                                      {"importance_bias", 0.0},
                                      {"max_rays", 4}};
         parameters.update(changes);

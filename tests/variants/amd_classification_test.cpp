@@ -112,9 +112,9 @@ TEST_F(AmdClassification, GivesRoughSurfacesTheFallbackAndAllOthersBlack) {
         }
 }
 
-/// Widths that 8 bits round across a limit. What later passes make of a pixel hangs on the alpha that they read: a glossy
-/// one below the threshold of 0.2, a mirror below 1e-4. By what is not rounded yet the original traces 0.199, which is
-/// then 51/255 and never denoised, and sends one ray per quad into 0.001, which is then a mirror's 0.
+/// Widths that 8 bits round across a limit. What later passes make of a pixel hangs on the alpha that they read: a
+/// glossy one below the threshold of 0.2, a mirror below 1e-4. By what is not rounded yet the original traces 0.199,
+/// which is then 51/255 and never denoised, and sends one ray per quad into 0.001, which is then a mirror's 0.
 TEST_F(AmdClassification, RateStoredRoughnessRatesAsLaterPassesDo) {
     HostGBuffer gbuffer = patchwork({96, 64}, false);
     for (const float alpha : {0.199f, 0.001f})

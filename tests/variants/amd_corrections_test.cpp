@@ -1,10 +1,12 @@
 // Each correction of the tracer, on a G-buffer that shows what it mends.
 #include "tests/variants/amd_golden.h"
+#include "tests/variants/brute_force_hierarchy.h"
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <random>
 
 namespace {
 
@@ -35,14 +37,38 @@ double sum_of(const HostImage& radiance) {
 
 /// 120 rows are 7.5 texels of the pyramid's fourth level, as 1080 are 67.5: it has no texels for the last 8 rows, to
 /// which the ceiling's rays go.
-TEST_F(AmdCorrections, StopOutsideScreenFindsWhatOddLevelsLackWithReversedDepth) {
+TEST_F(AmdCorrections, RefinePartialTexelsFindsWhatOddLevelsLackWithReversedDepth) {
     pose.world_from_view = glm::translate(glm::mat4(1), {0, 0.8f, 0});
     const double standard = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
     view.depth_direction = DepthDirection::reversed;
     const double reversed = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
-    const double mended = sum_of(trace(ceiling_before_white, {{"stop_outside_screen", true}}));
+    const double mended = sum_of(trace(ceiling_before_white, {{"refine_partial_texels", true}}));
     EXPECT_LT(reversed, 0.9 * standard);
     EXPECT_NEAR(mended, standard, 0.01 * standard);
+}
+
+/// A floor that fills the image, whose rays leave upwards. 64 divides the height, so that all levels have a border at
+/// the top, which rays overstep by 0.005 pixels. In reversed depth what lies off the screen is far away, and the
+/// original goes on until its steps are used up.
+TEST_F(AmdCorrections, StopOutsideScreenEndsRaysAtTheBorder) {
+    view = {.extent = {64, 128}, .depth_direction = DepthDirection::reversed};
+    pose.world_from_view = glm::rotate(glm::mat4(1), -0.85f, glm::vec3(1, 0, 0));
+    const HostGBuffer gbuffer = gbuffer_of(floor_below_nothing);
+    const auto mean_height = [&](bool stops) {
+        const HostImage found = trace(gbuffer, {{"stop_outside_screen", stops}, {"clip_ray_to_near_plane", true}});
+        double sum = 0;
+        for (unsigned y = 0; y < view.extent.y; ++y) {
+            const CameraRay ray = camera_ray(pose, view.extent, glm::vec2(31, y) + 0.5f);
+            const glm::dvec3 mirrored(ray.direction * glm::vec3(1, -1, 1));
+            const glm::dvec3 vs_ray = glm::dmat3(gbuffer.camera.view_from_world) * mirrored;
+            const glm::dvec3 end =
+                view_point(gbuffer.depth, gbuffer.camera, {31, y}) + double(found.pixel(31, y)[3]) * vs_ray;
+            sum += screen_point(gbuffer.camera, end).y;
+        }
+        return sum / view.extent.y;
+    };
+    EXPECT_NEAR(mean_height(true), -0.005, 0.002);
+    EXPECT_LT(mean_height(false), -10);
 }
 
 TEST_F(AmdCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {
@@ -108,18 +134,39 @@ TEST_F(AmdCorrections, GuardZeroDirectionTracesAlongColumns) {
     EXPECT_NEAR(column, beside, 1);
 }
 
-/// A geometric normal that the shading normal turns rays below of.
-TEST_F(AmdCorrections, AboveHorizonBringsNoLightFromBelowTheGeometricSurface) {
+/// A geometric normal that the shading normal turns rays below of, before a wall of 1 and an environment of 0.5.
+TEST_F(AmdCorrections, InwardRaysMissOrBringNoLight) {
     HostGBuffer gbuffer = gbuffer_of(floor_before_white);
-    gbuffer.fallback = HostImage(gbuffer.extent(), 4, 1.0f);
+    gbuffer.fallback = HostImage(gbuffer.extent(), 4, 0.5f);
     for (size_t i = 0; i < gbuffer.normal.pixel_count(); ++i)
         gbuffer.geometric_normal.set_rgb(i, glm::normalize(glm::vec3(0, 0.05f, 1)));
-    const HostImage original = trace(gbuffer, nlohmann::json::object()),
-                    mended = trace(gbuffer, {{"above_horizon", true}});
-    for (unsigned x = 0; x < view.extent.x; ++x) {
-        EXPECT_EQ(original.pixel(x, 90)[0], 1);
-        EXPECT_EQ(mended.pixel(x, 90)[0], 0);
+    for (const auto& [choice, expected] : {std::pair("traced", 1.0f), {"missed", 0.5f}, {"black", 0.0f}}) {
+        const HostImage found = trace(gbuffer, {{"inward_rays", choice}});
+        for (unsigned x = 20; x < view.extent.x - 20; ++x)  // towards the border hits fade
+            EXPECT_NEAR(found.pixel(x, 90)[0], expected, 1e-4f) << choice;  // confidences are within 4e-5 of 1
     }
+}
+
+/// Where everything radiates 1, black are the rays that are drawn into the surface: of a rough floor seen at a slant
+/// several in a hundred, and none where directions are drawn again.
+TEST_F(AmdCorrections, RedrawBelowHorizonLeavesNoRayInTheSurface) {
+    std::mt19937 random(5);
+    for (float& number : noise.values) number = float(random() % 256) / 255;
+    HostGBuffer gbuffer = gbuffer_of([](const CameraRay& ray) {
+        SyntheticHit hit = mirror_floor(ray);
+        if (hit.metalness > 0) hit.roughness = 0.44f;
+        return hit;
+    });
+    for (HostImage* white : {&gbuffer.lit, &gbuffer.fallback}) *white = HostImage(gbuffer.extent(), 4, 1.0f);
+    const auto black = [&](bool redraws) {
+        const HostImage found = trace(gbuffer, {{"inward_rays", "black"}, {"redraw_below_horizon", redraws}});
+        unsigned count = 0;
+        for (size_t i = 0; i < found.pixel_count(); ++i)
+            count += gbuffer.base_color.values[4 * i + 3] > 0 && found.values[4 * i] == 0;
+        return count;
+    };
+    EXPECT_GT(black(false), 100u);
+    EXPECT_EQ(black(true), 0u);
 }
 
 /// The camera looks down on the wall, so that depth varies between its rows.

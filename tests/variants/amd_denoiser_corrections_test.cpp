@@ -295,7 +295,8 @@ TEST_F(AmdDenoiserCorrections, FloatHistories) {
     EXPECT_LT(error[1], 0.5 * error[0]);
 }
 
-/// A variance of 1e-9 is 0 among halves, and a pixel without variance is not filtered: the checkered wall stays as it is.
+/// A variance of 1e-9 is 0 among halves, and a pixel without variance is not filtered: the checkered wall stays as it
+/// is.
 TEST_F(AmdDenoiserCorrections, FloatHistoriesFilterWhatHalvesTakeForNothing) {
     for (const bool is_on : {false, true}) {
         const DenoiserInputs inputs = facing_wall({.color = checkered});

@@ -40,11 +40,10 @@ struct AmdDenoiserForms : VariantTest, testing::WithParamInterface<Case> {
     }
 };
 
-const nlohmann::json all_corrections = {{"current_sample_count", true},  {"no_dark_exit", true},
-                                        {"running_variance", true},      {"round_up_tiles", true},
-                                        {"relative_depth_weight", true}, {"reproject_history_depth", true},
-                                        {"guard_previous_clip", true},   {"finite_neighborhood", true},
-                                        {"fresh_neighborhood", true}};
+const nlohmann::json all_corrections = {
+    {"current_sample_count", true}, {"no_dark_exit", true},          {"running_variance", true},
+    {"round_up_tiles", true},       {"relative_depth_weight", true}, {"reproject_history_depth", true},
+    {"guard_previous_clip", true},  {"finite_neighborhood", true},   {"fresh_neighborhood", true}};
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 

@@ -114,14 +114,15 @@ TEST_F(AmdDenoiserReprojection, FollowsTheReflectedPointOrTheSurface) {
     }
 }
 
-/// A camera that was behind the wall and looked at its back, so that what the wall reflects was behind it: the projection
-/// puts that on the other side of the screen. The wall itself was before it.
+/// A camera that was behind the wall and looked at its back, so that what the wall reflects was behind it: the
+/// projection puts that on the other side of the screen. The wall itself was before it.
 TEST_F(AmdDenoiserReprojection, GuardPreviousClipDoesNotLookBehindTheCamera) {
     const CameraPose pose{.world_from_view = glm::translate(glm::mat4(1), {0, 0, 4})};
     before.world_from_view = glm::rotate(glm::translate(glm::mat4(1), {0, 0, -4}), 3.1f, glm::vec3(0, 1, 0));
     for (const char* form : {"faithful", "fast"})
-        expect_true_history(
-            pose, 10, {{"guard_previous_clip", true}, {"reproject_history_depth", true}, {"denoiser_form", form}}, 0.0f);
+        expect_true_history(pose, 10,
+                            {{"guard_previous_clip", true}, {"reproject_history_depth", true}, {"denoiser_form", form}},
+                            0.0f);
 }
 
 }  // namespace

@@ -82,8 +82,12 @@ AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nloh
     frame.graph.upload(numbers, noise);
     frame.classify();
     amd_prepare_arguments(frame.graph, frame.work);
-    amd_intersect(frame.graph, frame.gbuffer, frame.pyramid, numbers, frame.work, frame.histories);
-    return frame.result(1, 3);
+    amd_intersect(frame.graph, frame.gbuffer, frame.pyramid, numbers, frame.work, frame.histories,
+                  frame.parameters.tracing);
+    AmdTraced result = frame.result(1, 3);
+    if (frame.parameters.tracing.count_steps)
+        result.steps = frame.graph.download(frame.graph.image("march_steps", Format::r32f));
+    return result;
 }
 
 HostImage map_of_rays(const AmdTraced& traced, glm::uvec2 extent) {

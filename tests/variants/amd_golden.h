@@ -26,6 +26,7 @@ struct AmdTraced {
     HostImage radiance;                 ///< rgb, w length of the ray (m)
     HostImage roughness, confidence;
     std::vector<uint32_t> arguments;  ///< after intersection
+    HostImage steps;                  ///< with count_steps, after intersection
 };
 
 /// Runs one frame. `parameters` override the defaults; radiance is kept in 32 bits. `variance`: of the frame before, or

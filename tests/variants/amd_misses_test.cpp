@@ -17,14 +17,17 @@ struct AmdMisses : VariantTest {
                     .far = 100.0f};
     const FrameView view{.extent = {64, 48}};
 
-    void expect_environment(const Environment& environment, float ibl_factor) {
+    /// `misses`: the parameter; with "weight" rays see the pixel's fallback, here of 0.25.
+    void expect_environment(const Environment& environment, float ibl_factor, const std::string& misses = "fallback") {
         PassGraph graph(device(), view.extent);
         const CameraData camera = camera_data(pose, nullptr, view);
         const EnvironmentImages images(graph, environment, false);
         GBuffer gbuffer = upload_gbuffer(graph, pose, camera, floor_below_nothing);
         gbuffer.environment = &images;
-        const auto variant =
-            make_variant("amd_sssr", {{"denoise", false}, {"float_histories", true}, {"ibl_factor", ibl_factor}});
+        graph.upload(gbuffer.fallback, HostImage(view.extent, 4, 0.25f));
+        const auto variant = make_variant(
+            "amd_sssr",
+            {{"denoise", false}, {"float_histories", true}, {"ibl_factor", ibl_factor}, {"misses", misses}});
         graph.begin_frame(camera, variant->params, gbuffer.images());
         const HostImage found = graph.download(variant->render(graph, gbuffer).radiance);
         unsigned floor_pixels = 0;
@@ -34,7 +37,10 @@ struct AmdMisses : VariantTest {
                 const SyntheticHit hit = floor_below_nothing(ray);
                 if (hit.metalness == 0) continue;
                 ++floor_pixels;
-                const glm::vec3 expected = ibl_factor * environment.radiance(glm::reflect(ray.direction, hit.normal));
+                const glm::vec3 seen = misses == "fallback"
+                                           ? environment.radiance(glm::reflect(ray.direction, hit.normal))
+                                           : glm::vec3(0.25f);
+                const glm::vec3 expected = ibl_factor * seen;
                 for (int c = 0; c < 3; ++c)  // a chain of float32 matrices
                     EXPECT_NEAR(found.pixel(x, y)[c], expected[c], 1e-5f) << x << ", " << y;
             }
@@ -52,7 +58,8 @@ TEST_F(AmdMisses, SeeTheEnvironmentInTheDirectionOfTheirReflection) {
         pose.is_orthographic = is_orthographic;
         pose.orthographic_height = 5;
         if (is_orthographic) pose.world_from_view = glm::rotate(pose.world_from_view, -0.7f, glm::vec3(1, 0, 0));
-        for (const float ibl_factor : {1.0f, 0.4f}) expect_environment(gradient, ibl_factor);
+        for (const float ibl_factor : {1.0f, 0.4f})
+            for (const char* misses : {"fallback", "weight"}) expect_environment(gradient, ibl_factor, misses);
     }
 }
 

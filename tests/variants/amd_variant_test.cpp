@@ -211,8 +211,8 @@ TEST_F(AmdSssrVariant, LeavesEverythingOutWhereNothingIsGlossy) {
     // What 8 bits make of alpha, 0.2 of both, decides with rate_stored_roughness.
     const auto is_left_out = [&](float alpha, float threshold, bool is_rated_as_stored) {
         facts.min_roughness = std::sqrt(alpha);
-        return !make_variant("amd_sssr", {{"roughness_threshold_alpha", threshold},
-                                          {"rate_stored_roughness", is_rated_as_stored}})
+        return !make_variant("amd_sssr",
+                             {{"roughness_threshold_alpha", threshold}, {"rate_stored_roughness", is_rated_as_stored}})
                     ->leave_out(facts)
                     .empty();
     };

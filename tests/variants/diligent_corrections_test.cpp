@@ -44,23 +44,30 @@ TEST_F(DiligentCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {
 }
 
 /// A geometric normal that the shading normal turns rays below of.
-TEST_F(DiligentCorrections, AboveHorizonBringsNoLightFromBelowTheGeometricSurface) {
+TEST_F(DiligentCorrections, InwardRaysMissOrBringNoLight) {
     HostGBuffer gbuffer = gbuffer_of(floor_before_white);
     for (size_t i = 0; i < gbuffer.normal.pixel_count(); ++i)
         gbuffer.geometric_normal.set_rgb(i, glm::normalize(glm::vec3(0, 0.05f, 1)));
     EXPECT_GT(confidence_of(trace(gbuffer)), 3000);
-    const DiligentTraced mended = trace(gbuffer, {{"above_horizon", true}});
-    for (size_t i = 0; i < gbuffer.normal.pixel_count(); ++i)
-        if (glm::dot(mended.direction.rgb(i), gbuffer.geometric_normal.rgb(i)) <= 0) {
-            EXPECT_EQ(mended.radiance.values[4 * i + 3], 0) << i;
-        }
-    EXPECT_LT(confidence_of(mended), 300);
+    const DiligentTraced missed = trace(gbuffer, {{"inward_rays", "missed"}}),
+                         black = trace(gbuffer, {{"inward_rays", "black"}});
+    unsigned inward = 0;
+    for (size_t i = 0; i < gbuffer.normal.pixel_count(); ++i) {
+        const glm::vec3 direction = missed.direction.rgb(i);
+        if (direction == glm::vec3(0) || glm::dot(direction, gbuffer.geometric_normal.rgb(i)) > 0) continue;
+        ++inward;
+        EXPECT_EQ(missed.radiance.values[4 * i + 3], 0) << i;
+        EXPECT_EQ(black.radiance.values[4 * i + 3], 1) << i;
+        EXPECT_EQ(black.radiance.rgb(i), glm::vec3(0)) << i;
+    }
+    EXPECT_GT(inward, 3000u);
+    EXPECT_LT(confidence_of(missed), 300);
 }
 
 TEST_F(DiligentCorrections, RejectUnfinishedIgnoresWhereRaysAreGivenUp) {
     pose.world_from_view = glm::mat4(1);
     const HostGBuffer gbuffer = gbuffer_of(floor_before_white);
-    const nlohmann::json few_steps = {{"max_traversal_intersections", 3}, {"depth_buffer_thickness", 1.0}};
+    const nlohmann::json few_steps = {{"max_traversal_intersections", 3}, {"relative_depth_buffer_thickness", 1.0}};
     nlohmann::json rejected = few_steps;
     rejected["reject_unfinished"] = true;
     EXPECT_GT(confidence_of(trace(gbuffer, few_steps)), 100);

@@ -12,7 +12,7 @@ const glm::vec2 uv_from_ndc_motion{0.5f, -0.5f};
 
 nlohmann::json our_names(const nlohmann::json& recorded, const std::string& set) {
     static const std::map<std::string, std::string> ours = {
-        {"DepthBufferThickness", "depth_buffer_thickness"},
+        {"DepthBufferThickness", "relative_depth_buffer_thickness"},
         {"GGXImportanceSampleBias", "ggx_importance_sample_bias"},
         {"MostDetailedMip", "most_detailed_mip"},
         {"MaxTraversalIntersections", "max_traversal_intersections"},

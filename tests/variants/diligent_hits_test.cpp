@@ -112,7 +112,7 @@ TEST_F(DiligentHits, PreviousFrameShowsWhereHitsWereThen) {
     HostGBuffer encoded = gbuffer;
     encode_hits(encoded);
     const HostImage found =
-        trace(gbuffer, {{"previous_frame", true}, {"depth_buffer_thickness", 0.5}}, &encoded.lit).radiance;
+        trace(gbuffer, {{"previous_frame", true}, {"relative_depth_buffer_thickness", 0.5}}, &encoded.lit).radiance;
     unsigned shown = 0, wrong = 0, faded_now = 0, faded_then = 0;
     for (unsigned y = 0; y < view.extent.y; ++y)
         for (unsigned x = 0; x < view.extent.x; ++x) {
@@ -184,7 +184,7 @@ TEST_F(DiligentHits, AreFoundByAnOrthographicCamera) {
     pose.is_orthographic = true;
     pose.orthographic_height = 5;
     pose.world_from_view = glm::rotate(glm::translate(glm::mat4(1), {0, 2.5f, 3}), -0.5f, glm::vec3(1, 0.1f, 0.2f));
-    const Quality found = quality({{"depth_buffer_thickness", 0.5}});
+    const Quality found = quality({{"relative_depth_buffer_thickness", 0.5}});
     EXPECT_GT(found.rays, 2000u);
     EXPECT_GT(found.right, 0.99);
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/constants.hpp>
 #include <random>
 
@@ -138,6 +139,23 @@ TEST_F(DiligentRay, IsAMirrorsOwnForARoughnessOfZero) {
     for (const float number : {0.0f, 0.3f, 1.0f}) {
         noise = HostImage({128, 128}, 2, number);
         EXPECT_LT(degrees_from_mirror(rays(60, {{"ggx_importance_sample_bias", 0.0}}, 0.0f), 60), 1e-4) << number;
+    }
+}
+
+/// The unit normals that the height of a cap comes from are rounded: it may exceed that of a whole sphere.
+TEST_F(DiligentRay, CapsReachARimWhateverTheirHeightIsRoundedTo) {
+    DiligentParameters parameters;
+    PassGraph graph(device(), {1, 1});
+    const Buffer sines = graph.buffer("Sines", 9 * sizeof(float));
+    graph.begin_frame({}, parameters.params, {});
+    graph.compute("cap_sine.comp").use(sines).dispatch_groups({1, 1, 1});
+    const std::vector<std::byte> bytes = graph.download(sines);
+    float found[9];
+    std::memcpy(found, bytes.data(), sizeof found);
+    for (int i = 0; i < 9; ++i) {
+        const double height = 2 + (i <= 4 ? 0x1p-23 : 0x1p-22) * (i - 4);
+        const double expected = i <= 4 ? std::sqrt(height * (2 - height)) : 0;
+        EXPECT_NEAR(found[i], expected, 1e-6 * expected) << height;
     }
 }
 

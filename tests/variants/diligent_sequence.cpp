@@ -62,10 +62,10 @@ HostImage DiligentSequence::render(Variant& variant, const std::vector<HostGBuff
 }
 
 HostImage DiligentSequence::composited_incident(Variant& variant, std::vector<HostGBuffer> frames, float fallback) {
-    HostGBuffer& last = frames.back();
+    for (HostGBuffer& frame : frames) frame.fallback = HostImage(view.extent, 4, fallback);
+    const HostGBuffer& last = frames.back();
     const HostImage reflections = render(variant, frames);
     PassGraph graph(device(), view.extent);
-    last.fallback = HostImage(view.extent, 4, fallback);
     const GBuffer gbuffer = upload_gbuffer(graph, last);
     const Image uploaded = graph.image("reflections", Format::rgba32f);
     graph.upload(uploaded, reflections);

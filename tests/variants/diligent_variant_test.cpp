@@ -197,8 +197,9 @@ TEST_F(DiligentMirror, HistoryFollowsTheMirrorImage) {
 // The composite.
 
 /// Everything radiates 1: whatever the confidence, the composite should be 1. Where half of the rays hit, the original
-/// takes the other half for black before it takes it for the fallback.
-TEST_F(DiligentVariant, WhiteDipsToThreeQuartersUnlessPremultiplied) {
+/// takes the other half for black before it takes it for the fallback. Rays that see the environment where they miss
+/// know all there is.
+TEST_F(DiligentVariant, WhiteDipsToThreeQuartersUnlessPremultipliedOrMissesSeeTheEnvironment) {
     view.extent = {160, 120};
     speed = glm::vec3(0);  // held: moved mirrors would mix confidences, too
     for (const float roughness : {0.0f, 0.05f, 0.1f, 0.19f}) {
@@ -210,14 +211,15 @@ TEST_F(DiligentVariant, WhiteDipsToThreeQuartersUnlessPremultiplied) {
                 return hit;
             };
         });
-        for (const bool is_premultiplied : {false, true}) {
-            SCOPED_TRACE(testing::Message() << roughness << ", premultiplied " << is_premultiplied);
-            const auto variant = make_variant("diligent_ssr", {{"premultiply_confidence", is_premultiplied}});
+        for (const nlohmann::json& parameters :
+             {nlohmann::json::object(), {{"premultiply_confidence", true}}, {{"misses", "fallback"}}}) {
+            SCOPED_TRACE(testing::Message() << roughness << ", " << parameters);
+            const auto variant = make_variant("diligent_ssr", parameters);
             const HostImage incident = composited_incident(*variant, hosts, 1.0f);
             const auto [low, high] = std::ranges::minmax(incident.values);
             const float lost = 0x1p-9f;  // colour and confidence are halves, which may be truncated
             EXPECT_LT(high, 1 + lost);
-            if (is_premultiplied || roughness == 0) {
+            if (!parameters.empty() || roughness == 0) {
                 EXPECT_GT(low, 1 - lost);
             } else {
                 EXPECT_NEAR(low, 0.75f, 0.003f);

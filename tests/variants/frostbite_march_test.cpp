@@ -121,7 +121,7 @@ struct FrostbiteMarch : VariantTest {
     Found march(const PixelRay& ray) { return march(std::vector{ray}, false).front(); }
 
     PixelMarchResult truth(const PixelRay& ray) const {
-        return march_every_pixel(depth, camera, ray, parameters.thickness);
+        return march_every_pixel(depth, camera, ray, parameters.relative_thickness);
     }
 
     /// Over 1920x1080: a fence of poles three pixels wide, with two wires and a board of 300 pixels, 2 m away before a
@@ -161,8 +161,8 @@ struct FrostbiteMarch : VariantTest {
         size_t hits = 0, close_calls = 0;
         for (size_t i = 0; i < rays.size(); ++i) {
             const PixelMarchResult expected =
-                is_linear ? march_equal_steps(depth, camera, rays[i], parameters.thickness, parameters.linear_steps,
-                                              parameters.linear_refinements)
+                is_linear ? march_equal_steps(depth, camera, rays[i], parameters.relative_thickness,
+                                              parameters.linear_steps, parameters.linear_refinements)
                           : truth(rays[i]);
             hits += expected.is_hit;
             // Depth is affine on the screen to a few 1e-7 of its range, and a ray's length is found from its place
@@ -304,7 +304,7 @@ TEST_F(FrostbiteMarch, FindsTheHitWithinItsStep) {
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 100; x < extent.x; ++x) *depth.pixel(x, y) = device_depth(5);
     *depth.pixel(20, 60) = device_depth(5.02f);
-    params.assign({{"linear_steps", 8}, {"thickness", 0.05}});
+    params.assign({{"linear_steps", 8}, {"relative_thickness", 0.05}});
     for (const float jitter : {0.1f, 0.5f, 0.9f}) {
         PixelRay ray = ray_from({20, 60}, {1, 0, 0});
         ray.jitter = jitter;
@@ -364,7 +364,7 @@ TEST_F(FrostbiteMarch, EndsAtTheNearPlane) {
     make_wall(20);
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 0; x < 60; ++x) *depth.pixel(x, y) = device_depth(0.2f);
-    params.assign({{"thickness", 10.0}});
+    params.assign({{"relative_thickness", 10.0}});
     EXPECT_FALSE(march(ray_from({97, 65}, {0.02f, 0.001f, 1.0f})).is_hit);
 }
 

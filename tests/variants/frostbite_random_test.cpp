@@ -187,7 +187,7 @@ TEST_F(FrostbiteRandom, DrawsTheMarchApartFromTheDirection) {
     parameters.params.assign({{"classification", false},
                               {"linear_steps", 1},
                               {"linear_refinements", 0},
-                              {"thickness", 10.0},
+                              {"relative_thickness", 10.0},
                               {"front_faces_only", false}});
     PassGraph graph(device(), {160, 160});  // 4 m
     const CameraData camera = camera_data(pose, nullptr, {.extent = graph.extent()});

@@ -304,7 +304,7 @@ TEST_F(FrostbiteRaysTest, MissWhatTheyMeetFromBehind) {
         parameters.params.assign({{"classification", false},
                                   {"half_resolution", false},
                                   {"hierarchical_below", hierarchical_below},
-                                  {"thickness", 1.0}});
+                                  {"relative_thickness", 1.0}});
         const FrostbiteTraced found = trace(mirror_and_panel);
         parameters.params.assign({{"front_faces_only", false}});
         const FrostbiteTraced unchecked = trace(mirror_and_panel);

@@ -218,7 +218,7 @@ struct FrostbiteThinObject : FrostbiteProbes {
                 const glm::vec4 v = camera.view_from_clip * glm::vec4(ndc, *depth.pixel(x, y), 1);
                 const glm::vec3 origin = glm::vec3(v) / v.w, up(0, 1, 0);
                 const PixelRay ray{{x, y}, origin, glm::reflect(glm::normalize(origin), up), up};
-                if (march_every_pixel(depth, camera, ray, parameters.ray.thickness).is_hit) tiles.insert(tile);
+                if (march_every_pixel(depth, camera, ray, parameters.ray.relative_thickness).is_hit) tiles.insert(tile);
             }
         return tiles;
     }

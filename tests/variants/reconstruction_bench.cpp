@@ -7,8 +7,7 @@ ReconstructionBench::ReconstructionBench(Device& device, glm::uvec2 extent, cons
     parameters.params.assign(overrides);
 }
 
-Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs,
-                                         const DiligentFilterParameters* targets) {
+Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs, const DiligentFilterParameters* targets) {
     const auto upload = [&](const char* name, Format format, const HostImage& pixels) {
         const Image image = graph.image_of(name, format, pixels.extent);
         graph.upload(image, pixels);

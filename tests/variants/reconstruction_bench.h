@@ -15,8 +15,8 @@ struct Reconstruction {
     HostImage radiance, variance, hit_depth;
 };
 
-/// Runs that pass on given inputs; what it leaves out keeps the values of the run before. `targets`: decides the formats
-/// in place of `parameters`, of which alone the shader knows.
+/// Runs that pass on given inputs; what it leaves out keeps the values of the run before. `targets`: decides the
+/// formats in place of `parameters`, of which alone the shader knows.
 struct ReconstructionBench {
     PassGraph graph;
     DiligentParameters parameters;

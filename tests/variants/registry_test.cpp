@@ -3,6 +3,7 @@
 #include "tests/variants/variant_fixture.h"
 
 #include <filesystem>
+#include <map>
 
 namespace {
 
@@ -51,6 +52,26 @@ TEST(Registry, DescribesEveryVariantInFull) {
         for (const Parameter& p : variant->params)
             EXPECT_FALSE(p.doc.empty() || p.source.empty()) << entry.name << ": " << p.name;
     }
+}
+
+/// Papers compare techniques by the names of their parameters.
+TEST(Registry, ParametersOfOneNameAreOfOneUnitAndKind) {
+    std::map<std::string, std::pair<std::string, const Parameter*>> known;
+    std::vector<std::unique_ptr<Variant>> variants;
+    unsigned shared = 0;
+    for (const VariantEntry& entry : variant_table()) {
+        variants.push_back(entry.create());
+        for (const Parameter& p : variants.back()->params) {
+            const auto [first, is_new] = known.try_emplace(p.name, entry.name, &p);
+            if (is_new) continue;
+            ++shared;
+            const std::string where = p.name + " of " + entry.name + " and " + first->second.first;
+            EXPECT_EQ(p.unit, first->second.second->unit) << where;
+            EXPECT_EQ(p.glsl_type, first->second.second->glsl_type) << where;
+            EXPECT_EQ(p.choices, first->second.second->choices) << where;
+        }
+    }
+    EXPECT_GE(shared, 10u);
 }
 
 /// All parameter sets of one variant share its folder's shaders.

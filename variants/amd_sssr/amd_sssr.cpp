@@ -16,7 +16,7 @@ Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
                             ? noise_.render(graph, NoiseShift::r2, NoisePrecision::float_32)
                             : noise_.render(graph, NoiseShift::golden_diagonal);
     amd_prepare_arguments(graph, work);
-    amd_intersect(graph, gbuffer, pyramid, noise, work, histories);
+    amd_intersect(graph, gbuffer, pyramid, noise, work, histories, tracing_);
     if (denoiser_.denoise) amd_denoise(graph, gbuffer, work, histories, denoiser_);
     return {histories.radiance.current, confidence};
 }

@@ -128,7 +128,7 @@ History history_of(SameTexels sum, Surface surface, vec2 uv) {
 
 // Never in the first frame, whose history is black; the original's depth history is 0 then, which matches no surface.
 bool is_usable(History history) {
-    return camera.frame.w == 1u && history.factor >= disocclusion_threshold &&
+    return reprojection && camera.frame.w == 1u && history.factor >= disocclusion_threshold &&
            all(greaterThan(history.uv, vec2(0.0))) && all(lessThan(history.uv, vec2(1.0)));
 }
 

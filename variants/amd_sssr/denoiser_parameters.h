@@ -9,6 +9,12 @@ struct AmdDenoiserParameters {
     // clang-format off
     Switch denoise{params, "denoise", true,
         {"", "runs the denoiser; otherwise the rays' radiance is the result", "ssrlab, for the study of the rays alone"}};
+    Switch reprojection{params, "reprojection", true,
+        {"", "looks history up; otherwise no pixel has any", "ssrlab, to measure the stage"}};
+    Switch prefilter{params, "prefilter", true,
+        {"", "filters over neighbours", "ssrlab, to measure the stage"}};
+    Switch temporal_resolve{params, "temporal_resolve", true,
+        {"", "accumulates; otherwise the prefilter's output is the result", "ssrlab, to measure the stage"}};
     Param<float> temporal_stability_factor{params, "temporal_stability_factor", 0.7f, {0.0f, 1.0f},
         {"", "scales the box of neighbouring colours that history is clipped to", "SSSR 1.5, temporalStabilityFactor"}};
     Param<float> max_samples{params, "max_samples", 32.0f, {1.0f, 1024.0f},

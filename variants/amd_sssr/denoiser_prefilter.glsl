@@ -11,7 +11,7 @@ uniform writeonly image2D prefiltered_radiance, prefiltered_variance;
 void store_filtered(ivec2 pixel, Filter filtered) {
     Neighbor center = filtered.center;
     float alpha = texelFetch(roughness, pixel, 0).r;
-    bool is_filtered = center.variance > 0.0 && is_glossy(alpha) && !is_mirror(alpha);
+    bool is_filtered = prefilter && center.variance > 0.0 && is_glossy(alpha) && !is_mirror(alpha);
     vec4 result = is_filtered ? filter_result(filtered) : vec4(center.color, center.variance);
     imageStore(prefiltered_radiance, pixel, vec4(result.rgb, 0.0));
     imageStore(prefiltered_variance, pixel, vec4(result.w));

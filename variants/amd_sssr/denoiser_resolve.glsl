@@ -24,9 +24,10 @@ void resolve(ivec2 pixel, vec3 present, Neighborhood around) {
     float alpha = texelFetch(roughness, pixel, 0).r;
     if (is_final(alpha)) return;
     vec4 result = vec4(present, texelFetch(prefiltered_variance, pixel, 0).r);
-    if (!no_dark_exit && present.r + present.g + present.b < dark_exit_radiance) {
+    bool is_dark = present.r + present.g + present.b < dark_exit_radiance;
+    if (temporal_resolve && !no_dark_exit && is_dark) {
         result = vec4(0.0);
-    } else if (is_glossy(alpha)) {
+    } else if (temporal_resolve && is_glossy(alpha)) {
         float samples = texelFetch(sample_count, pixel, 0).r;
         vec3 history = texelFetch(reprojected_radiance, pixel, 0).rgb;
         result = accumulate(present, result.w, history, samples, average_around(pixel), around);

@@ -4,11 +4,14 @@
 #include "amd_sssr/lists.glsl"
 #include "amd_sssr/march.glsl"
 #include "amd_sssr/reflection.glsl"
+#include "common/inward_rays.glsl"
 #include "core/shaders/gbuffer/environment.glsl"
 
 layout(local_size_x = 64) in;
-uniform sampler2D roughness, blue_noise, lit;
-uniform writeonly image2D radiance;
+uniform sampler2D roughness, blue_noise, lit, fallback;
+uniform writeonly image2D radiance, march_steps;
+
+const uint misses_see_environment = 1u;
 
 struct Traced {
     vec3 radiance;
@@ -34,16 +37,19 @@ Traced trace(ivec2 pixel) {
     // Where a mirror's lobe has no direction (guard_mirror_normal) the original's ray, too, is a miss of length 0.
     bool is_nowhere = any(isnan(direction));
     if (is_nowhere) direction = reflect(view, vs_normal);
-    if (above_horizon && dot(direction, view_geometric_normal(pixel)) <= 0.0) return Traced(vec3(0.0), 0.0);
+    bool is_inward = inward_rays > 0u && dot(direction, view_geometric_normal(pixel)) <= 0.0;
+    if (is_inward && inward_rays == inward_rays_black) return Traced(vec3(0.0), 0.0);
 
     MarchEnd end = march_pyramid(screen_ray(origin, vs_origin, direction), finest, shows_mirror);
     vec3 vs_ray = view_from_image(end.position) - vs_origin;
-    bool is_rejected = is_nowhere || (reject_unfinished && end.is_unfinished);
+    bool is_rejected = is_nowhere || is_inward || march == not_at_all || (reject_unfinished && end.is_unfinished);
     float confidence = is_rejected ? 0.0 : hit_confidence(origin, end.position, vs_ray, finest);
     vec3 hit = confidence > 0.0 ? lit_at(end.position.xy) : vec3(0.0);
-    vec3 environment = ibl_factor * environment_along_ray(pixel, mat3(camera.world_from_view) * direction);
+    vec3 missed = misses == misses_see_environment
+                      ? environment_along_ray(pixel, mat3(camera.world_from_view) * direction)
+                      : texelFetch(fallback, pixel, 0).rgb;
     float distance = confidence > 0.0 || !far_misses ? length(vs_ray) : camera.depth.y;
-    return Traced(mix(environment, hit, confidence), is_nowhere || isnan(distance) ? 0.0 : distance);
+    return Traced(mix(ibl_factor * missed, hit, confidence), is_nowhere || isnan(distance) ? 0.0 : distance);
 }
 
 void main() {
@@ -52,6 +58,7 @@ void main() {
     uint ray = listed_ray[index];
     ivec2 pixel = pixel_of_ray(ray);
     Traced traced = trace(pixel);
+    if (count_steps) imageStore(march_steps, pixel, vec4(float(steps_taken)));
 
     vec4 result = vec4(traced.radiance, traced.ray_length);
     imageStore(radiance, pixel, result);

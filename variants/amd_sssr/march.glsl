@@ -4,7 +4,7 @@
 #include "amd_sssr/screen.glsl"
 #include "common/hierarchy_walk.glsl"
 
-const uint as_in_sdk = 0u;  // parameter `march`
+const uint as_in_sdk = 0u, not_at_all = 2u;  // parameter `march`
 
 vec3 inverse_of(vec3 direction) {
     // The original compares whole vectors: a single zero passes, and infinities meet in the products below.
@@ -30,18 +30,20 @@ bool gives_up() {
     return min_traversal_occupancy > 0u && subgroupBallotBitCount(subgroupBallot(true)) <= min_traversal_occupancy;
 }
 
+uint steps_taken = 0u;  // of this invocation's march
+
 // `finest`: level of the pyramid at which a surface counts as met.
 MarchEnd march_pyramid(ScreenRay ray, int finest, bool is_mirror) {
+    if (march == not_at_all) return MarchEnd(ray.origin, true);
     int coarsest = textureQueryLevels(depth_pyramid) - 1;
     Walk walk = begin_walk(ray, finest);
-    uint step = 0u;
     bool has_given_up = false;
-    while (step < max_traversal_intersections && walk.level >= finest && !has_given_up) {
+    while (steps_taken < max_traversal_intersections && walk.level >= finest && !has_given_up) {
         if (stop_outside_screen && is_outside(walk.position.xy)) return MarchEnd(walk.position, true);
         float surface = surface_depth(ivec2(walk.resolution * walk.position.xy), walk.level);
         has_given_up = gives_up() && !is_mirror;
         walk_on(walk, surface, coarsest);
-        ++step;
+        ++steps_taken;
     }
     return MarchEnd(walk.position, walk.level >= finest);
 }

@@ -2,6 +2,7 @@
 #include "core/gbuffer/gbuffer.h"
 #include "core/gpu/pass_graph.h"
 #include "variants/amd_sssr/denoiser_parameters.h"
+#include "variants/amd_sssr/tracing_parameters.h"
 
 // The passes of AMD FidelityFX SSSR in their order. Each adds its dispatches to the graph; tests run them one by one.
 // Names of images and buffers are those that the shaders of this folder use.
@@ -20,7 +21,8 @@ struct AmdHistories {
 /// the original has 16 (11, 11, 10 for averages); `is_float_roughness`: alpha in 32 in place of 8 bits.
 AmdHistories amd_histories(PassGraph& graph, bool is_float, bool is_float_roughness);
 
-/// The alpha that 8 bits make of one: what pixels are rated by with rate_stored_roughness, unless float_roughness is on.
+/// The alpha that 8 bits make of one: what pixels are rated by with rate_stored_roughness, unless float_roughness is
+/// on.
 float amd_alpha_of_8_bits(float alpha);
 
 /// What classification found to do, and the indirect arguments that start it.
@@ -41,9 +43,10 @@ AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& pyra
 /// Turns counters into indirect arguments and rewinds them.
 void amd_prepare_arguments(PassGraph& graph, const AmdWork& work);
 
-/// Traces the listed rays into histories.radiance.current. `noise`: 128x128, two channels in [0, 1].
+/// Traces the listed rays into histories.radiance.current. `noise`: 128x128, two channels in [0, 1]. With count_steps
+/// the image `march_steps` (r32f) gets the texels of the pyramid that each pixel's march read, 0 where none began.
 void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Image& pyramid, const Image& noise,
-                   const AmdWork& work, const AmdHistories& histories);
+                   const AmdWork& work, const AmdHistories& histories, const AmdTracingParameters& parameters);
 
 /// Reproject reads radiance.previous, variance.previous, sample_count.previous, roughness.previous and writes their
 /// current sides, `reprojected_radiance` and average_radiance.current; prefilter then overwrites radiance.previous and

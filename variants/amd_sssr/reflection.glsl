@@ -47,8 +47,8 @@ vec3 sample_above_horizon(vec3 o, float alpha, vec2 u, ivec2 pixel) {
 
 // `towards_surface`, `n` and the result: view space, unit. `u`: of the blue noise.
 vec3 sample_reflection(ivec2 pixel, vec3 towards_surface, vec3 n, float alpha, bool is_mirror, vec2 u) {
-    if (guard_mirror_normal && is_mirror) return reflect(towards_surface, n);
-    bool is_bounded = above_horizon && !is_mirror;
+    if (!draw_directions || (guard_mirror_normal && is_mirror)) return reflect(towards_surface, n);
+    bool is_bounded = redraw_below_horizon && !is_mirror;
     mat3 basis = is_bounded ? basis_from_normal(n) : basis_about(n);
     vec3 o = -towards_surface * basis;
     return basis * (is_bounded ? sample_above_horizon(o, alpha, u, pixel)

@@ -8,11 +8,13 @@ uniform sampler2D depth_pyramid;
 
 // The nearest surface in a texel of the pyramid. Texels that a level lacks, on and off the screen, are 0, as reads
 // beyond an image are in the original: the near plane, from which rays descend to the next finer level; but the far
-// plane with reversed depth. Mended, they are the near plane always.
+// plane with reversed depth. Mended, those on the screen are the near plane always.
 float surface_depth(ivec2 texel, int level) {
-    bool exists = all(greaterThanEqual(texel, ivec2(0))) &&
-                  all(lessThan(texel, max(ivec2(camera.extent.xy) >> level, ivec2(1))));
-    if (!exists) return stop_outside_screen ? 1.0 - camera.depth.z : 0.0;
-    return texelFetch(depth_pyramid, texel, level).r;
+    ivec2 extent = ivec2(camera.extent.xy);
+    bool is_positive = all(greaterThanEqual(texel, ivec2(0)));
+    if (is_positive && all(lessThan(texel, max(extent >> level, ivec2(1)))))
+        return texelFetch(depth_pyramid, texel, level).r;
+    bool shows_pixels = is_positive && all(lessThan(texel << level, extent));
+    return refine_partial_texels && shows_pixels ? 1.0 - camera.depth.z : 0.0;
 }
 #endif

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/parameters.h"
+#include "variants/common/inward_rays.h"
 
 /// Parameters of pyramid, classification, noise and intersection, under the original's names. "SSSR 1.5" is the effect
 /// in FidelityFX SDK 1.1.4; its defaults are those of AMD's sample. Switches under "corrections" mend one defect each.
@@ -34,10 +34,21 @@ struct AmdTracingParameters {
     Param<unsigned> pyramid_mips{params, "pyramid_mips", 7, {2, 13},
         {"mips", "levels of the depth pyramid, the full resolution included; as many as the image has, at most",
          "SSSR 1.5: 7; version 1.3 builds the whole chain"}};
-    Choice march{params, "march", "sdk", {"sdk", "slides"},
+    Switch draw_directions{params, "draw_directions", true,
+        {"", "draws each ray's direction from the lobe; otherwise it is the mirror's", "ssrlab, to measure the stage"}};
+    Choice march{params, "march", "sdk", {"sdk", "slides", "none"},
         {"", "how t is computed where a ray meets a plane. sdk: plane / d - origin / d, compared bit by bit; slides: "
-         "(plane - origin) / d, compared as floats. README.md says what else the slides print, and why it changes nothing",
-         "SSSR 1.5, ffx_sssr.h; slides of 2020, 'Stochastic Screen Space Reflections', traversal loop"}};
+         "(plane - origin) / d, compared as floats; README.md says what else the slides print, and why it changes nothing. "
+         "none: rays are not marched, and all miss, to measure the stage",
+         "SSSR 1.5, ffx_sssr.h; slides of 2020, 'Stochastic Screen Space Reflections', traversal loop; none: ssrlab"}};
+    Choice misses{params, "misses", "fallback", {"weight", "fallback"},
+        {"", "what a ray without a hit contributes, and the share that a hit's confidence leaves. weight: only less "
+         "confidence, which here takes what the composite fills in for it, the pixel's own fallback, through the denoiser; "
+         "fallback: the environment in the ray's direction", "SSSR 1.5: fallback; weight: DiligentFX"}};
+
+    Switch count_steps{params, "count_steps", false,
+        {"", "keeps for each pixel that traces how many texels of the pyramid its march read, in the image `march_steps`; "
+         "changes nothing else", "ssrlab, to measure the march"}};
 
     // Corrections.
     Switch thickness_at_hit_mip{params, "thickness_at_hit_mip", false,
@@ -59,14 +70,15 @@ struct AmdTracingParameters {
     Switch guard_mirror_normal{params, "guard_mirror_normal", false,
         {"", "mirrors reflect about the shading normal itself. The original samples a lobe of width 0, which is not a "
          "number where the random number rounds to 1", "ssrlab"}};
-    Switch above_horizon{params, "above_horizon", false,
-        {"", "draws directions until one is above the horizon of the shading normal; those below the geometric "
-         "surface meet it and bring no light. The original traces all", "Eto and Tokuyoshi 2023, 'Bounded VNDF "
-         "Sampling for Smith-GGX Reflections'; as the path-traced reference"}};
+    Switch redraw_below_horizon{params, "redraw_below_horizon", false,
+        {"", "draws directions until one is above the horizon of the shading normal. The original takes the first",
+         "Eto and Tokuyoshi 2023, 'Bounded VNDF Sampling for Smith-GGX Reflections'; as the path-traced reference"}};
+    Choice inward_rays = inward_rays_parameter(params, "traced", "SSSR 1.5: traced; black: as the path-traced reference");
     Switch stop_outside_screen{params, "stop_outside_screen", false,
-        {"", "ends a ray where it leaves the screen, and treats texels that odd-sized levels lack as to be "
-         "refined. The original reads 0 there: with reversed depth whole strips at the lower and right edge are "
-         "skipped", "ssrlab; AMD's hybrid reflections sample ends rays so"}};
+        {"", "ends a ray where it leaves the screen", "ssrlab; AMD's hybrid reflections sample does"}};
+    Switch refine_partial_texels{params, "refine_partial_texels", false,
+        {"", "texels of the screen that odd-sized levels lack are looked up a level finer. The original reads 0 there: "
+         "with reversed depth whole strips at the lower and right edge are skipped", "ssrlab"}};
     Switch reject_unfinished{params, "reject_unfinished", false,
         {"", "a ray that ran out of steps, or was given up by its subgroup, is a miss. The original validates "
          "wherever it stood", "ssrlab"}};

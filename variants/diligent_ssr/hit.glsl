@@ -26,7 +26,7 @@ float hit_confidence(vec3 origin, vec3 hit, vec3 ws_ray) {
 
     vec3 vs_surface = view_from_march(vec3(hit.xy, surface));
     float miss = distance(vs_surface, view_from_march(hit)) / (-vs_surface.z + 5.96e-8);
-    float closeness = 1.0 - smoothstep(0.0, depth_buffer_thickness, miss);
+    float closeness = 1.0 - smoothstep(0.0, relative_depth_buffer_thickness, miss);
     float fade = border_fade(hit.xy);
     if (previous_frame) fade = min(fade, border_fade(previous_uv(hit.xy)));
     float confidence = closeness * closeness * fade;

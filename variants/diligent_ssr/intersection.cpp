@@ -1,3 +1,4 @@
+#include "core/gbuffer/environment_images.h"
 #include "variants/diligent_ssr/targets.h"
 
 DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Image& hierarchy, const Image& noise,
@@ -14,8 +15,7 @@ DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Imag
         .read(gbuffer.geometric_normal)
         .read(gbuffer.motion)
         .write(rays.radiance)
-        .write(rays.direction)
-        .set("coarsest_level", int(hierarchy.mips) - 1);
-    draw_masked(pass, mask.traced);
+        .write(rays.direction);
+    draw_masked(bind_environment(pass, gbuffer), mask.traced);
     return rays;
 }

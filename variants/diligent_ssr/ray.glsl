@@ -15,6 +15,10 @@ mat3 basis_about(vec3 n) {
     return mat3(tangent, cross(n, tangent), n);
 }
 
+// Sine of the angle from the pole of a cap of the unit sphere to its rim. Rounding can make the height of a whole
+// sphere larger than 2.
+float cap_sine(float height) { return sqrt(max(height * (2.0 - height), 0.0)); }
+
 // A visible normal of which the mirror direction is no further than of most: visible normals are, up to the stretch by
 // alpha, the sums of v and the directions of a cap about z (Dupuy and Benyoub 2023); v mirrored about z is the one that
 // gives z itself. ssrlab's own rule: of that cap a smaller one is kept, of the share 1 - bias of its area, turned from z
@@ -23,7 +27,7 @@ mat3 basis_about(vec3 n) {
 vec3 sample_normal_near_mirror(vec3 o, float alpha, vec2 u, float bias) {
     vec3 v = normalize(vec3(alpha * o.xy, o.z));
     float height = (1.0 + v.z) * (1.0 - bias);  // of the kept cap
-    float cos_kept = 1.0 - height, sin_kept = sqrt(max(height * (2.0 - height), 0.0));
+    float cos_kept = 1.0 - height, sin_kept = cap_sine(height);
     float sin_v = length(v.xy);
     // The margin between whole and kept cap: the whole reaches from z as far as -v does.
     float cos_margin = -v.z * cos_kept + sin_v * sin_kept, sin_margin = sin_v * cos_kept + v.z * sin_kept;
@@ -34,7 +38,7 @@ vec3 sample_normal_near_mirror(vec3 o, float alpha, vec2 u, float bias) {
     mat3 cap = mat3(vec3(cos_turn * across, -sin_turn), vec3(-across.y, across.x, 0.0),
                     vec3(sin_turn * across, cos_turn));
     float below_pole = u.y * height;
-    vec3 c = cap * vec3(sqrt(max(below_pole * (2.0 - below_pole), 0.0)) * unit_circle(u.x), 1.0 - below_pole);
+    vec3 c = cap * vec3(cap_sine(below_pole) * unit_circle(u.x), 1.0 - below_pole);
     return normalize(vec3(alpha * (c.xy + v.xy), max(c.z + v.z, 0.0)));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/parameters.h"
+#include "variants/common/inward_rays.h"
 
 /// Parameters of depth hierarchy, mask, noise and intersection, under the original's names. "DiligentFX" is its
 /// ScreenSpaceReflection as of July 2026, "2024" that of April 2024, which its document describes. Switches under
@@ -26,9 +26,12 @@ struct DiligentTracingParameters {
         {"mip", "finest level of the depth hierarchy for all but mirrors, which use 0", "DiligentFX, MostDetailedMip"}};
     Param<unsigned> max_traversal_intersections{params, "max_traversal_intersections", 128, {0, 4096},
         {"steps", "texels of the depth hierarchy that one ray may visit", "DiligentFX, MaxTraversalIntersections"}};
-    Param<float> depth_buffer_thickness{params, "depth_buffer_thickness", 0.025f, {1e-6f, 1.0f},
+    Param<float> relative_depth_buffer_thickness{params, "relative_depth_buffer_thickness", 0.025f, {1e-6f, 1.0f},
         {"of the depth", "distance between ray and surface, over the surface's distance from the camera plane, at which "
          "the confidence of a hit has fallen to 0", "DiligentFX, DepthBufferThickness"}};
+    Choice misses{params, "misses", "weight", {"weight", "fallback"},
+        {"", "what a ray without a hit contributes, and the share that a hit's confidence leaves. weight: only less "
+         "confidence; fallback: the environment in the ray's direction", "DiligentFX: weight; fallback: SSSR 1.5"}};
     Param<float> ggx_importance_sample_bias{params, "ggx_importance_sample_bias", 0.3f, {0.0f, 1.0f},
         {"of the lobe", "share of the sampled visible normals that is cut off, those furthest from the view direction",
          "DiligentFX, GGXImportanceSampleBias"}};
@@ -50,8 +53,7 @@ struct DiligentTracingParameters {
     Switch relative_ray_step{params, "relative_ray_step", false,
         {"", "makes that step a share of the distance from the camera in place of one metre, which in large scenes is "
          "lost to rounding", "ssrlab"}};
-    Switch above_horizon{params, "above_horizon", false,
-        {"", "rays below the geometric surface are misses. The original traces them all", "ssrlab"}};
+    Choice inward_rays = inward_rays_parameter(params, "traced", "DiligentFX: traced");
     Switch stop_outside_screen{params, "stop_outside_screen", false,
         {"", "ends a ray where it leaves the screen", "ssrlab"}};
     Switch reject_unfinished{params, "reject_unfinished", false,

@@ -57,7 +57,7 @@ struct FrostbiteRayParameters {
     Switch leave_own_plane{params, "leave_own_plane", true,
         {"", "a ray passes over what is less than half as high as itself above the plane that it leaves: samples are "
          "steps, and at grazing angles the next step of that plane lies in the way", "ssrlab"}};
-    Param<float> thickness{params, "thickness", 0.05f, {1e-6f, 10.0f},
+    Param<float> relative_thickness{params, "relative_thickness", 0.05f, {1e-6f, 10.0f},
         {"of the depth", "depth behind the visible surface that counts as solid", "ssrlab"}};
     // clang-format on
 };

@@ -1,5 +1,5 @@
 // What a ray meets within a pixel: the surface that the pixel shows and, for want of knowledge, as much behind it as
-// `thickness` says.
+// `relative_thickness` says.
 #ifndef FROSTBITE_SSSR_SOLID_GLSL
 #define FROSTBITE_SSSR_SOLID_GLSL
 #include "frostbite_sssr/screen_line.glsl"
@@ -18,7 +18,7 @@ float nearer_of(float a, float b) { return is_nearer(a, b) ? a : b; }
 float farther_of(float a, float b) { return is_nearer(a, b) ? b : a; }
 
 // Whether all of a line that comes no nearer than a device depth is behind what counts as solid of a surface.
-bool is_behind_solid(float nearest, float surface) { return view_z(nearest) < view_z(surface) * (1.0 + thickness); }
+bool is_behind_solid(float nearest, float surface) { return view_z(nearest) < view_z(surface) * (1.0 + relative_thickness); }
 
 // Of the plane that the ray leaves, and so not what it meets.
 bool is_own_plane(ScreenLine line, ivec2 pixel, float t) {

@@ -7,8 +7,8 @@
 #include <regex>
 #include <set>
 
-// Prints, for the test that compiles them in a browser, the GLSL ES 3.00 of every shader of every technique that keeps to
-// WebGL 2: of its defaults, of each preset, and of each of these with one parameter changed. A JSON array of objects
+// Prints, for the test that compiles them in a browser, the GLSL ES 3.00 of every shader of every technique that keeps
+// to WebGL 2: of its defaults, of each preset, and of each of these with one parameter changed. A JSON array of objects
 // with `name`, `vertex` and `fragment`; what differs in nothing that the shader uses comes once.
 
 namespace {

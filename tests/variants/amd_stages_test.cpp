@@ -1,0 +1,113 @@
+// Stages of AMD's technique switched off one by one, and what its march counts.
+#include "tests/variants/amd_golden.h"
+#include "tests/variants/denoiser_scene.h"
+#include "tests/variants/mirror_scenes.h"
+#include "tests/variants/variant_fixture.h"
+
+#include <cmath>
+
+namespace {
+
+struct AmdStages : VariantTest {
+    CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
+    FrameView view{.extent = {96, 120}};
+    HostImage noise{{128, 128}, 2, 0.9f};
+
+    HostGBuffer floor_of(float roughness) {
+        HostGBuffer gbuffer = host_gbuffer(device(), pose, view, [=](const CameraRay& ray) {
+            SyntheticHit hit = floor_before_white(ray);
+            if (hit.metalness > 0) hit.roughness = roughness;
+            return hit;
+        });
+        gbuffer.fallback = HostImage(gbuffer.extent(), 4, 0.5f);
+        return gbuffer;
+    }
+    AmdTraced trace(const HostGBuffer& gbuffer, nlohmann::json parameters) {
+        parameters["min_traversal_occupancy"] = 0;
+        parameters["samples_per_quad"] = 4;
+        return amd_trace_frame(device(), gbuffer, parameters, noise);
+    }
+};
+
+TEST_F(AmdStages, RaysThatAreNotDrawnAreTheMirrors) {
+    const HostImage mirror = trace(floor_of(0), {{"guard_mirror_normal", true}}).radiance;
+    const HostGBuffer rough = floor_of(0.4f);
+    EXPECT_EQ(trace(rough, {{"draw_directions", false}}).radiance.values, mirror.values);
+    EXPECT_NE(trace(rough, {{"draw_directions", true}}).radiance.values, mirror.values);
+}
+
+TEST_F(AmdStages, RaysThatAreNotMarchedSeeTheEnvironment) {
+    const HostGBuffer gbuffer = floor_of(0.2f);
+    const HostImage found = trace(gbuffer, {{"march", "none"}}).radiance;
+    unsigned rays = 0;
+    for (size_t i = 0; i < found.pixel_count(); ++i) {
+        if (gbuffer.base_color.values[4 * i + 3] == 0) continue;
+        ++rays;
+        EXPECT_EQ(found.rgb(i), glm::vec3(0.5f));
+        EXPECT_NEAR(found.values[4 * i + 3], 0, 1e-4f);  // m; positions are rounded
+    }
+    EXPECT_GT(rays, 1000u);
+}
+
+/// Three steps find nothing here: rays that begin one use them up.
+TEST_F(AmdStages, CountsTheStepsOfEachRay) {
+    const HostGBuffer gbuffer = floor_of(0.2f);
+    const nlohmann::json few = {{"max_traversal_intersections", 3}};
+    nlohmann::json counted = few;
+    counted["count_steps"] = true;
+    const AmdTraced found = trace(gbuffer, counted);
+    EXPECT_EQ(found.radiance.values, trace(gbuffer, few).radiance.values);
+    for (size_t i = 0; i < found.steps.pixel_count(); ++i)
+        EXPECT_EQ(found.steps.values[i], gbuffer.base_color.values[4 * i + 3] > 0 ? 3 : 0);
+    counted["max_traversal_intersections"] = 128;
+    double mean = 0;
+    for (const float steps : trace(gbuffer, counted).steps.values) mean += steps / double(found.steps.pixel_count());
+    EXPECT_GT(mean, 3);
+    EXPECT_LT(mean, 64);
+}
+
+/// What each pass of the denoiser leaves when it is off, after frames in which it had history to work with. Both forms
+/// share the lines that leave it.
+TEST_F(AmdStages, OfTheDenoiserLeaveWhatTheyWereGiven) {
+    const DenoiserInputs inputs = facing_wall({.color = checkered});
+    const auto run = [&](const char* stage) {
+        nlohmann::json parameters = {{"float_histories", true}};
+        if (*stage) parameters[stage] = false;
+        struct Passes {
+            HostImage samples, traced, prefiltered, resolved;
+        };
+        DenoiserBench bench(device(), inputs.depth.extent, parameters);
+        Passes passes;
+        for (unsigned frame = 0; frame < 3; ++frame) {
+            DenoiserInputs now = inputs;
+            now.camera.frame.w = frame > 0;
+            bench.begin_frame(now, &inputs);
+            const AmdHistories& h = bench.histories;
+            amd_reproject(bench.graph, bench.gbuffer, bench.work, h, bench.denoiser);
+            passes.samples = bench.graph.download(h.sample_count.current);
+            passes.traced = bench.graph.download(h.radiance.current);
+            amd_prefilter(bench.graph, bench.work, h, bench.denoiser);
+            passes.prefiltered = bench.graph.download(h.radiance.previous);
+            amd_resolve_temporal(bench.graph, bench.work, h, bench.denoiser);
+            passes.resolved = bench.graph.download(h.radiance.current);
+        }
+        return passes;
+    };
+    const auto samples_of = [](const HostImage& image) { return *image.pixel(32, 32); };
+    const auto same_colors = [](const HostImage& a, const HostImage& b) {
+        for (size_t i = 0; i < a.pixel_count(); ++i)
+            if (a.rgb(i) != b.rgb(i)) return false;
+        return true;
+    };
+    const auto all = run("");
+    EXPECT_GT(samples_of(all.samples), 2);
+    EXPECT_FALSE(same_colors(all.prefiltered, all.traced));
+    EXPECT_FALSE(same_colors(all.resolved, all.prefiltered));
+    EXPECT_EQ(samples_of(run("reprojection").samples), 1);
+    const auto unfiltered = run("prefilter");
+    EXPECT_TRUE(same_colors(unfiltered.prefiltered, unfiltered.traced));
+    const auto unresolved = run("temporal_resolve");
+    EXPECT_TRUE(same_colors(unresolved.resolved, unresolved.prefiltered));
+}
+
+}  // namespace
