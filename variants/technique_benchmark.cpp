@@ -67,6 +67,40 @@ void frames(benchmark::State& state, const char* name, const char* preset, const
     state.counters["cpu_ms"] = benchmark::Counter(cpu_ms, benchmark::Counter::kAvgIterations);
 }
 
+/// AMD's march alone: rays and texels of the depth pyramid per second of its pass, and texels per ray.
+void march(benchmark::State& state, const char* preset, const nlohmann::json& parameters) {
+    static Device device;
+    const glm::uvec2 extent(state.range(0), state.range(1));
+    const CameraPose pose;
+    const CameraData camera = camera_data(pose, nullptr, {.extent = extent});
+    PassGraph graph(device, extent), counting_graph(device, extent);
+    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, strips_before_wall);
+    const std::unique_ptr<Variant> variant = make_variant("amd_sssr", parameters, preset);
+    nlohmann::json counted = parameters;
+    counted["count_steps"] = true;
+    const std::unique_ptr<Variant> counting = make_variant("amd_sssr", counted, preset);
+
+    double rays = 0, texels = 0, seconds = 0;
+    unsigned index = 0;
+    for (auto _ : state) {
+        double milliseconds = 0;
+        for (const PassTime& stage : run(graph, *variant, gbuffer, camera, index))
+            if (stage.stage == "amd_sssr/intersect") milliseconds += stage.milliseconds;
+        state.SetIterationTime(milliseconds * 1e-3);
+        seconds += milliseconds * 1e-3;
+        // The same frame with the same histories sends the same rays.
+        run(counting_graph, *counting, upload_gbuffer(counting_graph, pose, camera, strips_before_wall), camera,
+            index++);
+        for (const float steps : counting_graph.download(counting_graph.image("march_steps", Format::r32f)).values) {
+            rays += steps > 0;
+            texels += double(steps);
+        }
+    }
+    state.counters["rays_per_s"] = rays / seconds;
+    state.counters["texels_per_s"] = texels / seconds;
+    state.counters["texels_per_ray"] = texels / rays;
+}
+
 void at_both_sizes(benchmark::internal::Benchmark* registered) {
     registered->Args({640, 384})->Args({1920, 1080})->UseManualTime()->Unit(benchmark::kMillisecond);
 }
@@ -75,11 +109,16 @@ void at_both_sizes(benchmark::internal::Benchmark* registered) {
 const nlohmann::json full = {{"roughness_threshold", 0.447}},
                      views = {{"roughness_threshold", 0.447}, {"hierarchy", "mip_views"}},
                      half = {{"roughness_threshold", 0.447}, {"half_resolution", true}},
+                     quarter = {{"guided_tracing", false}}, coarser = {{"most_detailed_mip", 1}},
                      as_is = nlohmann::json::object();
 
 }  // namespace
 
 BENCHMARK_CAPTURE(frames, amd_repeatable, "amd_sssr", "repeatable", as_is)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(march, amd_repeatable, "repeatable", as_is)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(march, amd_quarter_rate, "repeatable", quarter)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(march, amd_from_mip_1, "repeatable", coarser)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(march, amd_corrected, "corrected", as_is)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_documented, "diligent_ssr", "documented", full)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_current, "diligent_ssr", "current", full)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_current_mip_views, "diligent_ssr", "current", views)->Apply(at_both_sizes);
