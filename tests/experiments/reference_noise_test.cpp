@@ -13,12 +13,17 @@ namespace {
 EffectRow simulated_effect(std::mt19937& random, unsigned seeds, bool has_noise) {
     const glm::uvec2 extent(30, 20);
     std::normal_distribution<float> normal;
-    ReferenceHalves halves{HostImage(extent, 3), HostImage(extent, 3)};
+    ReferenceHalves halves{.a = HostImage(extent, 3),
+                           .b = HostImage(extent, 3),
+                           .variance = HostImage(extent, 3),
+                           .guide = HostImage(extent, 3, 2.0f),
+                           .samples = 16};
     HostImage mean(extent, 3);
     for (size_t i = 0; i < mean.values.size(); ++i) {
         const float deviation = i / 3 == 17 ? 3.0f : 0.4f;
         halves.a.values[i] = 2 + deviation * normal(random), halves.b.values[i] = 2 + deviation * normal(random);
         mean.values[i] = (halves.a.values[i] + halves.b.values[i]) / 2;
+        halves.variance.values[i] = deviation * deviation / 2;
     }
     const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
     const std::vector<Mask> masks = {full_mask(extent)};
