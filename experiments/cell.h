@@ -2,8 +2,6 @@
 #include "experiments/reference_noise.h"
 #include "metrics/seed_pairs.h"
 
-#include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -46,6 +44,8 @@ struct TimeRow {
     unsigned frame = 0;
     double milliseconds = 0;
     std::string clock;
+    std::optional<double> foreign_load = {};  ///< see CpuTimes; none where the system does not tell
+    bool is_disturbed = false;                ///< other work took too much of the machine meanwhile
 };
 
 /// What a run makes of one shot and variant point with all its seeds: the unit of work that is done once, kept, and
@@ -58,35 +58,10 @@ struct Cell {
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
     std::vector<std::string> notes;                   ///< sentences for the manifest: what could not be told, and why
+    nlohmann::json provenance;                        ///< what made it, where and when, see experiments/provenance.h
+    std::string name;                                 ///< as CellStore knows it
 };
 
-/// The finished cells of a results folder: cells/<hash>.json. The name is the hash of all that the cell's numbers
-/// depend on, so any number of processes can fill one folder, and a killed run continues where it stopped.
-class CellStore {
-public:
-    explicit CellStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-    /// Nothing if the cell has not been done, or its file does not read back whole.
-    std::optional<Cell> load(const std::string& hash) const;
-    void save(const std::string& hash, const Cell& cell) const;
-
-    /// The right to do a cell while others fill the same folder. The system takes it back when the process ends,
-    /// however it ends. Where the file system knows no locks, everyone has it: then work may be done twice, with the
-    /// same result.
-    class Claim {
-    public:
-        Claim(std::filesystem::path file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {}
-        ~Claim();
-        Claim(const Claim&) = delete;
-        Claim& operator=(const Claim&) = delete;
-
-    private:
-        std::filesystem::path file_;
-        int descriptor_;
-    };
-    /// Nothing if another process has it, unless `waits`. Load again once it is given: the other may have finished.
-    std::unique_ptr<Claim> claim(const std::string& hash, bool waits) const;
-
-private:
-    std::filesystem::path folder_;
-};
+/// Fails with nlohmann::json::exception if a member is missing or of another type.
+void to_json(nlohmann::json& json, const Cell& cell);
+void from_json(const nlohmann::json& json, Cell& cell);

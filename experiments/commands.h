@@ -22,7 +22,7 @@ struct ShotOptions {
 
 struct RunOptions {
     std::filesystem::path config, out;
-    bool keep_all = false;
+    bool keep_all = false, replaces = false, prunes = false;
 };
 void run_study_command(const RunOptions& options, const CommonOptions& common);
 

@@ -44,7 +44,8 @@ nlohmann::json host_info() {
     utsname kernel{};
     uname(&kernel);
     const double bytes = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
-    return {{"cpu", proc_value("/proc/cpuinfo", "model name")},
+    return {{"name", kernel.nodename},
+            {"cpu", proc_value("/proc/cpuinfo", "model name")},
             {"cores", std::thread::hardware_concurrency()},
             {"memory_gib", std::round(bytes / double(1 << 30) * 10.0) / 10.0},
             {"kernel", std::string(kernel.sysname) + " " + kernel.release}};

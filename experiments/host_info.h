@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// The machine: {"cpu", "cores", "memory_gib", "kernel"}; for the manifest.
+/// The machine: {"name", "cpu", "cores", "memory_gib", "kernel"}; for the manifest.
 nlohmann::json host_info();
 
 /// This program: {"version", "commit", "dirty", "code", "compiler", "build"}. Commit and dirty are those of the source

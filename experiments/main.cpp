@@ -72,6 +72,10 @@ int parse_and_run(int argc, char** argv) {
     run_command_.add_flag(
         "--keep-all", run.keep_all,
         "Also do the work which the scenes do not need (to prove that leaving it out changes nothing)");
+    run_command_.add_flag("--replace", run.replaces,
+                          "Give a results folder of another study to this one; cells that both share are kept");
+    run_command_.add_flag("--prune", run.prunes,
+                          "Remove cells and images that earlier versions of the study left in its folder");
     add_device(run_command_, common), add_scene_path(run_command_, common), add_cache(run_command_, common);
     run_command_.callback([&] { run_study_command(run, common); });
 

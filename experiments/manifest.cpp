@@ -1,10 +1,9 @@
 #include "experiments/manifest.h"
 
 #include "core/exr.h"
-#include "core/gpu/clock.h"
-#include "core/gpu/device.h"
 #include "core/png.h"
-#include "experiments/host_info.h"
+#include "experiments/cell_store.h"
+#include "experiments/file_name.h"
 #include "groundtruth/path_tracer.h"
 #include "groundtruth/reference_error.h"
 #include "metrics/color_map.h"
@@ -14,24 +13,6 @@
 #include <cmath>
 
 namespace {
-
-/// Letters, digits, '.', '_' and '-' stay; the rest becomes '-'.
-std::string file_name(std::string text) {
-    for (char& c : text)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '_' && c != '-') c = '-';
-    return text;
-}
-
-nlohmann::json clock_entry(const ClockProof& proof) {
-    nlohmann::json checks = nlohmann::json::array();
-    for (const ClockCheck& c : proof.checks)
-        checks.push_back({{"stage_kind", c.stage_kind},
-                          {"expected", c.expected},
-                          {"measured_ms", c.measured_ms},
-                          {"ratio", c.ratio},
-                          {"passed", c.passed}});
-    return {{"method", proof.method}, {"empty_submit_ms", proof.empty_submit_ms}, {"proof", checks}};
-}
 
 nlohmann::json variant_entries(const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
@@ -59,15 +40,24 @@ nlohmann::json parameter_docs(const Config& config) {
     return docs;
 }
 
-/// Writes one image as EXR (half: results are looked at, and measured in float32) and PNG.
+/// Writes `rgb` as EXR and `picture` as PNG; the entry names both with the hashes of their bytes.
+nlohmann::json save_image(const std::filesystem::path& out, const std::string& folder, const std::string& name,
+                          const HostImage& rgb, PixelType type, const HostImage& picture, float exposure_ev,
+                          nlohmann::json entry) {
+    const std::string stem = "images/" + file_name(folder) + "/" + name;
+    write_exr(out / (stem + ".exr"), rgb, type);
+    write_png(out / (stem + ".png"), picture, exposure_ev);
+    for (const std::string kind : {"exr", "png"}) {
+        entry[kind] = stem + "." + kind;
+        entry[kind + "_hash"] = file_hash(out / (stem + "." + kind));
+    }
+    return entry;
+}
+
+/// Half floats do: results are looked at, and measured in float32.
 nlohmann::json save_image(const std::filesystem::path& out, const std::string& folder, const std::string& name,
                           const HostImage& rgb, float exposure_ev, nlohmann::json entry) {
-    const std::string stem = "images/" + file_name(folder) + "/" + file_name(name);
-    write_exr(out / (stem + ".exr"), rgb, PixelType::half);
-    write_png(out / (stem + ".png"), rgb, exposure_ev);
-    entry["exr"] = stem + ".exr";
-    entry["png"] = stem + ".png";
-    return entry;
+    return save_image(out, folder, name, rgb, PixelType::half, rgb, exposure_ev, std::move(entry));
 }
 
 HostImage repeated_channel(const HostImage& source) {
@@ -77,18 +67,20 @@ HostImage repeated_channel(const HostImage& source) {
     return rgb;
 }
 
-/// |test - reference| / (|reference| + 1 % of the mean), mean over channels; shown with magma from 0 to 1.
-HostImage relative_error_map(const HostImage& test, const HostImage& reference) {
-    double mean = 0;
-    for (const float v : reference.values) mean += v;
-    mean = std::max(mean / double(reference.values.size()), 1e-20);
-    Plane map(reference.extent);
-    for (size_t i = 0; i < map.values.size(); ++i)
-        for (size_t c = 0; c < 3; ++c) {
-            const double r = reference.values[i * 3 + c], x = test.values[i * 3 + c];
-            map.values[i] += std::abs(x - r) / (std::abs(r) + 0.01 * mean) / 3.0;
-        }
-    return false_color(map, 1.0);
+/// What the relative error of an image adds to the reference, so that dark pixels count no more than they are worth.
+double relative_error_epsilon(const HostImage& reference) {
+    double sum = 0;
+    size_t count = 0;
+    for (const float v : reference.values)
+        if (std::isfinite(v)) sum += v, ++count;
+    return std::max(0.01 * sum / double(std::max<size_t>(count, 1)), 1e-20);
+}
+
+/// The mean over channels of the errors' sizes with magma from 0 to 1.
+HostImage error_picture(const HostImage& error) {
+    Plane sizes(error.extent);
+    for (size_t i = 0; i < error.values.size(); ++i) sizes.values[i / 3] += std::abs(error.values[i]) / 3.0;
+    return false_color(sizes, 1.0);
 }
 
 /// What is said of facts and of what was left out.
@@ -122,27 +114,24 @@ nlohmann::json left_out_entries(const Shot& shot, const std::vector<LeftOut>& ra
 
 }  // namespace
 
-nlohmann::json study_entry(const Config& config, Device& device) {
-    const bool is_timed = config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed);
-    ClockProof clock;  // proven where times are taken
-    if (is_timed) clock = prove_clock(device);
-    const DeviceInfo& d = device.info();
+HostImage relative_error(const HostImage& test, const HostImage& reference) {
+    const double epsilon = relative_error_epsilon(reference);
+    HostImage error(reference.extent, 3);
+    for (size_t i = 0; i < error.values.size(); ++i) {
+        const double r = reference.values[i], x = test.values[i];
+        error.values[i] = float((x - r) / (std::abs(r) + epsilon));
+    }
+    return error;
+}
+
+nlohmann::json study_entry(const Config& config) {
     nlohmann::json warnings = nlohmann::json::array();
-    if (is_timed && !clock.passed())
-        warnings.push_back(
-            "the clock did not prove itself: passes of 1 : 10 : 100 work took other times, so no time of this run can "
-            "be trusted (is the machine busy?)");
     if (config.direct_lit)
         warnings.push_back(
             "SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
-    return {{"ssrlab", build_info()},
-            {"title", config.title},
-            {"started", time_stamp()},
+    return {{"title", config.title},
             {"config", config.source},
-            {"device",
-             {{"name", d.name}, {"driver", d.driver}, {"api", d.api}, {"type", d.type}, {"memory_mib", d.memory_mib}}},
-            {"host", host_info()},
-            {"clock", is_timed ? clock_entry(clock) : nlohmann::json{{"proof", nlohmann::json::array()}}},
+            {"clock", nlohmann::json::object()},
             {"warnings", warnings},
             {"shots", nlohmann::json::array()},
             {"variants", variant_entries(config)},
@@ -200,10 +189,10 @@ nlohmann::json reference_entry(const Reference& reference, unsigned frame, const
 CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections,
                                   const Composite& composite, const HostImage& reflectance) {
     const HostImage radiance = graph.download(reflections.radiance), fallback = graph.download(gbuffer.fallback);
-    CompositedImages images{.specular = channels_of(graph.download(composite.specular), 0, 3),
-                            .incident = HostImage(radiance.extent, 3),
-                            .confidence = channels_of(graph.download(reflections.confidence),
-                                                      reflections.confidence_channel, 1)};
+    CompositedImages images{
+        .specular = channels_of(graph.download(composite.specular), 0, 3),
+        .incident = HostImage(radiance.extent, 3),
+        .confidence = channels_of(graph.download(reflections.confidence), reflections.confidence_channel, 1)};
     for (size_t i = 0; i < images.incident.pixel_count(); ++i) {
         if (!reflectance.values.empty() && reflectance.rgb(i) == glm::vec3(0.0f)) continue;
         for (size_t c = 0; c < 3; ++c) {
@@ -234,7 +223,8 @@ std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& o
 std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row,
                                                const std::string& suffix, const PoseTruth& truth,
                                                const CompositedImages& images, float exposure_ev) {
-    const std::string name = row.variant + "." + row.point + ".s" + std::to_string(row.seed) + "." + suffix;
+    const std::string name =
+        file_name(row.variant + "." + row.point, 150) + ".s" + std::to_string(row.seed) + "." + suffix;
     const nlohmann::json base = {{"shot", row.shot},
                                  {"frame", std::stoul(row.frame)},
                                  {"variant", row.variant},
@@ -251,7 +241,12 @@ std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out,
     save("result", "specular", images.specular, exposure_ev);
     save("result", "incident", images.incident, exposure_ev);
     save("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
-    for (const auto& [target, reference] : truth.targets)
-        save("error", target.c_str(), relative_error_map(tested_image(target, images, image), reference.image), 0.0f);
+    for (const auto& [target, reference] : truth.targets) {
+        const HostImage error = relative_error(tested_image(target, images, image), reference.image);
+        nlohmann::json entry = base;
+        entry["kind"] = "error", entry["target"] = target, entry["epsilon"] = relative_error_epsilon(reference.image);
+        entries.push_back(save_image(out, row.shot, name + ".error." + target, error, PixelType::float32,
+                                     error_picture(error), 0.0f, entry));
+    }
     return entries;
 }

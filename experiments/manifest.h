@@ -10,8 +10,8 @@
 
 // The parts of manifest.json and the image files it lists, as experiments/RESULTS.md describes them.
 
-/// What holds for the whole study; proves the clock.
-nlohmann::json study_entry(const Config& config, Device& device);
+/// What holds for the whole study, before any cell is done.
+nlohmann::json study_entry(const Config& config);
 
 /// All that can be said of a shot before it is measured. `pixels` are those of its last frame, `left_out` what its
 /// rasteriser left out.
@@ -23,6 +23,9 @@ nlohmann::json reference_entry(const Reference& reference, unsigned frame, const
 /// 0 where `reflectance` (of the G-buffer; may be empty) is 0, as in the truth.
 CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections,
                                   const Composite& composite, const HostImage& reflectance);
+
+/// (test - reference) / (|reference| + 1 % of the reference's mean), each channel by itself: what error images hold.
+HostImage relative_error(const HostImage& test, const HostImage& reference);
 
 /// Writes images/<shot>/...; returns the manifest's entries for them. `suffix` becomes a part of the files' names,
 /// and so does the key of the reference: other configs may fill the same folder.

@@ -116,6 +116,7 @@ void write_report(const std::filesystem::path& folder) {
     json data = report_data(tables, changes);
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
+    data["manifest"].erase("stale");   // not of this study as it is
     data["warnings"] = warnings;
     data["defaults"] = parameter_defaults(manifest);
     std::string script;

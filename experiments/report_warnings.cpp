@@ -39,9 +39,33 @@ double rounded_down(double share) { return std::floor(share * 1000.0) / 1000.0; 
 void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
     for (const json& warning : member(manifest, "warnings"))
         if (warning.is_string()) warnings.push_back("This study: " + ended(warning.get<std::string>()));
-    if (!member(manifest, "finished").is_string())
+    if (!is_true(member(manifest, "is_complete")))
         warnings.push_back("This study is not finished: some variants or shots may be missing.");
-    if (is_true(member(member(manifest, "ssrlab"), "dirty")))
+}
+
+/// Whether the makers of the cells differ in `part`, in what `shown` tells of it.
+bool differ(const json& provenance, const char* part, std::initializer_list<const char*> shown) {
+    for (const json& maker : provenance)
+        for (const char* key : shown)
+            if (member(member(maker, part), key) != member(member(provenance.front(), part), key)) return true;
+    return false;
+}
+
+void warn_of_provenance(std::vector<std::string>& warnings, const json& provenance) {
+    if (!provenance.is_array()) return;
+    std::string different;
+    const auto add = [&](bool is_different, const char* what) {
+        if (is_different) different += (different.empty() ? "" : ", ") + std::string(what);
+    };
+    add(differ(provenance, "host", {"name", "cpu", "cores", "memory_gib"}), "hosts");
+    add(differ(provenance, "host", {"kernel"}), "kernels");
+    add(differ(provenance, "device", {"name", "driver", "api"}), "devices or drivers");
+    add(differ(provenance, "ssrlab", {"commit", "code", "compiler", "build"}), "versions of ssrlab");
+    if (!different.empty())
+        warnings.push_back("Parts of this study were made by different " + different +
+                           ": `provenance` in manifest.json says which; compare times within one shot only.");
+    if (std::ranges::any_of(provenance,
+                            [](const json& maker) { return is_true(member(member(maker, "ssrlab"), "dirty")); }))
         warnings.push_back(
             "The program or its shaders are not those of the commit: it does not identify them, `code` in "
             "manifest.json "
@@ -63,13 +87,41 @@ void warn_of_variation(std::vector<std::string>& warnings, const json& variants)
                            "hold the scatter between runs. The reason: " + ended(what.second));
 }
 
+std::string shots_of(const json& proof) {
+    std::string list;
+    for (const json& shot : member(proof, "shots")) list += (list.empty() ? "" : ", ") + text(shot);
+    return list;
+}
+
 void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
     if (!has_times) return;
-    const json& proof = member(clock, "proof");
-    if (!proof.is_array() || proof.empty())
-        warnings.push_back("The clock was not proven in this run: take its times with care.");
+    const json& proofs = member(clock, "proofs");
+    if (!proofs.is_array() || proofs.empty()) warnings.push_back("The clock was not proven: take times with care.");
+    for (const json& proof : proofs) {
+        const json& verdict = member(proof, "verdict");
+        if (verdict == "failed")
+            warnings.push_back(
+                "The clock did not prove itself: passes of 1 : 10 : 100 work took other times on a quiet "
+                "machine, so no time can be trusted of " +
+                shots_of(proof) + ".");
+        else if (verdict != "passed")
+            warnings.push_back(
+                "The clock could not be judged, since other programs were at work on the machine; the "
+                "times of these shots are not proven: " +
+                shots_of(proof) + ".");
+    }
     if (!member(clock, "aa_floor").is_number())
         warnings.push_back("No A/A pair was measured: the noise floor of the times is not known.");
+}
+
+void warn_of_load(std::vector<std::string>& warnings, std::span<const TimeSummary> times) {
+    std::map<std::string, double> shares;
+    for (const TimeSummary& t : times) shares[t.shot] = std::max(shares[t.shot], t.disturbed_share);
+    for (const auto& [shot, share] : shares)
+        if (share > 0)
+            warnings.push_back(shot + ": other programs disturbed " + percent(share) +
+                               " of the timed frames: its times may be too long. A run on a quiet machine takes them "
+                               "again.");
 }
 
 void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
@@ -146,7 +198,9 @@ std::vector<std::string> report_warnings(const json& manifest, std::span<const M
     std::vector<std::string> warnings;
     warn_of_study(warnings, manifest);
     warn_of_variation(warnings, member(manifest, "variants"));
+    warn_of_provenance(warnings, member(manifest, "provenance"));
     warn_of_clock(warnings, member(manifest, "clock"), !times.empty());
+    warn_of_load(warnings, times);
     for (const json& shot : member(manifest, "shots")) warn_of_shot(warnings, shot);
     warn_of_light(warnings, errors);
     warn_of_pixels(warnings, errors);

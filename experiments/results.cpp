@@ -14,7 +14,7 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& 
     std::string splits =
         "shot,frame,variant,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels,bias_"
         "squared_low,bias_squared_high\n";
-    std::string times = "shot,variant,point,seed,stage,frame,milliseconds,clock\n";
+    std::string times = "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n";
     for (const Cell& cell : cells) {
         for (const ResultRow& r : cell.rows)
             rows += csv_line(r.shot, r.scene, r.camera, r.frame, r.width, r.height, r.variant, r.point, r.seed,
@@ -25,7 +25,8 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& 
                                s.variance, s.variance_low, s.variance_high, s.pixels, s.bias_squared_low,
                                s.bias_squared_high);
         for (const TimeRow& t : cell.times)
-            times += csv_line(t.shot, t.variant, t.point, t.seed, t.stage, t.frame, t.milliseconds, t.clock);
+            times += csv_line(t.shot, t.variant, t.point, t.seed, t.stage, t.frame, t.milliseconds, t.clock,
+                              t.foreign_load, t.is_disturbed);
     }
     write_text(folder / "results.csv", rows);
     write_text(folder / "splits.csv", splits);

@@ -3,13 +3,17 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
+#include "core/json.h"
 #include "experiments/capture.h"
 #include "experiments/effects.h"
+#include "experiments/folder_owner.h"
 #include "experiments/host_info.h"
 #include "experiments/manifest.h"
+#include "experiments/provenance.h"
 #include "experiments/report.h"
 #include "experiments/results.h"
 #include "experiments/rung_errors.h"
+#include "experiments/stale_files.h"
 #include "experiments/study.h"
 #include "experiments/time_effects.h"
 #include "experiments/timing.h"
@@ -165,6 +169,17 @@ PointNames not_repeatable_points(const nlohmann::json& manifest) {
     return points;
 }
 
+/// Lists what earlier versions of the study left in the folder, or removes it.
+void handle_stale_files(const Study& study, nlohmann::json& manifest) {
+    std::set<std::string> used;
+    for (const Cell& cell : study.finished) used.insert(cell.name);
+    const std::filesystem::path& out = study.settings.out;
+    const StaleFiles stale = find_stale_files(out, study.cells, used, manifest, study.manifest_before);
+    if (stale.is_empty()) return;
+    if (study.settings.prunes) return remove_stale_files(out, study.cells, stale);
+    manifest["stale"] = {{"cells", stale.cells}, {"images", stale.images}};
+}
+
 /// Writes what is finished so far, so that a long study can be read while it runs.
 void write_results(Study& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
@@ -180,7 +195,10 @@ void write_results(Study& study, bool is_last) {
         for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
         if (!cell.timing.is_null()) add_timing(manifest, cell.timing);
     }
-    if (is_last) manifest["finished"] = time_stamp();
+    manifest["provenance"] = provenance_entries(study.finished);
+    manifest["is_complete"] = is_last;
+    manifest["written"] = {{"ssrlab", study.maker["ssrlab"]}, {"at", time_stamp()}};
+    if (is_last) handle_stale_files(study, manifest);
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
     write_tables(study.settings.out, study.finished);
     const auto not_repeatable = not_repeatable_points(study.manifest);
@@ -191,23 +209,49 @@ void write_results(Study& study, bool is_last) {
     write_effects(study.settings.out, effects);
     write_time_effects(study.settings.out, time_effects(times, variants));
     write_report(study.settings.out);
+    if (is_last && manifest.contains("stale"))
+        study.progress.say("note: " + std::to_string(manifest["stale"]["cells"].size()) + " cells and " +
+                           std::to_string(manifest["stale"]["images"].size()) +
+                           " images of earlier versions of this study stay in " + study.settings.out.string() +
+                           "; --prune removes them");
+}
+
+/// What a run before left, which may be of any version; null if it cannot be read.
+nlohmann::json read_manifest_before(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) return {};
+    try {
+        return read_json(file);
+    } catch (const MachineError&) {
+        throw;
+    } catch (const Error&) {
+        return {};
+    }
 }
 
 }  // namespace
 
 void run_study(const Config& config, const RunSettings& settings) {
     Device device(settings.device);
+    Progress progress(1.0);
+    const auto say = [&](const std::string& text) { progress.say(text); };
+    const nlohmann::json maker = maker_of_cells(device);
     Study study{.config = config,
                 .settings = settings,
                 .device = device,
-                .cells = CellStore(settings.out / "cells"),
-                .progress = Progress(1.0),
+                .cells = CellStore(settings.out, say),
+                .progress = progress,
                 .work = {},
-                .code = code_hash(),
-                .manifest = study_entry(config, device),
+                .code = maker["ssrlab"]["code"],
+                .maker = maker,
+                .manifest = study_entry(config),
+                .manifest_before = {},
+                .clock = {},
                 .finished = {}};
     for (const auto& warning : study.manifest["warnings"]) study.progress.say("warning: " + warning.get<std::string>());
     plan_work(study);
+    const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
+    study.manifest_before = read_manifest_before(settings.out / "manifest.json");
     for (const ShotConfig& shot : config.shots) {
         if (shot.gbuffer.empty())
             run_scene_shot(study, shot);

@@ -1,5 +1,7 @@
 #pragma once
+#include "core/gpu/clock.h"
 #include "core/gpu/device.h"
+#include "experiments/cell_store.h"
 #include "experiments/progress.h"
 #include "experiments/run.h"
 #include "experiments/shot_truth.h"
@@ -11,10 +13,13 @@ struct Study {
     const RunSettings& settings;
     Device& device;
     CellStore cells;
-    Progress progress;
+    Progress& progress;
     Workload work;
     std::string code;
+    nlohmann::json maker;  ///< of cells, see provenance.h
     nlohmann::json manifest;
+    nlohmann::json manifest_before;   ///< what the folder held when the run began; null if nothing
+    std::optional<ClockProof> clock;  ///< made when first needed
     std::vector<Cell> finished;
 
     void report(double share, const std::string& what) {

@@ -1,9 +1,13 @@
 #include "core/files.h"
+#include "experiments/host_info.h"
 #include "experiments/play.h"
+#include "experiments/provenance.h"
 #include "experiments/study.h"
 #include "experiments/timing.h"
+#include "experiments/timing_lock.h"
 #include "variants/registry.h"
 
+#include <algorithm>
 #include <map>
 
 namespace {
@@ -40,6 +44,11 @@ struct CellTask {
     std::string hash, what, kind;
     double units;
     std::function<Cell(const std::function<void(double)>& report)> make;
+    /// Why a cell that is there is tried once more; "" if it is not. The better of both is kept.
+    std::function<std::string(const Cell&)> why_again = [](const Cell&) { return ""; };
+    std::function<bool(const Cell& again, const Cell& before)> is_better = [](const Cell&, const Cell&) {
+        return true;
+    };
 };
 
 /// A result while the study runs: one number that matters, over the seeds.
@@ -64,20 +73,29 @@ void say_result(Study& study, const Cell& cell) {
 std::optional<Cell> do_cell(Study& study, const CellTask& task, bool waits) {
     study.work.start(task.kind, task.units);
     study.report(0, task.what);
-    if (std::optional<Cell> found = study.cells.load(task.hash)) {
+    std::optional<Cell> found = study.cells.load(task.hash);
+    const bool is_tried_again = found && !task.why_again(*found).empty();
+    if (found && !is_tried_again) {
         study.work.skip();
         return found;
     }
     const auto claim = study.cells.claim(task.hash, waits);
     if (!claim) return {};
-    if (std::optional<Cell> found = study.cells.load(task.hash)) {  // made while waiting
+    found = study.cells.load(task.hash);  // another may have made it since
+    const std::string why = found ? task.why_again(*found) : "";
+    if (found && why.empty()) {
         study.work.skip();
         return found;
     }
+    if (found) study.progress.say("note: " + task.what + ": " + why);
+    const std::string started = time_stamp();
     Cell cell = task.make([&](double share) { study.report(share, task.what); });
-    study.cells.save(task.hash, cell);
+    cell.name = task.hash;
+    cell.provenance = cell_provenance(study.maker, task.what, started);
+    const bool is_kept = !found || task.is_better(cell, *found);
+    if (is_kept) study.cells.save(task.hash, cell);
     study.work.finish();
-    return cell;
+    return is_kept ? std::move(cell) : std::move(*found);
 }
 
 /// All variant points of a shot.
@@ -102,23 +120,56 @@ std::vector<CellTask> point_tasks(Study& study, ShotRun& run) {
     return tasks;
 }
 
+bool has_times(const Config& config) {
+    return config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed);
+}
+
+/// The proof of the clock, made once in a process.
+const ClockProof& proven_clock(Study& study) {
+    if (study.clock) return *study.clock;
+    study.clock = prove_clock(study.device);
+    if (study.clock->verdict() == ClockVerdict::failed)
+        study.progress.say(
+            "warning: the clock did not prove itself: passes of 1 : 10 : 100 work took other times on a quiet machine, "
+            "so no time of this run can be trusted");
+    if (study.clock->verdict() == ClockVerdict::not_judged)
+        study.progress.say(
+            "warning: the clock could not be judged: passes of 1 : 10 : 100 work took other times while other programs "
+            "were at work on this machine");
+    return *study.clock;
+}
+
+/// All times of a shot, while no other ssrlab takes any on this machine.
+Cell timing_cell(Study& study, ShotRun& run, const std::function<void(double)>& report) {
+    if (!has_times(study.config)) return {};
+    const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
+    const ClockProof& clock = proven_clock(study);
+    const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
+    const ShotTimes times = time_variants(run.source, run.shot, study.config, lit, study.settings.keep_all, report);
+    if (times.load.disturbed > 0)
+        study.progress.say("warning: " + run.shot.name() + ": other programs disturbed " +
+                           std::to_string(times.load.disturbed) + " of " + std::to_string(study.config.timing.frames) +
+                           " timed frames; the next run takes these times again");
+    return Cell{.times = times.rows, .timing = timing_entry(times, run.shot.name(), clock)};
+}
+
+double disturbed_frames(const Cell& cell) { return cell.timing.at("load").at("disturbed_frames").get<double>(); }
+
 CellTask timing_task(Study& study, ShotRun& run) {
-    const TimingConfig& timing = study.config.timing;
-    nlohmann::json timed = {
-        {"variants", study.manifest["variants"]}, {"frames", timing.frames}, {"warm_up", timing.warm_up}};
+    const nlohmann::json what = timed_work(study.config, study.manifest["variants"], study.maker["host"]);
     std::vector<unsigned> seeds;
-    for (const VariantConfig& variant : study.config.variants)
-        timed["timed"].push_back(variant.is_timed), seeds.push_back(variant.seeds.front());
-    return {.hash = cell_hash(study, run, "times", timed, seeds),
+    for (const VariantConfig& variant : study.config.variants) seeds.push_back(variant.seeds.front());
+    return {.hash = cell_hash(study, run, "times", what, seeds),
             .what = run.shot.name() + ": timing",
             .kind = "times",
             .units = 1,
-            .make = [&study, &run](const auto& report) {
-                const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
-                const ShotTimes times =
-                    time_variants(run.source, run.shot, study.config, lit, study.settings.keep_all, report);
-                return Cell{.times = times.rows, .timing = timing_entry(times, run.shot.name())};
-            }};
+            .make = [&study, &run](const auto& report) { return timing_cell(study, run, report); },
+            .why_again = [](const Cell& cell) -> std::string {
+                return is_disturbed(cell.timing) ? "its times were disturbed by other programs; they are taken again"
+                                                 : "";
+            },
+            .is_better = [](const Cell& again,
+                            const Cell& before) { return disturbed_frames(again) < disturbed_frames(before); }};
 }
 
 }  // namespace

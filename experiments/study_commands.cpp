@@ -23,7 +23,9 @@ void run_study_command(const RunOptions& options, const CommonOptions& common) {
                .device = common.device,
                .cache = common.cache.empty() ? default_cache_folder() : common.cache,
                .search_path = scene_search_path(common.scene_path),
-               .keep_all = options.keep_all});
+               .keep_all = options.keep_all,
+               .replaces = options.replaces,
+               .prunes = options.prunes});
 }
 
 void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common) {

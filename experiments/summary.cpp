@@ -164,7 +164,8 @@ std::vector<TimeRow> read_time_rows(const std::filesystem::path& file) {
     std::vector<TimeRow> rows;
     for (CsvReader csv(file); csv.next();)
         rows.push_back({csv.text("shot"), csv.text("variant"), csv.text("point"), small_count(csv, "seed"),
-                        csv.text("stage"), small_count(csv, "frame"), csv.number("milliseconds"), csv.text("clock")});
+                        csv.text("stage"), small_count(csv, "frame"), csv.number("milliseconds"), csv.text("clock"),
+                        csv.optional_number("foreign_load"), csv.count("disturbed") != 0});
     return rows;
 }
 
@@ -186,10 +187,12 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
         for (const TimeRow* row : group) of_frame[{row->seed, row->frame}] += row->milliseconds;
         std::vector<double> times;
         for (const auto& [frame, milliseconds] : of_frame) times.push_back(milliseconds);
+        const auto disturbed = std::ranges::count_if(group, [](const TimeRow* row) { return row->is_disturbed; });
         const TimeRow& first = *group.front();
         const MedianInterval m = median_interval(times);
         summaries.push_back(
-            {first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median, m.low, m.high});
+            {first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median, m.low, m.high,
+             double(disturbed) / double(group.size())});
     }
     return summaries;
 }
@@ -205,8 +208,9 @@ void write_summaries(const std::filesystem::path& folder, std::span<const Metric
                          e.non_finite, e.negative);
     write_text(folder / "summary.csv", text);
 
-    text = "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms\n";
+    text = "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,disturbed_share\n";
     for (const TimeSummary& t : times)
-        text += csv_line(t.shot, t.variant, t.point, t.stage, t.clock, t.frames, t.median, t.low, t.high);
+        text += csv_line(t.shot, t.variant, t.point, t.stage, t.clock, t.frames, t.median, t.low, t.high,
+                         t.disturbed_share);
     write_text(folder / "time_summary.csv", text);
 }

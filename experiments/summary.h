@@ -50,6 +50,7 @@ struct TimeSummary {
     std::string shot, variant, point, stage, clock;
     size_t frames = 0;
     double median = 0, low = 0, high = 0;  ///< ms; the range where there are fewer than 6 frames
+    double disturbed_share = 0;            ///< of the frames: other work took too much of the machine meanwhile
 };
 std::vector<TimeSummary> summarise(std::span<const TimeRow> rows);
 

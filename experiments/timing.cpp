@@ -28,8 +28,11 @@ struct TimedCopy {
     std::unique_ptr<PassGraph> graph;
     std::unique_ptr<Variant> variant;
     std::vector<LeftOut> kept_parts;  ///< by a complete copy: what the others leave out
-    std::vector<double> totals;
-    std::map<std::string, std::vector<double>> stages;
+    struct Frame {
+        std::vector<PassTime> stages;
+        double total;
+    };
+    std::vector<Frame> frames;  ///< one for each measured round
 
     TimedCopy(const VariantConfig& c, Purpose p, PassGraph& like)
         : config(c),
@@ -42,17 +45,87 @@ struct TimedCopy {
         graph->times();  // waits for the device: the next copy starts on an idle one
     }
 
-    /// The times of the last frame; `row`: shot, frame and clock.
-    void record(std::vector<TimeRow>& rows, TimeRow row) {
-        const std::vector<PassTime> times = graph->times();
-        for (const PassTime& t : times) stages[t.stage].push_back(t.milliseconds);
-        totals.push_back(graph->frame_milliseconds());
+    void record() { frames.push_back({graph->times(), graph->frame_milliseconds()}); }
+
+    /// The rows of one round; `row`: shot, frame, clock and load.
+    void add_to(std::vector<TimeRow>& rows, size_t round, TimeRow row) const {
         if (purpose != Purpose::recorded) return;
         row.variant = config.variant, row.point = config.point, row.seed = config.seeds.front();
-        add_rows(rows, row, times);
-        add_rows(rows, row, {{"total", totals.back()}});
+        add_rows(rows, row, frames[round].stages);
+        add_rows(rows, row, {{"total", frames[round].total}});
+    }
+
+    double median_total(const std::vector<size_t>& rounds) const {
+        std::vector<double> totals;
+        for (const size_t round : rounds) totals.push_back(frames[round].total);
+        return median_interval(totals).median;
+    }
+    /// None if the stage did not run.
+    std::optional<double> median_of(const std::string& stage, const std::vector<size_t>& rounds) const {
+        std::vector<double> times;
+        for (const size_t round : rounds)
+            for (const PassTime& t : frames[round].stages)
+                if (t.stage == stage) times.push_back(t.milliseconds);
+        if (times.empty()) return {};
+        return median_interval(times).median;
     }
 };
+
+/// A round that was measured.
+struct Round {
+    std::vector<PassTime> source_times;
+    std::optional<double> foreign_load;
+
+    bool is_disturbed() const { return foreign_load.value_or(0.0) > disturbing_load; }
+};
+
+/// Foreign load of rounds that last load_window together, each of which then has it.
+class LoadWindow {
+public:
+    LoadWindow(std::vector<Round>& rounds, const CpuTimesReader& cpu_times)
+        : rounds_(rounds), cpu_times_(cpu_times), start_(cpu_times()) {}
+
+    /// Tells the load of the rounds since the last time, if they took long enough, or if `is_last`.
+    void update(bool is_last) {
+        const CpuTimes now = cpu_times_();
+        if (!is_last && now.wall - start_.wall < load_window) return;
+        for (; told_ < rounds_.size(); ++told_) {
+            rounds_[told_].foreign_load = foreign_load(start_, now);
+            quiet_ += !rounds_[told_].is_disturbed();
+        }
+        start_ = now;
+    }
+    size_t quiet() const { return quiet_; }  ///< of those whose load is told
+    size_t untold() const { return rounds_.size() - told_; }
+
+private:
+    std::vector<Round>& rounds_;
+    const CpuTimesReader& cpu_times_;
+    CpuTimes start_;
+    size_t told_ = 0, quiet_ = 0;
+};
+
+/// The first `count` quiet rounds, or all of them and the least disturbed others, in their order.
+std::vector<size_t> chosen_rounds(const std::vector<Round>& rounds, size_t count) {
+    std::vector<size_t> order(rounds.size());
+    std::iota(order.begin(), order.end(), size_t(0));
+    std::ranges::stable_sort(order, {},
+                             [&](size_t i) { return rounds[i].is_disturbed() ? *rounds[i].foreign_load : 0.0; });
+    order.resize(std::min(count, order.size()));
+    std::ranges::sort(order);
+    return order;
+}
+
+TimingLoad load_of(const std::vector<Round>& rounds, const std::vector<size_t>& chosen) {
+    TimingLoad load;
+    for (const Round& round : rounds) load.left_out += round.is_disturbed();
+    for (const size_t i : chosen) {
+        load.disturbed += rounds[i].is_disturbed();
+        if (rounds[i].foreign_load) load.largest = std::max(load.largest.value_or(0.0), *rounds[i].foreign_load);
+    }
+    load.left_out -= load.disturbed;
+    return load;
+}
 
 std::vector<TimedCopy> make_copies(const Config& config, PassGraph& like, bool keep_all, const SceneFacts& facts) {
     using enum TimedCopy::Purpose;
@@ -69,30 +142,59 @@ std::vector<TimedCopy> make_copies(const Config& config, PassGraph& like, bool k
     return copies;
 }
 
-std::vector<SavedTime> saved_times(const std::vector<TimedCopy>& copies) {
+std::vector<SavedTime> saved_times(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
     std::map<std::string, double> longest;
     for (const TimedCopy& copy : copies)
         for (const LeftOut& part : copy.kept_parts) {
-            const auto stage = copy.stages.find(part.what);
-            if (stage == copy.stages.end()) continue;
+            const std::optional<double> median = copy.median_of(part.what, rounds);
+            if (!median) continue;
             double& time = longest[part.what];
-            time = std::max(time, median_interval(stage->second).median);
+            time = std::max(time, *median);
         }
     std::vector<SavedTime> saved;
     for (const auto& [stage, milliseconds] : longest) saved.push_back({stage, milliseconds});
     return saved;
 }
 
-std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies) {
+std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
     std::vector<AaPair> pairs;
     for (const TimedCopy& copy : copies) {
-        const double median = median_interval(copy.totals).median;
+        const double median = copy.median_total(rounds);
         if (copy.purpose == TimedCopy::Purpose::recorded)
             pairs.push_back({.variant = copy.config.variant, .point = copy.config.point, .first_ms = median});
         else if (copy.purpose == TimedCopy::Purpose::twin)
             pairs.back().second_ms = median;
     }
     return pairs;
+}
+
+nlohmann::json clock_entry(const ClockProof& proof) {
+    nlohmann::json checks = nlohmann::json::array();
+    for (const ClockCheck& c : proof.checks) {
+        checks.push_back({{"stage_kind", c.stage_kind},
+                          {"expected", c.expected},
+                          {"measured_ms", c.measured_ms},
+                          {"ratio", c.ratio},
+                          {"foreign_load", nullptr},
+                          {"attempts", c.attempts},
+                          {"verdict", name_of(c.verdict)}});
+        if (c.foreign_load) checks.back()["foreign_load"] = *c.foreign_load;
+    }
+    return {{"method", proof.method},
+            {"empty_submit_ms", proof.empty_submit_ms},
+            {"verdict", name_of(proof.verdict())},
+            {"checks", checks}};
+}
+
+/// One entry for each proof, with the shots that were timed by its clock.
+void add_proof(nlohmann::json& proofs, const nlohmann::json& entry) {
+    for (nlohmann::json& proof : proofs) {
+        nlohmann::json alone = proof;
+        alone.erase("shots");
+        if (alone == entry["clock"]) return proof["shots"].push_back(entry["shot"]);
+    }
+    proofs.push_back(entry["clock"]);
+    proofs.back()["shots"] = {entry["shot"]};
 }
 
 }  // namespace
@@ -128,33 +230,58 @@ std::vector<std::vector<size_t>> timed_turns(size_t count, unsigned rounds) {
 
 ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& config,
                         const std::function<const HostImage&(unsigned frame)>& lit, bool keep_all,
-                        const std::function<void(double)>& report) {
+                        const std::function<void(double)>& report, const CpuTimesReader& cpu_times) {
     ShotTimes result;
     std::vector<TimedCopy> copies = make_copies(config, source.graph(), keep_all, shot.facts);
     if (config.timing.frames == 0 || copies.empty()) return result;
 
     const std::string clock = source.graph().clock() == Clock::host_fence ? "host_fence" : "gpu_timestamp";
-    const unsigned rounds = config.timing.warm_up + config.timing.frames;
-    const std::vector<std::vector<size_t>> turns = timed_turns(copies.size(), rounds);
-    for (const FrameStep& step : timed_steps(shot.config.frames, rounds)) {
-        const bool is_measured = step.index >= config.timing.warm_up;
-        const TimeRow row{.shot = shot.name(), .frame = step.index - config.timing.warm_up, .clock = clock};
+    const unsigned warm_up = config.timing.warm_up, wanted = config.timing.frames,
+                   most = warm_up + (1 + most_repeated_frames) * wanted;
+    const std::vector<std::vector<size_t>> turns = timed_turns(copies.size(), most);
+    std::vector<Round> rounds;
+    std::optional<LoadWindow> load;
+    for (const FrameStep& step : timed_steps(shot.config.frames, most)) {
+        if (step.index == warm_up) load.emplace(rounds, cpu_times);
         const GBuffer gbuffer = source.render(step, 0, lit(step.frame));
-        const std::vector<PassTime> source_times = source.graph().times();
+        std::vector<PassTime> source_times = source.graph().times();
         for (const size_t place : turns[step.index]) copies[place].render(source.camera(), gbuffer);
-        if (is_measured) {
-            add_rows(result.rows, row, source_times);
-            for (TimedCopy& copy : copies) copy.record(result.rows, row);
-        }
-        report(double(step.index + 1) / rounds);
+        if (step.index < warm_up) continue;
+        rounds.push_back({std::move(source_times), {}});
+        for (TimedCopy& copy : copies) copy.record();
+        load->update(load->quiet() + load->untold() == wanted || step.index + 1 == most);
+        if (load->quiet() >= wanted) break;
+        report(std::min(double(load->quiet() + load->untold()) / wanted, 0.99));
     }
-    result.pairs = pairs_of(copies);
-    result.saved = saved_times(copies);
+
+    const std::vector<size_t> chosen = chosen_rounds(rounds, wanted);
+    for (const size_t i : chosen) {
+        const TimeRow row{.shot = shot.name(),
+                          .frame = unsigned(i),
+                          .clock = clock,
+                          .foreign_load = rounds[i].foreign_load,
+                          .is_disturbed = rounds[i].is_disturbed()};
+        add_rows(result.rows, row, rounds[i].source_times);
+        for (const TimedCopy& copy : copies) copy.add_to(result.rows, i, row);
+    }
+    result.pairs = pairs_of(copies, chosen);
+    result.saved = saved_times(copies, chosen);
+    result.load = load_of(rounds, chosen);
     return result;
 }
 
-nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot) {
-    nlohmann::json pairs = nlohmann::json::array(), saved = nlohmann::json::object();
+nlohmann::json timed_work(const Config& config, const nlohmann::json& variants, const nlohmann::json& host) {
+    nlohmann::json work = {{"variants", variants},
+                           {"frames", config.timing.frames},
+                           {"warm_up", config.timing.warm_up},
+                           {"host", host}};
+    for (const VariantConfig& variant : config.variants) work["timed"].push_back(variant.is_timed);
+    return work;
+}
+
+nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, const ClockProof& clock) {
+    nlohmann::json pairs = nlohmann::json::array(), saved = nlohmann::json::object(), largest;
+    if (times.load.largest) largest = *times.load.largest;
     for (const AaPair& p : times.pairs)
         pairs.push_back({{"shot", shot},
                          {"variant", p.variant},
@@ -163,15 +290,33 @@ nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot) {
                          {"second_ms", p.second_ms},
                          {"floor", p.floor()}});
     for (const SavedTime& s : times.saved) saved[s.stage] = s.milliseconds;
-    return {{"shot", shot}, {"aa_pairs", pairs}, {"saved_ms", saved}};
+    return {{"shot", shot},
+            {"aa_pairs", pairs},
+            {"saved_ms", saved},
+            {"load",
+             {{"disturbed_frames", times.load.disturbed},
+              {"left_out_frames", times.load.left_out},
+              {"largest_foreign_load", largest}}},
+            {"clock", clock_entry(clock)}};
+}
+
+bool is_disturbed(const nlohmann::json& timing_entry) {
+    return timing_entry.is_object() && timing_entry.at("load").at("disturbed_frames").get<unsigned>() > 0;
 }
 
 void add_timing(nlohmann::json& manifest, const nlohmann::json& entry) {
     nlohmann::json& clock = manifest["clock"];
+    add_proof(clock["proofs"], entry);
+    nlohmann::json load = entry["load"];
+    load["shot"] = entry["shot"];
+    clock["load"].push_back(load);
     for (const nlohmann::json& pair : entry["aa_pairs"]) clock["aa_pairs"].push_back(pair);
+    double empty_submit_ms = 0;
+    for (const nlohmann::json& proof : clock["proofs"])
+        empty_submit_ms = std::max(empty_submit_ms, proof["empty_submit_ms"].get<double>());
     // What takes hardly longer than submitting nothing is as noisy as that: it counts only where there is nothing else.
     const auto is_long = [&](const nlohmann::json& pair) {
-        return pair["first_ms"].get<double>() > 10 * clock["empty_submit_ms"].get<double>();
+        return pair["first_ms"].get<double>() > 10 * empty_submit_ms;
     };
     const bool has_long = std::ranges::any_of(clock["aa_pairs"], is_long);
     double floor = 0;

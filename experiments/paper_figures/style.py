@@ -1,6 +1,8 @@
 """The look that all figures share, and how they are saved."""
 
+import hashlib
 import os
+import re
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -91,8 +93,18 @@ def number(x):
     return f"{x:.3g}".replace("e+0", "e")
 
 
+def file_name(text, longest=150):
+    """Letters, digits, '.', '_' and '-' stay, the rest becomes '-'; a long name is cut and ends in a hash of all of it."""
+    name = re.sub(r"[^A-Za-z0-9._-]", "-", text)
+    if len(name) <= longest:
+        return name
+    digest = hashlib.sha256(text.encode()).hexdigest()[:12]
+    return f"{name[: longest - 13]}-{digest}"
+
+
 def save(figure, folder, name):
     """Writes name.pdf, .svg and .png, each to a temporary name and renamed."""
+    name = file_name(name)
     metadata = {
         "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": "ssrlab"},
         "svg": {"Date": None, "Creator": "ssrlab"},

@@ -6,17 +6,36 @@ const percent = x => x === null || x === undefined ? "–" : number(100 * x, 3) 
 
 function showHead() {
     const {manifest} = report;
+    const makers = list(manifest.provenance);
     const shots = list(manifest.shots).length, points = unique(report.errors.map(pointLabel)).length;
     const parts = [
         `${shots} ${shots === 1 ? "shot" : "shots"}`, `${points} ${points === 1 ? "variant point" : "variant points"}`,
-        manifest.device?.name, manifest.started
+        ...unique(makers.map(m => m.device?.name)), makers.map(m => m.started).sort()[0]
     ];
     at("subtitle").textContent = parts.filter(Boolean).join(" · ");
     const all = [...report.warnings];
     at("warnings").replaceChildren(...all.map(text => h("p", {class: "warning", role: "note"}, text)));
 
-    const {device = {}, host = {}, ssrlab = {}, clock} = manifest;
-    const facts = [
+    const {clock} = manifest, proofs = list(clock?.proofs);
+    const times = [
+        ["Clock", known(unique(proofs.map(p => p.method)).join(", "))],
+        ["Clock proof", proofs.length ? proofs.map(clockProof).join(" | ") : "not recorded"],
+        ["A/A floor of times", known(clock?.aa_floor, percent(clock?.aa_floor))],
+        ["Empty submit", known(proofs[0]?.empty_submit_ms, proofs.map(p => number(p.empty_submit_ms, 3)).join(", ") + " ms")],
+        ["Foreign load, at most", foreignLoad(list(clock?.load))],
+    ];
+    at("facts").replaceChildren(...(makers.length ? makers : [{}]).map((m, i) => factList(makerFacts(m, makers.length > 1 ? i + 1 : 0))),
+                                factList(times));
+}
+
+const factList = facts =>
+    h("dl", {class: "facts"}, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+
+/// What made some of the cells, where and when; `place` counts them from 1 where there are several.
+function makerFacts(maker, place) {
+    const {device = {}, host = {}, ssrlab = {}} = maker;
+    return [
+        ...(place ? [[`Made by ${place}`, `${list(maker.cells).length} cells`]] : []),
         ["Device", known(device.name, [device.name, device.type && `(${device.type})`].filter(Boolean).join(" "))],
         [
             "Driver",
@@ -26,7 +45,8 @@ function showHead() {
             "Host",
             known(
                 host.cpu,
-                [host.cpu, host.cores && `${host.cores} cores`, host.memory_gib && `${number(host.memory_gib)} GiB`]
+                [host.name, host.cpu, host.cores && `${host.cores} cores`,
+                 host.memory_gib && `${number(host.memory_gib)} GiB`]
                     .filter(Boolean)
                     .join(", "))
         ],
@@ -37,24 +57,22 @@ function showHead() {
             h("span", {class: "hash"},
               known(ssrlab.commit, String(ssrlab.commit).slice(0, 12)) + (ssrlab.dirty ? " with changes" : ""))
         ],
-        ["Run", `${known(manifest.started)} to ${known(manifest.finished)}`],
-        ["Clock", known(clock?.method)],
-        ["Clock proof", clockProof(clock)],
-        ["A/A floor of times", known(clock?.aa_floor, percent(clock?.aa_floor))],
-        ["Empty submit", known(clock?.empty_submit_ms, number(clock?.empty_submit_ms, 3) + " ms")],
+        ["Run", `${known(maker.started)} to ${known(maker.finished)}`],
     ];
-    at("facts").replaceChildren(
-        h("dl", {class: "facts"}, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))));
 }
 
-function clockProof(clock) {
-    const proof = list(clock?.proof);
-    if (!proof.length) return "not recorded";
-    return proof
+const verdictTexts = {passed: "passed", failed: "FAILED", not_judged: "NOT JUDGED, the machine was busy"};
+
+const clockProof = proof =>
+    list(proof.checks)
         .map(
-            p => `${p.stage_kind}: ${p.passed ? "passed" : "FAILED"} (${
+            p => `${p.stage_kind}: ${verdictTexts[p.verdict] ?? "not recorded"} (${
                 list(p.ratio).map(r => number(r, 3)).join(" : ")} for ${list(p.expected).join(" : ")})`)
         .join("; ");
+
+function foreignLoad(loads) {
+    const largest = loads.map(l => l.largest_foreign_load).filter(x => typeof x === "number");
+    return largest.length ? percent(Math.max(...largest)) + " of the machine's CPU time" : "not recorded";
 }
 
 function showReferences() {

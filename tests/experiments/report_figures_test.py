@@ -107,6 +107,14 @@ def test_crop_boxes():
     )
 
 
+def test_file_names():
+    """Names of glTF cameras, which shots are called by, hold what no file name may, or are longer than one."""
+    check(style.file_name("crops_fence.low.160x90") == "crops_fence.low.160x90", "a name that needs no change")
+    check(style.file_name("crops_a/b c") == "crops_a-b-c", "letters that no file name has")
+    long = [style.file_name("c" * 300 + end) for end in "12"]
+    check(len(long[0]) == 150 and long[0] != long[1], f"long names: {long}")
+
+
 def test_mistakes(folder, temporary):
     for options, part in ((["--metric", "nonsense"], "metric nonsense"),):
         result = run_figures(folder, os.path.join(temporary, "none"), *options)
@@ -198,6 +206,7 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     subprocess.run([program, folder], check=True)
     test_exr(folder)
     test_crop_boxes()
+    test_file_names()
     keep_one_shot(folder)
     test_same_bytes(folder, temporary)
     test_mistakes(folder, temporary)

@@ -172,12 +172,10 @@ json shot_entry(const std::string& shot, glm::uvec2 extent) {
 }
 
 json manifest_head() {
-    const auto proof = [](const char* kind, bool passed, double third) {
-        return json{{"stage_kind", kind},
-                    {"expected", {1, 10, 100}},
-                    {"measured_ms", {0.1, 1.0, third / 10}},
-                    {"ratio", {1.0, 10.0, third}},
-                    {"passed", passed}};
+    const auto check = [](const char* kind, const char* verdict, double third) {
+        return json{{"stage_kind", kind},          {"expected", {1, 10, 100}}, {"measured_ms", {0.1, 1.0, third / 10}},
+                    {"ratio", {1.0, 10.0, third}}, {"foreign_load", 0.01},     {"attempts", 1},
+                    {"verdict", verdict}};
     };
     json variants = json::array();
     for (const Point& p : points) {
@@ -191,27 +189,34 @@ json manifest_head() {
                             {"parameters", parameters}});
         if (p.point == "stride=1") variants.back()["limits"] = "WebGL 2";
     }
-    return {{"ssrlab",
-             {{"version", "0.1.0"},
-              {"commit", "abcdef0123456789"},
-              {"dirty", false},
-              {"compiler", "GNU 12.2"},
-              {"build", "Release"}}},
-            {"started", "2026-01-31T12:00:00Z"},
-            {"finished", "2026-01-31T12:05:00Z"},
+    const json maker = {
+        {"ssrlab",
+         {{"version", "0.1.0"},
+          {"commit", "abcdef0123456789"},
+          {"dirty", false},
+          {"compiler", "GNU 12.2"},
+          {"build", "Release"}}},
+        {"started", "2026-01-31T12:00:00Z"},
+        {"finished", "2026-01-31T12:05:00Z"},
+        {"device",
+         {{"name", "llvmpipe (LLVM 15.0.6, 256 bits)"},
+          {"driver", "Mesa 22.3.6"},
+          {"api", "1.3.230"},
+          {"type", "cpu"}}},
+        {"host", {{"name", "a"}, {"cpu", "A processor"}, {"cores", 4}, {"memory_gib", 22.5}, {"kernel", "Linux 6.1"}}},
+        {"cells", json::array()}};
+    return {{"provenance", {maker}},
+            {"is_complete", true},
             {"title", "Linear tracing </script> against the truth"},
-            {"warnings", {"the clock did not prove itself: fragment passes took other times"}},
-            {"device",
-             {{"name", "llvmpipe (LLVM 15.0.6, 256 bits)"},
-              {"driver", "Mesa 22.3.6"},
-              {"api", "1.3.230"},
-              {"type", "cpu"}}},
-            {"host", {{"cpu", "A processor"}, {"cores", 4}, {"memory_gib", 22.5}, {"kernel", "Linux 6.1"}}},
+            {"warnings", {"a clause that the study has to say"}},
             {"clock",
-             {{"method", "host_fence"},
-              {"empty_submit_ms", 0.21},
-              {"aa_floor", 0.02},
-              {"proof", {proof("compute", true, 101.0), proof("fragment", false, 31.0)}}}},
+             {{"aa_floor", 0.02},
+              {"proofs",
+               {{{"method", "host_fence"},
+                 {"empty_submit_ms", 0.21},
+                 {"verdict", "failed"},
+                 {"shots", {fixture_shots[0], fixture_shots[1], fixture_shots[2]}},
+                 {"checks", {check("compute", "passed", 101.0), check("fragment", "failed", 31.0)}}}}}}},
             {"variants", variants},
             {"shots", json::array()},
             {"images", json::array()}};

@@ -151,7 +151,7 @@ def test_without_scripts(page, url):
     page.get(url)
     text = page.find_element(By.TAG_NAME, "noscript").text
     check(
-        "the clock did not prove itself" in text and "mcguire_dda" in text and "mse" in text,
+        "The clock did not prove itself" in text and "mcguire_dda" in text and "mse" in text,
         f"the part for readers without scripts: {text!r}",
     )
 
@@ -179,7 +179,7 @@ def main():
             WebDriverWait(page, 20).until(
                 lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
             )
-            equal(len(page.find_elements(By.CSS_SELECTOR, "#warnings .warning")), 4, "warnings")
+            equal(len(page.find_elements(By.CSS_SELECTOR, "#warnings .warning")), 5, "warnings")
             test_sections(page)
             test_table(page, folder)
             test_sorting(page)

@@ -177,23 +177,47 @@ TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
     const auto times = summarise(read_time_rows(folder / "times.csv"));
     auto manifest = read_json(folder / "manifest.json");
     const auto warnings = report_warnings(manifest, errors, times);
-    EXPECT_TRUE(contains(warnings, "the clock did not prove itself: fragment passes took other times."));
+    EXPECT_TRUE(contains(warnings, "This study: a clause that the study has to say."));
+    EXPECT_TRUE(contains(warnings, "The clock did not prove itself"));
     EXPECT_TRUE(contains(
         warnings,
         "roughness_gradient.side.161x91: only 62 % of the reference's pixels reached the relative error of 3 %"));
     EXPECT_TRUE(contains(warnings, "fence.low.160x90, mcguire_dda (stride=4), specular: 1 pixel is NaN"));
-    EXPECT_EQ(warnings.size(), 4u);  // and the like for target `image`
+    EXPECT_EQ(warnings.size(), 5u);  // and the like for target `image`
     std::vector<MetricSummary> many(40, errors.front());
     for (size_t i = 0; i < many.size(); ++i) many[i].point = std::to_string(i), many[i].negative = 2;
     const auto counted = report_warnings(manifest, many, times);
     EXPECT_TRUE(contains(counted, "28 more warnings of pixels"));
     EXPECT_EQ(counted.size(), warnings.size() - 2 + 12 + 1);
     manifest["shots"][0]["warnings"] = {"a texture is missing"};
-    manifest["finished"] = nullptr;
+    manifest["is_complete"] = false;
     EXPECT_TRUE(
         contains(report_warnings(manifest, errors, times), "mirror_pillars.front.160x90: a texture is missing."));
     EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "not finished"));
     EXPECT_TRUE(contains(report_warnings(nlohmann::json::object(), errors, times), "not proven"));
+    manifest["clock"]["proofs"][0]["verdict"] = "not_judged";
+    EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "The clock could not be judged"));
+}
+
+TEST_F(Report, WarnsOfDisturbedTimesAndOfSeveralMakers) {
+    const auto errors = summarise(read_result_rows(folder / "results.csv"));
+    auto rows = read_time_rows(folder / "times.csv");
+    auto manifest = read_json(folder / "manifest.json");
+    const auto now = [&] { return report_warnings(manifest, errors, summarise(rows)); };
+    const size_t before = now().size();
+    for (TimeRow& row : rows) row.is_disturbed = row.shot == fixture_shots[1] && row.frame < 3;
+    EXPECT_TRUE(contains(now(), "fence.low.160x90: other programs disturbed 20 % of the timed frames"));
+    EXPECT_EQ(now().size(), before + 1);
+
+    manifest["provenance"].push_back(manifest["provenance"][0]);
+    EXPECT_EQ(now().size(), before + 1) << "the same maker";
+    manifest["provenance"][1]["host"]["cores"] = 64;
+    EXPECT_TRUE(contains(now(), "Parts of this study were made by different hosts:"));
+    manifest["provenance"][1]["ssrlab"]["commit"] = "another";
+    EXPECT_TRUE(contains(now(), "Parts of this study were made by different hosts, versions of ssrlab:"));
+    EXPECT_FALSE(contains(now(), "are not those of the commit"));
+    manifest["provenance"][1]["ssrlab"]["dirty"] = true;
+    EXPECT_TRUE(contains(now(), "are not those of the commit"));
 }
 
 TEST_F(Report, WarnsOfLightThatIsTooNoisy) {
@@ -224,11 +248,11 @@ TEST_F(Report, IsOneSmallFileThatNeedsNothingElse) {
 TEST_F(Report, DoesWithoutTimesAndWithOneShot) {
     std::filesystem::remove(folder / "times.csv");
     auto manifest = read_json(folder / "manifest.json");
-    for (const char* key : {"clock", "device", "host", "shots", "images", "variants"}) manifest.erase(key);
+    for (const char* key : {"clock", "provenance", "shots", "images", "variants"}) manifest.erase(key);
     write_text(folder / "manifest.json", manifest.dump());
     EXPECT_EQ(message(), "");
     EXPECT_EQ(read_text(folder / "time_summary.csv"),
-              "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms\n");
+              "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,disturbed_share\n");
 }
 
 TEST_F(Report, NamesTheFileThatIsMissingOrBroken) {

@@ -28,43 +28,13 @@ TEST(Tables, QuoteWhatNeedsIt) {
                           .stage = "s",
                           .frame = 4,
                           .milliseconds = 0.5,
-                          .clock = "host_fence"});
+                          .clock = "host_fence",
+                          .foreign_load = 0.25,
+                          .is_disturbed = true});
     write_tables(folder, {cell});
-    EXPECT_EQ(
-        read_text(folder / "times.csv"),
-        "shot,variant,point,seed,stage,frame,milliseconds,clock\na.b.1x1,v,\"x=\"\"1,2\"\"\",3,s,4,0.5,host_fence\n");
-    std::filesystem::remove_all(folder);
-}
-
-TEST(CellStore, KeepsCellsAndIgnoresBrokenOnes) {
-    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_cells_test";
-    const CellStore store(folder);
-    EXPECT_FALSE(store.load("abc"));
-    Cell cell;
-    cell.rows.push_back({.shot = "s", .metric = "psnr", .value = {}, .low = 0.25, .pixels = 7});
-    store.save("abc", cell);
-    const auto back = store.load("abc");
-    ASSERT_TRUE(back);
-    EXPECT_EQ(back->rows.front().metric, "psnr");
-    EXPECT_FALSE(back->rows.front().value);
-    EXPECT_EQ(back->rows.front().low, 0.25);
-    write_text(folder / "abc.json", read_text(folder / "abc.json").substr(0, 20));
-    EXPECT_FALSE(store.load("abc"));
-    std::filesystem::remove_all(folder);
-}
-
-TEST(CellStore, GivesACellToOneAtATime) {
-    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_claims_test";
-    std::filesystem::remove_all(folder);
-    const CellStore store(folder), other(folder);
-    {
-        const auto mine = store.claim("abc", false);
-        ASSERT_TRUE(mine);
-        EXPECT_FALSE(other.claim("abc", false));
-        EXPECT_TRUE(other.claim("def", false)) << "another cell is free";
-    }
-    EXPECT_TRUE(other.claim("abc", true)) << "given back";
-    EXPECT_TRUE(std::filesystem::is_empty(folder)) << "claims leave nothing behind";
+    EXPECT_EQ(read_text(folder / "times.csv"),
+              "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"
+              "a.b.1x1,v,\"x=\"\"1,2\"\"\",3,s,4,0.5,host_fence,0.25,1\n");
     std::filesystem::remove_all(folder);
 }
 

@@ -17,6 +17,8 @@ struct StudyTest : testing::Test {
     void SetUp() override {
         fs::remove_all(folder);
         fs::create_directories(folder);
+        // Tests run side by side, and beside studies of the user: no time of theirs is looked at.
+        setenv("SSRLAB_TIMING_LOCK", (folder / "timing.lock").c_str(), 1);
     }
     void TearDown() override { fs::remove_all(folder); }
 

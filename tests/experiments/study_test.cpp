@@ -131,8 +131,11 @@ TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
     EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/shade"), 15);
     EXPECT_EQ(frames_of("none", "mcguire_dda/trace"), 0);
     const nlohmann::json clock = read_json(out / "manifest.json")["clock"];
-    EXPECT_EQ(clock["proof"].size(), 3u);
-    EXPECT_GT(clock["empty_submit_ms"].get<double>(), 0.0);
+    ASSERT_EQ(clock["proofs"].size(), 1u);
+    EXPECT_EQ(clock["proofs"][0]["checks"].size(), 3u);
+    EXPECT_EQ(clock["proofs"][0]["shots"].size(), 1u);
+    EXPECT_GT(clock["proofs"][0]["empty_submit_ms"].get<double>(), 0.0);
+    EXPECT_EQ(clock["load"].size(), 1u);
 }
 
 TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {

@@ -2,9 +2,12 @@
 // took.
 #include "experiments/timing.h"
 #include "core/gpu/device.h"
+#include "experiments/host_info.h"
+#include "experiments/summary.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace {
@@ -32,6 +35,19 @@ private:
     std::unique_ptr<FrameSource> source_;
 };
 
+/// A machine on which each look at the counters finds 2 s gone by, and others at work as `loads` say, in turn; none
+/// after the last.
+struct MadeUpMachine {
+    std::vector<double> loads;
+    size_t looks = 0;
+    double machine = 0;
+
+    CpuTimes operator()() {
+        if (looks > 0 && looks <= loads.size()) machine += loads[looks - 1] * 2 * 4;
+        return {.machine = machine, .own = 0, .wall = 2.0 * double(looks++), .cpus = 4};
+    }
+};
+
 struct Timing : testing::Test {
     Device device{""};
     Config config{.timing = {.frames = 15, .warm_up = 2}};
@@ -46,13 +62,14 @@ struct Timing : testing::Test {
         return load_shot({.scene = scene, .camera = "", .extent = extent, .frames = frames},
                          {std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes"});
     }
-    ShotTimes time(FrameSource& source, const Shot& shot, bool keep_all = false) {
+    ShotTimes time(FrameSource& source, const Shot& shot, bool keep_all = false, MadeUpMachine machine = {}) {
         const HostImage lit(extent, 3);
         const auto lit_of = [&](unsigned frame) -> const HostImage& {
             lit_frames.insert(frame);
             return lit;
         };
-        return time_variants(source, shot, config, lit_of, keep_all, [](double) {});
+        return time_variants(
+            source, shot, config, lit_of, keep_all, [](double) {}, std::ref(machine));
     }
 };
 
@@ -123,6 +140,57 @@ TEST_F(Timing, GivesEveryStageOfEveryMeasuredFrameAndTheirSum) {
     for (const auto& [frame, difference] : sums) EXPECT_NEAR(difference, 0.0, 1e-9) << "ms: the rounding of a sum";
 }
 
+TEST_F(Timing, RepeatsFramesThatOthersDisturbed) {
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    // Each round is a window of its own: the 3rd and the 5th are disturbed, a load at the threshold is none.
+    const ShotTimes times = time(source, still, false, {.loads = {0, 0.05, 0.3, 0, 0.06, 0.01}});
+    EXPECT_EQ(source.steps.size(), 2u + 15u + 2u);
+    std::set<unsigned> frames;
+    for (const TimeRow& row : times.rows) {
+        frames.insert(row.frame);
+        EXPECT_FALSE(row.is_disturbed);
+        EXPECT_NEAR(row.foreign_load.value(), row.frame == 1 ? 0.05 : row.frame == 5 ? 0.01 : 0.0, 1e-12);
+    }
+    EXPECT_EQ(frames, (std::set<unsigned>{0, 1, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}));
+    EXPECT_EQ(times.load.disturbed, 0u);
+    EXPECT_EQ(times.load.left_out, 2u);
+    EXPECT_NEAR(times.load.largest.value(), 0.05, 1e-12);
+}
+
+TEST_F(Timing, MarksWhatItCannotRepeat) {
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    MadeUpMachine busy{.loads = std::vector<double>(100, 0.5)};
+    busy.loads[7] = 0, busy.loads[20] = 0.2;
+    const ShotTimes times = time(source, still, false, busy);
+    EXPECT_EQ(source.steps.size(), 2u + (1 + most_repeated_frames) * 15u) << "and no more";
+    std::map<unsigned, bool> disturbed;
+    for (const TimeRow& row : times.rows) disturbed[row.frame] = row.is_disturbed;
+    ASSERT_EQ(disturbed.size(), 15u);
+    EXPECT_FALSE(disturbed.at(7));
+    EXPECT_TRUE(disturbed.at(20)) << "the least disturbed come first";
+    EXPECT_EQ(times.load.disturbed, 14u);
+    EXPECT_EQ(times.load.left_out, 30u);
+    EXPECT_EQ(times.load.largest, 0.5);
+    EXPECT_TRUE(is_disturbed(timing_entry(times, "a", {})));
+    for (const TimeSummary& summary : summarise(times.rows)) {
+        EXPECT_EQ(summary.frames, 15u);
+        EXPECT_NEAR(summary.disturbed_share, 14.0 / 15, 1e-12);
+    }
+}
+
+TEST_F(Timing, TakesTimesWhereLoadCannotBeTold) {
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    const auto lit = [image = HostImage(extent, 3)](unsigned) -> const HostImage& { return image; };
+    const ShotTimes times = time_variants(
+        source, still, config, lit, false, [](double) {}, [] { return CpuTimes{}; });
+    EXPECT_EQ(source.steps.size(), 17u);
+    for (const TimeRow& row : times.rows) EXPECT_FALSE(row.foreign_load || row.is_disturbed);
+    EXPECT_FALSE(times.load.largest);
+}
+
 TEST_F(Timing, PairsEveryTimedPointAndLeavesOutTheOthers) {
     config.variants.push_back({.variant = "mcguire_dda",
                                .preset = "",
@@ -163,9 +231,23 @@ TEST_F(Timing, MeasuresWhatLeavingOutSaved) {
     EXPECT_TRUE(time(mirror_source, mirrors).saved.empty());
 }
 
+TEST(TimedWork, IsThatOfOneMachine) {
+    const Config config{.variants = {{.variant = "none", .seeds = {0}}}};
+    const nlohmann::json here = host_info();
+    nlohmann::json there = here;
+    EXPECT_EQ(timed_work(config, {}, here), timed_work(config, {}, there));
+    for (const char* key : {"name", "cpu", "cores", "memory_gib", "kernel"}) {
+        ASSERT_TRUE(here.contains(key)) << key;
+        there = here;
+        there[key] = "another";
+        EXPECT_NE(timed_work(config, {}, here), timed_work(config, {}, there)) << key;
+    }
+}
+
 TEST(TimingEntry, GoesIntoTheManifest) {
+    const ClockProof clock{.method = "host_fence", .empty_submit_ms = 0.1, .checks = {}};
     nlohmann::json manifest = {
-        {"clock", {{"empty_submit_ms", 0.1}}},
+        {"clock", nlohmann::json::object()},
         {"shots",
          {{{"shot", "a"},
            {"left_out",
@@ -174,7 +256,7 @@ TEST(TimingEntry, GoesIntoTheManifest) {
     ShotTimes times;
     times.pairs = {{"none", "default", 0.2, 0.3}, {"v", "default", 9.5, 10.5}};
     times.saved = {{"v/trace", 2.5}};
-    add_timing(manifest, timing_entry(times, "a"));
+    add_timing(manifest, timing_entry(times, "a", clock));
     // The pair of `none` differs by 40 %, but takes only two and three times what an empty submission does.
     EXPECT_DOUBLE_EQ(manifest["clock"]["aa_floor"].get<double>(), 0.1);
     EXPECT_EQ(manifest["clock"]["aa_pairs"].size(), 2u);
@@ -183,8 +265,14 @@ TEST(TimingEntry, GoesIntoTheManifest) {
     EXPECT_TRUE(manifest["shots"][1]["left_out"][0]["saved_ms"].is_null()) << "another shot";
 
     times.pairs = {{"v", "default", 18.0, 22.0}}, times.saved = {};
-    add_timing(manifest, timing_entry(times, "b"));
+    add_timing(manifest, timing_entry(times, "b", clock));
     EXPECT_DOUBLE_EQ(manifest["clock"]["aa_floor"].get<double>(), 0.2);
     EXPECT_EQ(manifest["clock"]["aa_pairs"].size(), 3u);
     EXPECT_EQ(manifest["clock"]["aa_pairs"][2]["shot"], "b");
+    ASSERT_EQ(manifest["clock"]["proofs"].size(), 1u) << "one clock, proven once";
+    EXPECT_EQ(manifest["clock"]["proofs"][0]["shots"], nlohmann::json({"a", "b"}));
+    const ClockProof another{.method = "host_fence", .empty_submit_ms = 0.2, .checks = {}};
+    add_timing(manifest, timing_entry(times, "c", another));
+    EXPECT_EQ(manifest["clock"]["proofs"].size(), 2u);
+    EXPECT_EQ(manifest["clock"]["load"].size(), 3u);
 }
