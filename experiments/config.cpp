@@ -256,7 +256,7 @@ void read_variant(JsonObject entry, const std::optional<std::vector<unsigned>>& 
 
 ReferenceSettings read_reference(JsonObject object) {
     ReferenceSettings settings;
-    settings.max_samples = unsigned(object.integer("samples", 16, 1 << 24, int(settings.max_samples)));
+    if (object.has("samples")) settings.max_samples = unsigned(object.integer("samples", 16, 1 << 24));
     settings.max_seconds = object.number("seconds", 0.0f, 1e7f, 0.0f);
     settings.target_relative_error = object.number("target_relative_error", 0.0f, 1.0f, 0.0f);
     settings.max_depth = unsigned(object.integer("max_depth", 1, 1024, int(settings.max_depth)));
@@ -307,7 +307,8 @@ void find_against_points(std::vector<VariantConfig>& variants, const std::string
 std::string label_of(const nlohmann::json& values) {
     std::string label;
     for (const auto& [name, value] : values.items())
-        label += (label.empty() ? "" : " ") + name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+        label +=
+            (label.empty() ? "" : " ") + name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
     return label;
 }
 

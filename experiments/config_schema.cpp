@@ -79,7 +79,10 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"measure", {{"enum", {"all", "last"}}}}},
                {"scene"});
     const json capture = object({{"gbuffer", text}, {"reference", text}}, {"gbuffer"});
-    const json reference = object({{"samples", integer(16, 1 << 24)},
+    json samples = integer(16, 1 << 24);
+    samples["description"] = "per pixel, at most; without it " + std::to_string(ReferenceSettings::default_samples) +
+                             ", or no limit if seconds or target_relative_error is set";
+    const json reference = object({{"samples", samples},
                                    {"seconds", number(0, 1e7)},
                                    {"target_relative_error", number(0, 1)},
                                    {"max_depth", integer(1, 1024)},

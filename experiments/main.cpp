@@ -120,9 +120,10 @@ int parse_and_run(int argc, char** argv) {
         *app.add_subcommand("reference", "Path-trace a scene; continues a render that was stopped");
     add_shot(reference_command_, reference.shot);
     reference_command_
-        .add_option("--samples", reference.settings.max_samples, "Per pixel, at most; rounded up to 16 x 2^k")
-        ->check(CLI::Range(16, 1 << 24))
-        ->capture_default_str();
+        .add_option("--samples", reference.settings.max_samples,
+                    "Per pixel, at most; rounded up to 16 x 2^k; default: " +
+                        std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
+        ->check(CLI::Range(16, 1 << 24));
     reference_command_.add_option("--seconds", reference.settings.max_seconds, "Time limit; default: none")
         ->check(CLI::PositiveNumber);
     reference_command_

@@ -43,8 +43,6 @@ void check(glm::uvec2 extent, const ReferenceSettings& settings) {
     if (extent.x == 0 || extent.y == 0 || extent.x > max_size || extent.y > max_size)
         fail("a reference of ", extent.x, " x ", extent.y, " pixels cannot be rendered: width and height must be 1 to ",
              max_size);
-    if (settings.max_samples == 0 && settings.max_seconds == 0 && settings.target_relative_error == 0)
-        fail("a reference without any limit never ends: set max_samples, max_seconds or target_relative_error");
     if (!(settings.max_seconds >= 0))
         fail("max_seconds of a reference is ", settings.max_seconds, ", but must not be negative");
     if (!(settings.target_relative_error >= 0 && settings.target_relative_error <= 1))
@@ -62,8 +60,7 @@ bool can_be_added_to(const ReferenceState& found, const ReferenceSettings& setti
     if (found.settings.target_relative_error > 0 || settings.target_relative_error > 0 || was_timed != is_timed)
         return false;
     const double held = found.reference.sample_count.values.front();
-    const double limit =
-        settings.max_samples ? double(rounded_samples(settings.max_samples)) : double(max_sample_limit);
+    const double limit = double(sample_limit(settings));
     return is_timed ? held <= limit : held <= limit && (held == limit || held >= double(first_untimed_pass));
 }
 
@@ -108,8 +105,7 @@ std::string reference_stream(const Scene& scene, const ScenePose& pose, const Ca
 }
 
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings) {
-    std::string key = stream + "-n" +
-                      shortest_digits(settings.max_samples ? rounded_samples(settings.max_samples) : max_sample_limit);
+    std::string key = stream + "-n" + shortest_digits(sample_limit(settings));
     if (settings.target_relative_error > 0) key += "-e" + shortest_digits(settings.target_relative_error);
     if (settings.max_seconds > 0) key += "-t" + shortest_digits(settings.max_seconds);
     return key;

@@ -84,8 +84,10 @@ struct Reference {
 /// their rare bright paths (up to -33 % with p = 1e-4 a path). A pilot decides the number of samples of each pixel and
 /// is then thrown away; the final pass is independent of it.
 struct ReferenceSettings {
-    unsigned max_samples =
-        256;  ///< per pixel, at most; rounded up to 16 * 2^k <= 2^24; 0: no such limit, if there is another
+    static constexpr unsigned default_samples = 256;
+
+    /// Per pixel, at most; rounded up to 16 * 2^k <= 2^24. 0: no such limit, or default_samples if there is no other.
+    unsigned max_samples = 0;
     double max_seconds = 0;  ///< wall clock, over all continued runs; 0: unlimited. At least one pass of 16 is made
     float target_relative_error =
         0;  ///< relative standard error of `specular` at each pixel, see relative_error(); 0: no such stop
@@ -116,7 +118,7 @@ struct ReferenceRun {
 /// a finished reference of the same samples with less of them adds to it, where ReferenceSettings says that it can; any
 /// other file there is replaced. The finished reference is not written: see write_reference().
 ///
-/// Fails with Error if the extent is zero or too large, or no limit is set; with MachineError if the disk is full.
+/// Fails with Error if the extent is zero or too large, or a setting out of range; with MachineError if the disk is full.
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 

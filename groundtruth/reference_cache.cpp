@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "groundtruth/reference_file.h"
+#include "groundtruth/reference_stopping.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -59,7 +60,7 @@ fs::path smaller_reference(const fs::path& folder, const std::string& stream, co
     if (settings.target_relative_error > 0) return {};
     ReferenceSettings smaller = settings;
     if (settings.max_seconds == 0) {
-        for (smaller.max_samples = settings.max_samples / 2; smaller.max_samples >= 16; smaller.max_samples /= 2)
+        for (smaller.max_samples = unsigned(sample_limit(settings) / 2); smaller.max_samples >= 16; smaller.max_samples /= 2)
             if (const fs::path file = folder / (reference_key(stream, smaller) + ".exr"); fs::exists(file)) return file;
         return {};
     }

@@ -20,7 +20,7 @@ struct Limits {
 };
 
 Limits limits(const ReferenceSettings& settings) {
-    return {settings.max_samples ? rounded_samples(settings.max_samples) : max_sample_limit, settings.max_seconds};
+    return {sample_limit(settings), settings.max_seconds};
 }
 
 /// Samples per pixel of the next pass of a uniform render that has `held`, or 0 if it is done.
@@ -146,6 +146,12 @@ void render_adaptive(ReferenceState& state, const PixelTracer& tracer, RenderClo
 uint64_t rounded_samples(double samples) {
     const double batches = std::ceil(std::clamp(samples, 1.0, double(max_sample_limit)) / batch_count);
     return batch_count * std::bit_ceil(uint64_t(batches));
+}
+
+uint64_t sample_limit(const ReferenceSettings& settings) {
+    if (settings.max_samples > 0) return rounded_samples(settings.max_samples);
+    const bool ends_otherwise = settings.max_seconds > 0 || settings.target_relative_error > 0;
+    return ends_otherwise ? max_sample_limit : uint64_t(ReferenceSettings::default_samples);
 }
 
 void render_until_limits(ReferenceState& state, const PixelTracer& tracer, RenderClock& clock) {

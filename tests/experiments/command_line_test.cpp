@@ -106,6 +106,13 @@ TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
     expect_mistake("run study.json", "unknown variant 'nnn");
 }
 
+TEST_F(CommandLine, StopsAReferenceByWhatWasAskedFor) {
+    const Outcome o = ssrlab("reference roughness_gradient --size 16 9 --target 0.05 --out r.exr");
+    const size_t end = o.text.find(" % of the pixels reached the target");
+    ASSERT_NE(end, std::string::npos) << o.text;
+    EXPECT_GT(std::stod(o.text.substr(o.text.rfind('\n', end) + 1)), 75.0) << o.text;  // 256 samples: less than half
+}
+
 TEST_F(CommandLine, SaysWhatTheMachineLacks) {
     const Outcome no_device = ssrlab("list devices", "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent");
     EXPECT_EQ(no_device.code, 3) << no_device.text;

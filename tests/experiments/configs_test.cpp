@@ -39,6 +39,20 @@ TEST(Configs, AreReadAndFindTheirShots) {
     EXPECT_GE(files, 5u);
 }
 
+TEST(Configs, LimitAReferenceByWhatTheySet) {
+    const auto limits = [](const std::string& reference) {
+        const fs::path file = fs::temp_directory_path() / "ssrlab_reference_limits.json";
+        write_text(file, R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "reference": )" + reference +
+                             R"(, "variants": [{"variant": "none"}]})");
+        const ReferenceSettings settings = read_config(file).reference;
+        fs::remove(file);
+        return reference_key("s", settings);
+    };
+    EXPECT_EQ(limits("{}"), "s-n256");
+    EXPECT_EQ(limits(R"({"samples": 64, "seconds": 5})"), "s-n64-t5");
+    EXPECT_EQ(limits(R"({"target_relative_error": 0.5})"), "s-n16777216-e0.5");
+}
+
 TEST(Configs, OfAmdMeasureEachCorrectionAlone) {
     const Config config = read_config(source / "experiments/configs/amd_sssr.json");
     std::set<std::string> scenes, points;

@@ -97,6 +97,15 @@ TEST_F(References, StoppedByTheirErrorAreUnbiased) {
     EXPECT_GT(stopped.reached_share, 0.9f);
 }
 
+TEST_F(References, AreNotStoppedByALimitThatNobodySet) {
+    EXPECT_EQ(reference_key("s", {}), "s-n256");
+    EXPECT_EQ(reference_key("s", {.max_seconds = 2}), "s-n16777216-t2");
+    EXPECT_EQ(reference_key("s", {.max_samples = 1000, .target_relative_error = 0.25f}), "s-n1024-e0.25");
+    const Reference targeted = render({.target_relative_error = 0.04f});
+    EXPECT_GT(std::ranges::max(targeted.sample_count.values), 256.0f);
+    EXPECT_GT(targeted.reached_share, 0.9f);
+}
+
 TEST_F(References, ContinueWhereTheyWereStopped) {
     const Reference whole = render(samples(1024));
     struct Stop {};
