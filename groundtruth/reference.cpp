@@ -95,6 +95,7 @@ std::string reference_stream(const Scene& scene, const ScenePose& pose, const Ca
         fail("the scene '", scene.name, "' has no content hash, so its reference cannot be told from others");
     ContentHash hash;
     hash.add(code_version);
+    hash.add(render_platform());
     hash.add(scene.content_hash);
     add(hash, pose);
     add(hash, camera);

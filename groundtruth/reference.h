@@ -123,13 +123,16 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 
 /// Hash of all that decides which samples a render draws and what they are: scene content, pose, camera, extent, seed,
-/// depth, ladder and the code of the path tracer. Fails with Error if scene.content_hash is empty.
+/// depth, ladder, the code of the path tracer and the platform. Fails with Error if scene.content_hash is empty.
 std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                              const ReferenceSettings& settings);
 
 /// `stream` and the stop rule: "<32 hex digits>-n1024", "...-n65536-e0.03-t600".
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings);
 
-/// The hash of the sources of the path tracer, of the scene code and of the shared BRDF that this program was built
-/// from.
+/// The hash of all sources that references depend on and of how they were compiled; see code_version.cmake.
 std::string groundtruth_code_version();
+
+/// What the bits of a reference depend on besides, at run time: Embree's version, the processor's level of instructions,
+/// by which Embree and the C library choose their code, and that library's version.
+std::string render_platform();

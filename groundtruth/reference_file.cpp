@@ -72,6 +72,7 @@ std::map<std::string, std::string> attributes(const Reference& reference, const 
         {"ssrlab.keep_all", shortest_digits(unsigned(settings.keep_all))},
         {"ssrlab.is_pilot", shortest_digits(unsigned(is_pilot))},
         {"ssrlab.code_version", groundtruth_code_version()},
+        {"ssrlab.platform", render_platform()},
         {"ssrlab.highlight_policy",
          "image = diffuse + specular + highlights; highlights: punctual lights reflected by the first hit"},
         {"ssrlab.alpha_policy", "ggx alpha = max(roughness^2, 0.001)"},
