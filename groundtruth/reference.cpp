@@ -8,6 +8,8 @@
 #include "groundtruth/reference_guide.h"
 #include "groundtruth/reference_stopping.h"
 
+#include <algorithm>
+#include <charconv>
 #include <span>
 
 namespace {
@@ -53,36 +55,23 @@ void check(glm::uvec2 extent, const ReferenceSettings& settings) {
     if (settings.max_depth == 0) fail("max_depth of a reference is 0, but must be at least 1");
 }
 
-/// Only what yields the bits that a render of its own would: whole doublings without a clock. With a clock there are no
-/// such bits.
-bool can_be_added_to(const ReferenceState& found, const ReferenceSettings& settings) {
-    const bool was_timed = found.settings.max_seconds > 0, is_timed = settings.max_seconds > 0;
-    if (found.settings.target_relative_error > 0 || settings.target_relative_error > 0 || was_timed != is_timed)
-        return false;
-    const double held = found.reference.sample_count.values.front();
-    const double limit = double(sample_limit(settings));
-    return is_timed ? held <= limit : held <= limit && (held == limit || held >= double(first_untimed_pass));
-}
-
 /// The state that the file holds of this request, or an empty one.
 ReferenceState pick_up(const ReferenceRun& run, const std::string& stream, glm::uvec2 extent,
                        const ReferenceSettings& settings) {
-    ReferenceState empty;
-    empty.settings = settings;
-    clear_samples(empty, extent);
     if (!run.state_file.empty() && std::filesystem::exists(run.state_file)) try {
             ReferenceState found = read_reference_state(run.state_file);
             const bool is_unfinished = !found.sample_goal.values.empty();
             const bool is_same = found.reference.hash == reference_key(stream, settings);
+            if (!is_unfinished) found.level = uint64_t(std::ranges::max(found.reference.sample_count.values));
             if (found.reference.stream == stream && found.reference.extent == extent &&
-                (is_unfinished ? is_same : can_be_added_to(found, settings)))
+                (is_unfinished ? is_same : can_be_extended(found.settings, settings)))
                 return found;
         } catch (const MachineError&) {
             throw;
         } catch (const Error& error) {
             if (run.notice) run.notice(std::string(error.what()) + "; the reference is rendered anew");
         }
-    return empty;
+    return empty_state(extent, settings);
 }
 
 }  // namespace
@@ -110,6 +99,20 @@ std::string reference_key(const std::string& stream, const ReferenceSettings& se
     if (settings.target_relative_error > 0) key += "-e" + shortest_digits(settings.target_relative_error);
     if (settings.max_seconds > 0) key += "-t" + shortest_digits(settings.max_seconds);
     return key;
+}
+
+std::optional<ReferenceSettings> settings_of_key(const std::string& stream, const std::string& key) {
+    if (!key.starts_with(stream + "-n")) return {};
+    ReferenceSettings settings;
+    const char *at = key.data() + stream.size(), *end = key.data() + key.size();
+    const auto read = [&](const char* sign, auto& value) {
+        if (!std::string_view(at, end).starts_with(sign)) return;
+        at = std::from_chars(at + 2, end, value).ptr;
+    };
+    read("-n", settings.max_samples);
+    read("-e", settings.target_relative_error);
+    read("-t", settings.max_seconds);
+    return at == end && reference_key(stream, settings) == key ? std::optional(settings) : std::nullopt;
 }
 
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 /// One quantity of every pixel, from two independent halves of the samples. Each half is the mean of 8 batches, and
@@ -63,11 +64,14 @@ struct Reference {
     ReferenceGuide guide;
     TruthLadder ladder;  ///< empty unless ReferenceSettings::ladder
     double seconds = 0;  ///< wall clock, over all continued runs, without the guide's
-    double rays = 0;     ///< of both kinds, over all runs, the pilot of an adaptive render included, but not the guide
+    double rays = 0;     ///< of both kinds, over all runs, without the guide's
     /// Samples with NaN or Inf, whose parts count as zero: an image is valid only if 0.
     uint64_t non_finite_samples = 0;
-    float reached_share = 1.0f;  ///< share of the pixels that reached target_relative_error
-    std::string passes;       ///< samples per pixel of each pass, "256+256+512"; "adaptive" for a render with a target
+    /// Share of the pixels that reached target_relative_error by their own stated variance: a report, no stop.
+    float reached_share = 1.0f;
+    /// Samples per pixel of each pass, "256+256+512"; with a target those that all pixels got, and then the most that any
+    /// pixel held after each pass: "256, to 1024, to 4096".
+    std::string passes;
     std::string stream;       ///< hash of all that decides which samples are drawn, and their values
     std::string hash;         ///< the key of the cache: stream and stop rule
     bool from_cache = false;  ///< it was not rendered now
@@ -80,9 +84,10 @@ struct Reference {
 /// whatever was rendered before, so that the result is the same bits whether it was interrupted, or continued from
 /// fewer samples.
 ///
-/// A target is met in two phases, since stopping when the error *looks* small favours pixels that have not yet met
-/// their rare bright paths (up to -33 % with p = 1e-4 a path). A pilot decides the number of samples of each pixel and
-/// is then thrown away; the final pass is independent of it.
+/// With a target, pixels stop one by one. Stopping when the error *looks* small would favour pixels that have not yet met
+/// their rare bright paths (up to -33 % with p = 1e-4 a path), so the samples of other pixels decide: see
+/// sample_allocation.h. All that is traced is kept. Most pixels then reach the target and some do not, which is reported
+/// and not acted on; a time limit is kept within 5 %, by leaving pixels out of the last pass if need be.
 struct ReferenceSettings {
     static constexpr unsigned default_samples = 256;
 
@@ -98,7 +103,7 @@ struct ReferenceSettings {
 };
 
 /// Called now and then, from one thread at a time: fraction done in [0, 1], rays per second, seconds left. With a
-/// target the pilot and the final pass count from 0 to 1 each. If it throws, the state is saved and the exception goes
+/// target the fraction can fall, since what pixels need is estimated anew at each pass. If it throws, the state is saved and the exception goes
 /// on to the caller.
 using ReferenceProgress = std::function<void(double fraction, double rays_per_second, double seconds_left)>;
 
@@ -129,6 +134,9 @@ std::string reference_stream(const Scene& scene, const ScenePose& pose, const Ca
 
 /// `stream` and the stop rule: "<32 hex digits>-n1024", "...-n65536-e0.03-t600".
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings);
+
+/// The limits that a key tells of, if it is one of `stream`; what does not decide a stop has its default.
+std::optional<ReferenceSettings> settings_of_key(const std::string& stream, const std::string& key);
 
 /// The hash of all sources that references depend on and of how they were compiled; see code_version.cmake.
 std::string groundtruth_code_version();

@@ -54,17 +54,19 @@ std::optional<Reference> load(const fs::path& file, const std::string& key, cons
     return {};
 }
 
-/// A finished reference of the same samples that render_reference() may add to: the one with most samples, as far as
-/// names tell.
-fs::path smaller_reference(const fs::path& folder, const std::string& stream, const ReferenceSettings& settings) {
-    if (settings.target_relative_error > 0) return {};
-    ReferenceSettings smaller = settings;
-    if (settings.max_seconds == 0) {
-        for (smaller.max_samples = unsigned(sample_limit(settings) / 2); smaller.max_samples >= 16; smaller.max_samples /= 2)
-            if (const fs::path file = folder / (reference_key(stream, smaller) + ".exr"); fs::exists(file)) return file;
-        return {};
+/// The finished reference of the same samples that a render of these settings may add to and that got furthest, as far
+/// as names tell; empty if there is none.
+fs::path extensible_reference(const fs::path& folder, const std::string& stream, const ReferenceSettings& settings) {
+    fs::path best;
+    std::pair<double, uint64_t> furthest{-1, 0};
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() != ".exr") continue;
+        const std::optional<ReferenceSettings> its = settings_of_key(stream, entry.path().stem().string());
+        if (!its || !can_be_extended(*its, settings)) continue;
+        const std::pair got{its->max_seconds, sample_limit(*its)};
+        if (got > furthest) best = entry.path(), furthest = got;
     }
-    return {};
+    return best;
 }
 
 }  // namespace
@@ -94,8 +96,8 @@ Reference cached_reference(const Scene& scene, const ScenePose& pose, const Came
     if (std::optional<Reference> found = load(file, key, run)) return std::move(*found);  // made while waiting
 
     if (!fs::exists(state_file))
-        if (const fs::path smaller = smaller_reference(folder, stream, settings); !smaller.empty())
-            fs::copy_file(smaller, state_file, error);  // if it fails, all is rendered
+        if (const fs::path begun = extensible_reference(folder, stream, settings); !begun.empty())
+            fs::copy_file(begun, state_file, error);  // if it fails, all is rendered
     ReferenceRun cache_run = run;
     cache_run.state_file = state_file;
     Reference reference = render_reference(scene, pose, camera, extent, settings, cache_run);

@@ -50,11 +50,12 @@ std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
 
 std::vector<NamedImage> named_images(ReferenceState& state) {
     return {{"sample_goal", "Y", &state.sample_goal, PixelType::uint32},
+            {"earlier", "XY", &state.earlier},
             {"rays_per_sample", "Y", &state.rays_per_sample}};
 }
 
 std::map<std::string, std::string> attributes(const Reference& reference, const ReferenceSettings& settings,
-                                              bool is_pilot) {
+                                              uint64_t level) {
     return {
         {"ssrlab.stream", reference.stream},
         {"ssrlab.hash", reference.hash},
@@ -70,7 +71,7 @@ std::map<std::string, std::string> attributes(const Reference& reference, const 
         {"ssrlab.seed", shortest_digits(settings.seed)},
         {"ssrlab.ladder", shortest_digits(unsigned(!reference.ladder.is_empty()))},
         {"ssrlab.keep_all", shortest_digits(unsigned(settings.keep_all))},
-        {"ssrlab.is_pilot", shortest_digits(unsigned(is_pilot))},
+        {"ssrlab.level", shortest_digits(level)},
         {"ssrlab.code_version", groundtruth_code_version()},
         {"ssrlab.platform", render_platform()},
         {"ssrlab.highlight_policy",
@@ -152,14 +153,14 @@ void take_layer(const std::filesystem::path& file, LayeredImage& layers, const N
 }  // namespace
 
 void write_reference(const std::filesystem::path& file, Reference& reference, const ReferenceSettings& settings) {
-    write(file, named_images(reference, !reference.ladder.is_empty()), attributes(reference, settings, false));
+    write(file, named_images(reference, !reference.ladder.is_empty()), attributes(reference, settings, 0));
 }
 
 void write_reference_state(const std::filesystem::path& file, ReferenceState& state) {
     std::vector<NamedImage> images = named_images(state.reference, !state.reference.ladder.is_empty());
     for (const NamedImage& image : named_images(state))
         if (!image.image->values.empty()) images.push_back(image);
-    write(file, std::move(images), attributes(state.reference, state.settings, state.is_pilot));
+    write(file, std::move(images), attributes(state.reference, state.settings, state.level));
 }
 
 ReferenceState read_reference_state(const std::filesystem::path& file) {
@@ -181,7 +182,7 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
     header.read("seed", state.settings.seed);
     state.settings.ladder = header.flag("ladder");
     state.settings.keep_all = header.flag("keep_all");
-    state.is_pilot = header.flag("is_pilot");
+    header.read("level", state.level);
 
     for (const NamedImage& image : named_images(reference, state.settings.ladder)) take_layer(file, layers, image);
     for (const NamedImage& image : named_images(state))

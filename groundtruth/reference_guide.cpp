@@ -24,8 +24,7 @@ void render_band(Reference& guide, const PixelTracer& tracer, unsigned first_row
 
 ReferenceGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, const ReferenceRun& run) {
     static_assert(guide_samples % batch_count == 0);
-    ReferenceState state;
-    clear_samples(state, extent);
+    ReferenceState state = empty_state(extent, {});
     const auto start = std::chrono::steady_clock::now();
     auto last_report = start;
     const auto seconds = [](auto from, auto to) { return std::chrono::duration<double>(to - from).count(); };

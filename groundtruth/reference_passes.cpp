@@ -11,7 +11,8 @@
 
 namespace {
 
-constexpr unsigned tile_size = 8;  ///< pixels; neighbours meet the same nodes of the BVH
+constexpr double largest_overrun = 1.05;  ///< of a time limit
+constexpr unsigned tile_size = 8;         ///< pixels; neighbours meet the same nodes of the BVH
 
 struct Tile {
     unsigned x, y;
@@ -40,8 +41,9 @@ std::vector<Tile> unfinished_tiles(const ReferenceState& state) {
 /// What all threads of a pass share.
 struct PassCounts {
     double samples_before;  ///< of all pixels
+    RenderClock::Instant start = std::chrono::steady_clock::now();
     std::atomic<uint64_t> rays = 0, non_finite = 0, samples = 0;
-    std::atomic<bool> pause = false;
+    std::atomic<bool> pause = false, is_late = false;
     std::mutex looks_at_clock;
 };
 
@@ -52,9 +54,9 @@ double seconds_since(RenderClock::Instant instant) {
 void report(const PassCounts& counts, const RenderClock& clock, const Reference& reference) {
     const double rays = reference.rays + double(counts.rays) - clock.rays_before;
     const double done = counts.samples_before + double(counts.samples);
-    const double made = done - clock.phase_samples_before;
-    double left = (clock.phase_samples - done) / std::max(made, 1.0) * seconds_since(clock.phase_start);
-    double fraction = done / clock.phase_samples;
+    const double made = done - counts.samples_before;
+    double left = (clock.all_samples - done) / std::max(made, 1.0) * seconds_since(counts.start);
+    double fraction = done / clock.all_samples;
     if (clock.time_limit > 0) {
         left = std::clamp(clock.time_limit - clock.seconds(), 0.0, left);
         fraction = std::max(fraction, clock.seconds() / clock.time_limit);
@@ -68,6 +70,8 @@ void look_at_clock(PassCounts& counts, RenderClock& clock, const Reference& refe
     if (!lock) return;
     const double save_interval = std::max(clock.run.seconds_between_saves, 20 * clock.save_seconds);
     if (!clock.run.state_file.empty() && seconds_since(clock.last_save) > save_interval) counts.pause = true;
+    if (clock.cuts_pass && clock.time_limit > 0 && clock.seconds() > largest_overrun * clock.time_limit)
+        counts.pause = counts.is_late = true;
     if (!clock.run.progress || seconds_since(clock.last_report) < clock.run.seconds_between_reports) return;
     clock.last_report = std::chrono::steady_clock::now();
     report(counts, clock, reference);
@@ -76,16 +80,16 @@ void look_at_clock(PassCounts& counts, RenderClock& clock, const Reference& refe
 void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& tile, PassCounts& counts,
                  RenderClock& clock) {
     Reference& reference = state.reference;
-    const SampleSet set = state.is_pilot ? SampleSet::pilot : SampleSet::final;
     for (unsigned y = tile.y; y < std::min(tile.y + tile_size, reference.extent.y); ++y)
         for (unsigned x = tile.x; x < std::min(tile.x + tile_size, reference.extent.x); ++x) {
             if (counts.pause) return;
             const size_t pixel = size_t(y) * reference.extent.x + x;
             const unsigned samples = unsigned(state.sample_goal.values[pixel] - reference.sample_count.values[pixel]);
             if (samples == 0) continue;
-            const PixelCost cost =
-                add_samples(reference, tracer, x, y, state.settings.seed, set, samples / batch_count);
-            if (state.is_pilot) state.rays_per_sample.values[pixel] = float(double(cost.rays) / samples);
+            const PixelCost cost = add_samples(reference, tracer, x, y, state.settings.seed,
+                                               SampleSet::reference, samples / batch_count);
+            if (!state.rays_per_sample.values.empty())
+                state.rays_per_sample.values[pixel] = float(double(cost.rays) / samples);
             counts.rays += cost.rays;
             counts.non_finite += cost.non_finite;
             counts.samples += samples;
@@ -106,16 +110,19 @@ void save(ReferenceState& state, RenderClock& clock) {
 
 double RenderClock::seconds() const { return seconds_before + seconds_since(start); }
 
+double RenderClock::seconds_per_ray(const Reference& reference) const {
+    return pass_rays > 0 ? pass_seconds / pass_rays : seconds() / std::max(reference.rays, 1.0);
+}
+
 double total_samples(const Reference& reference) {
     const std::vector<float>& counts = reference.sample_count.values;
     return std::accumulate(counts.begin(), counts.end(), 0.0);
 }
 
-void clear_samples(ReferenceState& state, glm::uvec2 extent) {
+ReferenceState empty_state(glm::uvec2 extent, const ReferenceSettings& settings) {
+    ReferenceState state{.reference = {}, .settings = settings};
     Reference& reference = state.reference;
     reference.extent = extent;
-    reference.non_finite_samples = 0;
-    reference.passes.clear();
     const auto clear = [&](ReferenceOutput& output) {
         for (HostImage* image : {&output.mean, &output.half_a, &output.half_b, &output.variance})
             *image = HostImage(extent, 3);
@@ -127,14 +134,13 @@ void clear_samples(ReferenceState& state, glm::uvec2 extent) {
     for (HostImage* image : {&reference.sample_count, &reference.depth, &reference.material_id})
         *image = HostImage(extent, 1);
     reference.lobe_samples = HostImage(extent, 2);
-    TruthLadder& ladder = reference.ladder = {};
-    if (state.settings.ladder) {
+    if (settings.ladder) {
+        TruthLadder& ladder = reference.ladder;
         for (ReferenceOutput* output : {&ladder.camera_radiance, &ladder.on_screen}) clear(*output);
         for (HostImage* image : {&ladder.reflectance, &ladder.fallback}) *image = HostImage(extent, 3);
         ladder.on_screen_share = HostImage(extent, 1);
     }
-    state.sample_goal = {};
-    state.rays_per_sample = {};
+    return state;
 }
 
 void render_pass(ReferenceState& state, const PixelTracer& tracer, RenderClock& clock) {
@@ -149,6 +155,7 @@ void render_pass(ReferenceState& state, const PixelTracer& tracer, RenderClock& 
                 render_tile(state, tracer, tiles[tile], counts, clock);
         };
         const auto add_counts = [&] {
+            clock.pass_seconds = seconds_since(counts.start), clock.pass_rays = double(counts.rays);
             state.reference.rays += double(counts.rays);
             state.reference.non_finite_samples += counts.non_finite;
         };
@@ -160,6 +167,10 @@ void render_pass(ReferenceState& state, const PixelTracer& tracer, RenderClock& 
             throw;
         }
         add_counts();
+        if (counts.is_late) {
+            state.sample_goal = state.reference.sample_count;
+            return;
+        }
         if (counts.pause) save(state, clock);
     }
 }

@@ -1,6 +1,7 @@
 #include "groundtruth/reference_stopping.h"
 
 #include "groundtruth/reference_error.h"
+#include "groundtruth/sample_allocation.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,137 +9,139 @@
 
 namespace {
 
-constexpr uint64_t first_timed_pass = 16;    ///< short, since nothing is known yet of the speed
-constexpr uint64_t pilot_samples = 1024;     ///< at most; 16 batches of 64
-constexpr double pilot_share = 0.25;         ///< of samples and of time that the pilot may take, at most
-constexpr double used_share_of_time = 0.9;   ///< of what is left for the final pass: its cost is only estimated
-constexpr uint64_t min_final_samples = 256;  ///< where the pilot asks for less: the other outputs need some
+constexpr uint64_t first_timed_pass = 16;  ///< short, since nothing is known yet of the speed
+constexpr double largest_growth = 4;       ///< of a timed pass over what is held: a speed misjudged before is corrected
+/// Of the level at each pass with goals: what was misjudged is corrected at the next, but every pass has a scramble of
+/// its own, and the longer the last one is the less is lost against one scramble of all samples.
+constexpr double level_growth = 8;
+constexpr double used_share_of_time =
+    0.97;  ///< of what is left, for a pass that is to be the last: its cost is estimated
+/// With a target all pixels first get this many, or what a quarter of the time affords: the other outputs need some,
+/// and so do the estimates of what pixels need.
+constexpr uint64_t uniform_samples = 256;
+constexpr double uniform_share_of_time = 0.25;
+constexpr double least_growth = 1.0 / 16;  ///< of a pixel's samples: less would change little
 
 struct Limits {
     uint64_t samples;  ///< per pixel
     double seconds;    ///< 0: unlimited
 };
 
-Limits limits(const ReferenceSettings& settings) {
-    return {sample_limit(settings), settings.max_seconds};
-}
-
-/// Samples per pixel of the next pass of a uniform render that has `held`, or 0 if it is done.
-uint64_t next_pass(uint64_t held, Limits limit, double seconds) {
+/// Samples per pixel of the next pass over the whole image where all pixels hold `held`, or 0 if it is done.
+uint64_t next_uniform_pass(uint64_t held, Limits limit, double seconds) {
     if (held >= limit.samples) return 0;
     if (limit.seconds == 0)
         return held == 0 ? std::min(first_untimed_pass, limit.samples) : std::min(held, limit.samples - held);
     if (held == 0) return std::min(first_timed_pass, limit.samples);
-    // Four times what is there at most, so that a speed misjudged at first is corrected; not less than a 32nd, which
-    // would change little.
     const double affordable = (limit.seconds - seconds) * double(held) / seconds;
-    const double most = std::min({affordable, 4.0 * double(held), double(limit.samples - held)});
+    const double most = std::min({affordable, largest_growth * double(held), double(limit.samples - held)});
     if (most < batch_count || most < double(held) / 32) return 0;
     return batch_count * std::bit_floor(uint64_t(most) / batch_count);
 }
 
-/// Passes over the whole image; all pixels have the same count between them.
-void render_uniform(ReferenceState& state, const PixelTracer& tracer, RenderClock& clock, Limits limit) {
+/// False if nothing is left to do.
+bool plan_uniform_pass(ReferenceState& state, RenderClock& clock, Limits limit) {
     Reference& reference = state.reference;
-    clock.phase_start = std::chrono::steady_clock::now();
-    clock.phase_samples = double(limit.samples) * double(reference.sample_count.pixel_count());
-    clock.phase_samples_before = total_samples(reference);
+    const uint64_t samples = next_uniform_pass(state.level, limit, clock.seconds());
+    if (samples == 0) return false;
+    state.level += samples;
+    state.sample_goal = HostImage(reference.extent, 1, float(state.level));
+    reference.passes += (reference.passes.empty() ? "" : "+") + std::to_string(samples);
+    clock.all_samples = double(limit.samples) * double(reference.sample_count.pixel_count());
     clock.time_limit = limit.seconds;
-    if (!state.sample_goal.values.empty()) render_pass(state, tracer, clock);  // interrupted within
-    while (const uint64_t samples = next_pass(uint64_t(reference.sample_count.values[0]), limit, clock.seconds())) {
-        const float goal = reference.sample_count.values[0] + float(samples);
-        state.sample_goal = HostImage(reference.extent, 1, goal);
-        reference.passes += (reference.passes.empty() ? "" : "+") + std::to_string(samples);
-        render_pass(state, tracer, clock);
-    }
-    state.sample_goal = {};
+    clock.cuts_pass = false;
+    return true;
 }
 
-/// The largest variance of one sample of `specular` within the 3x3 pixels of the same material, as a mean over RGB: a
-/// pixel whose own samples have missed a rare bright path borrows the doubt of a neighbour that met one.
-double neighbourhood_variance(const Reference& reference, unsigned x, unsigned y) {
-    const glm::uvec2 extent = reference.extent;
-    const float material = *reference.material_id.pixel(x, y);
-    double largest = 0;
-    for (unsigned j = y ? y - 1 : 0; j <= std::min(y + 1, extent.y - 1); ++j)
-        for (unsigned i = x ? x - 1 : 0; i <= std::min(x + 1, extent.x - 1); ++i) {
-            if (*reference.material_id.pixel(i, j) != material) continue;
-            const float* variance = reference.specular.variance.pixel(i, j);
-            const double mean = (double(variance[0]) + variance[1] + variance[2]) / 3;
-            largest = std::max(largest, mean * *reference.sample_count.pixel(i, j));
-        }
-    return largest;
+/// Whole batches of a length whose binary form has at most three leading digits: Sobol' points fill the square evenly
+/// in powers of two, and nearly so in sums of few. Rounded down.
+uint64_t short_binary(double samples) {
+    const uint64_t length = uint64_t(std::max(samples, 0.0)) / batch_count;
+    const int low_bits = std::max(int(std::bit_width(length)) - 3, 0);
+    return batch_count * (length >> low_bits << low_bits);
 }
 
-/// Samples each pixel needs for the target, as the pilot sees it, before any limit.
-HostImage needed_samples(const ReferenceState& state) {
-    const Reference& reference = state.reference;
-    const double floor = radiance_floor(reference, reference.specular);
-    HostImage needed(reference.extent, 1);
-    for (unsigned y = 0; y < reference.extent.y; ++y)
-        for (unsigned x = 0; x < reference.extent.x; ++x) {
-            const float* mean = reference.specular.mean.pixel(x, y);
-            const double radiance = std::max((double(mean[0]) + mean[1] + mean[2]) / 3, floor);
-            const double error = state.settings.target_relative_error * radiance;
-            const double variance = neighbourhood_variance(reference, x, y);
-            *needed.pixel(x, y) =
-                variance > 0 ? float(std::min(variance / (error * error), double(max_sample_limit))) : 0.0f;
-        }
-    return needed;
+/// What a pixel gets in a pass up to `level`: what it needs, or as much of it as the level allows; 0 where that is
+/// little.
+uint64_t pass_samples(double held, double needed, double level) {
+    const uint64_t least = std::max(uint64_t(least_growth * held), uint64_t(batch_count));
+    const double wanted = needed - held;
+    if (wanted < double(least)) return 0;
+    const uint64_t samples = short_binary(std::min(wanted, level - held));
+    return samples < least ? 0 : samples;
 }
 
-uint64_t final_samples(double needed, double shrink, uint64_t cap) {
-    const double least = std::max(double(batch_count), double(min_final_samples) / shrink);
-    return std::min(rounded_samples(std::max(needed / shrink, least)), cap);
+double estimated_seconds(const ReferenceState& state, const HostImage& needed, double level, double seconds_per_ray) {
+    double rays = 0;
+    for (size_t i = 0; i < needed.values.size(); ++i)
+        rays += double(pass_samples(state.reference.sample_count.values[i], needed.values[i], level)) *
+                state.rays_per_sample.values[i];
+    return rays * seconds_per_ray;
 }
 
-/// The factor by which all pixels get fewer samples than they need, so that the final pass fits the time that is left.
-double shrink_to_time(const ReferenceState& state, const HostImage& needed, Limits limit, const RenderClock& clock) {
-    if (limit.seconds == 0) return 1;
-    const double seconds_per_ray = clock.seconds() / std::max(state.reference.rays, 1.0);
-    const double affordable_rays =
-        used_share_of_time * std::max(limit.seconds - clock.seconds(), 0.0) / seconds_per_ray;
-    const auto rays = [&](double shrink) {
-        double sum = 0;
-        for (size_t i = 0; i < needed.values.size(); ++i)
-            sum += double(final_samples(needed.values[i], shrink, limit.samples)) * state.rays_per_sample.values[i];
-        return sum;
+/// The highest level that the next pass can reach in the time that is left.
+double affordable_level(const ReferenceState& state, const HostImage& needed, double seconds_per_ray,
+                        double seconds_left) {
+    const auto fits = [&](double level) {
+        return estimated_seconds(state, needed, level, seconds_per_ray) <= used_share_of_time * seconds_left;
     };
-    if (rays(1) <= affordable_rays) return 1;
-    double low = 0, high = std::log2(double(max_sample_limit));  // of log2: `high` gives every pixel the least
-    for (int step = 0; step < 12; ++step) {
+    double high = level_growth * double(state.level), low = 0;
+    if (fits(high)) return high;
+    for (int step = 0; step < 16; ++step) {
         const double middle = 0.5 * (low + high);
-        (rays(std::exp2(middle)) <= affordable_rays ? high : low) = middle;
+        (fits(middle) ? low : high) = middle;
     }
-    return std::exp2(high);
+    return low;
 }
 
-void render_adaptive(ReferenceState& state, const PixelTracer& tracer, RenderClock& clock, Limits limit) {
+/// The next pass of a render with a target: pixels below the level that need more go up to it, or to what they need. So
+/// where time ends first, those that need most have had as many samples as a uniform render would have given them.
+bool plan_adaptive_pass(ReferenceState& state, RenderClock& clock, Limits limit) {
     Reference& reference = state.reference;
-    if (reference.passes.empty()) {
-        state.is_pilot = true;
-        state.rays_per_sample = HostImage(reference.extent, 1);
+    const HostImage needed = needed_samples(state);
+    double level = std::min(level_growth * double(state.level), double(limit.samples));
+    if (limit.seconds > 0)
+        level = std::min(
+            level, affordable_level(state, needed, clock.seconds_per_ray(reference), limit.seconds - clock.seconds()));
+
+    HostImage goal(reference.extent, 1), earlier(reference.extent, 2);
+    bool is_done = true;
+    clock.all_samples = 0;
+    for (size_t i = 0; i < goal.values.size(); ++i) {
+        const double held = reference.sample_count.values[i];
+        const uint64_t samples = pass_samples(held, needed.values[i], level);
+        goal.values[i] = float(held + double(samples));
+        clock.all_samples += std::max(held, double(needed.values[i]));
+        if (samples == 0) {  // what the last pass told stays
+            for (size_t c = 0; c < 2 && !state.earlier.values.empty(); ++c)
+                earlier.values[2 * i + c] = state.earlier.values[2 * i + c];
+            continue;
+        }
+        is_done = false;
+        const glm::vec3 variance = reference.specular.variance.rgb(i);
+        earlier.values[2 * i] = float(held);
+        earlier.values[2 * i + 1] = (variance.x + variance.y + variance.z) / 3;
     }
-    if (state.is_pilot) {
-        const uint64_t samples =
-            std::min(pilot_samples, std::max<uint64_t>(uint64_t(limit.samples * pilot_share), batch_count));
-        render_uniform(state, tracer, clock, {samples, limit.seconds * pilot_share});
-        const HostImage needed = needed_samples(state);
-        const double shrink = shrink_to_time(state, needed, limit, clock);
-        clear_samples(state, reference.extent);
-        state.is_pilot = false;
-        state.sample_goal = HostImage(reference.extent, 1);
-        for (size_t i = 0; i < needed.values.size(); ++i)
-            state.sample_goal.values[i] = float(final_samples(needed.values[i], shrink, limit.samples));
-        reference.passes = "adaptive";
+    if (is_done) return false;
+    state.level = std::max(uint64_t(level), state.level);
+    state.sample_goal = std::move(goal);
+    state.earlier = std::move(earlier);
+    reference.passes += ", to " + std::to_string(state.level);
+    clock.time_limit = limit.seconds;
+    clock.cuts_pass = true;
+    return true;
+}
+
+bool plan_pass(ReferenceState& state, RenderClock& clock) {
+    const Limits limit{sample_limit(state.settings), state.settings.max_seconds};
+    if (state.settings.target_relative_error == 0) return plan_uniform_pass(state, clock, limit);
+    if (limit.seconds > 0 && state.rays_per_sample.values.empty()) {
+        const double samples = std::max(total_samples(state.reference), 1.0);
+        state.rays_per_sample = HostImage(state.reference.extent, 1, float(state.reference.rays / samples));
     }
-    clock.phase_start = std::chrono::steady_clock::now();
-    clock.phase_samples_before = total_samples(reference);
-    clock.phase_samples = 0;
-    for (const float goal : state.sample_goal.values) clock.phase_samples += goal;
-    clock.time_limit = 0;  // the goals already fit it
-    render_pass(state, tracer, clock);
-    state.sample_goal = {};
+    const Limits uniform{std::min(uniform_samples, limit.samples), limit.seconds * uniform_share_of_time};
+    return (state.earlier.values.empty() && plan_uniform_pass(state, clock, uniform)) ||
+           plan_adaptive_pass(state, clock, limit);
 }
 
 }  // namespace
@@ -154,14 +157,21 @@ uint64_t sample_limit(const ReferenceSettings& settings) {
     return ends_otherwise ? max_sample_limit : uint64_t(ReferenceSettings::default_samples);
 }
 
+bool can_be_extended(const ReferenceSettings& finished, const ReferenceSettings& wanted) {
+    const uint64_t held = sample_limit(finished), limit = sample_limit(wanted);
+    if ((finished.max_seconds > 0) != (wanted.max_seconds > 0) || held > limit) return false;
+    const float its_target = finished.target_relative_error, target = wanted.target_relative_error;
+    if (wanted.max_seconds == 0) return its_target == 0 && target == 0 && (held == limit || held >= first_untimed_pass);
+    return finished.max_seconds <= wanted.max_seconds && (its_target == 0 || (target > 0 && target <= its_target));
+}
+
 void render_until_limits(ReferenceState& state, const PixelTracer& tracer, RenderClock& clock) {
     Reference& reference = state.reference;
-    const Limits limit = limits(state.settings);
     const float target = state.settings.target_relative_error;
-    if (target > 0)
-        render_adaptive(state, tracer, clock, limit);
-    else
-        render_uniform(state, tracer, clock, limit);
+    do {
+        if (!state.sample_goal.values.empty()) render_pass(state, tracer, clock);
+    } while (plan_pass(state, clock));
+    state.sample_goal = {};
     reference.reached_share = target > 0 ? reached_share(reference, target) : 1.0f;
     reference.seconds = clock.seconds();
 }

@@ -94,7 +94,7 @@ TEST_F(References, StoppedByTheirErrorAreUnbiased) {
     EXPECT_LT(z, 1.5);
     // The means over the image agree to 1 %: each pixel is known to 3 %, and there are hundreds.
     EXPECT_NEAR(mean_of(stopped.specular.mean) / mean_of(fixed.specular.mean), 1.0, 0.01);
-    EXPECT_GT(stopped.reached_share, 0.9f);
+    EXPECT_GT(stopped.reached_share, 0.8f);
 }
 
 TEST_F(References, AreNotStoppedByALimitThatNobodySet) {
@@ -103,7 +103,7 @@ TEST_F(References, AreNotStoppedByALimitThatNobodySet) {
     EXPECT_EQ(reference_key("s", {.max_samples = 1000, .target_relative_error = 0.25f}), "s-n1024-e0.25");
     const Reference targeted = render({.target_relative_error = 0.04f});
     EXPECT_GT(std::ranges::max(targeted.sample_count.values), 256.0f);
-    EXPECT_GT(targeted.reached_share, 0.9f);
+    EXPECT_GT(targeted.reached_share, 0.8f);  // 0.2 with 256 samples
 }
 
 TEST_F(References, ContinueWhereTheyWereStopped) {
@@ -124,6 +124,57 @@ TEST_F(References, ContinueWhereTheyWereStopped) {
     const Reference continued = render(samples(1024), run);
     EXPECT_EQ(continued.specular.mean.values, whole.specular.mean.values);
     EXPECT_EQ(continued.image.variance.values, whole.image.variance.values);
+}
+
+TEST_F(References, WithATargetContinueWhereTheyWereStopped) {
+    const ReferenceSettings settings{.max_samples = 8192, .target_relative_error = 0.03f, .seed = 1};
+    const Reference whole = render(settings);
+    struct Stop {};
+    fs::create_directories(folder);
+    ReferenceRun run{.state_file = folder / "state.exr", .seconds_between_saves = 0, .seconds_between_reports = 0};
+    int reports = 0, stops = 0;
+    run.progress = [&](double, double, double) {
+        if (++reports % 300 == 0) throw Stop{};  // a pass is 576 pixels at most: between them, and within
+    };
+    Reference continued;
+    for (bool is_done = false; !is_done;) try {
+            continued = render(settings, run);
+            is_done = true;
+        } catch (const Stop&) {
+            ++stops;
+        }
+    EXPECT_GE(stops, 2);
+    EXPECT_EQ(continued.sample_count.values, whole.sample_count.values);
+    EXPECT_EQ(continued.specular.mean.values, whole.specular.mean.values);
+    EXPECT_EQ(continued.image.variance.values, whole.image.variance.values);
+}
+
+TEST_F(References, WithATimeLimitAreExtendedByMoreTime) {
+    const auto cached = [&](const ReferenceSettings& settings) {
+        return cached_reference(scene, pose, camera, extent, settings, folder);
+    };
+    for (const float target : {0.0f, 0.02f}) {
+        const Reference first = cached({.max_samples = 512, .max_seconds = 0.001, .target_relative_error = target});
+        const Reference more = cached({.max_samples = 512, .max_seconds = 100, .target_relative_error = target / 2});
+        EXPECT_FALSE(more.from_cache);
+        EXPECT_TRUE(more.passes.starts_with(first.passes)) << first.passes << " and " << more.passes;
+        EXPECT_GT(more.rays, first.rays);
+        for (size_t i = 0; i < first.sample_count.values.size(); ++i)
+            EXPECT_GE(more.sample_count.values[i], first.sample_count.values[i]);
+        fs::remove_all(folder);
+    }
+}
+
+TEST_F(References, WithoutATimeLimitHaveTheBitsOfTheirKey) {
+    const auto cached = [&](const ReferenceSettings& settings) {
+        return cached_reference(scene, pose, camera, extent, settings, folder);
+    };
+    const ReferenceSettings coarse{.target_relative_error = 0.2f}, fine{.target_relative_error = 0.1f};
+    cached(coarse);
+    EXPECT_EQ(cached(fine).specular.mean.values, render(fine).specular.mean.values);  // rendered anew
+    cached(samples(256));
+    const Reference more = cached(samples(512));  // extended
+    EXPECT_EQ(more.specular.mean.values, render(samples(512)).specular.mean.values);
 }
 
 TEST_F(References, AreCachedByContent) {

@@ -1,0 +1,27 @@
+#pragma once
+#include "groundtruth/reference_file.h"
+
+#include <vector>
+
+/// How many samples a pixel gets is decided by the samples of other pixels, its informers, and never by its own: a
+/// pixel that stops when its own error looks small is more often one that has not yet met its rare bright paths, and
+/// its mean comes out too small (by up to a third where one path in 10^4 carries a third of the light).
+///
+/// Informing runs one way: pixels are ranked, each is informed by pixels of lower rank only, and so no chain of
+/// decisions leads from a pixel's samples back to its own count, over any number of passes. Given the count, a pixel's
+/// samples are thus as independent as if it had been fixed beforehand: the means of both halves are without bias, and
+/// so is their product. (Were neighbours to inform each other, a pixel that met a rare path would make them look
+/// longer, and they it.) The rank is the lattice on which a pixel lies, coarse ones first, then the order of rows: so
+/// three pixels out of four have informers that touch them on all sides.
+///
+/// Two quantities are of the whole image, to which a pixel contributes one part in the number of pixels: the radiance
+/// floor of relative errors, and, with a time limit, what all pixels cost.
+
+/// The informers of pixel (x, y): those of lower rank and of its material within a window of its lattice; where these
+/// are fewer than 4, within wider windows; then those of any material that is hit, and none for the pixel of lowest
+/// rank. `found` is replaced: indices of pixels.
+void find_informers(const HostImage& material_id, unsigned x, unsigned y, std::vector<size_t>& found);
+
+/// Samples that each pixel needs for the target of the state's settings, as its informers tell; one channel, 0 where
+/// nothing is known of noise. state.earlier tells how fast errors fall.
+HostImage needed_samples(const ReferenceState& state);
