@@ -5,6 +5,7 @@
 #include "experiments/cell_store.h"
 #include "experiments/file_name.h"
 #include "groundtruth/path_tracer.h"
+#include "groundtruth/reference_audit.h"
 #include "groundtruth/reference_error.h"
 #include "metrics/color_map.h"
 #include "variants/registry.h"
@@ -172,6 +173,14 @@ nlohmann::json reference_entry(const Reference& reference, unsigned frame, const
     std::vector<float> samples = reference.sample_count.values;
     std::ranges::nth_element(samples, samples.begin() + long(samples.size() / 2));
     const ErrorSummary error = relative_error_summary(reference, reference.specular);
+    const ReferenceAudit audit = audit_reference(reference);
+    nlohmann::json halves;
+    for (const auto& [output, of_output] : audit.outputs)
+        halves[output] = {{"mean_z_squared", of_output.mean_z_squared},
+                          {"low", of_output.low},
+                          {"high", of_output.high},
+                          {"correlation", of_output.correlation},
+                          {"most_correlation", of_output.most_correlation}};
     return {{"frame", frame},
             {"hash", reference.hash},
             {"samples_median", samples[samples.size() / 2]},
@@ -183,6 +192,9 @@ nlohmann::json reference_entry(const Reference& reference, unsigned frame, const
             {"relative_error", {{"median", error.median}, {"p95", error.p95}, {"mean", error.mean}}},
             {"reached_share", reference.reached_share},
             {"non_finite_samples", reference.non_finite_samples},
+            {"halves", halves},
+            {"light_cut", audit.light_cut},
+            {"warnings", audit.warnings},
             {"from_cache", reference.from_cache}};
 }
 

@@ -135,6 +135,11 @@ void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
         warnings.push_back(name + "only " + percent(rounded_down(reached)) +
                            " of the reference's pixels reached the relative error of " + percent(target_error) +
                            " that was asked for; the intervals below account for the noise that is left.");
+    for (const json& of_frame : member(shot, "references"))
+        for (const json& warning : member(of_frame, "warnings"))
+            if (warning.is_string())
+                warnings.push_back(name + "frame " + std::to_string(uint64_t(number(member(of_frame, "frame"), 0.0))) +
+                                   ": " + ended(warning.get<std::string>()));
     if (const double bad = number(member(reference, "non_finite_samples"), 0.0); bad > 0)
         warnings.push_back(name + std::to_string(uint64_t(bad)) +
                            " samples of the reference were not finite and were left out: its mean may be biased.");

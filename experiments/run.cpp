@@ -104,7 +104,11 @@ void enter_non_finite(Study& study, const ShotRun& run) {
 
 /// Keeps for the manifest what is worth knowing of a reference, and writes its images if it is that of the last frame.
 void note_reference(Study& study, ShotRun& run, const Reference& reference, unsigned frame, bool is_of_last) {
-    run.reference_entries["references"].push_back(reference_entry(reference, frame, study.config));
+    nlohmann::json entry = reference_entry(reference, frame, study.config);
+    for (const nlohmann::json& warning : entry["warnings"])
+        study.progress.say("warning: " + run.shot.name() + ", frame " + std::to_string(frame) + ": " +
+                           warning.get<std::string>());
+    run.reference_entries["references"].push_back(std::move(entry));
     if (!is_of_last) return;
     run.reference_entries["reference"] = run.reference_entries["references"].back();
     for (nlohmann::json& image :

@@ -7,6 +7,7 @@
 #include "experiments/progress.h"
 #include "experiments/shot.h"
 #include "groundtruth/path_tracer.h"
+#include "groundtruth/reference_audit.h"
 #include "groundtruth/reference_cache.h"
 #include "groundtruth/reference_error.h"
 #include "groundtruth/reference_file.h"
@@ -89,6 +90,8 @@ void reference_command(const ReferenceCommandOptions& options, const CommonOptio
     if (options.settings.target_relative_error > 0)
         std::printf("%.1f %% of the pixels reached the target\n", 100 * reference.reached_share);
     if (options.settings.ladder) print_ladder(summarize_ladder(reference));
+    for (const std::string& warning : audit_reference(reference).warnings)
+        std::printf("warning: %s\n", warning.c_str());
     if (reference.non_finite_samples)
         std::printf("warning: %llu samples were not finite and count as zero\n",
                     (unsigned long long)reference.non_finite_samples);

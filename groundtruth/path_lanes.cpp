@@ -104,7 +104,7 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
         metalness_[lane] = surface.metalness;
         roughness_[lane] = surface.roughness;
         specular_[lane] = surface.specular;
-        continues_[lane] = depth_[lane] < scene_.settings.max_depth && !surface.is_unlit;
+        continues_[lane] = !surface.is_unlit;
         if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
             is_on_screen_[lane] =
                 is_on_screen(scene_, surface.origin, surface.error, surface.geometric_normal, estimate_);
@@ -128,6 +128,7 @@ template <bool has_lights, PathGoal goal>
 void PathLanes::scatter() {
     const bool has_roulette = scene_.settings.russian_roulette;
     const ReflectionModel model = scene_.settings.model;
+    const uint32_t max_depth = scene_.settings.max_depth;
     const MisHeuristic mis = scene_.mis;
     const CameraView camera = scene_.camera;
     FOR_EACH_LANE {
@@ -143,13 +144,15 @@ void PathLanes::scatter() {
         const float q = is_lit_color ? 0.0f : lobes.specular_probability;
         const float specular_share = is_lit_color ? 0.0f : 1.0f;       // the lit colour is without reflections
         const bool reflects = (continues_[lane] != 0) & (o.z > 0.0f);  // the viewer may be below the shading horizon
+        const bool is_last = depth_[lane] >= max_depth;
 
         if constexpr (has_lights) {
             const vec3 to_light = lights_.direction.get(lane);
             const LobeValues f = evaluate(lobes, to_light * world_from_local);
             const float light_pdf = lights_.pdf[lane], bsdf_pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
             const float weight = lights_.is_delta[lane] ? 1.0f : mis.of_light(light_pdf, bsdf_pdf);
-            const bool is_used = reflects & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
+            const bool is_used =
+                reflects & !is_last & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
             const vec3 direct = throughput * (f.diffuse + f.specular * specular_share) * lights_.radiance.get(lane) *
                                 (weight / light_pdf);
             direct_.set(lane, keep_if(is_used, direct));
@@ -174,7 +177,8 @@ void PathLanes::scatter() {
         const bool goes_on =
             reflects & (i.z > 0) & (dot(direction, geometric_normal) > 0) & (pdf > 0) & (greatest > 0) & survives;
 
-        continues_[lane] = goes_on;
+        continues_[lane] = goes_on & !is_last;
+        cut_.set(lane, keep_if(goes_on & is_last, next * (1.0f / survival)));
         throughput_.set(lane, next * (1.0f / survival));
         pdf_[lane] = pdf;
         origin_.set(lane, offset_origin(position_.get(lane), error_.get(lane), geometric_normal, direction));
@@ -190,7 +194,7 @@ void PathLanes::trace_shadow_rays(uint32_t reached) {
         const vec3 direct = direct_.get(lane);
         const bool arrives = direct != vec3(0.0f) && is_visible(scene_, lights_, lane, estimate_);
         if (arrives) radiance_.set(lane, radiance_.get(lane) + direct);
-        if (estimate_.light_record) [[unlikely]]
+        if (estimate_.light_record && depth_[lane] <= scene_.settings.max_depth) [[unlikely]]  // not the last vertex
             estimate_.light_record->push_back({position_.get(lane), geometric_normal_.get(lane), lights_.group[lane],
                                                arrives ? luminance(weight_.get(lane) * direct) : 0.0f});
     });
@@ -213,6 +217,9 @@ void PathLanes::advance() {
 }
 
 void PathLanes::end(int lane) {
+    if (const vec3 cut = weight_.get(lane) * cut_.get(lane);
+        goal_ == PathGoal::reflection && std::isfinite(cut.x + cut.y + cut.z))
+        estimate_.cut += glm::dvec3(cut);
     const vec3 radiance = radiance_.get(lane), reflected = weight_.get(lane) * radiance;
     if (!std::isfinite(reflected.x + reflected.y + reflected.z)) {
         ++estimate_.non_finite;

@@ -62,4 +62,5 @@ private:
     Lanes<float> metalness_, roughness_, specular_;
     LightLanes lights_;
     LanesVec3 direct_;  ///< what the light sample adds, if it is visible
+    LanesVec3 cut_;     ///< throughput with which the path would go on, were it not for max_depth
 };

@@ -69,6 +69,9 @@ struct PixelEstimate {
     glm::dvec3 camera_radiance{0.0};  ///< / lobe_samples: `incident`, with the lit colour of what the lobe meets
     glm::dvec3 on_screen{0.0};  ///< / lobe_samples: the same, with nothing for what the camera's image does not show
     uint64_t on_screen_samples = 0;  ///< samples of the lobe that meet what the image shows
+    /// / samples: throughput, first reflection included, with which paths would have gone on after max_depth
+    /// reflections
+    glm::dvec3 cut{0.0};
     uint64_t samples = 0;
     uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
     /// Samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0.

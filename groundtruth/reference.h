@@ -44,7 +44,7 @@ struct ReferenceGuide {
 };
 
 /// What the path tracer knows of one frame of one camera. Pixel centres and first hits are those of the G-buffer.
-/// 284 bytes per pixel, 48 of them for each output; with the truth ladder 408.
+/// 288 bytes per pixel, 48 of them for each output; with the truth ladder 412.
 struct Reference {
     glm::uvec2 extent{0, 0};
     ReferenceOutput image;     ///< full path-traced radiance: diffuse + specular + highlights
@@ -56,6 +56,10 @@ struct Reference {
     /// RGB, without noise: the punctual lights that the first hit reflects specularly. No part of `specular`, since no
     /// ray meets them and engines shade them in closed form.
     HostImage highlights;
+    /// One channel: share of the pixel's radiance that is missing since paths end after max_depth reflections, if what
+    /// they would have met were as bright as the pixel itself; exact where light is the same everywhere, as between
+    /// mirrors.
+    HostImage cut_share;
     HostImage sample_count;  ///< one channel
     HostImage lobe_samples;  ///< two channels: how many samples of half A and of half B are above the horizon
     HostImage depth;         ///< one channel: distance along -z (m), 0 where nothing was hit
@@ -69,8 +73,8 @@ struct Reference {
     uint64_t non_finite_samples = 0;
     /// Share of the pixels that reached target_relative_error by their own stated variance: a report, no stop.
     float reached_share = 1.0f;
-    /// Samples per pixel of each pass, "256+256+512"; with a target those that all pixels got, and then the most that any
-    /// pixel held after each pass: "256, to 1024, to 4096".
+    /// Samples per pixel of each pass, "256+256+512"; with a target those that all pixels got, and then the most that
+    /// any pixel held after each pass: "256, to 1024, to 4096".
     std::string passes;
     std::string stream;       ///< hash of all that decides which samples are drawn, and their values
     std::string hash;         ///< the key of the cache: stream and stop rule
@@ -84,10 +88,10 @@ struct Reference {
 /// whatever was rendered before, so that the result is the same bits whether it was interrupted, or continued from
 /// fewer samples.
 ///
-/// With a target, pixels stop one by one. Stopping when the error *looks* small would favour pixels that have not yet met
-/// their rare bright paths (up to -33 % with p = 1e-4 a path), so the samples of other pixels decide: see
-/// sample_allocation.h. All that is traced is kept. Most pixels then reach the target and some do not, which is reported
-/// and not acted on; a time limit is kept within 5 %, by leaving pixels out of the last pass if need be.
+/// With a target, pixels stop one by one. Stopping when the error *looks* small would favour pixels that have not yet
+/// met their rare bright paths (up to -33 % with p = 1e-4 a path), so the samples of other pixels decide: see
+/// sample_allocation.h. All that is traced is kept. Most pixels then reach the target and some do not, which is
+/// reported and not acted on; a time limit is kept within 5 %, by leaving pixels out of the last pass if need be.
 struct ReferenceSettings {
     static constexpr unsigned default_samples = 256;
 
@@ -103,8 +107,8 @@ struct ReferenceSettings {
 };
 
 /// Called now and then, from one thread at a time: fraction done in [0, 1], rays per second, seconds left. With a
-/// target the fraction can fall, since what pixels need is estimated anew at each pass. If it throws, the state is saved and the exception goes
-/// on to the caller.
+/// target the fraction can fall, since what pixels need is estimated anew at each pass. If it throws, the state is
+/// saved and the exception goes on to the caller.
 using ReferenceProgress = std::function<void(double fraction, double rays_per_second, double seconds_left)>;
 
 /// How a render is run; nothing here changes its result.
@@ -123,7 +127,8 @@ struct ReferenceRun {
 /// a finished reference of the same samples with less of them adds to it, where ReferenceSettings says that it can; any
 /// other file there is replaced. The finished reference is not written: see write_reference().
 ///
-/// Fails with Error if the extent is zero or too large, or a setting out of range; with MachineError if the disk is full.
+/// Fails with Error if the extent is zero or too large, or a setting out of range; with MachineError if the disk is
+/// full.
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 
@@ -141,6 +146,6 @@ std::optional<ReferenceSettings> settings_of_key(const std::string& stream, cons
 /// The hash of all sources that references depend on and of how they were compiled; see code_version.cmake.
 std::string groundtruth_code_version();
 
-/// What the bits of a reference depend on besides, at run time: Embree's version, the processor's level of instructions,
-/// by which Embree and the C library choose their code, and that library's version.
+/// What the bits of a reference depend on besides, at run time: Embree's version, the processor's level of
+/// instructions, by which Embree and the C library choose their code, and that library's version.
 std::string render_platform();

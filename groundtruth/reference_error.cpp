@@ -22,23 +22,6 @@ double percentile(std::vector<float>& values, double share) {
     return *nth;
 }
 
-struct PixelZ {
-    glm::dvec3 z{0.0};
-    unsigned channels = 0;  ///< those that have any variance
-};
-
-PixelZ half_z(const ReferenceOutput& output, size_t pixel) {
-    PixelZ result;
-    for (int c = 0; c < 3; ++c) {
-        const size_t i = pixel * 3 + size_t(c);
-        if (output.variance.values[i] == 0) continue;
-        result.z[c] = (double(output.half_a.values[i]) - output.half_b.values[i]) /
-                      (2 * std::sqrt(double(output.variance.values[i])));
-        ++result.channels;
-    }
-    return result;
-}
-
 }  // namespace
 
 double radiance_floor(const Reference& reference, const ReferenceOutput& output) {
@@ -85,31 +68,4 @@ ErrorSummary relative_error_summary(const Reference& reference, const ReferenceO
     if (values.empty()) return {};
     const double mean = sum / double(values.size());
     return {.median = percentile(values, 0.5), .p95 = percentile(values, 0.95), .mean = mean, .pixels = values.size()};
-}
-
-HalfAudit audit_halves(const ReferenceOutput& output) {
-    const unsigned width = output.mean.extent.x;
-    HalfAudit audit;
-    double sum = 0, products = 0, left_squares = 0, right_squares = 0;
-    for (size_t i = 0; i < output.mean.pixel_count(); ++i) {
-        const PixelZ z = half_z(output, i);
-        if (z.channels == 0) continue;
-        ++audit.pixels;
-        sum += glm::dot(z.z, z.z) / z.channels;
-        if (i % width + 1 == width) continue;
-        const PixelZ right = half_z(output, i + 1);
-        products += glm::dot(z.z, right.z);
-        left_squares += glm::dot(z.z, z.z);
-        right_squares += glm::dot(right.z, right.z);
-    }
-    if (audit.pixels == 0) return audit;
-    audit.mean_z_squared = sum / double(audit.pixels);
-    if (left_squares * right_squares > 0) audit.correlation = products / std::sqrt(left_squares * right_squares);
-    // F(1, n) has mean n / (n - 2) and variance 2 n^2 (n - 1) / ((n - 2)^2 (n - 4)); here n = 14, and down to mean 1
-    // for many passes. The channels of a pixel share their paths, so only pixels count. Three standard deviations: 1 in
-    // 370.
-    const double deviation = std::sqrt(2.0 * 14 * 14 * 13 / (12 * 12 * 10) / double(audit.pixels));
-    audit.low = 1 - 3 * deviation;
-    audit.high = 14.0 / 12 + 3 * deviation;
-    return audit;
 }

@@ -28,13 +28,3 @@ struct ErrorSummary {
 /// none.
 ErrorSummary relative_error_summary(const Reference& reference, const ReferenceOutput& output,
                                     std::span<const uint8_t> inside = {});
-
-/// What the two halves say of the stated variance. If batch means are normal, z^2 = (A - B)^2 / (4 variance) is F(1,
-/// 14) distributed for one pass, with mean 14/12, and nearer to 1 for more passes. Rare bright paths make it smaller.
-struct HalfAudit {
-    double mean_z_squared = 0;  ///< over pixels and channels that have any variance
-    double low = 0, high = 0;   ///< where a sound render of normal batches has it, but for one in about 400
-    double correlation = 0;     ///< of z between horizontal neighbours: 0 but for noise of 1 / sqrt(pixels)
-    size_t pixels = 0;
-};
-HalfAudit audit_halves(const ReferenceOutput& output);

@@ -3,6 +3,7 @@
 #include "core/digits.h"
 #include "core/error.h"
 #include "core/exr.h"
+#include "groundtruth/reference_audit.h"
 
 #include <charconv>
 
@@ -39,6 +40,7 @@ std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
     images.push_back({"guide.incident", "RGB", &reference.guide.incident});
     images.push_back({"guide.diffuse", "RGB", &reference.guide.diffuse});
     images.push_back({"highlights", "RGB", &reference.highlights});
+    images.push_back({"cut_share", "Y", &reference.cut_share});
     images.push_back({"sample_count", "Y", &reference.sample_count, PixelType::uint32});
     images.push_back({"lobe_samples", "XY", &reference.lobe_samples, PixelType::uint32});
     images.push_back({"depth", "Z", &reference.depth});
@@ -153,7 +155,14 @@ void take_layer(const std::filesystem::path& file, LayeredImage& layers, const N
 }  // namespace
 
 void write_reference(const std::filesystem::path& file, Reference& reference, const ReferenceSettings& settings) {
-    write(file, named_images(reference, !reference.ladder.is_empty()), attributes(reference, settings, 0));
+    std::map<std::string, std::string> header = attributes(reference, settings, 0);
+    const ReferenceAudit audit = audit_reference(reference);
+    header["ssrlab.light_cut"] = shortest_digits(audit.light_cut);
+    for (const auto& [output, halves] : audit.outputs) {
+        header["ssrlab.audit." + output + ".mean_z_squared"] = shortest_digits(halves.mean_z_squared);
+        header["ssrlab.audit." + output + ".correlation"] = shortest_digits(halves.correlation);
+    }
+    write(file, named_images(reference, !reference.ladder.is_empty()), std::move(header));
 }
 
 void write_reference_state(const std::filesystem::path& file, ReferenceState& state) {

@@ -86,8 +86,8 @@ void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& t
             const size_t pixel = size_t(y) * reference.extent.x + x;
             const unsigned samples = unsigned(state.sample_goal.values[pixel] - reference.sample_count.values[pixel]);
             if (samples == 0) continue;
-            const PixelCost cost = add_samples(reference, tracer, x, y, state.settings.seed,
-                                               SampleSet::reference, samples / batch_count);
+            const PixelCost cost =
+                add_samples(reference, tracer, x, y, state.settings.seed, SampleSet::reference, samples / batch_count);
             if (!state.rays_per_sample.values.empty())
                 state.rays_per_sample.values[pixel] = float(double(cost.rays) / samples);
             counts.rays += cost.rays;
@@ -131,7 +131,7 @@ ReferenceState empty_state(glm::uvec2 extent, const ReferenceSettings& settings)
         clear(*output);
     for (HostImage* image : {&reference.highlights, &reference.geometric_normal, &reference.normal})
         *image = HostImage(extent, 3);
-    for (HostImage* image : {&reference.sample_count, &reference.depth, &reference.material_id})
+    for (HostImage* image : {&reference.cut_share, &reference.sample_count, &reference.depth, &reference.material_id})
         *image = HostImage(extent, 1);
     reference.lobe_samples = HostImage(extent, 2);
     if (settings.ladder) {

@@ -60,6 +60,12 @@ void merge(ReferenceOutput& output, size_t pixel, const PassMeans& pass, const d
     output.variance.set_rgb(pixel, glm::vec3(rest * rest * old_variance + share * share * pass.variance));
 }
 
+/// The mean of `throughput` over RGB, weighted by `radiance`.
+double share_of_light(glm::dvec3 throughput, glm::dvec3 radiance) {
+    const double all = radiance.x + radiance.y + radiance.z;
+    return all > 0 ? glm::dot(throughput, radiance) / all : 0.0;
+}
+
 /// The finalizer of SplitMix64 (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators").
 uint64_t mix(uint64_t z) {
     z += 0x9e3779b97f4a7c15u;
@@ -93,6 +99,7 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
     PixelCost cost{.rays = 1 + hit.shadow_rays, .non_finite = !hit.is_highlight_finite};
     Batches diffuse, specular, image, incident, camera_radiance, on_screen;
     double on_screen_samples = 0;
+    glm::dvec3 cut(0.0);
     for (unsigned b = 0; b < batch_count; ++b) {
         PixelEstimate estimate;
         if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, mix(pass_seed + b), 0, batch_samples, estimate);
@@ -106,6 +113,7 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
         const double off_screen_samples = double(estimate.lobe_samples - estimate.on_screen_samples);
         on_screen.sums[b] = estimate.on_screen + glm::dvec3(hit.fallback) * off_screen_samples;
         on_screen_samples += double(estimate.on_screen_samples);
+        cut += estimate.cut;
         cost.rays += estimate.rays;
         cost.non_finite += estimate.non_finite;
     }
@@ -113,7 +121,12 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
     const double old_weight[2] = {samples_before / 2, samples_before / 2};
     merge(reference.diffuse, pixel, means(diffuse), old_weight);
     merge(reference.specular, pixel, means(specular), old_weight);
-    merge(reference.image, pixel, means(image), old_weight);
+    const PassMeans image_means = means(image);
+    merge(reference.image, pixel, image_means, old_weight);
+    const double samples = double(batch_samples) * batch_count;
+    float& cut_share = reference.cut_share.values[pixel];
+    const double its_share = share_of_light(cut / samples, 0.5 * (image_means.half[0] + image_means.half[1]));
+    cut_share = float((cut_share * samples_before + its_share * samples) / (samples_before + samples));
 
     float* lobe_samples = &reference.lobe_samples.values[pixel * 2];
     const double old_lobe_weight[2] = {lobe_samples[0], lobe_samples[1]};
@@ -128,6 +141,6 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
         if (total > 0) share = float((share * before + on_screen_samples) / total);
     }
     for (unsigned h = 0; h < 2; ++h) lobe_samples[h] += float(incident_means.weight[h]);
-    reference.sample_count.values[pixel] += float(batch_samples * batch_count);
+    reference.sample_count.values[pixel] += float(samples);
     return cost;
 }

@@ -120,6 +120,8 @@ PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsi
             means[2 + i][batch] = lobe_samples > 0 ? over_lobe[i] / lobe_samples : glm::dvec3(0.0);
         on_screen += double(estimate.on_screen_samples);
         lobe += lobe_samples;
+        result.cut +=
+            (estimate.cut.x + estimate.cut.y + estimate.cut.z) / (3.0 * batch_count * double(estimate.samples));
         result.non_finite += estimate.non_finite;
     }
     if (lobe > 0) result.on_screen_share = on_screen / lobe;

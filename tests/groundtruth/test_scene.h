@@ -43,6 +43,7 @@ struct PixelMoments {
     Moments diffuse, specular, incident;  ///< `diffuse` includes emission
     Moments camera_radiance, on_screen;   ///< with PathTracerSettings::ladder
     double on_screen_share = 0;
+    double cut = 0;  ///< PixelEstimate::cut / samples, mean over RGB
     uint64_t non_finite = 0;
 };
 
