@@ -230,8 +230,16 @@ TEST_F(References, HaveTheSameGuideWhateverTheirSamplesAre) {
     expect_same(cached(256), "a file");
     expect_same(cached(512), "samples added to a file");
     expect_same(cached(512), "the file of those");
-    EXPECT_NE(render({.max_samples = 16, .max_depth = 1, .seed = 1}).guide.specular.values,
-              first.guide.specular.values);
+    // Nothing is reflected twice in this scene, but much is between mirrors.
+    const Scene mirrors = load_scene("facing_mirrors", {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    const ScenePose mirrors_pose = pose_scene(mirrors, 0);
+    const CameraPose mirrors_camera = pose_camera(mirrors.cameras.front(), mirrors_pose, 0);
+    const auto guide = [&](unsigned max_depth) {
+        return render_reference(mirrors, mirrors_pose, mirrors_camera, extent,
+                                {.max_samples = 16, .max_depth = max_depth})
+            .guide.specular.values;
+    };
+    EXPECT_NE(guide(1), guide(4));
 }
 
 TEST_F(References, AreIndependentOfTheirGuide) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "groundtruth/path_tracer.h"
+#include "groundtruth/reference_pixel.h"  // batch_count
 
 #include <array>
 #include <vector>
@@ -46,8 +47,6 @@ struct PixelMoments {
     double cut = 0;  ///< PixelEstimate::cut / samples, mean over RGB
     uint64_t non_finite = 0;
 };
-
-inline constexpr unsigned batch_count = 16;
 
 /// Renders one pixel with 16 independent batches; the standard error comes from their spread, so that it follows
 /// Student's t distribution with 15 degrees of freedom.
