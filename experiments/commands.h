@@ -31,6 +31,18 @@ struct FiguresOptions {
 };
 int figures_command(const FiguresOptions& options);  ///< the exit code: 0, 2 or 3
 
+struct TablesOptions {
+    std::filesystem::path results, out;
+    bool keeps = false, fills = false, checks = false;
+};
+int tables_command(const TablesOptions& options);  ///< the exit code: 0, 2 or 3
+
+struct SearchOptions {
+    std::filesystem::path config, out;
+};
+/// `run_options`: as the command line of `ssrlab run` takes them, for every study of the search. Returns the exit code.
+int search_command(const SearchOptions& options, const std::vector<std::string>& run_options);
+
 struct CompareCommandOptions {
     std::filesystem::path reference, test, map;
     std::vector<std::string> metrics;

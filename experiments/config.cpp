@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "experiments/config_parts.h"
 #include "experiments/primary_comparisons.h"
 #include "metrics/ghost.h"
 #include "metrics/masks.h"
@@ -323,6 +324,7 @@ bool needs_ladder(const Config& config) { return std::ranges::any_of(config.targ
 
 Config read_config(const std::filesystem::path& file) {
     Config config;
+    config.file = file;
     config.source = read_json(file);
     JsonObject object(config.source, file.string());
     config.title = object.text("title", file.stem().string());
@@ -366,6 +368,8 @@ Config read_config(const std::filesystem::path& file) {
         object.number("reflective_max_roughness", 0.0f, 1.0f, config.reflective_max_roughness);
     config.reflective_min_reflectance =
         object.number("reflective_min_reflectance", 0.0f, 1.0f, config.reflective_min_reflectance);
+    check_tables(object);
+    config.is_search = check_search(object, config.variants);
     object.finish();
 
     if (config.shots.empty()) fail(file.string(), ": 'shots' is missing or empty: name at least one scene");

@@ -61,6 +61,7 @@ inline constexpr unsigned default_seeds = 8;
 
 /// A study: everything that `ssrlab run` is told.
 struct Config {
+    std::filesystem::path file;  ///< what it was read from
     std::string title;
     std::vector<ShotConfig> shots;
     std::vector<VariantConfig> variants;
@@ -77,6 +78,7 @@ struct Config {
     std::vector<std::string> frame_masks;      ///< of each of those frames; their mean has all masks
     float reflective_max_roughness = 0.6f;     ///< the mask `reflective`: perceptual roughness at most this ...
     float reflective_min_reflectance = 0.02f;  ///< ... and F0 A + F90 B (largest channel) at least this
+    bool is_search = false;  ///< its only variant is where `ssrlab search` starts from
     nlohmann::json source;                     ///< as read, for the manifest
 };
 

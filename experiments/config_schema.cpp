@@ -51,6 +51,30 @@ json variant_schema(const VariantEntry& entry) {
                   {"variant"});
 }
 
+json table_schema() {
+    const json text = {{"type", "string"}}, any_object = {{"type", "object"}};
+    return object({{"name", text},
+                   {"caption", text},
+                   {"of", {{"enum", {"effects", "results", "splits", "times", "time_effects"}}}},
+                   {"where", any_object},
+                   {"rows", one_or_more(text)},
+                   {"columns", one_or_more(text)},
+                   {"over", text},
+                   {"sort", text},
+                   {"labels", any_object}},
+                  {"name", "caption", "of", "rows", "columns"});
+}
+
+json search_schema() {
+    return object({{"axes", {{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}}},
+                   {"metrics", list_of(metric_names())},
+                   {"target", {{"enum", target_names()}}},
+                   {"mask", {{"type", "string"}}},
+                   {"rounds", integer(1, 100)},
+                   {"most_time", number(1, 1e6)}},
+                  {"axes"});
+}
+
 }  // namespace
 
 nlohmann::json config_schema(const std::string& variant) {
@@ -105,7 +129,9 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"targets", list_of(target_names())},
                 {"primary", object({{"metric", text}, {"mask", text}, {"target", {{"enum", target_names()}}}})},
                 {"reflective_max_roughness", number(0, 1)},
-                {"reflective_min_reflectance", number(0, 1)}},
+                {"reflective_min_reflectance", number(0, 1)},
+                {"tables", {{"type", "array"}, {"items", table_schema()}}},
+                {"search", search_schema()}},
                {"shots", "variants"});
     schema["$schema"] = dialect;
     schema["title"] = "ssrlab study";

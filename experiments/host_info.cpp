@@ -2,6 +2,7 @@
 
 #include "core/files.h"
 #include "core/json.h"
+#include "metrics/estimators.h"
 
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -60,7 +61,7 @@ nlohmann::json build_info() {
         if (build.value("code", "") != code) build["dirty"] = true;
     }
     return {{"version", SSRLAB_VERSION},   {"commit", build.at("commit")}, {"dirty", build.at("dirty")}, {"code", code},
-            {"compiler", SSRLAB_COMPILER}, {"build", SSRLAB_BUILD_TYPE}};
+            {"compiler", SSRLAB_COMPILER}, {"build", SSRLAB_BUILD_TYPE}, {"estimators", estimator_version}};
 }
 
 std::string code_hash() {

@@ -88,6 +88,38 @@ int parse_and_run(int argc, char** argv) {
     figures_command_.add_option("--out", figures.out, "Default: figures in the results folder")->type_name("DIR");
     figures_command_.callback([&] { status = figures_command(figures); });
 
+    TablesOptions tables;
+    CLI::App& tables_command_ =
+        *app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder");
+    tables_command_.add_option("results", tables.results, "A folder that `ssrlab run` filled")->type_name("DIR");
+    tables_command_.add_option("--out", tables.out, "Default: tables in the results folder")->type_name("DIR");
+    CLI::Option* keep_option = tables_command_.add_flag(
+        "--keep", tables.keeps, "Also keep their numbers in experiments/summaries, and fill them into documents");
+    CLI::Option* fill_option =
+        tables_command_.add_flag("--fill", tables.fills, "Fill the tables of all documents from what is kept");
+    tables_command_
+        .add_flag("--check", tables.checks,
+                  "Fail if a document differs from what is kept, or what is kept from what today's estimators would give")
+        ->excludes(keep_option)
+        ->excludes(fill_option);
+    tables_command_.callback([&] { status = tables_command(tables); });
+
+    SearchOptions search;
+    CLI::App& search_command_ = *app.add_subcommand(
+        "search", "Search a variant's parameters for the least error; every step is a study of its own");
+    search_command_.add_option("config", search.config, "A study with \"search\" (experiments/README.md)")
+        ->required()
+        ->type_name("CONFIG.json");
+    search_command_.add_option("--out", search.out, "Default: results/<name of the config>")->type_name("DIR");
+    add_device(search_command_, common), add_scene_path(search_command_, common), add_cache(search_command_, common);
+    search_command_.callback([&] {
+        std::vector<std::string> options;
+        if (!common.device.empty()) options.push_back("--device=" + common.device);
+        if (!common.cache.empty()) options.push_back("--cache=" + common.cache.string());
+        for (const std::filesystem::path& folder : common.scene_path) options.push_back("--scene-path=" + folder.string());
+        status = search_command(search, options);
+    });
+
     CompareCommandOptions compare;
     CLI::App& compare_command_ = *app.add_subcommand("compare", "Compare two images (EXR or PNG): one number per line");
     compare_command_.add_option("reference", compare.reference)->required()->type_name("REFERENCE");

@@ -32,6 +32,12 @@ nlohmann::json variant_entries(const Config& config) {
     return entries;
 }
 
+/// Within the source tree relative to it, as documents name it.
+std::string shown_path(const std::filesystem::path& file) {
+    const std::filesystem::path inside = std::filesystem::proximate(file, SSRLAB_SOURCE_DIR);
+    return (inside.empty() || inside.begin()->string() == ".." ? file : inside).string();
+}
+
 /// What the parameters of the study's variants mean: {variant: {parameter: meaning}}.
 nlohmann::json parameter_docs(const Config& config) {
     nlohmann::json docs = nlohmann::json::object();
@@ -130,7 +136,8 @@ nlohmann::json study_entry(const Config& config) {
     if (config.direct_lit)
         warnings.push_back(
             "SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
-    return {{"title", config.title},
+    return {{"study", {{"name", config.file.stem().string()}, {"config", shown_path(config.file)}}},
+            {"title", config.title},
             {"config", config.source},
             {"clock", nlohmann::json::object()},
             {"warnings", warnings},

@@ -18,6 +18,7 @@
 
 void run_study_command(const RunOptions& options, const CommonOptions& common) {
     const Config config = read_config(options.config);
+    if (config.is_search) fail(options.config.string(), ": has a 'search': `ssrlab search` runs it");
     run_study(config,
               {.out = options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out,
                .device = common.device,

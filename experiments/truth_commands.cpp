@@ -1,8 +1,7 @@
-// The commands that need no Vulkan device: reference, compare, needs, figures.
+// The commands that need no Vulkan device: reference, compare, needs.
 #include "core/error.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/scene/load_scene.h"
-#include "experiments/child_process.h"
 #include "experiments/commands.h"
 #include "experiments/progress.h"
 #include "experiments/shot.h"
@@ -123,13 +122,4 @@ void needs_command(const ShotOptions& options, const CommonOptions& common) {
     for (const LeftOut& part : tracer.left_out())
         std::printf("  path tracer: %s (%s): %s\n", part.what.c_str(), part.fact.c_str(), part.why.c_str());
     for (const std::string& warning : shot.scene.warnings) std::printf("warning: %s\n", warning.c_str());
-}
-
-int figures_command(const FiguresOptions& options) {
-    if (!std::filesystem::exists(options.results / "manifest.json"))
-        fail(options.results.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
-    const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
-    const int code = run_program({SSRLAB_PYTHON, SSRLAB_SOURCE_DIR "/experiments/figures.py", "--out=" + out.string(),
-                                  "--", options.results.string()});
-    return code == 0 || code == 2 ? code : 3;
 }

@@ -61,11 +61,11 @@ class Results:
     def __init__(self, folder):
         self.folder = folder
         self.manifest = self._read_manifest()
-        self.all_errors = self._read_csv("summary.csv")
+        self.all_errors = self.read_csv("summary.csv")
         self.errors = rows_for_shots(self.all_errors)
-        self.times = self._read_csv("time_summary.csv")
-        self.splits = self._read_csv("splits.csv", is_optional=True)
-        self.effects = self._read_csv("effects.csv", is_optional=True)
+        self.times = self.read_csv("time_summary.csv")
+        self.splits = self.read_csv("splits.csv", is_optional=True)
+        self.effects = self.read_csv("effects.csv", is_optional=True)
         self.single_changes = self._single_changes()
 
     def _read_manifest(self):
@@ -81,7 +81,7 @@ class Results:
             raise ResultsError(f"{file} must be a JSON object")
         return manifest
 
-    def _read_csv(self, name, is_optional=False):
+    def read_csv(self, name, is_optional=False):
         file = os.path.join(self.folder, name)
         if is_optional and not os.path.exists(file):
             return []

@@ -1,0 +1,69 @@
+"""Tables within Markdown files: between `<!-- table STUDY NAME -->` and `<!-- end of table -->`, made from the committed
+summary of the study."""
+
+import os
+import re
+
+from paper_figures.results import ResultsError
+from paper_tables import formats, summary_file
+
+BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+) -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
+
+
+def markdown_files(root):
+    """All of the source tree but what builds and hidden folders hold."""
+    for folder, folders, names in os.walk(root):
+        folders[:] = sorted(f for f in folders if not f.startswith(".") and not f.startswith("build") and f != "results")
+        yield from (os.path.join(folder, name) for name in sorted(names) if name.endswith(".md"))
+
+
+def filled(text, summaries, file):
+    """The text with each table made anew. Fails on a table that no summary holds."""
+
+    def made(block):
+        path = os.path.join(summaries, block["study"] + ".csv")
+        origin, tables = summary_file.read(path)
+        if block["name"] not in tables:
+            raise ResultsError(f"{file}: {path} has no table '{block['name']}'; it has: {', '.join(tables)}")
+        table, cells = tables[block["name"]]
+        return block["head"] + formats.markdown(table, cells, summary_file.made_from(origin, cells)) + block["end"]
+
+    return BLOCK.sub(made, text)
+
+
+def rewrite(root, summaries):
+    """Fills the tables of all documents; returns the files that changed."""
+    changed = []
+    for file in markdown_files(root):
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read()
+        new = filled(text, summaries, file)
+        if new != text:
+            with open(file, "w", encoding="utf-8") as stream:
+                stream.write(new)
+            changed.append(file)
+    return changed
+
+
+def mistakes(root, summaries, estimators):
+    """Sentences: documents that differ from the summaries, summaries whose numbers today's estimators would not give, and
+    summaries that no document shows."""
+    found, shown = [], set()
+    for file in markdown_files(root):
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read()
+        shown.update(block["study"] for block in BLOCK.finditer(text))
+        if filled(text, summaries, file) != text:
+            found.append(f"{file}: its tables differ from {summaries}; `ssrlab tables --fill` makes them anew")
+    for name in sorted(os.listdir(summaries)) if os.path.isdir(summaries) else []:
+        if not name.endswith(".csv"):
+            continue
+        origin, _ = summary_file.read(os.path.join(summaries, name))
+        if origin.get("estimators") != estimators:
+            found.append(
+                f"{summaries}/{name}: made with estimators {origin.get('estimators')}, but today's are {estimators}; run the study "
+                "again, then `ssrlab tables --keep`"
+            )
+        if name[: -len(".csv")] not in shown:
+            found.append(f"{summaries}/{name}: no document shows any of its tables; delete it, or show them")
+    return found

@@ -1,0 +1,179 @@
+"""Searches a variant's parameters for the least error: a coordinate descent whose every step is a study of its own.
+
+usage: search.py CONFIG --out DIR -- SSRLAB [options of `ssrlab run`]
+
+The config is a study of one variant, the point to start from, with "search" (experiments/README.md). Each round runs every
+other value of every axis alone against the point that is held, then the best value of each axis together, and holds the best
+of all. The measure is error over held error, the geometric mean over shots and metrics; a point is better only if its 95 %
+interval lies below 1, since a search that follows noise ends anywhere. It stops where no point is better.
+
+DIR gets round_N_alone and round_N_together (the studies, with their reports), search.csv (every point that was tried) and
+found.json (the values that differ from the start). A search that was stopped continues, as its studies do."""
+
+import argparse
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+
+from paper_figures.results import Results, ResultsError
+
+
+@dataclass
+class Trial:
+    """A point, against the one that was held when it was tried."""
+
+    study: str
+    values: dict  # that differ from the held point's
+    ratio: float  # of errors
+    low: float
+    high: float
+    time: float  # over that of the point that the search started from
+
+    def is_better(self, most_time):
+        return self.high is not None and self.high < 1 and self.time <= most_time
+
+
+def label_of(preset, values):
+    """How `ssrlab` names a swept point."""
+    words = [f"{k}={v if isinstance(v, str) else json.dumps(v)}" for k, v in sorted(values.items())]
+    return " ".join([preset] * bool(preset) + words)
+
+
+def geometric_mean(rows, what):
+    """Ratio and interval of effects: half-widths of logarithms, independent between shots, added in quadrature. Those of
+    several metrics of one shot are not independent; their mean half-width is taken."""
+    logs, halves = [], {}
+    for row in rows:
+        if not row["ratio"] or not row["low"]:
+            raise ResultsError(f"{what}: no interval in {row['shot']}, {row['metric']}: the search needs several seeds")
+        logs.append(math.log(float(row["ratio"])))
+        halves.setdefault(row["shot"], []).append(math.log(float(row["high"]) / float(row["low"])) / 2)
+    mean = sum(logs) / len(logs)
+    half = math.sqrt(sum((sum(h) / len(h)) ** 2 for h in halves.values())) / len(halves)
+    return math.exp(mean), math.exp(mean - half), math.exp(mean + half)
+
+
+class Search:
+    def __init__(self, config, out, command):
+        self.config, self.out, self.command = config, out, command
+        self.rules = config["search"]
+        (self.variant,) = config["variants"]
+        self.preset = self.variant.get("preset", "")
+        self.start = self.variant.get("parameters", {})
+        self.found = {}  # what the held point changes of the start
+        self.time = 1.0  # of the held point, over that of the start
+        self.trials = []
+
+    def run(self):
+        for number in range(1, self.rules.get("rounds", 8) + 1):
+            alone = self.study(f"round_{number}_alone", self.changes())
+            best = self.best_of_each_axis(alone)
+            tried = alone + (self.study(f"round_{number}_together", [best]) if len(best) > 1 else [])
+            better = [t for t in tried if t.is_better(self.most_time())]
+            if not better:
+                break
+            self.hold(min(better, key=lambda t: t.ratio))
+        self.write()
+
+    def most_time(self):
+        return self.rules.get("most_time", math.inf)
+
+    def changes(self):
+        """Every value of every axis that the held point does not have."""
+        held = self.start | self.found
+        return [{name: v} for name, values in self.rules["axes"].items() for v in values if held.get(name) != v]
+
+    def best_of_each_axis(self, trials):
+        best = {}
+        for trial in sorted(trials, key=lambda t: t.ratio):
+            if trial.is_better(self.most_time()):
+                for name, value in trial.values.items():
+                    best.setdefault(name, value)
+        return best
+
+    def study(self, name, points):
+        """Runs `points` against the held one, and reads how they compare."""
+        own = {k: self.variant[k] for k in ("variant", "preset", "seeds") if k in self.variant}
+        own["parameters"] = self.start | self.found
+        swept = [own | {"sweep": {key: [value] for key, value in values.items()}} for values in points]
+        study = {k: v for k, v in self.config.items() if k not in ("search", "tables")}
+        study |= {"variants": [own | {"baseline": True}, *swept]}
+        folder = os.path.join(self.out, name)
+        os.makedirs(folder, exist_ok=True)
+        file = os.path.join(folder, "study.json")
+        with open(file, "w", encoding="utf-8") as stream:
+            json.dump(study, stream, indent=1)
+        subprocess.run([self.command[0], "run", file, "--out", folder, *self.command[1:]], check=True)
+        trials = self.read(name, Results(folder), points)
+        self.trials += trials
+        return trials
+
+    def read(self, name, results, points):
+        wanted = {(self.rules.get("target", "specular"), m, self.rules.get("mask", "reflective")) for m in self.metrics()}
+        trials = []
+        for values in points:
+            point = label_of(self.preset, values)
+            rows = [
+                r
+                for r in results.effects
+                if r["against"] == "baseline" and r["point"] == point and (r["target"], r["metric"], r["mask"]) in wanted
+            ]
+            if not rows:
+                raise ResultsError(f"{results.folder}: effects.csv has nothing of '{point}': does the study measure {wanted}?")
+            trials.append(Trial(name, values, *geometric_mean(rows, point), self.time_of(results, point)))
+        return trials
+
+    def metrics(self):
+        return self.rules.get("metrics", ["relmse"])
+
+    def time_of(self, results, point):
+        logs = []
+        for shot in results.shots():
+            totals = {k[1]: stages["total"].value for k, stages in results.times_of(shot).items() if "total" in stages}
+            if point in totals:
+                logs.append(math.log(totals[point] / totals[label_of(self.preset, {}) or "default"]))
+        if not logs and "most_time" in self.rules:
+            raise ResultsError(f"{results.folder}: '{point}' was not timed, but the search has 'most_time'")
+        return self.time * math.exp(sum(logs) / len(logs)) if logs else self.time
+
+    def hold(self, trial):
+        self.found |= trial.values
+        self.time = trial.time
+        print(f"held: {label_of('', trial.values)}: error x{trial.ratio:.3f} [{trial.low:.3f}, {trial.high:.3f}], time x{trial.time:.2f}")
+
+    def write(self):
+        with open(os.path.join(self.out, "search.csv"), "w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(["study", "point", "ratio", "low", "high", "time"])
+            for t in self.trials:
+                writer.writerow([t.study, label_of("", t.values), t.ratio, t.low, t.high, t.time])
+        with open(os.path.join(self.out, "found.json"), "w", encoding="utf-8") as stream:
+            json.dump({"variant": self.variant["variant"], "preset": self.preset, "parameters": self.start | self.found}, stream, indent=1)
+            stream.write("\n")
+        print(f"{len(self.trials)} points tried; found: {json.dumps(self.found)}, in {os.path.join(self.out, 'found.json')}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Search a variant's parameters for the least error.")
+    parser.add_argument("config", help="what `ssrlab` read from the search's config: a JSON file without comments")
+    parser.add_argument("--out", required=True, help="folder of the studies and of what is found")
+    parser.add_argument("command", nargs="+", help="ssrlab, and options of `ssrlab run`")
+    arguments = parser.parse_args()
+    try:
+        with open(arguments.config, encoding="utf-8") as stream:
+            config = json.load(stream)
+        Search(config, arguments.out, arguments.command).run()
+    except ResultsError as mistake:
+        print(f"error: {mistake}", file=sys.stderr)
+        return 2
+    except subprocess.CalledProcessError as failed:
+        return failed.returncode
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
