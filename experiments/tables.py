@@ -43,8 +43,7 @@ def make(folder, out, summary_folder):
     entries = config.get("tables", [])
     if not entries:
         raise ResultsError(f"{folder}: its study asks for no tables; add \"tables\" to its config (experiments/README.md)")
-    study = results.manifest["study"]
-    origin = summary_file.origin(results.manifest, study["config"])
+    origin = summary_file.origin(results.manifest)
     every = []
     os.makedirs(out, exist_ok=True)
     for entry in entries:
@@ -57,7 +56,7 @@ def make(folder, out, summary_folder):
     if summary_folder:
         if "with changes" in origin["commit"]:
             raise ResultsError(f"{folder}: its program was built from files that no commit holds; commit, build and run it again")
-        summary_file.write(os.path.join(summary_folder, study["name"] + ".csv"), origin, entries, every)
+        summary_file.write(os.path.join(summary_folder, results.manifest["study"]["name"] + ".csv"), origin, entries, every)
     return len(entries)
 
 

@@ -18,17 +18,22 @@ def _resolutions(manifest):
     return sorted({f"{s['width']}x{s['height']}" for s in manifest["shots"]})
 
 
-def origin(manifest, config):
-    """What tells where the numbers come from. `config`: the study's file, as its results folder names it."""
-    program = manifest["ssrlab"]
+def origin(manifest):
+    """What tells where the numbers come from. Fails where cells were made by programs whose estimators differ."""
+    makers = manifest["provenance"]
+    programs = [m["ssrlab"] for m in makers]
+    estimators = sorted({p["estimators"] for p in programs})
+    if len(estimators) > 1:
+        raise ResultsError(f"its cells were made with estimators {estimators}, which give other numbers; run the study again")
+    commits = (p["commit"] + (" with changes" if p.get("dirty") else "") for p in programs)
     return {
-        "study": config,
+        "study": manifest["study"]["config"],
         "title": manifest.get("title", ""),
-        "commit": program["commit"] + (" with changes" if program.get("dirty") else ""),
-        "code": program["code"],
-        "estimators": program["estimators"],
-        "finished": manifest.get("finished", ""),
-        "device": manifest["device"]["name"],
+        "commit": " and ".join(dict.fromkeys(commits)),
+        "code": " ".join(dict.fromkeys(p["code"] for p in programs)),
+        "estimators": estimators[0],
+        "finished": max(m["finished"] for m in makers),
+        "device": " and ".join(dict.fromkeys(m["device"]["name"] for m in makers)),
         "resolutions": _resolutions(manifest),
         "shots": len(manifest["shots"]),
     }

@@ -76,11 +76,15 @@ def write_rows(file, rows):
 def manifest(tables):
     points = [("default", 1), ("taps=4", 4), ("taps=16", 16)]
     return {
-        "ssrlab": {"commit": "abc1234", "dirty": False, "code": "00ff", "estimators": 7},
+        "provenance": [
+            {
+                "ssrlab": {"commit": "abc1234", "dirty": False, "code": "00ff", "estimators": 7},
+                "device": {"name": "a device"},
+                "finished": "2026-01-31T12:05:00Z",
+            }
+        ],
         "study": {"name": "made_up", "config": "configs/made_up.json"},
         "title": "Made up",
-        "finished": "2026-01-31T12:05:00Z",
-        "device": {"name": "a device"},
         "config": {"tables": tables},
         "shots": [{"shot": s, "width": 320, "height": 180} for s in SHOTS],
         "variants": [{"variant": "sssr", "point": p, "parameters": {"taps": taps}} for p, taps in points],
@@ -208,10 +212,15 @@ def test_kept_numbers(temporary):
     except Exception as e:  # noqa: BLE001
         check("at most 100000" in str(e), e)
     made_up = manifest(TABLES)
-    made_up["ssrlab"]["dirty"] = True
+    made_up["provenance"][0]["ssrlab"]["dirty"] = True
     write(os.path.join(folder, "manifest.json"), json.dumps(made_up))
     result = tables(folder, "--keep", "--root", root)
     check(result.returncode == 2 and "no commit holds" in result.stderr, result.stderr)
+    made_up["provenance"].append(json.loads(json.dumps(made_up["provenance"][0])))
+    made_up["provenance"][1]["ssrlab"]["estimators"] = 8
+    write(os.path.join(folder, "manifest.json"), json.dumps(made_up))
+    result = tables(folder)
+    check(result.returncode == 2 and "made with estimators [7, 8]" in result.stderr, result.stderr)
 
 
 def main():
