@@ -62,7 +62,7 @@ TEST_F(DiligentHalves, OfRaysHoldWhatTheyAreGiven) {
 /// Black rays and such of 6e4: their luminances vary by up to 9e8.
 TEST_F(DiligentHalves, OfVariancesHoldWhatTheyAreGiven) {
     const ReconstructionInputs inputs = reflecting_wall(
-        {.ray = [](unsigned x, unsigned) { return StoredRay{.radiance = glm::vec3(x % 2 > 0 ? 6e4f : 0.0f)}; }});
+        {.ray = [](unsigned x, unsigned) { return TexelRay{.radiance = glm::vec3(x % 2 > 0 ? 6e4f : 0.0f)}; }});
     for (const bool float_histories : {false, true}) {
         ReconstructionBench bench(device(), inputs.depth.extent, {{"float_histories", float_histories}});
         const Reconstruction found = bench.run(inputs, &wide().filter);
