@@ -36,11 +36,9 @@ struct View {
           guide(render_guide(tracer, extent, {})) {}
 
     Reference reference(unsigned samples, unsigned seed) const {
-        ReferenceState state;
-        state.settings.ladder = true;
-        clear_samples(state, extent);
+        ReferenceState state = empty_state(extent, {.ladder = true});
         tbb::parallel_for(0u, extent.x * extent.y, [&](unsigned p) {
-            add_samples(state.reference, tracer, p % extent.x, p / extent.x, seed, SampleSet::final,
+            add_samples(state.reference, tracer, p % extent.x, p / extent.x, seed, SampleSet::reference,
                         samples / batch_count);
         });
         state.reference.guide = guide;
