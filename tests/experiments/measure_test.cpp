@@ -13,7 +13,11 @@ TEST(Measure, ImageIsAllLightOfTheTruth) {
     reference.diffuse = constant(0.25f), reference.specular = reference.incident = constant(0.5f);
     reference.highlights = HostImage({16, 16}, 3, 1.0f);
     reference.image = constant(1.75f);
-    for (HostImage* image : {&reference.depth, &reference.material_id}) *image = HostImage({16, 16}, 1);
+    for (HostImage* image : {&reference.depth, &reference.material_id, &reference.sample_count})
+        *image = HostImage({16, 16}, 1);
+    reference.lobe_samples = HostImage({16, 16}, 2);
+    for (HostImage* image : {&reference.guide.specular, &reference.guide.incident, &reference.guide.diffuse})
+        *image = HostImage({16, 16}, 3, 0.5f);
     reference.normal = HostImage({16, 16}, 3);
     Config config;
     config.targets = {"image"}, config.metrics = {"mse"};
