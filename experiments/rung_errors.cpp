@@ -12,20 +12,22 @@ struct ErrorMaps {
     NoiseTerms noise;
 
     ErrorMaps(glm::uvec2 extent, double samples) : error(extent), noise(extent, samples) {}
+
+    /// Rung and truth share their samples, so that the batches of neither tell how much their difference varies, which
+    /// hangs on the few samples that tell them apart. The squares themselves must do.
+    void square_noise(size_t pixel) { noise.variance.values[pixel] = std::pow(noise.swapped.values[pixel], 2); }
 };
 
 ErrorMaps squared_error(const ReferenceHalves& rung, const ReferenceHalves& truth, double (*weight)(double)) {
     ErrorMaps maps(truth.a.extent, truth.samples);
     for (size_t p = 0; p < maps.error.values.size(); ++p) {
-        SquaredErrorVariance variance;
         for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
             const double a = double(rung.a.values[i]) - truth.a.values[i],
                          b = double(rung.b.values[i]) - truth.b.values[i], w = weight(truth.guide.values[i]) / 3;
             maps.error.values[p] += w * a * b;
             maps.noise.swapped.values[p] += w * (a * a - b * b) / 2;
-            variance.add(w, (a + b) / 2, difference_variance(a, b, rung.variance.values[i], truth.variance.values[i]));
         }
-        maps.noise.variance.values[p] = variance.value();
+        maps.square_noise(p);
     }
     return maps;
 }
@@ -33,15 +35,13 @@ ErrorMaps squared_error(const ReferenceHalves& rung, const ReferenceHalves& trut
 ErrorMaps bias(const ReferenceHalves& rung, const ReferenceHalves& truth) {
     ErrorMaps maps(truth.a.extent, truth.samples);
     for (size_t p = 0; p < maps.error.values.size(); ++p) {
-        double deviation = 0;
         for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
             const double a = double(rung.a.values[i]) - truth.a.values[i],
                          b = double(rung.b.values[i]) - truth.b.values[i];
             maps.error.values[p] += (a + b) / 2 / 3;
             maps.noise.swapped.values[p] += (a - b) / 2 / 3;
-            deviation += std::sqrt(difference_variance(a, b, rung.variance.values[i], truth.variance.values[i])) / 3;
         }
-        maps.noise.variance.values[p] = deviation * deviation;
+        maps.square_noise(p);
     }
     return maps;
 }

@@ -96,7 +96,7 @@ TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
     config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"thickness": 1e39}}]})");
     expect_mistake("run study.json", "'thickness' = 1e+39");
     const std::string name(300'000, 'n');
-    for (const std::string& extension : {"", ".json", ".glb"}) {
+    for (const std::string extension : {"", ".json", ".glb"}) {
         config(R"({"shots": [{"scene": ")" + name + extension + R"("}], "variants": [{"variant": "none"}]})");
         const Outcome o = ssrlab("run study.json");
         EXPECT_EQ(o.code, 2) << extension << o.text.substr(0, 500);

@@ -3,7 +3,12 @@
 #include "variants/common/ggx_lobe.h"
 #include "variants/common/lobe_horizon.h"
 
-HostImage frostbite_horizon_table(unsigned lobe, float bias) {
+#include <map>
+#include <mutex>
+
+namespace {
+
+HostImage horizon_table(unsigned lobe, float bias) {
     const unsigned size = 64;
     HostImage table({size, size}, 1);
     for (unsigned y = 0; y < size; ++y)
@@ -12,6 +17,17 @@ HostImage frostbite_horizon_table(unsigned lobe, float bias) {
             *table.pixel(x, y) = float(share_below_horizon(lobe, mu_o, ggx_alpha(roughness), bias));
         }
     return table;
+}
+
+}  // namespace
+
+const HostImage& frostbite_horizon_table(unsigned lobe, float bias) {
+    static std::mutex mutex;
+    static std::map<std::pair<unsigned, float>, HostImage> tables;
+    const std::scoped_lock lock(mutex);
+    const auto [entry, is_new] = tables.try_emplace({lobe, bias});
+    if (is_new) entry->second = horizon_table(lobe, bias);
+    return entry->second;
 }
 
 Image FrostbiteHorizonImage::on(PassGraph& graph, const FrostbiteRayParameters& parameters) {

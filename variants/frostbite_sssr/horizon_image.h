@@ -17,5 +17,6 @@ private:
 };
 
 /// Column = cosine of the viewer, row = perceptual roughness, both at texel centres (i + 0.5) / 64. Read between texels
-/// its error is below 0.01, but for views within 3 degrees of grazing, where it reaches 0.1.
-HostImage frostbite_horizon_table(unsigned lobe, float bias);
+/// its error is below 0.01, but for views within 3 degrees of grazing, where it reaches 0.1. Made once per process for each
+/// lobe and bias: its 4096 integrals would be most of what a variant takes to start, and every seed starts one.
+const HostImage& frostbite_horizon_table(unsigned lobe, float bias);
