@@ -12,10 +12,6 @@ struct ErrorMaps {
     NoiseTerms noise;
 
     ErrorMaps(glm::uvec2 extent, double samples) : error(extent), noise(extent, samples) {}
-
-    /// Rung and truth share their samples, so that the batches of neither tell how much their difference varies, which
-    /// hangs on the few samples that tell them apart. The squares themselves must do.
-    void square_noise(size_t pixel) { noise.variance.values[pixel] = std::pow(noise.swapped.values[pixel], 2); }
 };
 
 ErrorMaps squared_error(const ReferenceHalves& rung, const ReferenceHalves& truth, double (*weight)(double)) {
@@ -27,7 +23,7 @@ ErrorMaps squared_error(const ReferenceHalves& rung, const ReferenceHalves& trut
             maps.error.values[p] += w * a * b;
             maps.noise.swapped.values[p] += w * (a * a - b * b) / 2;
         }
-        maps.square_noise(p);
+        maps.noise.take_squares(p);  // rung and truth share their samples
     }
     return maps;
 }
@@ -41,7 +37,7 @@ ErrorMaps bias(const ReferenceHalves& rung, const ReferenceHalves& truth) {
             maps.error.values[p] += (a + b) / 2 / 3;
             maps.noise.swapped.values[p] += (a - b) / 2 / 3;
         }
-        maps.square_noise(p);
+        maps.noise.take_squares(p);  // rung and truth share their samples
     }
     return maps;
 }

@@ -25,7 +25,6 @@ DifferencePlanes difference_planes(const HostImage& test_before, const HostImage
     DifferencePlanes planes{Plane(test.extent), Plane(test.extent), {test.extent, samples}};
     for (size_t p = 0; p < finite.inside.size(); ++p) {
         if (!finite.inside[p]) continue;
-        SquaredErrorVariance variance;
         for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
             const double weight = (is_relative ? relative_weight(now.weighing_image().values[i]) : 1.0) / 3;
             const double step = step_of(test_before, test, i), error = step - step_of(before.image, now.image, i);
@@ -36,11 +35,8 @@ DifferencePlanes difference_planes(const HostImage& test_before, const HostImage
             const double from_a = step - step_a, from_b = step - step_b;
             planes.corrected.values[p] += weight * from_a * from_b;
             planes.noise.swapped.values[p] += weight * (from_a * from_a - from_b * from_b) / 2;
-            variance.add(
-                weight, error,
-                difference_variance(step_a, step_b, before.halves->variance.values[i], now.halves->variance.values[i]));
         }
-        planes.noise.variance.values[p] = variance.value();
+        if (has_halves) planes.noise.take_squares(p);
     }
     return planes;
 }

@@ -35,6 +35,10 @@ struct NoiseTerms {
     NoiseTerms() = default;
     NoiseTerms(glm::uvec2 extent, double samples) : swapped(extent), variance(extent), samples(samples) {}
     bool is_empty() const { return swapped.values.empty(); }
+
+    /// Takes a pixel's variance from its square, where the batches tell none: two references that share samples differ by
+    /// the few that tell them apart, and by less than either's own noise. One degree of freedom in place of 14.
+    void take_squares(size_t pixel) { variance.values[pixel] = swapped.values[pixel] * swapped.values[pixel]; }
 };
 
 /// The variance of sum over channels of weight (d - a)(d - b), where a and b are the noises of the halves: as if the
@@ -46,12 +50,6 @@ struct SquaredErrorVariance {
     void add(double weight, double error, double variance);
     double value() const { return 2 * linear * linear + product * product; }
 };
-
-/// The variance to give to the difference of two references, `a` and `b` in the halves: where samples are shared it is
-/// at most that of both, and nothing where the two are equal.
-inline double difference_variance(double a, double b, double of_one, double of_other) {
-    return a == 0 && b == 0 ? 0 : of_one + of_other;
-}
 
 /// Of cross_error() with the same weights; the reference's own halves are `halves`.
 NoiseTerms squared_error_noise(const HostImage& test, const ReferenceHalves& halves, const HostImage& weighing,
