@@ -103,8 +103,8 @@ class Search:
         study = {k: v for k, v in self.config.items() if k not in ("search", "tables")}
         study |= {"variants": [own | {"baseline": True}, *swept]}
         folder = os.path.join(self.out, name)
-        os.makedirs(folder, exist_ok=True)
-        file = os.path.join(folder, "study.json")
+        os.makedirs(self.out, exist_ok=True)
+        file = folder + ".json"  # beside the folder: study.json in it is ssrlab's own
         with open(file, "w", encoding="utf-8") as stream:
             json.dump(study, stream, indent=1)
         subprocess.run([self.command[0], "run", file, "--out", folder, *self.command[1:]], check=True)
