@@ -71,6 +71,7 @@ bool check_search(JsonObject& config, const std::vector<VariantConfig>& variants
     search.text("mask", "");
     search.integer("rounds", 1, 100, 8);
     search.number("most_time", 1.0f, 1e6f, 1e6f);
+    search.number("least_gain", 0.0f, 1.0f, 0.01f);
     search.finish();
     return true;
 }

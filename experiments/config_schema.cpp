@@ -71,7 +71,8 @@ json search_schema() {
                    {"target", {{"enum", target_names()}}},
                    {"mask", {{"type", "string"}}},
                    {"rounds", integer(1, 100)},
-                   {"most_time", number(1, 1e6)}},
+                   {"most_time", number(1, 1e6)},
+                   {"least_gain", number(0, 1)}},
                   {"axes"});
 }
 

@@ -5,10 +5,11 @@ usage: search.py CONFIG --out DIR -- SSRLAB [options of `ssrlab run`]
 The config is a study of one variant, the point to start from, with "search" (experiments/README.md). Each round runs every
 other value of every axis alone against the point that is held, then the best value of each axis together, and holds the best
 of all. The measure is error over held error, the geometric mean over shots and metrics; a point is better only if its 95 %
-interval lies below 1, since a search that follows noise ends anywhere. It stops where no point is better.
+interval lies below 1 - least_gain, since a search that follows noise ends anywhere, and one that follows thousandths is of
+its own scenes. It stops where no point is better.
 
-DIR gets round_N_alone and round_N_together (the studies, with their reports), search.csv (every point that was tried) and
-found.json (the values that differ from the start). A search that was stopped continues, as its studies do."""
+DIR gets start, round_N_alone and round_N_together (the studies, with their reports), search.csv (every point that was tried)
+and found.json (the point where it ended). A search that was stopped continues, as its studies do."""
 
 import argparse
 import csv
@@ -33,8 +34,9 @@ class Trial:
     high: float
     time: float  # over that of the point that the search started from
 
-    def is_better(self, most_time):
-        return self.high is not None and self.high < 1 and self.time <= most_time
+    def is_better(self, rules):
+        """`rules`: the config's "search"."""
+        return self.high < 1 - rules.get("least_gain", 0.01) and self.time <= rules.get("most_time", math.inf)
 
 
 def label_of(preset, values):
@@ -65,32 +67,31 @@ class Search:
         self.preset = self.variant.get("preset", "")
         self.start = self.variant.get("parameters", {})
         self.found = {}  # what the held point changes of the start
+        self.defaults = {}  # every parameter of the start
         self.time = 1.0  # of the held point, over that of the start
         self.trials = []
 
     def run(self):
+        self.study("start", [])
         for number in range(1, self.rules.get("rounds", 8) + 1):
             alone = self.study(f"round_{number}_alone", self.changes())
             best = self.best_of_each_axis(alone)
             tried = alone + (self.study(f"round_{number}_together", [best]) if len(best) > 1 else [])
-            better = [t for t in tried if t.is_better(self.most_time())]
+            better = [t for t in tried if t.is_better(self.rules)]
             if not better:
                 break
             self.hold(min(better, key=lambda t: t.ratio))
         self.write()
 
-    def most_time(self):
-        return self.rules.get("most_time", math.inf)
-
     def changes(self):
         """Every value of every axis that the held point does not have."""
-        held = self.start | self.found
-        return [{name: v} for name, values in self.rules["axes"].items() for v in values if held.get(name) != v]
+        held = self.defaults | self.found
+        return [{name: v} for name, values in self.rules["axes"].items() for v in values if held[name] != v]
 
     def best_of_each_axis(self, trials):
         best = {}
         for trial in sorted(trials, key=lambda t: t.ratio):
-            if trial.is_better(self.most_time()):
+            if trial.is_better(self.rules):
                 for name, value in trial.values.items():
                     best.setdefault(name, value)
         return best
@@ -108,7 +109,9 @@ class Search:
         with open(file, "w", encoding="utf-8") as stream:
             json.dump(study, stream, indent=1)
         subprocess.run([self.command[0], "run", file, "--out", folder, *self.command[1:]], check=True)
-        trials = self.read(name, Results(folder), points)
+        results = Results(folder)
+        self.defaults = self.defaults or results.manifest["variants"][0]["parameters"]
+        trials = self.read(name, results, points)
         self.trials += trials
         return trials
 
