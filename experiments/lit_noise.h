@@ -19,7 +19,7 @@
 /// Measured with ten references of 16 samples at 48x27 against light of 512 samples, what is told first: mcguire_dda in
 /// modern_hall_mirror_floor adds 0.0175 (0.0175 +- 0.0019) to a relmse of 0.165, in breakfast_room_glossy_floor 0.0036
 /// (0.0040 +- 0.0019) to an mse of 0.130; frostbite_sssr 0.0155 (0.0149 +- 0.0026) to a relmse of 0.433, and 0.0006
-/// (0.0018 +- 0.0005) to an mse of 0.120. Scenes whose lit colour is emission alone have none.
+/// (0.0018 +- 0.0004) to an mse of 0.120. Scenes whose lit colour is emission alone have none.
 struct LitNoise {
     double added = 0;       ///< to the error, on average; 0 for errors that are linear in the result
     double half_width = 0;  ///< of the 95 % interval of the error that this noise leaves beside it

@@ -22,7 +22,7 @@ struct TimeEffectRow {
 ///
 /// Coverage of the median over 400 rounds by windows of 15, 30 and 60 of them, all pairs of five points on lavapipe
 /// while 18 processes shared two cores: 98, 96 and 94 %; with f = 1 it is 93, 89 and 88 %, and a bootstrap over rounds
-/// of the ratio of medians covers 70 to 97 % of pairs with wider intervals.
+/// of the ratio of medians covers 55 to 99 % of pairs, mostly with wider intervals.
 struct PairedMedian {
     double median = 0, low = 0, high = 0;
 };

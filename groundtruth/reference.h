@@ -26,7 +26,7 @@ struct ReferenceOutput {
 /// the camera, lit by all light transport: what the lit colour buffer would hold of it (where the camera is behind the
 /// surface, its mirror image before it counts). What is lost is the dependence on the view, and reflections of
 /// reflections. `on_screen` takes `fallback` where the image does not show that point, on the side that was met: what
-/// is lost is what no screen-space technique can know. Visibility is that of points, not of pixels.
+/// is lost is what one frame does not show; a technique with a history may know more. Visibility is that of points, not of pixels.
 struct TruthLadder {
     ReferenceOutput camera_radiance, on_screen;
     HostImage on_screen_share;  ///< one channel: share of the lobe that meets what the image shows; an ideal confidence

@@ -121,10 +121,14 @@ TEST_F(AmdCorrections, GuardMirrorNormalHoldsForEveryRandomNumber) {
     for (const float value : trace(gbuffer, nlohmann::json::object()).values) EXPECT_TRUE(std::isfinite(value));
 }
 
-/// In the middle of 97 columns rays stay in their column exactly.
+/// In the middle of 97 columns rays stay in their column exactly. Without the guard the distance to the next column is
+/// 0 * infinity, which lavapipe's min() passes over as processors do, while Vulkan leaves it open: the same image.
 TEST_F(AmdCorrections, GuardZeroDirectionTracesAlongColumns) {
     view.extent = {97, 120};
     const HostImage found = trace(floor_before_white, {{"guard_zero_direction", true}});
+    if (device().info().is_cpu()) {
+        EXPECT_TRUE(found.values == trace(floor_before_white, {{"guard_zero_direction", false}}).values);
+    }
     double column = 0, beside = 0;
     for (unsigned y = 0; y < 120; ++y) {
         column += found.pixel(48, y)[0];
