@@ -55,7 +55,17 @@ Mask finite_in(const HostImage& of_a, const HostImage& of_b, const Mask& finite)
     return both;
 }
 
+bool is_told_for(const Metric& metric) { return metric.squared_error_weight || metric.name == "bias"; }
+
 }  // namespace
+
+bool is_noisy(const ReferenceHalves& light) {
+    for (size_t i = 0; i < light.a.values.size(); ++i) {
+        const float a = light.a.values[i], b = light.b.values[i];
+        if (std::abs(a - b) > 1e-5f * std::max(std::abs(a), std::abs(b))) return true;
+    }
+    return false;
+}
 
 void LitNoises::add(const MetricReference& reference, const std::string& target, const HostImage& of_a,
                     const HostImage& of_b, std::span<const Mask> masks, const std::string& frame) {
@@ -63,7 +73,7 @@ void LitNoises::add(const MetricReference& reference, const std::string& target,
     const Mask finite = finite_in(of_a, of_b, reference.finite);
     for (const Metric* metric : reference.metrics) {
         const bool is_bias = metric->name == "bias", is_root = metric->name == "rmse";
-        if (!metric->squared_error_weight && !is_bias) continue;
+        if (!is_told_for(*metric)) continue;
         const LitMaps maps = is_bias ? bias_maps(of_a, of_b) : squared_error_maps(*metric, reference, of_a, of_b);
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, finite);
@@ -95,6 +105,8 @@ void LitNoises::add_frame(const PoseTruth& truth, const CompositedImages& of_a, 
 
 void LitNoises::set(std::span<ResultRow> rows) const {
     for (ResultRow& row : rows)
-        if (const auto found = noises_.find({row.frame, row.target, row.metric, row.mask}); found != noises_.end())
+        if (is_without_) {
+            if (is_told_for(metric_named(row.metric))) row.lit_noise = row.lit_half_width = 0;
+        } else if (const auto found = noises_.find({row.frame, row.target, row.metric, row.mask}); found != noises_.end())
             row.lit_noise = found->second.added, row.lit_half_width = found->second.half_width;
 }

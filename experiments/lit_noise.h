@@ -25,6 +25,9 @@ struct LitNoise {
     double half_width = 0;  ///< of the 95 % interval of the error that this noise leaves beside it
 };
 
+/// Whether the halves' light differs by more than 1e-5 of itself anywhere: less is the rounding of means.
+bool is_noisy(const ReferenceHalves& light);
+
 class LitNoises {
 public:
     /// One frame of both results, composited and compared as measure_targets() (the full measure of the shot's last
@@ -34,10 +37,15 @@ public:
     void add_frame(const PoseTruth& truth, const CompositedImages& of_a, const CompositedImages& of_b,
                    std::span<const Mask> masks, const std::string& frame);
 
+    /// The light of both halves is the same, as where all of it is emission: nothing is added to any error, and no
+    /// result needs to be rendered to know that.
+    void add_none() { is_without_ = true; }
+
     /// Writes lit_noise and lit_half_width into the rows of whose error they are known.
     void set(std::span<ResultRow> rows) const;
 
 private:
+    bool is_without_ = false;
     void add(const MetricReference& reference, const std::string& target, const HostImage& of_a, const HostImage& of_b,
              std::span<const Mask> masks, const std::string& frame);
     std::map<std::tuple<std::string, std::string, std::string, std::string>, LitNoise>

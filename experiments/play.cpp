@@ -74,10 +74,16 @@ SeedRun start(Play& play, unsigned seed) {
     return run;
 }
 
-/// Whether the lit colour that variants read is that of the reference, and so has noise.
+/// Whether the lit colour that variants read is that of the reference.
 bool reads_reference_light(const Play& play) {
     return !play.config.direct_lit && play.truth.is_measured() &&
            std::ranges::all_of(play.truth.poses, [](const auto& pose) { return pose.second->lit_halves.has_value(); });
+}
+
+bool reads_noisy_light(const Play& play) {
+    return reads_reference_light(play) && std::ranges::any_of(play.truth.poses, [](const auto& pose) {
+               return is_noisy(*pose.second->lit_halves);
+           });
 }
 
 /// How many seeds' images are held at once: those of a technique take some 400 bytes per pixel, and what means over
@@ -137,7 +143,7 @@ void measure_step(Play& play, SeedRun& run, const FrameStep& step, const Composi
 }
 
 void report_step(Play& play) {
-    const size_t runs = play.variant.seeds.size() + (reads_reference_light(play) ? 2 : 0);
+    const size_t runs = play.variant.seeds.size() + (reads_noisy_light(play) ? 2 : 0);
     play.settings.report(double(++play.rendered) / double(play.shot.steps.size() * runs));
 }
 
@@ -176,6 +182,7 @@ CompositedImages rendered_with(Play& play, SeedRun& run, const FrameStep& step, 
 
 /// Plays the shot with the light of each half of the reference, to tell what the noise of the light adds.
 void measure_lit_noise(Play& play) {
+    if (!reads_noisy_light(play)) return play.lit_noise.add_none();
     SeedRun of_a = start(play, play.variant.seeds.front()), of_b = start(play, play.variant.seeds.front());
     for (const FrameStep& step : play.shot.steps) {
         const FrameStore::Frame frame = play.store.frame(step, play.truth.lit(step));

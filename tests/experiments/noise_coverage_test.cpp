@@ -19,7 +19,7 @@ TEST(NoiseCoverage, HoldsForReferencesOfThePathTracer) {
         const std::vector<CoverageRow> rows = coverage({.scene = c.scene,
                                                         .extent = {24, 14},
                                                         .samples = c.samples,
-                                                        .seeds = 300,
+                                                        .seeds = 150,
                                                         .targets = {"specular", "incident", "on_screen"},
                                                         .metrics = {"mse", "relmse", "bias", "energy_ratio"},
                                                         .draws = 1});
@@ -29,7 +29,7 @@ TEST(NoiseCoverage, HoldsForReferencesOfThePathTracer) {
             if ((row.mask != "all" && row.mask != "reflective") || row.intervals < 0.9 * row.trials) continue;
             const std::string what = row.scene + " " + row.test + " " + row.target + " " + row.mask + " " + row.metric;
             ++judged;
-            // Coverage is 93 to 97 %; five standard deviations of 93 % in 300 trials: a false alarm of 3e-7 each.
+            // Coverage is 93 to 97 %; five standard deviations of 93 % in 150 trials: a false alarm of 3e-7 each.
             EXPECT_GE(row.coverage(), 0.93 - 5 * std::sqrt(0.93 * 0.07 / row.intervals)) << what;
             // No bias above a quarter of the half-width, and five standard errors of the mean.
             EXPECT_LE(std::abs(row.mean - row.truth),
