@@ -124,7 +124,11 @@ int parse_and_run(int argc, char** argv) {
     CLI::App& compare_command_ = *app.add_subcommand("compare", "Compare two images (EXR or PNG): one number per line");
     compare_command_.add_option("reference", compare.reference)->required()->type_name("REFERENCE");
     compare_command_.add_option("test", compare.test)->required()->type_name("TEST");
-    compare_command_.add_option("--metric", compare.metrics, "May be repeated; see: ssrlab list metrics")
+    compare_command_
+        .add_option("--metric", compare.metrics,
+                    "May be repeated; see: ssrlab list metrics; default: mse, relmse, relmse_trimmed, outliers, mae, "
+                    "smape, bias, energy_ratio, psnr, flip, where the image is large enough ssim and "
+                    "ms_ssim, and hdr_flip of an EXR reference")
         ->type_name("NAME");
     compare_command_
         .add_option("--map", compare.map,
@@ -138,7 +142,7 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("EV")
         ->check(CLI::Range(-100.0, 100.0))
         ->capture_default_str();
-    compare_command_.add_option("--tone-map", compare.tone_map, "Of display metrics")
+    compare_command_.add_option("--tone-map", compare.tone_map, "Applied before display metrics (psnr, ssim, flip)")
         ->check(CLI::IsMember(tone_map_names))
         ->capture_default_str();
     compare_command_.add_flag(
@@ -162,7 +166,9 @@ int parse_and_run(int argc, char** argv) {
         .add_option("--target", reference.settings.target_relative_error,
                     "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")
         ->check(CLI::Range(1e-4, 1.0));
-    reference_command_.add_option("--max-depth", reference.settings.max_depth, "Longest path, in segments")
+    reference_command_
+        .add_option("--max-depth", reference.settings.max_depth,
+                    "Reflections of a path at most; the camera ray does not count")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     reference_command_.add_option("--seed", reference.settings.seed, "Seed of the path tracer")->capture_default_str();
@@ -186,7 +192,8 @@ int parse_and_run(int argc, char** argv) {
     gbuffer_command_.callback([&] { gbuffer_command(gbuffer, common); });
 
     ShotOptions needs;
-    CLI::App& needs_command_ = *app.add_subcommand("needs", "Say what a scene needs, and which work is left out");
+    CLI::App& needs_command_ =
+        *app.add_subcommand("needs", "Say what a scene needs, and what the path tracer leaves out");
     add_shot(needs_command_, needs);
     add_scene_path(needs_command_, common);
     needs_command_.callback([&] { needs_command(needs, common); });

@@ -146,9 +146,9 @@ const std::vector<VariantEntry> table = {
               "pixel in place of reuse",
               {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
              {"ours",
-              "what a coordinate descent over stated scenes ended with, see README.md, which also names what has less "
-              "error by other measures or in more time: 4 interleaved taps of rays drawn from most of the lobe of "
-              "visible normals, at their full density; misses, "
+              "what a coordinate descent over stated scenes ended with, see variants/frostbite_sssr/README.md, which "
+              "also names what has less error by other measures or in more time: 4 interleaved taps of rays drawn from "
+              "most of the lobe of visible normals, at their full density; misses, "
               "and hits that the previous frame did not show, see the environment; a shorter history. None of this was "
               "published",
               {{"lobe", "visible_normals"},

@@ -38,8 +38,8 @@ struct AmdTracingParameters {
         {"", "draws each ray's direction from the lobe; otherwise it is the mirror's", "ssrlab, to measure the stage"}};
     Choice march{params, "march", "sdk", {"sdk", "slides", "none"},
         {"", "how t is computed where a ray meets a plane. sdk: plane / d - origin / d, compared bit by bit; slides: "
-         "(plane - origin) / d, compared as floats; README.md says what else the slides print, and why it changes nothing. "
-         "none: rays are not marched, and all miss, to measure the stage",
+         "(plane - origin) / d, compared as floats; variants/amd_sssr/README.md says what else the slides "
+         "print, and why it changes nothing. none: rays are not marched, and all miss, to measure the stage",
          "SSSR 1.5, ffx_sssr.h; slides of 2020, 'Stochastic Screen Space Reflections', traversal loop; none: ssrlab"}};
     Choice misses{params, "misses", "fallback", {"weight", "fallback"},
         {"", "what a ray without a hit contributes, and the share that a hit's confidence leaves. weight: only less "
