@@ -23,6 +23,9 @@ from dataclasses import dataclass
 from paper_figures.results import Results, ResultsError
 
 
+TAKEN = ("variant", "preset", "parameters", "seeds", "timing")  # of the start, into every study
+
+
 @dataclass
 class Trial:
     """A point, against the one that was held when it was tried."""
@@ -45,6 +48,21 @@ def label_of(preset, values):
     return " ".join([preset] * bool(preset) + words)
 
 
+def start_of(config):
+    """The variant that the search starts from. Fails on what its studies would not have: what makes several points, too, where
+    only one value is given."""
+    if len(config["variants"]) != 1:
+        raise ResultsError(f"variants: a search starts from one of them, but here are {len(config['variants'])}")
+    (start,) = config["variants"]
+    for key in start:
+        if key not in TAKEN + ("baseline",):  # every search's start is a baseline
+            raise ResultsError(f"variants: '{key}' is not for the start of a search, which takes {', '.join(TAKEN)}")
+    for key in ("variant", "preset"):
+        if not isinstance(start.get(key, ""), str):
+            raise ResultsError(f"variants: '{key}' = {json.dumps(start[key])}, but a search starts from one point: write a single name")
+    return start
+
+
 def geometric_mean(rows, what):
     """Ratio and interval of effects: half-widths of logarithms, independent between shots, added in quadrature. Those of
     several metrics of one shot are not independent; their mean half-width is taken."""
@@ -63,7 +81,7 @@ class Search:
     def __init__(self, config, out, command):
         self.config, self.out, self.command = config, out, command
         self.rules = config["search"]
-        (self.variant,) = config["variants"]
+        self.variant = start_of(config)
         self.preset = self.variant.get("preset", "")
         self.start = self.variant.get("parameters", {})
         self.found = {}  # what the held point changes of the start
@@ -98,7 +116,7 @@ class Search:
 
     def study(self, name, points):
         """Runs `points` against the held one, and reads how they compare."""
-        own = {k: self.variant[k] for k in ("variant", "preset", "seeds") if k in self.variant}
+        own = {k: self.variant[k] for k in TAKEN if k in self.variant}
         own["parameters"] = self.start | self.found
         swept = [own | {"sweep": {key: [value] for key, value in values.items()}} for values in points]
         study = {k: v for k, v in self.config.items() if k not in ("search", "tables")}

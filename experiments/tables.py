@@ -43,20 +43,22 @@ def make(folder, out, summary_folder):
     entries = config.get("tables", [])
     if not entries:
         raise ResultsError(f"{folder}: its study asks for no tables; add \"tables\" to its config (experiments/README.md)")
+    why_not = summary_file.why_not_kept(results.manifest) if summary_folder else None
+    if why_not:
+        raise ResultsError(f"{folder} cannot be kept: {why_not}")
     origin = summary_file.origin(results.manifest)
-    every = []
+    tables, every = [], []
     os.makedirs(out, exist_ok=True)
     for entry in entries:
-        cells = cells_of(results, Table(entry, folder))
-        made_from = summary_file.made_from(origin, cells)
-        write(os.path.join(out, entry["name"] + ".md"), formats.markdown(entry, cells, made_from))
-        write(os.path.join(out, entry["name"] + ".tex"), formats.latex(entry, cells, made_from))
-        write(os.path.join(out, entry["name"] + ".csv"), formats.comma_separated(cells))
+        table, cells = cells_of(results, Table(entry, folder))
+        made_from = summary_file.made_from(origin, table, cells)
+        write(os.path.join(out, table["name"] + ".md"), formats.markdown(table, cells, made_from))
+        write(os.path.join(out, table["name"] + ".tex"), formats.latex(table, cells, made_from))
+        write(os.path.join(out, table["name"] + ".csv"), formats.comma_separated(cells))
+        tables.append(table)
         every += cells
     if summary_folder:
-        if "with changes" in origin["commit"]:
-            raise ResultsError(f"{folder}: its program was built from files that no commit holds; commit, build and run it again")
-        summary_file.write(os.path.join(summary_folder, results.manifest["study"]["name"] + ".csv"), origin, entries, every)
+        summary_file.write(os.path.join(summary_folder, results.manifest["study"]["name"] + ".csv"), origin, tables, every)
     return len(entries)
 
 

@@ -63,7 +63,7 @@ def draw(results, shot, errors, chosen):
     notes = [
         text
         for is_needed, text in (
-            (has_nonpositive, "errors not above 0 after noise correction are not shown"),
+            (has_nonpositive, style.NOT_POSITIVE_NOTE),
             (any(e.is_one_seed for (s, _, _), e in errors.items() if s == shot), style.ONE_SEED_NOTE),
         )
         if is_needed

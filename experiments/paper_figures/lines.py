@@ -7,7 +7,7 @@ from paper_figures.results import label
 def draw_lines(axes, lines, is_log, dodge):
     """`lines`: {(variant, point): [(x, Measured)]} in the order of the study's points; `dodge` sets them side by side.
 
-    Returns whether a value is at or below zero, which a logarithmic axis cannot show.
+    A logarithmic axis cannot show a value at or below zero; the panel says so where there is one.
     """
     has_nonpositive = False
     for index, (key, points) in enumerate(lines.items()):
@@ -38,4 +38,5 @@ def draw_lines(axes, lines, is_log, dodge):
         style.log_axis(axes.yaxis)
     else:
         axes.axhline(0.0, color="#555555", linewidth=0.6)
-    return has_nonpositive
+    if has_nonpositive:
+        axes.text(0.02, 0.02, style.NOT_POSITIVE_NOTE, transform=axes.transAxes, fontsize=7)

@@ -16,7 +16,13 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
 }
 KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "labels"}
+NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "clock")
 SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
+
+
+NO_INTERVAL = "none: "  # experiments/interval.h: before the reason
+NOT_POSITIVE = NO_INTERVAL + "an error is not above 0"
+BOTH = " / "  # between what differs among the parts of a mean
 
 
 @dataclass
@@ -26,13 +32,22 @@ class Cell:
     table: str
     row: str
     column: str
-    value: float
+    value: float = None  # none: what its rows have is no value, or has no geometric mean
     low: float = None
     high: float = None
     least: float = None  # of the shots that a geometric mean is over
     most: float = None
     is_significant: bool = False  # by the adjusted p-value of the study's primary comparisons
     seeds: int = None
+    interval: str = None  # what it holds, or why there is none: experiments/interval.h
+    mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
+    clock: str = None  # of times
+    disturbed_share: float = None  # of the frames that a time is the median of, by other programs
+
+    def reasons(self):
+        """Why there is no interval, where that is known."""
+        kinds = (self.interval or "").split(BOTH)
+        return [kind[len(NO_INTERVAL) :] for kind in kinds if kind.startswith(NO_INTERVAL)]
 
 
 def _number(row, column):
@@ -78,6 +93,7 @@ class Selection:
 
     def __init__(self, results, table):
         self.table = table
+        self.shots = results.manifest["shots"]
         self.parameters = {(v["variant"], v["point"]): v.get("parameters", {}) for v in results.manifest["variants"]}
         rows = results.read_csv(SOURCES[table.of][0])
         if table.of == "splits":
@@ -87,6 +103,7 @@ class Selection:
         self.rows = [r for r in rows if all(self._is_inside(r, k) for k in table.where)]
         if not self.rows:
             raise ResultsError(f"table '{table.name}': {SOURCES[table.of][0]} has no row where {json.dumps(table.where)}")
+        self.disturbed = {_timed(r): _number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
 
     def entry(self, row, key):
         """What a row has under a key: a column of the file, else a parameter of its point."""
@@ -116,59 +133,121 @@ class Selection:
         return [listed[k].index(self.entry(row, k)) if k in listed and self.entry(row, k) in listed[k] else 0 for k in keys]
 
 
-def _cell(table, row, columns, name):
-    value, low, high = (_number(row, c) for c in columns)
-    if value is None:
-        return None
+def _timed(row, against=""):
+    """What names a row of time_summary.csv; of time_effects.csv with the prefix "against_" that of the other point."""
+    return tuple(row.get(key) for key in ("shot", against + "variant", against + "point", "stage"))
+
+
+def _cell(selection, row, name):
+    table = selection.table
+    value, low, high = (_number(row, c) for c in SOURCES[table.of][1] or ("value", "low", "high"))
     p = _number(row, "p_holm")
     seeds = _number(row, "seeds")
+    shares = [selection.disturbed.get(key) for key in (_timed(row), _timed(row, "against_"))]
     return Cell(
-        table.name, *name, value, low, high, is_significant=p is not None and p < SIGNIFICANT, seeds=seeds and int(seeds)
+        table.name,
+        *name,
+        value,
+        low,
+        high,
+        is_significant=p is not None and p < SIGNIFICANT,
+        seeds=seeds and int(seeds),
+        interval=row.get("interval") or None,
+        clock=row.get("clock") or None,
+        disturbed_share=_largest(shares),
     )
 
 
-def _geometric_mean(cells):
+def _largest(numbers):
+    return max((n for n in numbers if n is not None), default=None)
+
+
+def _joined(texts):
+    return BOTH.join(dict.fromkeys(t for t in texts if t)) or None
+
+
+def _geometric_mean(parts):
     """Over shots, which are what they are and no sample: its interval holds what those of the single ones hold, taken as
-    independent (half-widths of logarithms, added in quadrature)."""
-    first = cells[0]
-    if min(c.value for c in cells) <= 0:
-        return None
-    mean = math.exp(sum(math.log(c.value) for c in cells) / len(cells))
-    result = Cell(first.table, first.row, first.column, mean, seeds=first.seeds)
-    result.least, result.most = min(c.value for c in cells), max(c.value for c in cells)
+    independent (half-widths of logarithms, added in quadrature). Parts without a value are not in it."""
+    cells = [c for c in parts if c.value is not None]
+    result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
+    result.interval = _joined(c.interval for c in cells or parts)
+    result.clock = _joined(c.clock for c in cells)
+    result.disturbed_share = _largest(c.disturbed_share for c in cells)
     result.seeds = min((c.seeds for c in cells if c.seeds is not None), default=None)
+    if not cells:
+        return result
+    if min(c.value for c in cells) <= 0:
+        result.interval = NOT_POSITIVE
+        return result
+    result.value = math.exp(sum(math.log(c.value) for c in cells) / len(cells))
+    result.least, result.most = min(c.value for c in cells), max(c.value for c in cells)
     if all(c.low and c.low > 0 and c.high for c in cells):
         half = math.sqrt(sum((math.log(c.high / c.low) / 2) ** 2 for c in cells)) / len(cells)
-        result.low, result.high = mean * math.exp(-half), mean * math.exp(half)
+        result.low, result.high = result.value * math.exp(-half), result.value * math.exp(half)
     return result
 
 
-def cells_of(results, table):
-    """All cells of a table, row by row."""
-    selection = Selection(results, table)
-    columns = SOURCES[table.of][1] or ("value", "low", "high")
-    found = {}
-    axes = [table.rows, table.columns]
-    ordered = sorted(selection.rows, key=lambda r: [selection.place(r, keys) for keys in axes])  # stable
-    for row in ordered:
-        name = tuple(selection.label(row, keys) for keys in axes)
-        cell = _cell(table, row, columns, name)
-        if cell is not None:
-            found.setdefault(name, []).append((row.get(table.over) if table.over else None, cell))
-    cells = []
-    for name, group in found.items():
-        if table.over is None and len(group) > 1:
+def _refuse_shared(selection, name, rows):
+    """Rows of one cell must be told apart by what the mean is over: a mean of two masks of a shot is none over shots."""
+    table = selection.table
+    file, place = SOURCES[table.of][0], f"({name[0]}; {name[1]})"
+    if table.over is None:
+        if len(rows) > 1:
             raise ResultsError(
-                f"table '{table.name}': {len(group)} rows of {SOURCES[table.of][0]} fall on one cell ({name[0]}; {name[1]}); "
+                f"table '{table.name}': {len(rows)} rows of {file} fall on one cell {place}; "
                 "narrow it with 'where', tell them apart by 'rows' or 'columns', or name what the geometric mean is 'over'"
             )
-        cells.append(group[0][1] if table.over is None else _geometric_mean([c for _, c in group]))
-    return _sorted([c for c in cells if c is not None], table.sort)
+        return
+    seen = {}
+    for row in rows:
+        part = selection.entry(row, table.over)
+        if part is None:
+            raise ResultsError(f"table '{table.name}': 'over' = \"{table.over}\" is neither a column of {file} nor a parameter of all points")
+        if part in seen:
+            first = seen[part]
+            differing = [f"{k} ({first[k]}, {row[k]})" for k in NAMING if k in row and first[k] != row[k]]
+            raise ResultsError(
+                f"table '{table.name}': the cell {place} has two rows of {file} with {table.over} = {part}, which differ in "
+                f"{', '.join(differing) or 'nothing that names them'}; narrow it with 'where', or tell them apart by 'rows' or 'columns'"
+            )
+        seen[part] = row
+
+
+def _about(selection, filled):
+    """What is said of a table beside its cells; `filled`: the rows that have a value."""
+    table = selection.table
+    shots = [s for s in selection.shots if any(r["shot"] == s["shot"] for r in filled)]
+    return {
+        "name": table.name,
+        "caption": table.caption,
+        "shots": [s["shot"] for s in shots],
+        "resolutions": sorted({f"{s['width']}x{s['height']}" for s in shots}),
+        "over": table.over,
+        "over_count": len({selection.entry(r, table.over) for r in selection.rows}) if table.over else None,
+        "clocks": sorted({r["clock"] for r in filled if r.get("clock")}),
+    }
+
+
+def cells_of(results, table):
+    """(what is said of the table, all of its cells row by row)."""
+    selection = Selection(results, table)
+    groups = {}
+    axes = [table.rows, table.columns]
+    for row in sorted(selection.rows, key=lambda r: [selection.place(r, keys) for keys in axes]):  # stable
+        groups.setdefault(tuple(selection.label(row, keys) for keys in axes), []).append(row)
+    cells, filled = [], []
+    for name, rows in groups.items():
+        _refuse_shared(selection, name, rows)
+        parts = [_cell(selection, row, name) for row in rows]
+        filled += [row for row, part in zip(rows, parts) if part.value is not None]
+        cells.append(parts[0] if table.over is None else _geometric_mean(parts))
+    return _about(selection, filled), _sorted(cells, table.sort)
 
 
 def _sorted(cells, column):
     rows = list(dict.fromkeys(c.row for c in cells))
     if column is not None:
-        values = {c.row: c.value for c in cells if c.column == column}
+        values = {c.row: c.value for c in cells if c.column == column and c.value is not None}
         rows.sort(key=lambda r: values.get(r, math.inf))
     return sorted(cells, key=lambda c: rows.index(c.row))

@@ -26,7 +26,7 @@ def filled(text, summaries, file):
         if block["name"] not in tables:
             raise ResultsError(f"{file}: {path} has no table '{block['name']}'; it has: {', '.join(tables)}")
         table, cells = tables[block["name"]]
-        return block["head"] + formats.markdown(table, cells, summary_file.made_from(origin, cells)) + block["end"]
+        return block["head"] + formats.markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
 
     return BLOCK.sub(made, text)
 

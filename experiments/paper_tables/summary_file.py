@@ -11,11 +11,20 @@ from paper_tables.cells import Cell
 
 MOST_BYTES = 100_000
 COLUMNS = [f.name for f in fields(Cell)]
+ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks")  # a table; see cells_of()
 MARK = "# "
 
 
-def _resolutions(manifest):
-    return sorted({f"{s['width']}x{s['height']}" for s in manifest["shots"]})
+def why_not_kept(manifest):
+    """A sentence, or None: what is committed must be whole, and a commit must tell how to make it again."""
+    if manifest.get("is_complete") is not True:
+        return "the study is not complete; run it to its end"
+    programs = [maker["ssrlab"] for maker in manifest["provenance"]]
+    if any(not p["commit"] for p in programs):
+        return "its program was built without git, so that no commit is known; build it from a clone and run it again"
+    if any(p.get("dirty") for p in programs):
+        return "its program was built from files that no commit holds; commit, build and run it again"
+    return None
 
 
 def origin(manifest):
@@ -25,7 +34,7 @@ def origin(manifest):
     estimators = sorted({p["estimators"] for p in programs})
     if len(estimators) > 1:
         raise ResultsError(f"its cells were made with estimators {estimators}, which give other numbers; run the study again")
-    commits = (p["commit"] + (" with changes" if p.get("dirty") else "") for p in programs)
+    commits = ((p["commit"] or "unknown") + (" with changes" if p.get("dirty") else "") for p in programs)
     return {
         "study": manifest["study"]["config"],
         "title": manifest.get("title", ""),
@@ -34,18 +43,18 @@ def origin(manifest):
         "estimators": estimators[0],
         "finished": max(m["finished"] for m in makers),
         "device": " and ".join(dict.fromkeys(m["device"]["name"] for m in makers)),
-        "resolutions": _resolutions(manifest),
         "shots": len(manifest["shots"]),
+        "is_complete": manifest.get("is_complete") is True,
     }
 
 
 def write(file, origin_of_all, tables, cells):
-    """`tables`: entries of the config; `cells`: of all of them. Fails if the file would be too large to be committed."""
+    """`tables`: what is said of each; `cells`: of all of them. Fails if the file would be too large to be committed."""
     out = io.StringIO()
     for key, value in origin_of_all.items():
         out.write(f"{MARK}{key}: {json.dumps(value)}\n")
     for table in tables:
-        out.write(f"{MARK}table: {json.dumps({k: table[k] for k in ('name', 'caption')})}\n")
+        out.write(f"{MARK}table: {json.dumps({key: table[key] for key in ABOUT})}\n")
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(COLUMNS)
     for cell in cells:
@@ -75,11 +84,15 @@ def _cell(row):
         *(number(n) for n in ("value", "low", "high", "least", "most")),
         is_significant=row["is_significant"] == "1",
         seeds=int(row["seeds"]) if row["seeds"] else None,
+        interval=row["interval"] or None,
+        mean_of=int(row["mean_of"]) if row["mean_of"] else None,
+        clock=row["clock"] or None,
+        disturbed_share=number("disturbed_share"),
     )
 
 
 def read(file):
-    """(origin, {table's name: (its entry, its cells)})."""
+    """(origin, {table's name: (what is said of it, its cells)})."""
     try:
         with open(file, encoding="utf-8", newline="") as stream:
             lines = stream.read().splitlines(keepends=True)
@@ -87,7 +100,7 @@ def read(file):
         raise ResultsError(f"cannot read {file}: {e.strerror}") from e
     head = [line[len(MARK) :].rstrip("\n").split(": ", 1) for line in lines if line.startswith(MARK)]
     try:
-        tables = {t["name"]: (t, []) for t in (json.loads(value) for key, value in head if key == "table")}
+        tables = {t["name"]: ({key: t[key] for key in ABOUT}, []) for t in (json.loads(value) for key, value in head if key == "table")}
         for row in csv.DictReader(line for line in lines if not line.startswith(MARK)):
             tables[row["table"]][1].append(_cell(row))
         return {key: json.loads(value) for key, value in head if key != "table"}, tables
@@ -95,14 +108,17 @@ def read(file):
         raise ResultsError(f"{file} is not a summary that `ssrlab tables` wrote: {e}") from e
 
 
-def made_from(origin_of_all, cells):
-    """The line below a table: command, commit, size, seeds, and what brackets mean."""
+def made_from(origin_of_all, table, cells):
+    """The line below a table: command, commit, the shots of its own cells, their sizes, seeds, device and clock."""
     seeds = sorted({c.seeds for c in cells if c.seeds})
-    counted = "" if not seeds else f", {seeds[0]} seeds" if len(seeds) == 1 else f", {seeds[0]} to {seeds[-1]} seeds"
-    ranges = "; in parentheses the range over shots" if any(c.least is not None for c in cells) else ""
-    bold = "; bold: told from 1 by Holm's test at 0.05" if any(c.is_significant for c in cells) else ""
-    sizes = " and ".join(origin_of_all["resolutions"])
+    counted = f", {seeds[0]} to {seeds[-1]} seeds" if len(seeds) > 1 else f", {seeds[0]} seed{'s' * (seeds[0] > 1)}" if seeds else ""
+    count, whole = len(table["shots"]), origin_of_all["shots"]
+    shots = f"{count} shot{'s' * (count != 1)}"
+    if count < whole:
+        shots = f"{count} of the study's {whole} shots" + f" ({', '.join(table['shots'])})" * (count > 0)
+    sizes = " at " + " and ".join(table["resolutions"]) if table["resolutions"] else ""
+    clocks = " and ".join(table["clocks"])
     return (
-        f"`ssrlab run {origin_of_all['study']}`: commit {origin_of_all['commit']}, {origin_of_all['shots']} shots at {sizes}{counted}, "
-        f"{origin_of_all['device']}. In brackets 95 % intervals{ranges}{bold}."
+        f"`ssrlab run {origin_of_all['study']}`{'' if origin_of_all['is_complete'] else ' (not complete)'}: "
+        f"commit {origin_of_all['commit']}, {shots}{sizes}{counted}, {origin_of_all['device']}{clocks and f', clock {clocks}'}."
     )

@@ -23,7 +23,8 @@ try:
     from paper_figures import style
     from paper_figures.crops import crop_boxes
     from paper_figures.exr import ExrError, read_exr_rgb
-    from paper_figures.results import Results
+    from paper_figures.lines import draw_lines
+    from paper_figures.results import Measured, Results
 except ImportError as missing:
     sys.exit(f"figures need python3-matplotlib and python3-numpy (tests/run.sh installs them): {missing}")
 
@@ -113,6 +114,16 @@ def test_file_names():
     check(style.file_name("crops_a/b c") == "crops_a-b-c", "letters that no file name has")
     long = [style.file_name("c" * 300 + end) for end in "12"]
     check(len(long[0]) == 150 and long[0] != long[1], f"long names: {long}")
+
+
+def test_values_not_above_zero():
+    """Lines of which a logarithmic axis leaves out values say so."""
+    lines = {("sssr", "default"): [(0, Measured(1.0, 0.9, 1.1)), (1, Measured(-0.1, -0.2, 0.0))]}
+    for points, is_log, expected in ((2, True, [style.NOT_POSITIVE_NOTE]), (2, False, []), (1, True, [])):
+        figure, axes = plt.subplots()
+        draw_lines(axes, {key: line[:points] for key, line in lines.items()}, is_log, dodge=0.0)
+        check([t.get_text() for t in axes.texts] == expected, f"{points} values, logarithmic: {is_log}")
+        plt.close(figure)
 
 
 def test_mistakes(folder, temporary):
@@ -207,6 +218,7 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     test_exr(folder)
     test_crop_boxes()
     test_file_names()
+    test_values_not_above_zero()
     keep_one_shot(folder)
     test_same_bytes(folder, temporary)
     test_mistakes(folder, temporary)

@@ -19,8 +19,10 @@ AXES = {"taps": [1, 4, 16], "radius": [1.0, 2.0, 3.0], "clamp": [True, False], "
 def error(values):
     """Least at 16 taps, a radius of 2 and no clamp, where each alone is better than the start. From radius 3 on, a
     first round's best alone, the way leads back; `noise` gains half a percent, less than is worth a change."""
-    radius = {1.0: 1.0, 2.0: 0.9, 3.0: 0.85}[values["radius"]] if values["taps"] != 16 else {1.0: 0.9, 2.0: 0.6, 3.0: 0.7}[values["radius"]]
-    return radius * {1: 2.0, 4: 1.0, 16: 0.8}[values["taps"]] * (1.0 if values["clamp"] else 0.9) * (1 - 0.01 * values["noise"])
+    of_radius = {1.0: 0.9, 2.0: 0.6, 3.0: 0.7} if values["taps"] == 16 else {1.0: 1.0, 2.0: 0.9, 3.0: 0.85}
+    of_taps = {1: 2.0, 4: 1.0, 16: 0.8}[values["taps"]]
+    of_clamp = 0.9 if not values["clamp"] else 1.0
+    return of_radius[values["radius"]] * of_taps * of_clamp * (1 - 0.01 * values["noise"])
 
 
 def run(config_file, out):
@@ -29,6 +31,8 @@ def run(config_file, out):
         config = json.load(stream)
     assert "search" not in config, "a step is a study of its own"
     assert os.path.dirname(config_file) != out, "study.json of the folder is ssrlab's"
+    compared = {"against": "baseline", "against_variant": "sssr", "against_point": "default"}
+    compared |= {"target": "specular", "metric": "mse", "mask": "all"}
     points, effects = [], []
     for variant in config["variants"]:
         swept = {name: values[0] for name, values in variant.get("sweep", {}).items()}
@@ -37,9 +41,9 @@ def run(config_file, out):
     for point in points[1:]:
         for shot in ("floor", "wall"):
             ratio = error(point["parameters"]) / error(points[0]["parameters"])
-            effects.append({"shot": shot, "variant": "sssr", "point": point["point"], "against": "baseline", "against_variant": "sssr",
-                            "against_point": "default", "target": "specular", "metric": "mse", "mask": "all", "ratio": ratio,
-                            "low": ratio * math.exp(-0.001), "high": ratio * math.exp(0.001)})  # fmt: skip
+            interval = {"low": ratio * math.exp(-0.001), "high": ratio * math.exp(0.001)}
+            point_of_shot = {"shot": shot, "variant": "sssr", "point": point["point"]}
+            effects.append(point_of_shot | compared | {"ratio": ratio} | interval)
     os.makedirs(out, exist_ok=True)
     with open(os.path.join(out, "manifest.json"), "w", encoding="utf-8") as stream:
         json.dump({"variants": points, "shots": []}, stream)
@@ -55,8 +59,8 @@ def check(is_true, what):
         sys.exit(f"search_test: {what}")
 
 
-def search(script, folder, rules):
-    config = {"title": "made up", "shots": [], "variants": [{"variant": "sssr", "parameters": {"clamp": True}}]}
+def run_search(script, folder, rules, start):
+    config = {"title": "made up", "shots": [], "variants": [start]}
     config["search"] = {"metrics": ["mse"], "mask": "all", "axes": AXES} | rules
     file = os.path.join(folder, "config.json")
     with open(file, "w", encoding="utf-8") as stream:
@@ -65,7 +69,12 @@ def search(script, folder, rules):
     with open(program, "w", encoding="utf-8") as stream:
         stream.write(f'#!/bin/sh\nexec "{sys.executable}" -B "{os.path.abspath(__file__)}" "$@"\n')
     os.chmod(program, os.stat(program).st_mode | stat.S_IXUSR)
-    result = subprocess.run([sys.executable, "-B", script, file, "--out", os.path.join(folder, "out"), program], capture_output=True, text=True)
+    command = [sys.executable, "-B", script, file, "--out", os.path.join(folder, "out"), program]
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def search(script, folder, rules):
+    result = run_search(script, folder, rules, {"variant": "sssr", "parameters": {"clamp": True}})
     check(result.returncode == 0, result.stderr)
     with open(os.path.join(folder, "out", "found.json"), encoding="utf-8") as stream:
         found = json.load(stream)["parameters"]
@@ -73,18 +82,34 @@ def search(script, folder, rules):
         return found, list(csv.DictReader(stream))
 
 
+def test_refusals(script, folder):
+    """What makes points of the start is not dropped: it is refused before anything runs."""
+    for more, why in (
+        ({"sweep": {"taps": [4]}}, "'sweep' is not for the start of a search"),
+        ({"each": {"taps": [4]}}, "'each' is not for the start of a search"),
+        ({"against": {"taps": 4}}, "'against' is not for the start of a search"),
+        ({"preset": ["corrected"]}, "'preset' = [\"corrected\"], but a search starts from one point"),
+    ):
+        result = run_search(script, folder, {}, {"variant": "sssr"} | more)
+        check(result.returncode == 2 and why in result.stderr, f"{more}: {result.returncode} {result.stderr}")
+        check(not os.path.exists(os.path.join(folder, "out")), f"{more}: a study ran")
+
+
 def main():
     script = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
         found, trials = search(script, folder, {})
         check(found == {"clamp": False, "taps": 16, "radius": 2.0}, f"found {found}")
-        check(not any(t["point"] == "taps=4" and t["study"] == "round_1_alone" for t in trials), "the start was tried against itself")
+        is_repetition = any(t["point"] == "taps=4" and t["study"] == "round_1_alone" for t in trials)
+        check(not is_repetition, "the start was tried against itself")
     with tempfile.TemporaryDirectory() as folder:
         found, _ = search(script, folder, {"least_gain": 0.0})
         check(found == {"clamp": False, "taps": 16, "radius": 2.0, "noise": 0.5}, f"every gain counts: found {found}")
     with tempfile.TemporaryDirectory() as folder:
         found, trials = search(script, folder, {"rounds": 1})
         check(found == {"clamp": False, "taps": 16, "radius": 3.0}, f"after one round: found {found}")
+    with tempfile.TemporaryDirectory() as folder:
+        test_refusals(script, folder)
 
 
 if __name__ == "__main__":
