@@ -24,7 +24,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ResultRow, shot, scene, camera, frame, width,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SeedPairs, variance, bias_squared)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SplitRow, shot, frame, variant, point, target, mask, seeds, mse, bias_squared,
                                    variance, variance_low, variance_high, pixels, bias_squared_low, bias_squared_high,
-                                   seed_numbers, pairs, reference_noise)
+                                   seed_numbers, pairs, reference_noise, lit_noise, lit_half_width)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferenceNoise, shot, frame, variant, point, target, metric, mask, sums)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeRow, shot, variant, point, seed, stage, frame, milliseconds, clock, foreign_load,
                                    is_disturbed)

@@ -34,6 +34,8 @@ struct SplitRow {
     std::vector<unsigned> seed_numbers;  ///< of `pairs`
     SeedPairs pairs;
     std::vector<float> reference_noise;  ///< of bias_squared, see ReferenceNoise::sums
+    /// In bias_squared, as ResultRow has them; empty where `mse` is not measured.
+    std::optional<double> lit_noise, lit_half_width;
 };
 
 /// One row of times.csv.

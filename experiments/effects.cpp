@@ -72,6 +72,27 @@ SharedScatter shared_scatter(const std::vector<float>& sums, double error, const
     return {.variance = variance, .degrees = variance * variance / squares};
 }
 
+/// The noise of the lit colour, told for one number.
+struct LitPart {
+    double added = 0, half_width = 0;
+};
+
+/// Adds to what both sides share how the noise of the lit colour may have moved either. It is taken for independent,
+/// though both read the same light: what they have in common would cancel.
+void add_lit_noise(SharedScatter& shared, const LitPart& part, double error, const LitPart& base_part,
+                   double base_error) {
+    const auto squared = [](double v) { return v * v; };
+    const double variance = squared(part.half_width / 1.96 / error) + squared(base_part.half_width / 1.96 / base_error);
+    const double total = shared.variance + variance;
+    if (variance > 0) {
+        // A half-width holds its own Student's t: as if known with many degrees.
+        shared.degrees = shared.variance > 0 ? shared.degrees * squared(total / shared.variance) : 1e6;
+        shared.variance = total;
+    }
+    shared.excess_of_a = std::clamp(part.added / error, 0.0, 0.99);
+    shared.excess_of_b = std::clamp(base_part.added / base_error, 0.0, 0.99);
+}
+
 void set_ratio(EffectRow& row, const Jackknifed& error, const Jackknifed& base_error, const SharedScatter& shared) {
     if (!(error.value > 0 && base_error.value > 0)) {
         row.interval = interval::not_positive;
@@ -110,11 +131,16 @@ std::vector<EffectRow> effects_of_rows(const Side& point, const Side& baseline) 
     EffectRow row = effect_between(first, *baseline.seeds.begin()->second);
     row.metric = first.metric, row.formula = first.formula;
     std::vector<double> errors, base_errors;
+    LitPart lit, base_lit;
+    const auto add_light = [](LitPart& sum, const ResultRow& r) {
+        sum.added += r.lit_noise.value_or(0), sum.half_width += r.lit_half_width.value_or(0);
+    };
     bool has_values = true;
     for (const unsigned seed : common_seeds(point, baseline)) {
         const ResultRow &a = row_of(point, seed), &b = row_of(baseline, seed);
         has_values = has_values && a.value && b.value;
         errors.push_back(a.value.value_or(0)), base_errors.push_back(b.value.value_or(0));
+        add_light(lit, a), add_light(base_lit, b);
     }
     row.seeds = errors.size();
     if (errors.empty() || !has_values) {
@@ -123,20 +149,24 @@ std::vector<EffectRow> effects_of_rows(const Side& point, const Side& baseline) 
     }
     const Jackknifed error = jackknifed_mean(errors), base_error = jackknifed_mean(base_errors);
     const bool has_noise = point.noise && baseline.noise;
-    set_ratio(row, error, base_error,
-              has_noise ? shared_scatter(point.noise->sums, error.value, baseline.noise->sums, base_error.value)
-                        : SharedScatter{});
+    SharedScatter shared;
+    if (has_noise) shared = shared_scatter(point.noise->sums, error.value, baseline.noise->sums, base_error.value);
+    const bool is_exact = has_noise && shared.variance == 0;
+    for (LitPart* part : {&lit, &base_lit}) part->added /= double(row.seeds), part->half_width /= double(row.seeds);
+    if (error.value > 0 && base_error.value > 0)
+        add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
+    set_ratio(row, error, base_error, shared);
     if (!row.ratio) return {row};
     const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;
     row.interval = has_seeds ? (has_noise ? interval::reference_and_seeds : interval::seeds) : interval::reference;
     if (has_seeds && row.seeds < 2)
         withhold_interval(row, interval::one_seed);
-    else if (!has_seeds && has_noise && !row.low)  // the reference is exact
+    else if (!has_seeds && is_exact && !row.low)  // nor has its light any noise
         row.low = row.high = row.ratio, row.p = *row.ratio == 1 ? 1.0 : 0.0;
     else if (!has_seeds && !has_noise)
         withhold_interval(row, interval::unknown_reference);
     else if (!row.low)
-        withhold_interval(row, interval::too_few_seeds);
+        withhold_interval(row, has_seeds ? interval::too_few_seeds : interval::no_end);
     return {row};
 }
 
@@ -178,10 +208,16 @@ std::vector<EffectRow> effects_of_splits(const Side& point, const Side& baseline
         const bool is_bias = part == &SeedPairs::bias_squared;
         const bool has_noise = is_bias && !point.split->reference_noise.empty() &&
                                point.split->reference_noise.size() == baseline.split->reference_noise.size();
-        set_ratio(row, error, base_error,
-                  has_noise ? shared_scatter(point.split->reference_noise, error.value, baseline.split->reference_noise,
-                                             base_error.value)
-                            : SharedScatter{});
+        SharedScatter shared;
+        if (has_noise)
+            shared = shared_scatter(point.split->reference_noise, error.value, baseline.split->reference_noise,
+                                    base_error.value);
+        const auto lit_part = [](const SplitRow& r) {
+            return LitPart{r.lit_noise.value_or(0), r.lit_half_width.value_or(0)};
+        };
+        if (is_bias && error.value > 0 && base_error.value > 0)
+            add_lit_noise(shared, lit_part(*point.split), error.value, lit_part(*baseline.split), base_error.value);
+        set_ratio(row, error, base_error, shared);
         if (!row.ratio) continue;
         row.interval = !has_seeds ? interval::reference : has_noise ? interval::reference_and_seeds : interval::seeds;
         if (!row.low || (has_seeds && chosen.size() < 3)) withhold_interval(row, interval::too_few_seeds);
@@ -193,7 +229,7 @@ using Table = std::map<Quantity, std::map<Point, Side>>;
 
 /// `table` holds what was measured, by quantity and point.
 std::vector<EffectRow> effects_in(Table& table, const std::vector<VariantConfig>& variants,
-                                  const PointNames& not_repeatable,
+                                  const PointSet& not_repeatable,
                                   std::vector<EffectRow> (*effects_of)(const Side&, const Side&)) {
     for (auto& [quantity, points] : table)
         for (const VariantConfig& v : variants)
@@ -219,7 +255,7 @@ std::vector<EffectRow> effects_in(Table& table, const std::vector<VariantConfig>
 }  // namespace
 
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
-                                      const PointNames& not_repeatable, std::span<const ReferenceNoise> noise) {
+                                      const PointSet& not_repeatable, std::span<const ReferenceNoise> noise) {
     Table table;
     for (const ResultRow* r : chosen_rows(rows)) table[quantity_of(*r)][{r->variant, r->point}].seeds[r->seed] = r;
     for (const ReferenceNoise& n : noise) {
@@ -233,7 +269,7 @@ std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std
 }
 
 std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<VariantConfig>& variants,
-                                     const PointNames& not_repeatable) {
+                                     const PointSet& not_repeatable) {
     Table table;
     for (const SplitRow& r : rows) table[{r.shot, r.target, "", r.mask}][{r.variant, r.point}].split = &r;
     return effects_in(table, variants, not_repeatable, effects_of_splits);

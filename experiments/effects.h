@@ -19,8 +19,8 @@ struct EffectRow {
     std::optional<double> p_holm;        ///< p adjusted for the whole primary family; none of exploratory effects
 };
 
-/// (variant, point) of points whose output differs from run to run.
-using PointNames = std::set<std::pair<std::string, std::string>>;
+/// (variant, point)
+using PointSet = std::set<std::pair<std::string, std::string>>;
 
 /// All comparisons_of() `variants` by errors for which less is better, over the seeds that both have
 /// (jackknifed_ratio()): the ratio of the mean errors, since a mean of the seeds' ratios would hide what few seeds with
@@ -32,13 +32,13 @@ using PointNames = std::set<std::pair<std::string, std::string>>;
 /// if one of both is in `not_repeatable`: seeds do not share what such points add by chance, and another run would tell
 /// another ratio.
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
-                                      const PointNames& not_repeatable = {},
+                                      const PointSet& not_repeatable = {},
                                       std::span<const ReferenceNoise> noise = {});
 
 /// The same of the squared bias and of the variance by themselves, of each shot's last frame: whether a point wins by
 /// the one or by the other. As all pairs of the common seeds tell them, two seeds or more; intervals from three on.
 std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<VariantConfig>& variants,
-                                     const PointNames& not_repeatable = {});
+                                     const PointSet& not_repeatable = {});
 
 /// The effects on the primary error, of all points and shots, are one family, whose p-values are adjusted together
 /// (holm_adjusted()): among many comparisons some come out small by chance. All others are exploratory: their intervals

@@ -14,6 +14,7 @@ inline constexpr const char* no_value = "none: no value";
 inline constexpr const char* one_seed = "none: 1 seed";
 inline constexpr const char* too_few_seeds = "none: too few seeds";
 inline constexpr const char* open_end = "none: no upper end";
+inline constexpr const char* no_end = "none: lost in the reference's noise";
 inline constexpr const char* unknown_reference = "none: reference's noise not known";
 inline constexpr const char* not_repeatable = "none: not repeatable";
 inline constexpr const char* not_positive = "none: an error is not above 0";

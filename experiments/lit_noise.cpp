@@ -103,10 +103,15 @@ void LitNoises::add_frame(const PoseTruth& truth, const CompositedImages& of_a, 
     add(*truth.frame_reference, "specular", of_a.specular, of_b.specular, masks, frame);
 }
 
+std::optional<LitNoise> LitNoises::of(const std::string& frame, const std::string& target, const std::string& metric,
+                                      const std::string& mask) const {
+    if (is_without_) return is_told_for(metric_named(metric)) ? std::optional(LitNoise{}) : std::nullopt;
+    const auto found = noises_.find({frame, target, metric, mask});
+    return found == noises_.end() ? std::nullopt : std::optional(found->second);
+}
+
 void LitNoises::set(std::span<ResultRow> rows) const {
     for (ResultRow& row : rows)
-        if (is_without_) {
-            if (is_told_for(metric_named(row.metric))) row.lit_noise = row.lit_half_width = 0;
-        } else if (const auto found = noises_.find({row.frame, row.target, row.metric, row.mask}); found != noises_.end())
-            row.lit_noise = found->second.added, row.lit_half_width = found->second.half_width;
+        if (const auto noise = of(row.frame, row.target, row.metric, row.mask))
+            row.lit_noise = noise->added, row.lit_half_width = noise->half_width;
 }

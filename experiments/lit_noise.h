@@ -41,6 +41,10 @@ public:
     /// result needs to be rendered to know that.
     void add_none() { is_without_ = true; }
 
+    /// What it adds to one number; nothing where that is not known.
+    std::optional<LitNoise> of(const std::string& frame, const std::string& target, const std::string& metric,
+                               const std::string& mask) const;
+
     /// Writes lit_noise and lit_half_width into the rows of whose error they are known.
     void set(std::span<ResultRow> rows) const;
 

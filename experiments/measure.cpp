@@ -69,8 +69,12 @@ ReferenceHalves halves_of(const ReferenceOutput& output, const HostImage& guide,
 
 RungHalves rung_halves(const std::string& rung, const Reference& reference) {
     const ReferenceOutput& incident = target_output(rung, reference);
-    return {rung, halves_of(incident, reference.guide.incident, reference),
-            halves_of(reflected(reference, incident), reference.guide.specular, reference)};
+    const TruthLadder::ErrorVariance& error =
+        rung == "on_screen" ? reference.ladder.on_screen_error : reference.ladder.camera_radiance_error;
+    RungHalves halves{rung, halves_of(incident, reference.guide.incident, reference),
+                      halves_of(reflected(reference, incident), reference.guide.specular, reference)};
+    halves.incident.variance = error.incident, halves.specular.variance = error.specular;
+    return halves;
 }
 
 MetricReference target_reference(const std::string& target, const Reference& reference,

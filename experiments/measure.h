@@ -17,7 +17,8 @@ struct CompositedImages {
     HostImage confidence;  ///< one channel
 };
 
-/// A rung of the truth ladder as an output: what is composited where `incident` is known only so far.
+/// A rung of the truth ladder as an output: what is composited where `incident` is known only so far. The variances are
+/// those of its difference from the truth, with which it shares samples.
 struct RungHalves {
     std::string name;
     ReferenceHalves incident, specular;

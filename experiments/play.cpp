@@ -251,7 +251,7 @@ void add_splits(Play& play) {
                               .point = play.variant.point,
                               .target = target,
                               .mask = {}};
-        for (SplitRow& row : split_rows(split, masks, shared, play.variant.depends_on_seed))
+        for (SplitRow& row : split_rows(split, masks, shared, play.variant.depends_on_seed, play.lit_noise))
             play.cell.splits.push_back(std::move(row));
     }
 }

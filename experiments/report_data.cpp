@@ -156,6 +156,10 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
                         .effects = {},
                         .time_effects = {},
                         .times = {}};
+    // No interval holds how they scatter from run to run.
+    const PointSet not_repeatable = points_not_repeatable(manifest);
+    for (MetricSummary& e : tables.errors)
+        if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
     const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
     if (has("splits.csv")) tables.splits = read_split_rows(folder / "splits.csv");
     if (has("effects.csv")) tables.effects = read_effect_rows(folder / "effects.csv");

@@ -70,6 +70,15 @@ PointSet points_without_seeds(const json& manifest) {
     return points;
 }
 
+PointSet points_not_repeatable(const json& manifest) {
+    PointSet points;
+    const json variants = manifest.value("variants", json::array());
+    for (const json& v : variants)
+        if (v.is_object() && v.contains("not_repeatable"))
+            points.insert({v.value("variant", ""), v.value("point", "")});
+    return points;
+}
+
 PointSet points_of(std::span<const SingleChange> changes) {
     PointSet points;
     for (const SingleChange& c : changes) points.insert({c.variant, c.point});

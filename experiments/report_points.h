@@ -26,4 +26,7 @@ nlohmann::json parameter_defaults(const nlohmann::json& manifest);
 /// Points that do not depend on seeds, as the manifest has them. Those of which it does not tell are none of them.
 PointSet points_without_seeds(const nlohmann::json& manifest);
 
+/// Points whose results differ from run to run.
+PointSet points_not_repeatable(const nlohmann::json& manifest);
+
 PointSet points_of(std::span<const SingleChange> changes);

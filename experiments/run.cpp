@@ -11,6 +11,7 @@
 #include "experiments/manifest.h"
 #include "experiments/provenance.h"
 #include "experiments/report.h"
+#include "experiments/report_points.h"
 #include "experiments/results.h"
 #include "experiments/rung_errors.h"
 #include "experiments/stale_files.h"
@@ -165,14 +166,6 @@ void run_gbuffer_shot(Study& study, const ShotConfig& config) {
     enter_non_finite(study, run);
 }
 
-/// (variant, point) of those whose results differ from run to run.
-PointNames not_repeatable_points(const nlohmann::json& manifest) {
-    PointNames points;
-    for (const nlohmann::json& v : manifest["variants"])
-        if (v.contains("not_repeatable")) points.emplace(v["variant"], v["point"]);
-    return points;
-}
-
 /// Lists what earlier versions of the study left in the folder, or removes it.
 void handle_stale_files(const Study& study, nlohmann::json& manifest) {
     std::set<std::string> used;
@@ -205,7 +198,7 @@ void write_results(Study& study, bool is_last) {
     if (is_last) handle_stale_files(study, manifest);
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
     write_tables(study.settings.out, study.finished);
-    const auto not_repeatable = not_repeatable_points(study.manifest);
+    const auto not_repeatable = points_not_repeatable(study.manifest);
     const std::vector<VariantConfig>& variants = study.config.variants;
     std::vector<EffectRow> effects = paired_effects(rows, variants, not_repeatable, noise);
     append(effects, split_effects(splits, variants, not_repeatable));

@@ -10,35 +10,36 @@ namespace {
 struct ErrorMaps {
     Plane error;
     NoiseTerms noise;
-
-    ErrorMaps(glm::uvec2 extent, double samples) : error(extent), noise(extent, samples) {}
 };
 
-ErrorMaps squared_error(const ReferenceHalves& rung, const ReferenceHalves& truth, double (*weight)(double)) {
-    ErrorMaps maps(truth.a.extent, truth.samples);
-    for (size_t p = 0; p < maps.error.values.size(); ++p) {
-        for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
-            const double a = double(rung.a.values[i]) - truth.a.values[i],
-                         b = double(rung.b.values[i]) - truth.b.values[i], w = weight(truth.guide.values[i]) / 3;
-            maps.error.values[p] += w * a * b;
-            maps.noise.swapped.values[p] += w * (a * a - b * b) / 2;
-        }
-        maps.noise.take_squares(p);  // rung and truth share their samples
+/// Relative: means are float32, and what is rounding tells nothing of the paths that were not met.
+constexpr double rounding = 1e-6;
+
+/// truth - rung, as if that were a reference which black is compared with.
+ReferenceHalves error_halves(const ReferenceHalves& rung, const ReferenceHalves& truth) {
+    ReferenceHalves error{.a = truth.a, .b = truth.b, .variance = rung.variance, .guide = truth.guide,
+                          .samples = truth.samples};
+    for (size_t i = 0; i < error.a.values.size(); ++i) {
+        const double least = rounding * truth.a.values[i];
+        if (error.variance.values[i] < least * least) error.variance.values[i] = 0;
+        error.a.values[i] -= rung.a.values[i], error.b.values[i] -= rung.b.values[i];
     }
+    return error;
+}
+
+ErrorMaps squared_error(const ReferenceHalves& error, double (*weight)(double)) {
+    const HostImage black(error.a.extent, 3);
+    ErrorMaps maps{cross_error(black, error.a, error.b, error.guide, weight),
+                   squared_error_noise(black, error, error.guide, weight)};
+    maps.noise.is_difference = true;
     return maps;
 }
 
-ErrorMaps bias(const ReferenceHalves& rung, const ReferenceHalves& truth) {
-    ErrorMaps maps(truth.a.extent, truth.samples);
-    for (size_t p = 0; p < maps.error.values.size(); ++p) {
-        for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
-            const double a = double(rung.a.values[i]) - truth.a.values[i],
-                         b = double(rung.b.values[i]) - truth.b.values[i];
-            maps.error.values[p] += (a + b) / 2 / 3;
-            maps.noise.swapped.values[p] += (a - b) / 2 / 3;
-        }
-        maps.noise.take_squares(p);  // rung and truth share their samples
-    }
+ErrorMaps bias(const ReferenceHalves& error) {
+    ErrorMaps maps{Plane(error.a.extent), mean_noise(error)};
+    maps.noise.is_difference = true;
+    for (size_t i = 0; i < error.a.values.size(); ++i)
+        maps.error.values[i / 3] -= (double(error.a.values[i]) + error.b.values[i]) / 2 / 3;
     return maps;
 }
 
@@ -67,12 +68,11 @@ nlohmann::json entry(const ErrorMaps& maps, const Metric& metric, const Mask& in
 
 void add_entries(nlohmann::json& entries, const RungHalves& rung, const std::string& target,
                  const MetricReference& truth, const HostImage& direct, std::span<const Mask> masks) {
-    const ReferenceHalves tested = tested_halves(rung, target, direct);
+    const ReferenceHalves error = error_halves(tested_halves(rung, target, direct), *truth.halves);
     for (const Metric* metric : truth.metrics) {
         if (!metric->squared_error_weight && metric->name != "bias") continue;
-        const ErrorMaps maps = metric->squared_error_weight
-                                   ? squared_error(tested, *truth.halves, metric->squared_error_weight)
-                                   : bias(tested, *truth.halves);
+        const ErrorMaps maps =
+            metric->squared_error_weight ? squared_error(error, metric->squared_error_weight) : bias(error);
         for (const Mask& mask : masks) {
             if (mask.inside.empty()) continue;  // a technique's own
             Mask inside = intersection(mask, truth.finite);

@@ -42,8 +42,9 @@ void set_intervals(SplitRow& row, std::optional<double> of_noise, bool depends_o
     row.variance_low = std::max(0.0, row.variance - *half_width);
     row.variance_high = row.variance + *half_width;
     if (!of_noise) return;
-    const double bias_half_width = std::hypot(*half_width_of(row.pairs.bias_squared), *of_noise);
-    row.bias_squared_low = row.bias_squared - bias_half_width;
+    const double bias_half_width =
+        std::hypot(*half_width_of(row.pairs.bias_squared), *of_noise, row.lit_half_width.value_or(0));
+    row.bias_squared_low = row.bias_squared - bias_half_width - row.lit_noise.value_or(0);
     row.bias_squared_high = row.bias_squared + bias_half_width;
 }
 
@@ -55,7 +56,7 @@ void SeedSplit::add(unsigned seed, const HostImage& rgb) {
 }
 
 std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared,
-                                 bool depends_on_seed) {
+                                 bool depends_on_seed, const LitNoises& lit_noise) {
     std::vector<SplitRow> rows;
     if (split.images.empty() || (depends_on_seed && split.images.size() < 2)) return rows;
     const std::vector<HostImage> twice(2, split.images.front());
@@ -67,6 +68,8 @@ std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> m
         if (inside.count() == 0) continue;
         SplitRow row = shared;
         row.mask = mask.name, row.pixels = inside.count();
+        if (const auto of_light = lit_noise.of(row.frame, row.target, "mse", row.mask))
+            row.lit_noise = of_light->added, row.lit_half_width = of_light->half_width;
         row.seeds = unsigned(split.seeds.size()), row.seed_numbers = split.seeds;
         row.pairs = seed_pairs(images, half_a(reference), half_b(reference), inside);
         row.variance = mean_of(row.pairs.variance), row.bias_squared = mean_of(row.pairs.bias_squared);

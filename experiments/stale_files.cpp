@@ -34,7 +34,7 @@ StaleFiles find_stale_files(const fs::path& results, const CellStore& cells, con
     for (const std::string& name : cells.names()) {
         if (used.contains(name)) continue;
         stale.cells.push_back(name);
-        add_files(known, cells.read(name)->images);
+        if (const auto cell = cells.read(name)) add_files(known, cell->images);  // unless another process removed it
     }
     if (before.is_object()) {
         add_files(known, before.value("images", json::array()));

@@ -57,7 +57,9 @@ bool is_of_pixels(const std::string& metric) {
 
 void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows, bool depends_on_seed) {
     const auto lows = values_of(rows, &ResultRow::low), highs = values_of(rows, &ResultRow::high);
-    const bool has_rows = lows && highs, reference_is_exact = s.floor == 0.0;
+    // Half A against half B: no error at all means no noise, but where outliers are counted or left out.
+    const bool has_rows = lows && highs, passes_over_outliers = s.metric == "outliers" || s.metric == "relmse_trimmed",
+               reference_is_exact = s.floor == 0.0 && !passes_over_outliers;
     s.interval = depends_on_seed && s.seeds < 2            ? interval::one_seed
                  : std::ranges::any_of(rows, is_one_sided) ? interval::open_end
                  : depends_on_seed && has_rows

@@ -31,9 +31,6 @@ struct MetricSummary {
     size_t pixels = 0, non_finite = 0, negative = 0;  ///< the last two are the worst seed's
 };
 
-/// (variant, point)
-using PointSet = std::set<std::pair<std::string, std::string>>;
-
 /// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same
 /// reference for all seeds, so the mean of the rows' intervals) and Student's t interval of the seeds, t(0.975, n-1) s
 /// / sqrt(n). Metrics whose rows have no interval, since what the reference's noise adds to them is not known, get that

@@ -6,11 +6,13 @@
 #include "variants/registry.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <random>
+#include <thread>
 
 namespace {
 
@@ -85,10 +87,14 @@ public:
     LoadWindow(std::vector<Round>& rounds, const CpuTimesReader& cpu_times)
         : rounds_(rounds), cpu_times_(cpu_times), start_(cpu_times()) {}
 
-    /// Tells the load of the rounds since the last time, if they took long enough, or if `is_last`.
+    /// Tells the load of the rounds since the last time, if they took long enough; if `is_last`, waits until that is so.
     void update(bool is_last) {
-        const CpuTimes now = cpu_times_();
-        if (!is_last && now.wall - start_.wall < load_window) return;
+        CpuTimes now = cpu_times_();
+        if (const double missing = load_window - (now.wall - start_.wall); missing > 0) {
+            if (!is_last) return;
+            std::this_thread::sleep_for(std::chrono::duration<double>(missing));  // few ticks would tell anything
+            now = cpu_times_();
+        }
         for (; told_ < rounds_.size(); ++told_) {
             rounds_[told_].foreign_load = foreign_load(start_, now);
             quiet_ += !rounds_[told_].is_disturbed();

@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <cmath>
+#include <numbers>
 
 namespace {
 
@@ -221,7 +222,8 @@ void PathTracer::State::add_composite_terms(FirstHit& hit) const {
                       specular_f90(hit.metalness, hit.specular) * ab.y;
 }
 
-/// Paths from pixels all over the image, in an order that no number of threads changes.
+/// Paths from pixels all over the image, in an order that no number of threads changes. Each stands somewhere else in its
+/// stretch of the rows, or images as wide as a multiple of the stretch would be looked at in a few columns only.
 void PathTracer::learn_light_choice() {
     const glm::uvec2 extent = state_->extent;
     const unsigned pixels = extent.x * extent.y, used = std::min(pixels, learning_pixels);
@@ -229,7 +231,10 @@ void PathTracer::learn_light_choice() {
     std::vector<std::vector<LightObservation>> seen(used);
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(0u, used, [&](unsigned i) {
-            const unsigned pixel = unsigned(uint64_t(i) * pixels / used), x = pixel % extent.x, y = pixel / extent.x;
+            const uint64_t first = uint64_t(i) * pixels / used, end = uint64_t(i + 1) * pixels / used;
+            const double turn = i * std::numbers::phi;
+            const unsigned pixel = unsigned(first + uint64_t((turn - std::floor(turn)) * double(end - first)));
+            const unsigned x = pixel % extent.x, y = pixel / extent.x;
             PixelEstimate estimate{.light_record = &seen[i]};
             trace(x, y, first_hit(x, y), learning_seed, 0, samples, estimate);
         });

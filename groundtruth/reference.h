@@ -28,7 +28,13 @@ struct ReferenceOutput {
 /// reflections. `on_screen` takes `fallback` where the image does not show that point, on the side that was met: what
 /// is lost is what one frame does not show; a technique with a history may know more. Visibility is that of points, not of pixels.
 struct TruthLadder {
+    /// RGB: variance of the mean of what a rung changes. Both share their samples, so that it is less than either's own.
+    struct ErrorVariance {
+        HostImage incident, specular;  ///< of rung - incident; of reflectance * rung - specular
+    };
+
     ReferenceOutput camera_radiance, on_screen;
+    ErrorVariance camera_radiance_error, on_screen_error;
     HostImage on_screen_share;  ///< one channel: share of the lobe that meets what the image shows; an ideal confidence
     HostImage reflectance;      ///< RGB: F0 A + F90 B, as the compositor has it
     HostImage fallback;         ///< RGB: the environment over the lobe, as the G-buffer has it
@@ -44,7 +50,7 @@ struct ReferenceGuide {
 };
 
 /// What the path tracer knows of one frame of one camera. Pixel centres and first hits are those of the G-buffer.
-/// 288 bytes per pixel, 48 of them for each output; with the truth ladder 412.
+/// 288 bytes per pixel, 48 of them for each output; with the truth ladder 460.
 struct Reference {
     glm::uvec2 extent{0, 0};
     ReferenceOutput image;     ///< full path-traced radiance: diffuse + specular + highlights
@@ -97,7 +103,8 @@ struct ReferenceSettings {
 
     /// Per pixel, at most; rounded up to 16 * 2^k <= 2^24. 0: no such limit, or default_samples if there is no other.
     unsigned max_samples = 0;
-    double max_seconds = 0;  ///< wall clock, over all continued runs; 0: unlimited. At least one pass of 16 is made
+    /// Wall clock, over all continued runs, without the guide's; 0: unlimited. At least one pass of 16 is made.
+    double max_seconds = 0;
     float target_relative_error =
         0;  ///< relative standard error of `specular` at each pixel, see relative_error(); 0: no such stop
     unsigned max_depth = 64;  ///< reflections per path

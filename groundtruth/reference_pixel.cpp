@@ -42,6 +42,31 @@ PassMeans means(const Batches& batches) {
     return pass;
 }
 
+/// Of the mean over both halves of scale * x - y, from batches that share their samples, as means() has each alone.
+glm::dvec3 variance_of_difference(const Batches& x, glm::dvec3 scale, const Batches& y) {
+    constexpr double batches_per_half = batch_count / 2;
+    const PassMeans of_x = means(x), of_y = means(y);
+    glm::dvec3 variance(0.0);
+    for (unsigned h = 0; h < 2; ++h) {
+        if (of_x.weight[h] == 0 || of_y.weight[h] == 0) continue;
+        for (unsigned b = h; b < batch_count; b += 2) {
+            const glm::dvec3 deviation =
+                scale * (x.sums[b] - of_x.half[h] * x.weights[b]) / of_x.weight[h] -
+                (y.sums[b] - of_y.half[h] * y.weights[b]) / of_y.weight[h];
+            variance += 0.25 * batches_per_half / (batches_per_half - 1) * deviation * deviation;
+        }
+    }
+    return variance;
+}
+
+/// The variance of a mean over old and new samples; the shares of both are of their weights.
+void merge_variance(HostImage& image, size_t pixel, glm::dvec3 added, double old_weight, double added_weight) {
+    const double total = old_weight + added_weight;
+    if (total == 0) return;
+    const double rest = old_weight / total, share = added_weight / total;
+    image.set_rgb(pixel, glm::vec3(rest * rest * glm::dvec3(image.rgb(pixel)) + share * share * added));
+}
+
 /// Weighs old and new by their samples. Means are kept as float32: each merge rounds once, and passes are few.
 void merge(ReferenceOutput& output, size_t pixel, const PassMeans& pass, const double (&old_weight)[2]) {
     HostImage* halves[2] = {&output.half_a, &output.half_b};
@@ -53,11 +78,8 @@ void merge(ReferenceOutput& output, size_t pixel, const PassMeans& pass, const d
     }
     output.mean.set_rgb(pixel, 0.5f * (output.half_a.rgb(pixel) + output.half_b.rgb(pixel)));
 
-    const double before = old_weight[0] + old_weight[1], added = pass.weight[0] + pass.weight[1];
-    if (before + added == 0) return;
-    const double share = added / (before + added), rest = before / (before + added);
-    const glm::dvec3 old_variance = output.variance.rgb(pixel);
-    output.variance.set_rgb(pixel, glm::vec3(rest * rest * old_variance + share * share * pass.variance));
+    merge_variance(output.variance, pixel, pass.variance, old_weight[0] + old_weight[1],
+                   pass.weight[0] + pass.weight[1]);
 }
 
 /// The mean of `throughput` over RGB, weighted by `radiance`.
@@ -135,8 +157,15 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
     if (!reference.ladder.is_empty()) {
         merge(reference.ladder.camera_radiance, pixel, means(camera_radiance), old_lobe_weight);
         merge(reference.ladder.on_screen, pixel, means(on_screen), old_lobe_weight);
-        const double before = old_lobe_weight[0] + old_lobe_weight[1];
-        const double total = before + incident_means.weight[0] + incident_means.weight[1];
+        const double before = old_lobe_weight[0] + old_lobe_weight[1],
+                     added = incident_means.weight[0] + incident_means.weight[1], total = before + added;
+        for (const auto& [rung, error] : {std::pair(&camera_radiance, &reference.ladder.camera_radiance_error),
+                                          {&on_screen, &reference.ladder.on_screen_error}}) {
+            merge_variance(error->incident, pixel, variance_of_difference(*rung, glm::dvec3(1.0), incident), before,
+                           added);
+            merge_variance(error->specular, pixel, variance_of_difference(*rung, glm::dvec3(hit.reflectance), specular), before,
+                           added);
+        }
         float& share = reference.ladder.on_screen_share.values[pixel];
         if (total > 0) share = float((share * before + on_screen_samples) / total);
     }

@@ -132,6 +132,14 @@ bool plan_adaptive_pass(ReferenceState& state, RenderClock& clock, Limits limit)
     return true;
 }
 
+/// For a pass that was stopped on its way: what its plan told the clock, as far as the state knows of it.
+void resume_plan(const ReferenceState& state, RenderClock& clock) {
+    clock.time_limit = state.settings.max_seconds;
+    clock.cuts_pass = !state.earlier.values.empty();  // an adaptive pass
+    clock.all_samples = 0;
+    for (const float goal : state.sample_goal.values) clock.all_samples += goal;
+}
+
 bool plan_pass(ReferenceState& state, RenderClock& clock) {
     const Limits limit{sample_limit(state.settings), state.settings.max_seconds};
     if (state.settings.target_relative_error == 0) return plan_uniform_pass(state, clock, limit);
@@ -168,9 +176,11 @@ bool can_be_extended(const ReferenceSettings& finished, const ReferenceSettings&
 void render_until_limits(ReferenceState& state, const PixelTracer& tracer, RenderClock& clock) {
     Reference& reference = state.reference;
     const float target = state.settings.target_relative_error;
-    do {
-        if (!state.sample_goal.values.empty()) render_pass(state, tracer, clock);
-    } while (plan_pass(state, clock));
+    if (!state.sample_goal.values.empty()) {
+        resume_plan(state, clock);
+        render_pass(state, tracer, clock);
+    }
+    while (plan_pass(state, clock)) render_pass(state, tracer, clock);
     state.sample_goal = {};
     reference.reached_share = target > 0 ? reached_share(reference, target) : 1.0f;
     reference.seconds = clock.seconds();

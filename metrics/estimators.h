@@ -5,4 +5,6 @@
 /// by today's.
 ///
 /// 2: relative errors weighted by a guide, intervals by pixels and not by tiles
-inline constexpr int estimator_version = 2;
+/// 3: intervals of rungs by the variance of what tells them from the truth; of frame differences and ghosts by the
+///    variances of both references and their squares; the noise of the lit colour in effects and splits
+inline constexpr int estimator_version = 3;

@@ -23,8 +23,10 @@ DifferencePlanes difference_planes(const HostImage& test_before, const HostImage
     const bool has_halves = before.halves && now.halves;
     const double samples = has_halves ? std::min(before.halves->samples, now.halves->samples) : 0;
     DifferencePlanes planes{Plane(test.extent), Plane(test.extent), {test.extent, samples}};
+    planes.noise.is_difference = true;
     for (size_t p = 0; p < finite.inside.size(); ++p) {
         if (!finite.inside[p]) continue;
+        SquaredErrorVariance variance;
         for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
             const double weight = (is_relative ? relative_weight(now.weighing_image().values[i]) : 1.0) / 3;
             const double step = step_of(test_before, test, i), error = step - step_of(before.image, now.image, i);
@@ -35,8 +37,9 @@ DifferencePlanes difference_planes(const HostImage& test_before, const HostImage
             const double from_a = step - step_a, from_b = step - step_b;
             planes.corrected.values[p] += weight * from_a * from_b;
             planes.noise.swapped.values[p] += weight * (from_a * from_a - from_b * from_b) / 2;
+            variance.add(weight, error, double(before.halves->variance.values[i]) + now.halves->variance.values[i]);
         }
-        if (has_halves) planes.noise.take_squares(p);
+        planes.noise.variance.values[p] = variance.value();
     }
     return planes;
 }
@@ -44,6 +47,7 @@ DifferencePlanes difference_planes(const HostImage& test_before, const HostImage
 void add_masked(NoiseTerms& sum, const NoiseTerms& terms, const Mask& mask) {
     if (sum.is_empty()) sum = NoiseTerms(terms.swapped.extent, terms.samples);
     sum.samples = std::min(sum.samples, terms.samples);
+    sum.is_difference = sum.is_difference || terms.is_difference;
     for (size_t i = 0; i < mask.inside.size(); ++i)
         if (mask.inside[i]) {
             sum.swapped.values[i] += terms.swapped.values[i];

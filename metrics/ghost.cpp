@@ -28,7 +28,9 @@ Change change_between(const MetricReference& before, const MetricReference& afte
     const bool has_halves = before.halves && after.halves;
     const double samples = has_halves ? std::min(before.halves->samples, after.halves->samples) : 0;
     Change change{before.image, Plane(extent), {extent, samples}};
+    change.noise.is_difference = true;
     for (size_t p = 0; p < change.energy.values.size(); ++p) {
+        SquaredErrorVariance variance;
         for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
             const double d = double(before.image.values[i]) - after.image.values[i];
             change.difference.values[i] = float(d);
@@ -36,8 +38,11 @@ Change change_between(const MetricReference& before, const MetricReference& afte
             const double b = has_halves ? double(before.halves->b.values[i]) - after.halves->b.values[i] : d;
             change.energy.values[p] += a * b / 3;
             change.noise.swapped.values[p] += (a * a - b * b) / 2 / 3;
+            if (has_halves)
+                variance.add(1.0 / 3, d,
+                             double(before.halves->variance.values[i]) + after.halves->variance.values[i]);
         }
-        change.noise.take_squares(p);
+        change.noise.variance.values[p] = variance.value();
     }
     return change;
 }

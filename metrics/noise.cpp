@@ -3,6 +3,7 @@
 #include "metrics/quantiles.h"
 #include "metrics/summation.h"
 
+#include <algorithm>
 #include <cmath>
 
 Plane cross_error(const HostImage& test, const HostImage& half_a, const HostImage& half_b, const HostImage& weighing,
@@ -63,7 +64,10 @@ std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask
     const double total = sum([&](size_t i) { return variance[i]; });
     const double of_squares = sum([&](size_t i) { return variance[i] * variance[i]; });
     const double noisy_pixels = sum([&](size_t i) { return variance[i] > 0 ? 1.0 : 0.0; });
-    const double degrees = of_squares > 0 ? total * total / of_squares : 0.0;
-    if (degrees < least_noise_pixels || noisy_pixels * terms.samples < least_noise_samples) return std::nullopt;
+    double degrees = of_squares > 0 ? total * total / of_squares : 0.0;
+    if (terms.is_difference)
+        degrees = std::min(degrees, squares * squares / sum([&](size_t i) { return std::pow(swapped[i], 4); }));
+    const double least_pixels = terms.is_difference ? least_difference_pixels : least_noise_pixels;
+    if (degrees < least_pixels || noisy_pixels * terms.samples < least_noise_samples) return std::nullopt;
     return student_t_quantile(0.975, degrees) * std::sqrt(squares);
 }

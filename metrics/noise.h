@@ -36,9 +36,10 @@ struct NoiseTerms {
     NoiseTerms(glm::uvec2 extent, double samples) : swapped(extent), variance(extent), samples(samples) {}
     bool is_empty() const { return swapped.values.empty(); }
 
-    /// Takes a pixel's variance from its square, where the batches tell none: two references that share samples differ by
-    /// the few that tell them apart, and by less than either's own noise. One degree of freedom in place of 14.
-    void take_squares(size_t pixel) { variance.values[pixel] = swapped.values[pixel] * swapped.values[pixel]; }
+    /// Of what tells two outputs apart that share samples or random numbers: few of these may do so, in few pixels. The
+    /// variance may be that of both as if they were independent, of which most is taken out, and elsewhere than where
+    /// it is largest.
+    bool is_difference = false;
 };
 
 /// The variance of sum over channels of weight (d - a)(d - b), where a and b are the noises of the halves: as if the
@@ -63,11 +64,11 @@ NoiseTerms mean_noise(const ReferenceHalves& halves);
 /// degree of freedom, so Student's t has nu = (sum of v)^2 / (sum of v^2) (Satterthwaite 1946, "An Approximate
 /// Distribution of Estimates of Variance Components"), the number of pixels that bear the noise. It is told by the
 /// batches' variances v, with 14 degrees for each pixel: squares that tell both width and nu find the width certain
-/// just where they are small by chance.
+/// just where they are small by chance. Of differences neither tells alone: the smaller of both nu counts.
 ///
-/// None below nu = 2, where few pixels bear nearly all noise, or below least_noise_samples under the mask, where rare
+/// None below nu = 2 (of differences 8), where few pixels bear nearly all noise, or below least_noise_samples under the mask, where rare
 /// bright paths are missed too often; 0 without noise. metrics/README.md has the measured coverage.
 std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask);
 
-inline constexpr double least_noise_pixels = 2;     ///< nu
+inline constexpr double least_noise_pixels = 2, least_difference_pixels = 8;  ///< nu
 inline constexpr double least_noise_samples = 480;  ///< of all noisy pixels under the mask

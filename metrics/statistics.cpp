@@ -62,8 +62,10 @@ RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const S
     const double degrees = degrees_share > 0 ? variance * variance / degrees_share : double(n - 1);
     const double half_width = student_t_quantile(0.975, degrees) * std::sqrt(variance);
     if (!std::isfinite(std::exp(logarithm + half_width))) return ratio;
-    ratio.low = std::exp(logarithm - half_width), ratio.high = std::exp(logarithm + half_width);
-    const double t = logarithm == 0 ? 0 : std::abs(logarithm) / std::sqrt(variance);
+    const double down = -std::log1p(-shared.excess_of_a), up = -std::log1p(-shared.excess_of_b);
+    ratio.low = std::exp(logarithm - half_width - down), ratio.high = std::exp(logarithm + half_width + up);
+    const double unexplained = std::max({logarithm - down, -logarithm - up, 0.0});
+    const double t = unexplained == 0 ? 0 : unexplained / std::sqrt(variance);
     ratio.p_value = 2 * student_t_cdf(-t, degrees);
     return ratio;
 }

@@ -30,9 +30,10 @@ struct RatioEstimate {
 };
 
 /// What is uncertain of ln(a / b) beside the scatter of the seeds, and independent of it: its variance, and the degrees
-/// of freedom that the variance is known with.
+/// of freedom that the variance is known with; and by which shares of themselves a and b may be too large, below 1.
 struct SharedScatter {
     double variance = 0, degrees = 1;
+    double excess_of_a = 0, excess_of_b = 0;
 };
 
 /// a / b, both estimated from the same N seeds: seed i shares random numbers, camera and scene, so what they have in
@@ -41,8 +42,9 @@ struct SharedScatter {
 /// and where an estimate without one of the seeds is not above 0 or so near to it that the interval has no end among
 /// finite numbers. `shared` joins it: variances add up, with Welch's and Satterthwaite's degrees of freedom
 /// (Satterthwaite 1946, "An Approximate Distribution of Estimates of Variance Components"). Two single values, whose
-/// `without` are empty, have an interval of what is shared alone, if anything is. Fails if a or b is not above 0, or if
-/// they hold unequal numbers of seeds.
+/// `without` are empty, have an interval of what is shared alone, if anything is. What a or b may have in excess moves
+/// the end of the interval on its side, and p is that of a ratio that such an excess would explain as far as it can. Fails
+/// if a or b is not above 0, or if they hold unequal numbers of seeds.
 ///
 /// Coverage of ratios of means in 40000 simulated studies of 4, 8, 16 seeds: 94.9, 95.1, 95.1 % for log-normal values
 /// of deviation 0.05 and correlation 0.9; 93.3, 93.1, 93.7 % for deviation 1 without correlation; 90.5, 89.7, 90.1 %

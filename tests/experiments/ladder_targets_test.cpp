@@ -23,6 +23,9 @@ Reference flat_reference(glm::uvec2 extent = {16, 16}) {
     reference.specular = constant(extent, 0.4f), reference.incident = constant(extent, 0.8f);
     reference.ladder.camera_radiance = constant(extent, 0.6f), reference.ladder.on_screen = constant(extent, 0.5f);
     reference.ladder.reflectance = HostImage(extent, 3, 0.5f);
+    for (TruthLadder::ErrorVariance* error :
+         {&reference.ladder.camera_radiance_error, &reference.ladder.on_screen_error})
+        *error = {HostImage(extent, 3), HostImage(extent, 3)};
     reference.highlights = reference.normal = HostImage(extent, 3);
     reference.depth = HostImage(extent, 1);
     reference.material_id = HostImage(extent, 1, 1.0f), reference.sample_count = HostImage(extent, 1, 16.0f);
@@ -109,6 +112,7 @@ TEST(LadderTargets, SharedNoiseCancelsAndTheRestIsInTheInterval) {
             }
         for (ReferenceOutput* output : {&reference.incident, &reference.ladder.on_screen})
             output->variance = HostImage(reference.extent, 3, 0.045f);
+        reference.ladder.on_screen_error.incident = HostImage(reference.extent, 3, 0.00125f);
         const PoseTruth truth = truth_of(reference, {"incident", "on_screen"}, {"mse"});
         const std::vector<Mask> masks = {full_mask(reference.extent)};
         const nlohmann::json entry = entry_of(rung_entries(truth, masks), "on_screen", "incident", "mse");

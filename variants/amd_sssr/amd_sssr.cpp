@@ -38,8 +38,10 @@ std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
     return left_out;
 }
 
-/// Without it no surface is smooth enough to start a ray.
-bool AmdSssr::depends_on_seed() const { return tracing_.roughness_threshold_alpha > 0; }
+/// Without the one no surface is smooth enough to start a ray, without the other every ray is the mirror's.
+bool AmdSssr::depends_on_seed() const {
+    return tracing_.roughness_threshold_alpha > 0 && tracing_.draw_directions;
+}
 
 std::string AmdSssr::not_repeatable() const {
     std::string why;

@@ -1,6 +1,7 @@
 // The direction of a pixel's ray, drawn from the visible normals of its GGX lobe.
 #ifndef AMD_SSSR_REFLECTION_GLSL
 #define AMD_SSSR_REFLECTION_GLSL
+#include "common/halton.h"
 #include "core/shared/brdf.h"
 
 // A visible micro-normal about +z: Heitz 2018, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), for one
@@ -23,14 +24,9 @@ mat3 basis_about(vec3 n) {
     return mat3(u, cross(n, u), n);
 }
 
-// Independent numbers in [0, 1) for each pixel, frame, seed and attempt: Jarzynski and Olano 2020, "Hash Functions for
-// GPU Rendering", JCGT 9(3), pcg4d.
+// Independent numbers in [0, 1) for each pixel, frame, seed and attempt.
 vec2 redraw(ivec2 pixel, uint attempt) {
-    uvec4 v = uvec4(pixel, camera.frame.x, camera.frame.y * 16u + attempt) * 1664525u + 1013904223u;
-    v += uvec4(v.y * v.w, v.z * v.x, v.x * v.y, v.y * v.z);
-    v ^= v >> 16u;
-    v += uvec4(v.y * v.w, v.z * v.x, v.x * v.y, v.y * v.z);
-    return vec2(v.xy >> 8u) / 16777216.0;
+    return random_point(uvec4(pixel, camera.frame.x, camera.frame.y * 16u + attempt));
 }
 
 // About +z. Of the bounded lobe at most one in thirty directions is below the horizon, so that attempts do not run out.
