@@ -59,7 +59,8 @@ nlohmann::json entry(const ErrorMaps& maps, const Metric& metric, const Mask& in
         {"mask", inside.name},     {"value", finished(value)},
         {"low", nullptr},          {"high", nullptr},
         {"pixels", inside.count()}};
-    if (std::optional<double> half_width = noise_half_width(maps.noise, inside)) {
+    // Where no path told rung and truth apart, another might have: 0 is no width.
+    if (std::optional<double> half_width = noise_half_width(maps.noise, inside); half_width.value_or(0) > 0) {
         *half_width /= double(inside.count());
         entry["low"] = finished(value - *half_width), entry["high"] = finished(value + *half_width);
     }
