@@ -153,8 +153,7 @@ std::vector<EffectRow> effects_of_rows(const Side& point, const Side& baseline) 
     if (has_noise) shared = shared_scatter(point.noise->sums, error.value, baseline.noise->sums, base_error.value);
     const bool is_exact = has_noise && shared.variance == 0;
     for (LitPart* part : {&lit, &base_lit}) part->added /= double(row.seeds), part->half_width /= double(row.seeds);
-    if (error.value > 0 && base_error.value > 0)
-        add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
+    if (error.value > 0 && base_error.value > 0) add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
     set_ratio(row, error, base_error, shared);
     if (!row.ratio) return {row};
     const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;

@@ -81,8 +81,8 @@ void LitNoises::add(const MetricReference& reference, const std::string& target,
             LitNoise noise{masked_mean(maps.added, inside), half_width_of(maps.swapped, inside)};
             if (is_root) {
                 const ReferenceHalves& halves = *reference.halves;
-                const double square =
-                    masked_mean(cross_error(of_a, halves.a, halves.b, halves.guide, metric->squared_error_weight), inside);
+                const double square = masked_mean(
+                    cross_error(of_a, halves.a, halves.b, halves.guide, metric->squared_error_weight), inside);
                 if (square <= 0) continue;
                 noise.added /= 2 * std::sqrt(square), noise.half_width /= 2 * std::sqrt(square);
             }

@@ -81,9 +81,8 @@ bool reads_reference_light(const Play& play) {
 }
 
 bool reads_noisy_light(const Play& play) {
-    return reads_reference_light(play) && std::ranges::any_of(play.truth.poses, [](const auto& pose) {
-               return is_noisy(*pose.second->lit_halves);
-           });
+    return reads_reference_light(play) &&
+           std::ranges::any_of(play.truth.poses, [](const auto& pose) { return is_noisy(*pose.second->lit_halves); });
 }
 
 /// How many seeds' images are held at once: those of a technique take some 400 bytes per pixel, and what means over

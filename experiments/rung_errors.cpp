@@ -17,8 +17,8 @@ constexpr double rounding = 1e-6;
 
 /// truth - rung, as if that were a reference which black is compared with.
 ReferenceHalves error_halves(const ReferenceHalves& rung, const ReferenceHalves& truth) {
-    ReferenceHalves error{.a = truth.a, .b = truth.b, .variance = rung.variance, .guide = truth.guide,
-                          .samples = truth.samples};
+    ReferenceHalves error{
+        .a = truth.a, .b = truth.b, .variance = rung.variance, .guide = truth.guide, .samples = truth.samples};
     for (size_t i = 0; i < error.a.values.size(); ++i) {
         const double least = rounding * truth.a.values[i];
         if (error.variance.values[i] < least * least) error.variance.values[i] = 0;

@@ -192,9 +192,8 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
         const auto disturbed = std::ranges::count_if(group, [](const TimeRow* row) { return row->is_disturbed; });
         const TimeRow& first = *group.front();
         const MedianInterval m = median_interval(times);
-        summaries.push_back(
-            {first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median, m.low, m.high,
-             double(disturbed) / double(group.size())});
+        summaries.push_back({first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median,
+                             m.low, m.high, double(disturbed) / double(group.size())});
     }
     return summaries;
 }

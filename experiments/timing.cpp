@@ -87,7 +87,8 @@ public:
     LoadWindow(std::vector<Round>& rounds, const CpuTimesReader& cpu_times)
         : rounds_(rounds), cpu_times_(cpu_times), start_(cpu_times()) {}
 
-    /// Tells the load of the rounds since the last time, if they took long enough; if `is_last`, waits until that is so.
+    /// Tells the load of the rounds since the last time, if they took long enough; if `is_last`, waits until that is
+    /// so.
     void update(bool is_last) {
         CpuTimes now = cpu_times_();
         if (const double missing = load_window - (now.wall - start_.wall); missing > 0) {
@@ -277,10 +278,8 @@ ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& con
 }
 
 nlohmann::json timed_work(const Config& config, const nlohmann::json& variants, const nlohmann::json& host) {
-    nlohmann::json work = {{"variants", variants},
-                           {"frames", config.timing.frames},
-                           {"warm_up", config.timing.warm_up},
-                           {"host", host}};
+    nlohmann::json work = {
+        {"variants", variants}, {"frames", config.timing.frames}, {"warm_up", config.timing.warm_up}, {"host", host}};
     for (const VariantConfig& variant : config.variants) work["timed"].push_back(variant.is_timed);
     return work;
 }

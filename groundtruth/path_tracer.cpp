@@ -222,8 +222,8 @@ void PathTracer::State::add_composite_terms(FirstHit& hit) const {
                       specular_f90(hit.metalness, hit.specular) * ab.y;
 }
 
-/// Paths from pixels all over the image, in an order that no number of threads changes. Each stands somewhere else in its
-/// stretch of the rows, or images as wide as a multiple of the stretch would be looked at in a few columns only.
+/// Paths from pixels all over the image, in an order that no number of threads changes. Each stands somewhere else in
+/// its stretch of the rows, or images as wide as a multiple of the stretch would be looked at in a few columns only.
 void PathTracer::learn_light_choice() {
     const glm::uvec2 extent = state_->extent;
     const unsigned pixels = extent.x * extent.y, used = std::min(pixels, learning_pixels);

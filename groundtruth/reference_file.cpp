@@ -29,8 +29,8 @@ std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
         images.push_back({"on_screen_share", "Y", &ladder.on_screen_share});
         images.push_back({"reflectance", "RGB", &ladder.reflectance});
         images.push_back({"fallback", "RGB", &ladder.fallback});
-        for (const auto& [name, error] : {std::pair("camera_radiance", &ladder.camera_radiance_error),
-                                          {"on_screen", &ladder.on_screen_error}}) {
+        for (const auto& [name, error] :
+             {std::pair("camera_radiance", &ladder.camera_radiance_error), {"on_screen", &ladder.on_screen_error}}) {
             images.push_back({std::string(name) + ".error_variance.incident", "RGB", &error->incident});
             images.push_back({std::string(name) + ".error_variance.specular", "RGB", &error->specular});
         }

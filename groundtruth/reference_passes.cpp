@@ -137,10 +137,9 @@ ReferenceState empty_state(glm::uvec2 extent, const ReferenceSettings& settings)
     if (settings.ladder) {
         TruthLadder& ladder = reference.ladder;
         for (ReferenceOutput* output : {&ladder.camera_radiance, &ladder.on_screen}) clear(*output);
-        for (HostImage* image :
-             {&ladder.reflectance, &ladder.fallback, &ladder.camera_radiance_error.incident,
-              &ladder.camera_radiance_error.specular, &ladder.on_screen_error.incident,
-              &ladder.on_screen_error.specular})
+        for (HostImage* image : {&ladder.reflectance, &ladder.fallback, &ladder.camera_radiance_error.incident,
+                                 &ladder.camera_radiance_error.specular, &ladder.on_screen_error.incident,
+                                 &ladder.on_screen_error.specular})
             *image = HostImage(extent, 3);
         ladder.on_screen_share = HostImage(extent, 1);
     }

@@ -50,9 +50,8 @@ glm::dvec3 variance_of_difference(const Batches& x, glm::dvec3 scale, const Batc
     for (unsigned h = 0; h < 2; ++h) {
         if (of_x.weight[h] == 0 || of_y.weight[h] == 0) continue;
         for (unsigned b = h; b < batch_count; b += 2) {
-            const glm::dvec3 deviation =
-                scale * (x.sums[b] - of_x.half[h] * x.weights[b]) / of_x.weight[h] -
-                (y.sums[b] - of_y.half[h] * y.weights[b]) / of_y.weight[h];
+            const glm::dvec3 deviation = scale * (x.sums[b] - of_x.half[h] * x.weights[b]) / of_x.weight[h] -
+                                         (y.sums[b] - of_y.half[h] * y.weights[b]) / of_y.weight[h];
             variance += 0.25 * batches_per_half / (batches_per_half - 1) * deviation * deviation;
         }
     }
@@ -163,8 +162,8 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
                                           {&on_screen, &reference.ladder.on_screen_error}}) {
             merge_variance(error->incident, pixel, variance_of_difference(*rung, glm::dvec3(1.0), incident), before,
                            added);
-            merge_variance(error->specular, pixel, variance_of_difference(*rung, glm::dvec3(hit.reflectance), specular), before,
-                           added);
+            merge_variance(error->specular, pixel, variance_of_difference(*rung, glm::dvec3(hit.reflectance), specular),
+                           before, added);
         }
         float& share = reference.ladder.on_screen_share.values[pixel];
         if (total > 0) share = float((share * before + on_screen_samples) / total);

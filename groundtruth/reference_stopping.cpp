@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace {
 
@@ -37,6 +38,13 @@ uint64_t next_uniform_pass(uint64_t held, Limits limit, double seconds) {
     const double most = std::min({affordable, largest_growth * double(held), double(limit.samples - held)});
     if (most < batch_count || most < double(held) / 32) return 0;
     return batch_count * std::bit_floor(uint64_t(most) / batch_count);
+}
+
+/// Of the passes over the whole image.
+Limits uniform_limit(const ReferenceSettings& settings) {
+    const uint64_t samples = sample_limit(settings);
+    if (settings.target_relative_error == 0) return {samples, settings.max_seconds};
+    return {std::min(uniform_samples, samples), settings.max_seconds * uniform_share_of_time};
 }
 
 /// False if nothing is left to do.
@@ -134,20 +142,23 @@ bool plan_adaptive_pass(ReferenceState& state, RenderClock& clock, Limits limit)
 
 /// For a pass that was stopped on its way: what its plan told the clock, as far as the state knows of it.
 void resume_plan(const ReferenceState& state, RenderClock& clock) {
-    clock.time_limit = state.settings.max_seconds;
-    clock.cuts_pass = !state.earlier.values.empty();  // an adaptive pass
-    clock.all_samples = 0;
-    for (const float goal : state.sample_goal.values) clock.all_samples += goal;
+    const Limits uniform = uniform_limit(state.settings);
+    const bool is_adaptive = !state.earlier.values.empty();
+    clock.cuts_pass = is_adaptive;
+    clock.time_limit = is_adaptive ? state.settings.max_seconds : uniform.seconds;
+    clock.all_samples = is_adaptive
+                            ? std::accumulate(state.sample_goal.values.begin(), state.sample_goal.values.end(), 0.0)
+                            : double(uniform.samples) * double(state.sample_goal.pixel_count());
 }
 
 bool plan_pass(ReferenceState& state, RenderClock& clock) {
-    const Limits limit{sample_limit(state.settings), state.settings.max_seconds};
-    if (state.settings.target_relative_error == 0) return plan_uniform_pass(state, clock, limit);
+    const Limits limit{sample_limit(state.settings), state.settings.max_seconds},
+        uniform = uniform_limit(state.settings);
+    if (state.settings.target_relative_error == 0) return plan_uniform_pass(state, clock, uniform);
     if (limit.seconds > 0 && state.rays_per_sample.values.empty()) {
         const double samples = std::max(total_samples(state.reference), 1.0);
         state.rays_per_sample = HostImage(state.reference.extent, 1, float(state.reference.rays / samples));
     }
-    const Limits uniform{std::min(uniform_samples, limit.samples), limit.seconds * uniform_share_of_time};
     return (state.earlier.values.empty() && plan_uniform_pass(state, clock, uniform)) ||
            plan_adaptive_pass(state, clock, limit);
 }

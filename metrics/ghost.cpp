@@ -39,8 +39,7 @@ Change change_between(const MetricReference& before, const MetricReference& afte
             change.energy.values[p] += a * b / 3;
             change.noise.swapped.values[p] += (a * a - b * b) / 2 / 3;
             if (has_halves)
-                variance.add(1.0 / 3, d,
-                             double(before.halves->variance.values[i]) + after.halves->variance.values[i]);
+                variance.add(1.0 / 3, d, double(before.halves->variance.values[i]) + after.halves->variance.values[i]);
         }
         change.noise.variance.values[p] = variance.value();
     }

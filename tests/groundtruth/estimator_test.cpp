@@ -98,7 +98,8 @@ void expect_same_means(const Render& a, const Render& b) {
         expect_same_mean(a.pixels[i].camera_radiance, b.pixels[i].camera_radiance);
         expect_same_mean(a.pixels[i].on_screen, b.pixels[i].on_screen);
     }
-    // One pixel admits a bias of a good part of its mean; a strategy that forgets a share of the light shows in their sum.
+    // One pixel admits a bias of a good part of its mean; a strategy that forgets a share of the light shows in their
+    // sum.
     for (const auto member : {&PixelMoments::diffuse, &PixelMoments::specular, &PixelMoments::incident,
                               &PixelMoments::camera_radiance, &PixelMoments::on_screen})
         expect_same_sum(a, b, member);

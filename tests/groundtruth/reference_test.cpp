@@ -120,8 +120,17 @@ TEST_F(References, ContinueWhereTheyWereStopped) {
     };
     EXPECT_THROW(render(samples(1024), run), Stop);
     EXPECT_TRUE(fs::exists(run.state_file));
-    run.progress = {};
+    double last = 0;
+    run.progress = [&](double fraction, double, double left) {
+        if (last == 0) {
+            EXPECT_LT(fraction, 0.9) << "it goes on where it was";
+        }
+        EXPECT_GE(fraction, last);
+        EXPECT_GE(left, 0.0);
+        last = fraction;
+    };
     const Reference continued = render(samples(1024), run);
+    EXPECT_GT(last, 0.9);
     EXPECT_EQ(continued.specular.mean.values, whole.specular.mean.values);
     EXPECT_EQ(continued.image.variance.values, whole.image.variance.values);
 }

@@ -106,8 +106,8 @@ TEST(truth_ladder, rungs_of_other_seeds_differ_by_their_stated_variance) {
             }
         }
     }
-    // z^2 of normal noise with 28 degrees of freedom has mean 28/26 = 1.077. Twelve other dozens of pairs gave 1.069 with
-    // a standard deviation of 0.026: the bounds are 4.6 of them away (4e-6).
+    // z^2 of normal noise with 28 degrees of freedom has mean 28/26 = 1.077. Twelve other dozens of pairs gave 1.069
+    // with a standard deviation of 0.026: the bounds are 4.6 of them away (4e-6).
     for (const bool is_on_screen : {false, true}) {
         ASSERT_GT(count[is_on_screen], 1200u);
         EXPECT_GT(sum[is_on_screen] / double(count[is_on_screen]), 0.95);

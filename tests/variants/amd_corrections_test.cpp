@@ -146,7 +146,7 @@ TEST_F(AmdCorrections, InwardRaysMissOrBringNoLight) {
         gbuffer.geometric_normal.set_rgb(i, glm::normalize(glm::vec3(0, 0.05f, 1)));
     for (const auto& [choice, expected] : {std::pair("traced", 1.0f), {"missed", 0.5f}, {"black", 0.0f}}) {
         const HostImage found = trace(gbuffer, {{"inward_rays", choice}});
-        for (unsigned x = 20; x < view.extent.x - 20; ++x)  // towards the border hits fade
+        for (unsigned x = 20; x < view.extent.x - 20; ++x)                  // towards the border hits fade
             EXPECT_NEAR(found.pixel(x, 90)[0], expected, 1e-4f) << choice;  // confidences are within 4e-5 of 1
     }
 }

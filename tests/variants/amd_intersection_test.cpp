@@ -91,8 +91,8 @@ TEST_P(AmdIntersectionOf, BlendsTheOriginalsColours) {
 }
 
 /// AMD's defaults give up thinly occupied subgroups, which depends on the order of the ray list: between runs of the
-/// original on several threads up to 2.4 % of its pixels changed between hit and miss, as many one way as the other. Rates
-/// of the whole image differ by 0.0002 and 0.0012; the bound is an eighth of that share.
+/// original on several threads up to 2.4 % of its pixels changed between hit and miss, as many one way as the other.
+/// Rates of the whole image differ by 0.0002 and 0.0012; the bound is an eighth of that share.
 TEST_P(AmdIntersectionOf, HasTheOriginalsRatesWithItsDefaults) {
     if (!has_all_golden_kinds()) GTEST_SKIP() << "no recorded frame with the original's defaults";
     const AmdTraced traced = trace(hit_gbuffer, "pdef");
