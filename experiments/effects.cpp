@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "experiments/csv.h"
 #include "experiments/interval.h"
+#include "experiments/lit_noise.h"
 #include "metrics/statistics.h"
 #include "metrics/temporal.h"
 
@@ -72,14 +73,9 @@ SharedScatter shared_scatter(const std::vector<float>& sums, double error, const
     return {.variance = variance, .degrees = variance * variance / squares};
 }
 
-/// The noise of the lit colour, told for one number.
-struct LitPart {
-    double added = 0, half_width = 0;
-};
-
 /// Adds to what both sides share how the noise of the lit colour may have moved either. It is taken for independent,
 /// though both read the same light: what they have in common would cancel.
-void add_lit_noise(SharedScatter& shared, const LitPart& part, double error, const LitPart& base_part,
+void add_lit_noise(SharedScatter& shared, const LitNoise& part, double error, const LitNoise& base_part,
                    double base_error) {
     const auto squared = [](double v) { return v * v; };
     const double variance = squared(part.half_width / 1.96 / error) + squared(base_part.half_width / 1.96 / base_error);
@@ -131,8 +127,8 @@ std::vector<EffectRow> effects_of_rows(const Side& point, const Side& baseline) 
     EffectRow row = effect_between(first, *baseline.seeds.begin()->second);
     row.metric = first.metric, row.formula = first.formula;
     std::vector<double> errors, base_errors;
-    LitPart lit, base_lit;
-    const auto add_light = [](LitPart& sum, const ResultRow& r) {
+    LitNoise lit, base_lit;
+    const auto add_light = [](LitNoise& sum, const ResultRow& r) {
         sum.added += r.lit_noise.value_or(0), sum.half_width += r.lit_half_width.value_or(0);
     };
     bool has_values = true;
@@ -152,7 +148,7 @@ std::vector<EffectRow> effects_of_rows(const Side& point, const Side& baseline) 
     SharedScatter shared;
     if (has_noise) shared = shared_scatter(point.noise->sums, error.value, baseline.noise->sums, base_error.value);
     const bool is_exact = has_noise && shared.variance == 0;
-    for (LitPart* part : {&lit, &base_lit}) part->added /= double(row.seeds), part->half_width /= double(row.seeds);
+    for (LitNoise* part : {&lit, &base_lit}) part->added /= double(row.seeds), part->half_width /= double(row.seeds);
     if (error.value > 0 && base_error.value > 0) add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
     set_ratio(row, error, base_error, shared);
     if (!row.ratio) return {row};
@@ -212,7 +208,7 @@ std::vector<EffectRow> effects_of_splits(const Side& point, const Side& baseline
             shared = shared_scatter(point.split->reference_noise, error.value, baseline.split->reference_noise,
                                     base_error.value);
         const auto lit_part = [](const SplitRow& r) {
-            return LitPart{r.lit_noise.value_or(0), r.lit_half_width.value_or(0)};
+            return LitNoise{r.lit_noise.value_or(0), r.lit_half_width.value_or(0)};
         };
         if (is_bias && error.value > 0 && base_error.value > 0)
             add_lit_noise(shared, lit_part(*point.split), error.value, lit_part(*baseline.split), base_error.value);

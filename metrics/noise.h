@@ -66,8 +66,8 @@ NoiseTerms mean_noise(const ReferenceHalves& halves);
 /// batches' variances v, with 14 degrees for each pixel: squares that tell both width and nu find the width certain
 /// just where they are small by chance. Of differences neither tells alone: the smaller of both nu counts.
 ///
-/// None below nu = 2 (of differences 8), where few pixels bear nearly all noise, or below least_noise_samples under the mask, where rare
-/// bright paths are missed too often; 0 without noise. metrics/README.md has the measured coverage.
+/// None below nu = 2 (of differences 8), where few pixels bear nearly all noise, or below least_noise_samples under the
+/// mask, where rare bright paths are missed too often; 0 without noise. metrics/README.md has the measured coverage.
 std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask);
 
 inline constexpr double least_noise_pixels = 2, least_difference_pixels = 8;  ///< nu

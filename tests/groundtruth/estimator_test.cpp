@@ -84,8 +84,8 @@ void expect_same_sum(const Render& a, const Render& b, Moments PixelMoments::*me
         sum_a += one.mean.x, sum_b += other.mean.x;
         variance += std::pow(one.standard_error.x, 2) + std::pow(other.standard_error.x, 2);
     }
-    EXPECT_NEAR(sum_a, sum_b, 5 * std::sqrt(variance));  // p < 1e-6 with the degrees of freedom of six pixels
-    EXPECT_LE(std::sqrt(variance), 0.01 * sum_b);
+    EXPECT_NEAR(sum_a, sum_b, 5 * std::sqrt(variance));  // p = 1.6e-4 if one pixel's 15 degrees bear all noise
+    EXPECT_LE(std::sqrt(variance), 0.01 * sum_b);            // found: 0.0007 to 0.0022; else this proves little
 }
 
 void expect_same_means(const Render& a, const Render& b) {

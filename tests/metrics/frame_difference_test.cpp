@@ -83,7 +83,7 @@ TEST(FrameDifference, TheReferencesNoiseIsTakenOutWithoutBias) {
     EXPECT_NEAR(mean.value, expected, 4 * standard_error);
     // Two references of variance 0.3^2 / 2 each on top.
     EXPECT_NEAR(mean_estimate(uncorrected).value, expected + 0.09, 0.002);
-    // Of 200, 190 are meant; a standard deviation is 3.1: five of them either way.
+    // Of 200, 190 are meant; a standard deviation is 3.1: 4.9 of them below. All 200 would come about once in 28000.
     EXPECT_GE(covered, 175);
     EXPECT_LE(covered, 199);
 }
