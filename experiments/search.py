@@ -6,7 +6,7 @@ The config is a study of one variant, the point to start from, with "search" (ex
 other value of every axis alone against the point that is held, then the best value of each axis together, and holds the best
 of all. The measure is error over held error, the geometric mean over shots and metrics; a point is better only if its 95 %
 interval lies below 1 - least_gain, since a search that follows noise ends anywhere, and one that follows thousandths is of
-its own scenes. It stops where no point is better.
+its own scenes. A value that was worse by a quarter at least is not tried in later rounds. It stops where no point is better.
 
 DIR gets start, round_N_alone and round_N_together (the studies, with their reports), search.csv (every point that was tried)
 and found.json (the point where it ended). A search that was stopped continues, as its studies do."""
@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from paper_figures.results import Results, ResultsError
 
 
+HOPELESS = 1.25  # least ratio of a value that is not tried again
 TAKEN = ("variant", "preset", "parameters", "seeds", "timing")  # of the start, into every study
 
 
@@ -87,12 +88,14 @@ class Search:
         self.found = {}  # what the held point changes of the start
         self.defaults = {}  # every parameter of the start
         self.time = 1.0  # of the held point, over that of the start
+        self.hopeless = []  # changes of one value that are not tried again
         self.trials = []
 
     def run(self):
         self.study("start", [])
         for number in range(1, self.rules.get("rounds", 8) + 1):
             alone = self.study(f"round_{number}_alone", self.changes())
+            self.hopeless += [t.values for t in alone if t.low > HOPELESS]
             best = self.best_of_each_axis(alone)
             tried = alone + (self.study(f"round_{number}_together", [best]) if len(best) > 1 else [])
             better = [t for t in tried if t.is_better(self.rules)]
@@ -102,9 +105,10 @@ class Search:
         self.write()
 
     def changes(self):
-        """Every value of every axis that the held point does not have."""
+        """Every value of every axis that the held point does not have, but the hopeless ones."""
         held = self.defaults | self.found
-        return [{name: v} for name, values in self.rules["axes"].items() for v in values if held[name] != v]
+        changes = [{name: v} for name, values in self.rules["axes"].items() for v in values if held[name] != v]
+        return [change for change in changes if change not in self.hopeless]
 
     def best_of_each_axis(self, trials):
         best = {}

@@ -102,6 +102,8 @@ def main():
         check(found == {"clamp": False, "taps": 16, "radius": 2.0}, f"found {found}")
         is_repetition = any(t["point"] == "taps=4" and t["study"] == "round_1_alone" for t in trials)
         check(not is_repetition, "the start was tried against itself")
+        of_one_tap = [t["study"] for t in trials if t["point"] == "taps=1"]
+        check(of_one_tap == ["round_1_alone"], f"one tap has twice the error, and was tried in {of_one_tap}")
     with tempfile.TemporaryDirectory() as folder:
         found, _ = search(script, folder, {"least_gain": 0.0})
         check(found == {"clamp": False, "taps": 16, "radius": 2.0, "noise": 0.5}, f"every gain counts: found {found}")
