@@ -152,6 +152,30 @@ TEST(estimator, lamp_in_a_bright_sky_has_its_closed_form_for_every_strategy) {
     }
 }
 
+TEST(estimator, more_lights_than_groups_have_their_closed_form) {
+    // Seven far lamps are groups of their own; the three weakest share the eighth. They are near, and three quarters of
+    // the light is theirs: if each counted only as its part of the group, half of all light would be missing.
+    TestScene scene;
+    scene.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, scene.add(lambert_material(0.5f)));
+    std::vector<PunctualLight>& lights = scene.scene.lights;
+    for (int i = 0; i < 7; ++i) {
+        const float turn = 2 * float(M_PI) * float(i) / 7;
+        lights.push_back({.intensity = glm::vec3(2), .position = {std::cos(turn), 2, std::sin(turn)}});
+    }
+    lights.push_back({.intensity = glm::vec3(0.5f), .position = {0.1f, 0.5f, 0}});
+    lights.push_back({.intensity = glm::vec3(0.4f), .position = {0, 0.4f, 0.1f}});
+    lights.push_back({.intensity = glm::vec3(0.3f), .position = {-0.1f, 0.3f, 0}});
+    // Albedo / pi times intensity times cosine / distance^2.
+    double exact = 0;
+    for (const PunctualLight& light : lights)
+        exact += 0.5 / M_PI * light.intensity.x * light.position.y / std::pow(glm::length(light.position), 3);
+    const PixelMoments pixel =
+        render(scene, looking_along({0, .6f, 0}, {0, -1, 0}), 256, {.model = ReflectionModel::lambert});
+    // 6 standard errors with 15 degrees of freedom: p = 2.4e-5. 1e-4: probabilities and sums of float32, with room.
+    EXPECT_NEAR(pixel.diffuse.mean.x, exact, 6 * pixel.diffuse.standard_error.x + 1e-4 * exact);
+    EXPECT_LT(pixel.diffuse.standard_error.x, 0.02 * exact);
+}
+
 TEST(estimator, sky_that_is_not_seen_starves_no_lamp) {
     // A closed room, lit by a lamp and a bulb: the sky outside has nearly all the power, and nothing to say.
     TestScene room;

@@ -1,11 +1,12 @@
 // Renders with a target over integrands with known moments: who decides a pixel's samples, and that no bias comes of
-// it.
+// it. And what time limits do.
 #include "groundtruth/sample_allocation.h"
 
 #include "groundtruth/reference_stopping.h"
 #include "groundtruth/sobol.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -41,13 +42,17 @@ PixelTracer rare_bright_paths(double p, std::function<uint64_t(unsigned x, unsig
                 }};
 }
 
-Reference render(const PixelTracer& tracer, const ReferenceSettings& settings) {
+/// `seconds_before`: of earlier runs.
+Reference render(const PixelTracer& tracer, const ReferenceSettings& settings, double seconds_before = 0) {
     const ReferenceRun run;
-    RenderClock clock{.run = run};
+    RenderClock clock{.run = run, .seconds_before = seconds_before};
     ReferenceState state = empty_state(extent, settings);
     render_until_limits(state, tracer, clock);
     return std::move(state.reference);
 }
+
+/// Earlier runs stand for the clock: beside 10^9 s those of a test are nothing, however slow the machine is.
+constexpr double long_limit = 1e9;
 
 double sum_of(const HostImage& image) { return std::accumulate(image.values.begin(), image.values.end(), 0.0); }
 
@@ -115,6 +120,37 @@ TEST(SampleAllocation, KeepsAllThatIsTraced) {
         EXPECT_LE(r.rays, samples + passes * double(r.sample_count.values.size()));  // and first hits
         EXPECT_EQ(sum_of(r.lobe_samples), samples);
     }
+}
+
+TEST(SampleAllocation, GivesEveryPixelItsFirstSamplesHoweverLateItIs) {
+    for (const float target : {0.0f, 0.05f}) {
+        const Reference r = render(rare_bright_paths(1e-2, [](unsigned, unsigned) { return 4; }),
+                                   {.max_seconds = long_limit, .target_relative_error = target}, 2 * long_limit);
+        EXPECT_EQ(r.passes, "16");
+        EXPECT_TRUE(std::ranges::all_of(r.sample_count.values, [](float n) { return n == 16; })) << target;
+    }
+}
+
+TEST(SampleAllocation, IsCutWithinFivePercentOfTheTimeLimit) {
+    for (const double share_of_limit : {0.5, 1.04, 1.06})
+        for (const bool can_be_cut : {false, true}) {
+            const ReferenceRun run;
+            ReferenceState state = empty_state(extent, {});
+            state.sample_goal = HostImage(extent, 1, 32.0f);
+            RenderClock clock{.run = run,
+                              .seconds_before = share_of_limit * long_limit,
+                              .time_limit = long_limit,
+                              .cuts_pass = can_be_cut};
+            const PixelTracer tracer = rare_bright_paths(1e-2, [](unsigned, unsigned) { return 5; });
+            tbb::task_arena(1).execute([&] { render_pass(state, tracer, clock); });
+            // A single thread looks at the clock after each pixel, which is traced whole or not at all.
+            const bool is_cut = can_be_cut && share_of_limit > 1.05;
+            const std::vector<float>& counts = state.reference.sample_count.values;
+            const auto pixels_of = [&](float samples) { return size_t(std::ranges::count(counts, samples)); };
+            EXPECT_EQ(pixels_of(32), is_cut ? 1 : counts.size()) << share_of_limit;
+            EXPECT_EQ(pixels_of(0), is_cut ? counts.size() - 1 : 0) << share_of_limit;
+            EXPECT_EQ(state.sample_goal.values, counts) << share_of_limit;
+        }
 }
 
 TEST(SampleAllocation, IsWithoutBiasWhereBrightPathsAreRare) {

@@ -4,6 +4,7 @@
 #include "metrics/statistics.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -180,6 +181,26 @@ TEST(Noise, NoIntervalIsGivenWhereNoneWouldCover) {
     terms.samples = 16;
     EXPECT_FALSE(noise_half_width(terms, ten)) << "160 samples miss what is rare";
     EXPECT_TRUE(noise_half_width(terms, full_mask(extent)));
+}
+
+TEST(Noise, OfDifferencesIsToldByFewPixelsIfEitherSaysSo) {
+    // 64 pixels. The swaps of 16 are 1, and the batches find the same variance in all: 16 degrees, of what is no
+    // difference 64. If they find it in 10 of them alone it is 10. Student's t from tables.
+    const Mask all = full_mask({8, 8});
+    const auto half_width = [&](size_t swapped_pixels, size_t variance_pixels, bool is_difference) {
+        NoiseTerms terms({8, 8}, 48);
+        std::fill_n(terms.swapped.values.begin(), swapped_pixels, 1.0);
+        std::fill_n(terms.variance.values.begin(), variance_pixels, 2.0);
+        terms.is_difference = is_difference;
+        return noise_half_width(terms, all);
+    };
+    EXPECT_NEAR(half_width(16, 64, true).value(), 2.119905 * 4, 1e-4);
+    EXPECT_NEAR(half_width(16, 64, false).value(), 1.997730 * 4, 1e-4);
+    EXPECT_NEAR(half_width(16, 10, true).value(), 2.228139 * 4, 1e-4);
+    EXPECT_NEAR(half_width(16, 10, false).value(), 2.228139 * 4, 1e-4);
+    EXPECT_TRUE(half_width(8, 64, true));
+    EXPECT_FALSE(half_width(7, 64, true)) << "seven pixels bear all of the difference";
+    EXPECT_TRUE(half_width(7, 64, false));
 }
 
 TEST(Noise, TheRatioOfMeansHasAnIntervalOfItsOwn) {

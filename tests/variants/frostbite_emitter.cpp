@@ -1,5 +1,7 @@
 #include "tests/variants/frostbite_emitter.h"
 
+#include "tests/variants/lobe_quadrature.h"
+
 namespace {
 
 /// The integral of g over t in (0, infinity), by the trapezoidal rule over ln t: it converges geometrically.
@@ -22,8 +24,9 @@ bool EmitterCase::is_emitter(glm::vec3 local) const {
     return local.z > 0 && dot(axis, local) > std::cos(glm::radians(emitter_degrees));
 }
 
-EmitterTruth emitter_truth(const EmitterCase& scene, unsigned lobe) {
+EmitterTruth emitter_truth(const EmitterCase& scene, unsigned lobe, float importance_bias) {
     const glm::vec3 o = scene.o();
+    const LobeCase truncated{lobe, scene.roughness, scene.view_degrees, importance_bias};
     EmitterTruth truth;
     const int rows = 180, columns = 180;  // half a turn: the other half mirrors it
     double above = 0;
@@ -32,8 +35,10 @@ EmitterTruth emitter_truth(const EmitterCase& scene, unsigned lobe) {
             const double polar = (row + 0.5) / rows * M_PI / 2, azimuth = (column + 0.5) / columns * M_PI;
             const glm::vec3 i(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
                               std::cos(polar));
-            const LobePoint point{lobe_density(lobe, o, i, scene.alpha()), ggx_specular(o, i, scene.alpha()) * i.z,
-                                  scene.radiance(i), std::sin(polar) * M_PI / 2 / rows * 2 * M_PI / columns};
+            if (importance_bias > 0 && !is_left_by_truncation(truncated, normalize(glm::dvec3(o + i)))) continue;
+            const LobePoint point{lobe_density(lobe, o, i, scene.alpha()) / (1 - importance_bias),
+                                  ggx_specular(o, i, scene.alpha()) * i.z, scene.radiance(i),
+                                  std::sin(polar) * M_PI / 2 / rows * 2 * M_PI / columns};
             truth.reflectance += point.reflected * point.solid_angle;
             truth.reflected += point.reflected * point.radiance * point.solid_angle;
             above += point.density * point.solid_angle;

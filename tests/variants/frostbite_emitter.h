@@ -20,22 +20,23 @@ struct EmitterCase {
 
 /// A direction of the upper hemisphere with its share of an integral over the sphere.
 struct LobePoint {
-    double density;    ///< of the lobe (sr^-1)
+    double density;    ///< of the truncated lobe (sr^-1)
     double reflected;  ///< BRDF times cosine, without Fresnel
     double radiance;
     double solid_angle;
 };
 
-/// What quadrature says of a case and a lobe without truncation.
+/// What quadrature says of a case and a lobe: of the directions that truncation leaves, which without it are all.
 struct EmitterTruth {
     std::vector<LobePoint> points;
     double reflectance = 0;    ///< integral of the BRDF
     double reflected = 0;      ///< of radiance times BRDF
-    double below_horizon = 0;  ///< share of the lobe's draws
+    double below_horizon = 0;  ///< share of the truncated lobe's draws
 
     double mean() const { return reflected / reflectance; }
 };
-EmitterTruth emitter_truth(const EmitterCase& scene, unsigned lobe);
+/// `importance_bias`: the share of the lobe that truncation takes.
+EmitterTruth emitter_truth(const EmitterCase& scene, unsigned lobe, float importance_bias = 0);
 
 /// Expectations of the estimators over `rays` independent rays of the pixel itself, each drawn again until it is above
 /// the horizon, relative to what they estimate. 1 / sum = integral of exp(-t sum) over t turns the mean of a ratio of
@@ -43,7 +44,7 @@ EmitterTruth emitter_truth(const EmitterCase& scene, unsigned lobe);
 double bias_of_a(const EmitterTruth& truth, unsigned rays);
 double bias_of_c(const EmitterTruth& truth);
 /// With this many `regenerations` at most: each ray counts its q / p and the share of the lobe that is below the
-/// horizon.
+/// horizon. What b estimates is `reflected` over the share of the lobe that truncation leaves.
 double bias_of_b(const EmitterTruth& truth, unsigned rays, unsigned regenerations);
 
 /// Density of the lobe over that with which a ray above the horizon comes about.

@@ -116,7 +116,8 @@ struct EmitterBench {
     std::vector<double> means(unsigned lobe, unsigned regenerations) {
         std::vector<double> result;
         std::mt19937 random(1);
-        const float factor = float(redrawn_factor(emitter_truth(scene, lobe), regenerations));  // by quadrature
+        const EmitterTruth truth = emitter_truth(scene, lobe, bench.ray_parameters.importance_bias);
+        const float factor = float(redrawn_factor(truth, regenerations));  // by quadrature
         for (unsigned seed = 0; seed < 24; ++seed) {
             bench.set_frame(seed, seed);
             result.push_back(resolve(draw(lobe, regenerations, factor, random)));
@@ -225,6 +226,20 @@ TEST_F(FrostbiteEstimators, BIsUnbiasedWhereTheLobeBelowTheHorizonCounts) {
         expect_bias(means(0, {{"taps", "4"}, {"reflectance_after_filter", true}}), truth.mean(), 0,
                     "before the BRDF, " + what);
     }
+}
+
+/// b's second sum then estimates the part of the lobe that truncation leaves, and what of that is below the horizon has
+/// the same scale. With normals seen at 75 degrees that is 14 % of the draws: were it counted as of the whole lobe,
+/// twice as much, the mean would be 12 % too small. (Of visible normals truncation leaves next to nothing there.)
+TEST_F(FrostbiteEstimators, BCountsWhatTruncationLeavesBelowTheHorizon) {
+    const Reported r{{0.5f, 75}, lobe_of_normals, 0, 0, 0, 0};
+    const float bias = 0.5f;
+    const EmitterTruth truth = emitter_truth(r.scene, r.lobe, bias);
+    EXPECT_GT(truth.below_horizon, 0.1);
+    const std::vector<double> means = shader_means(
+        device(), r, 4,
+        {{"estimator", "b"}, {"taps", "4"}, {"reflectance_after_filter", false}, {"importance_bias", bias}});
+    expect_bias(means, truth.reflected / (1 - bias), bias_of_b(truth, 4, 4), "truncated, " + name_of(r.scene, r.lobe));
 }
 
 }  // namespace

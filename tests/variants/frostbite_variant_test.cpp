@@ -156,7 +156,7 @@ TEST_F(FrostbiteVariantTest, RepeatsItselfUnlessTheSeedDiffers) {
 }
 
 struct FrostbiteSubgroups : FrostbiteVariantTest {
-    LayeredImage image() { return {.layers = {{"", "RGBA", render({}, "ours", glossy_floor, 3)}}, .attributes = {}}; }
+    LayeredImage image() { return {.layers = {{"", "RGBA", render({}, "best", glossy_floor, 3)}}, .attributes = {}}; }
 };
 
 /// Run by the test below, with subgroups of another size.

@@ -11,10 +11,12 @@ struct MirrorFloor : VariantTest {
     std::unique_ptr<Variant> variant = make_variant("mcguire_dda");
     SyntheticScene scene = mirror_floor;
     HostImage radiance, confidence, hit;
+    HostImage geometric_normal;  ///< empty: the scene's
 
     void render() {
         const CameraData camera = camera_data(pose, nullptr, view);
         const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
+        if (!geometric_normal.values.empty()) graph.upload(gbuffer.geometric_normal, geometric_normal);
         graph.begin_frame(camera, variant->params, gbuffer.images());
         const Reflections reflections = variant->render(graph, gbuffer);
         radiance = graph.download(reflections.radiance);
@@ -119,6 +121,30 @@ TEST_F(MirrorFloor, RefinesLongStrides) {
     EXPECT_LT(mean_error(), 0.5 * coarse);
 }
 
+TEST_F(MirrorFloor, StartsEveryOtherRayHalfAStrideLaterIfAsked) {
+    // The camera looks level over a level floor, so that rays run along columns, those of the border too: 8, 16, 24...
+    // pixels from their own are tested, of every other ray 12, 20, 28...
+    variant = make_variant("mcguire_dda", {{"stride", 8}, {"checkerboard", true}, {"thickness", 10.0}});
+    render();
+    unsigned count = 0;
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 0; x < extent.x; ++x) {
+            const Mirrored m = mirrored(x, y);
+            if (!m.is_floor) continue;
+            ++count;
+            // The first tested pixel whose voxel, half a stride to both sides, reaches the wall: no voxel of these ends
+            // within half a pixel of it.
+            const float first = (x + y) % 2 == 0 ? 8 : 12, to_wall = std::abs(m.pixel.y - (float(y) + 0.5f));
+            const float strides = std::max(0.0f, std::ceil((to_wall - 4 - first) / 8));
+            const float* h = hit.pixel(x, y);
+            ASSERT_NE(h[3], 0) << x << ", " << y;
+            const glm::vec2 way = glm::vec2(h[0], h[1]) * glm::vec2(extent) - (glm::vec2(x, y) + 0.5f);
+            ASSERT_NEAR(way.x, 0, 0.01f) << x << ", " << y;  // rounding of float32
+            ASSERT_NEAR(std::abs(way.y), first + 8 * strides, 0.01f) << x << ", " << y;
+        }
+    EXPECT_GT(count, 10000u);
+}
+
 TEST_F(MirrorFloor, FiltersTheColorAtTheHitIfAsked) {
     // The lit colour is its own place on the screen, so that filtering returns the hit's place and the tested pixel its
     // centre.
@@ -162,6 +188,28 @@ TEST_F(MirrorFloor, NeverMeetsItself) {
         render();
         EXPECT_EQ(std::ranges::count_if(confidence.values, [](float c) { return c != 0; }), 0);
     }
+}
+
+TEST_F(MirrorFloor, TracesRaysIntoTheSurfaceUnlessToldNotTo) {
+    // In the right half the geometric floor leans towards the camera so much that every mirror ray, which goes away
+    // from it, is below.
+    render();
+    const HostImage all = hit;
+    geometric_normal = HostImage(extent, 4);
+    for (size_t i = 0; i < all.pixel_count(); ++i)
+        geometric_normal.set_rgb(i, i % extent.x < extent.x / 2 ? glm::vec3(0, 1, 0) : normalize(glm::vec3(0, 1, 3)));
+    render();
+    EXPECT_EQ(hit.values, all.values);
+    variant->params.assign({{"trace_inward_rays", false}});
+    render();
+    unsigned kept = 0, left_out = 0;
+    for (size_t i = 0; i < all.pixel_count(); ++i) {
+        const bool is_left = i % extent.x < extent.x / 2;
+        for (size_t c = 4 * i; c < 4 * i + 4; ++c) ASSERT_EQ(hit.values[c], is_left ? all.values[c] : 0.0f) << i;
+        if (all.values[4 * i + 3] != 0) ++(is_left ? kept : left_out);
+    }
+    EXPECT_GT(kept, 5000u);
+    EXPECT_GT(left_out, 5000u);
 }
 
 TEST_F(MirrorFloor, LeavesRoughAndMatteSurfacesToTheFallback) {

@@ -36,14 +36,16 @@ vec3 clip_to_near_plane(Ray ray) {
     return ray.origin + ray.direction * reach;
 }
 
-// The share of the line from b back to a that lies outside of the screen.
+// The share of the line from b back to a that lies outside of the screen. A hundredth of a pixel is passed over: a line that
+// runs along the border, from the centre of a pixel there, is outside by rounding alone, and all of it.
 float outside_share(vec2 a, vec2 b) {
+    const float rounding = 0.01;
     vec2 low = vec2(0.5), high = camera.extent.xy - 0.5;
     float share = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
         float bound = b[axis] > high[axis] ? high[axis] : b[axis] < low[axis] ? low[axis] : b[axis];
         // An origin in the outermost half pixel of a jittered G-buffer may lie outside too: the line is empty then.
-        if (b[axis] != bound) share = max(share, min((b[axis] - bound) / (b[axis] - a[axis]), 1.0));
+        if (abs(b[axis] - bound) > rounding) share = max(share, min((b[axis] - bound) / (b[axis] - a[axis]), 1.0));
     }
     return share;
 }
