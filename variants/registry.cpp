@@ -15,6 +15,44 @@ std::unique_ptr<Variant> create() {
     return std::make_unique<T>();
 }
 
+nlohmann::json with(nlohmann::json parameters, const nlohmann::json& more) {
+    parameters.update(more);
+    return parameters;
+}
+
+const nlohmann::json amd_corrected = {{"min_traversal_occupancy", 0},     {"thickness_at_hit_mip", true},
+                                      {"independent_noise_shifts", true}, {"trace_orphans", true},
+                                      {"clip_ray_to_near_plane", true},   {"guard_zero_direction", true},
+                                      {"guard_mirror_normal", true},      {"redraw_below_horizon", true},
+                                      {"inward_rays", "black"},           {"stop_outside_screen", true},
+                                      {"refine_partial_texels", true},    {"reject_unfinished", true},
+                                      {"rate_stored_roughness", true},    {"barrier_before_average", true},
+                                      {"current_sample_count", true},     {"no_dark_exit", true},
+                                      {"running_variance", true},         {"round_up_tiles", true},
+                                      {"reproject_history_depth", true},  {"guard_previous_clip", true},
+                                      {"finite_neighborhood", true},      {"fresh_neighborhood", true},
+                                      {"float_histories", true}};
+
+const nlohmann::json diligent_corrected = {{"temporal_radiance_stability_factor", 0.9},
+                                           {"clamp_partial_texels", true},
+                                           {"unproject_jitter", true},
+                                           {"bias_towards_mirror", true},
+                                           {"clip_ray_to_near_plane", true},
+                                           {"relative_ray_step", true},
+                                           {"inward_rays", "missed"},
+                                           {"stop_outside_screen", true},
+                                           {"reject_unfinished", true},
+                                           {"independent_noise_shifts", true},
+                                           {"float_rays", true},
+                                           {"premultiply_confidence", true},
+                                           {"nearest_half_rays", true},
+                                           {"axial_hit_depth", true},
+                                           {"linear_hit_depth", true},
+                                           {"centered_search", true},
+                                           {"guard_previous_clip", true},
+                                           {"finite_weights", true},
+                                           {"float_histories", true}};
+
 const std::vector<VariantEntry> table = {
     {
         .name = "none",
@@ -32,15 +70,19 @@ const std::vector<VariantEntry> table = {
         .description = "One mirror ray per pixel, walked pixel by pixel along its line on the screen until it passes "
                        "behind a surface.",
         .needs = {"has_reflective", "min_roughness"},
-        .presets = {{"published",
-                     "the first interval starts at the ray's origin, as in the paper",
-                     {{"interval_from_origin", true}}},
-                    {"coarse",
-                     "every fourth pixel, dithered, with the authors' refinement",
-                     {{"stride", 4}, {"checkerboard", true}, {"refine", true}}},
-                    {"any_scale",
-                     "thickness as a share of the depth, for scenes of any size",
-                     {{"thickness", 0.0}, {"relative_thickness", 0.02}}}},
+        .presets =
+            {{"published",
+              "the first interval starts at the ray's origin, as in the paper",
+              {{"interval_from_origin", true}}},
+             {"coarse",
+              "every fourth pixel, dithered, with the authors' refinement",
+              {{"stride", 4}, {"checkerboard", true}, {"refine", true}}},
+             {"any_scale",
+              "thickness as a share of the depth, for scenes of any size",
+              {{"thickness", 0.0}, {"relative_thickness", 0.02}}},
+             {"best",
+              "the least error that experiments/configs/search_mcguire_dda.json found",
+              {{"interval_from_origin", true}, {"jitter", 1.5}, {"bilinear_color", true}, {"max_roughness", 0.3}}}},
         .create = create<McGuireDda>,
     },
     {
@@ -65,18 +107,19 @@ const std::vector<VariantEntry> table = {
              {"corrected",
               "every defect mended, and no early exit of thinly occupied subgroups; what only changes a choice of the "
               "original's is left as it is",
-              {{"min_traversal_occupancy", 0},     {"thickness_at_hit_mip", true},
-               {"independent_noise_shifts", true}, {"trace_orphans", true},
-               {"clip_ray_to_near_plane", true},   {"guard_zero_direction", true},
-               {"guard_mirror_normal", true},      {"redraw_below_horizon", true},
-               {"inward_rays", "black"},           {"stop_outside_screen", true},
-               {"refine_partial_texels", true},    {"reject_unfinished", true},
-               {"rate_stored_roughness", true},    {"barrier_before_average", true},
-               {"current_sample_count", true},     {"no_dark_exit", true},
-               {"running_variance", true},         {"round_up_tiles", true},
-               {"reproject_history_depth", true},  {"guard_previous_clip", true},
-               {"finite_neighborhood", true},      {"fresh_neighborhood", true},
-               {"float_histories", true}}}},
+              amd_corrected},
+             {"best",
+              "the least error that experiments/configs/search_amd_sssr.json found, from `corrected` on: rougher "
+              "surfaces traced, contact hits and thicker surfaces accepted, narrower filters, history clipped closer",
+              with(amd_corrected, {{"max_traversal_intersections", 4096},
+                                   {"roughness_threshold_alpha", 0.4},
+                                   {"accept_contact_hits", true},
+                                   {"depth_buffer_thickness", 0.15},
+                                   {"average_pull", 0.0},
+                                   {"prefilter_variance_weight", 2.2},
+                                   {"radiance_weight_bias", 0.3},
+                                   {"temporal_stability_factor", 0.5},
+                                   {"clip_scale", 1.4}})}},
         .create = create<AmdSssr>,
     },
     {
@@ -100,25 +143,17 @@ const std::vector<VariantEntry> table = {
                     {"corrected",
                      "every defect mended, and history that averages; what only changes a choice of the original's is "
                      "left as it is",
-                     {{"temporal_radiance_stability_factor", 0.9},
-                      {"clamp_partial_texels", true},
-                      {"unproject_jitter", true},
-                      {"bias_towards_mirror", true},
-                      {"clip_ray_to_near_plane", true},
-                      {"relative_ray_step", true},
-                      {"inward_rays", "missed"},
-                      {"stop_outside_screen", true},
-                      {"reject_unfinished", true},
-                      {"independent_noise_shifts", true},
-                      {"float_rays", true},
-                      {"premultiply_confidence", true},
-                      {"nearest_half_rays", true},
-                      {"axial_hit_depth", true},
-                      {"linear_hit_depth", true},
-                      {"centered_search", true},
-                      {"guard_previous_clip", true},
-                      {"finite_weights", true},
-                      {"float_histories", true}}}},
+                     diligent_corrected},
+                    {"best",
+                     "the least error that experiments/configs/search_diligent.json found, from `corrected` on: "
+                     "rougher surfaces traced",
+                     with(diligent_corrected, {{"max_traversal_intersections", 4096},
+                                               {"roughness_threshold", 0.6},
+                                               {"float_roughness", true},
+                                               {"accept_contact_hits", true},
+                                               {"temporal_radiance_stability_factor", 0.8},
+                                               {"spatial_reconstruction_radius", 2},
+                                               {"ggx_importance_sample_bias", 0.15}})}},
         .limits = {.api = Limits::webgl2, .lifted_by = {{"hierarchy", "mip_views"}}},
         .create = create<DiligentSsr>,
     },
@@ -145,19 +180,17 @@ const std::vector<VariantEntry> table = {
               "the published comparison, which takes twice as long and looks worse: 4 rays per half-resolution "
               "pixel in place of reuse",
               {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
-             {"ours",
-              "what a coordinate descent over stated scenes ended with, see variants/frostbite_sssr/README.md, which "
-              "also names what has less error by other measures or in more time: 4 interleaved taps of rays drawn from "
-              "most of the lobe of visible normals, at their full density; misses, "
-              "and hits that the previous frame did not show, see the environment; a shorter history. None of this was "
-              "published",
-              {{"lobe", "visible_normals"},
-               {"importance_bias", 0.15},
-               {"pattern", "interleaved"},
-               {"reuse_jacobian", true},
-               {"misses", "fallback"},
+             {"best",
+              "the least error that experiments/configs/search_frostbite.json found: one ray per pixel from 0.7 of the "
+              "lobe of visible normals; hits that the previous frame did not show see the environment",
+              {{"half_resolution", false},
+               {"lobe", "visible_normals"},
+               {"importance_bias", 0.3},
+               {"relative_thickness", 0.02},
                {"hidden_hits", "miss"},
-               {"history_weight", 0.8}}}},
+               {"cone_scale", 0.5},
+               {"pattern", "interleaved"},
+               {"clamp_scale", 1.0}}}},
         .create = create<FrostbiteSssr>,
     },
 };
