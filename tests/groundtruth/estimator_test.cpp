@@ -85,7 +85,7 @@ void expect_same_sum(const Render& a, const Render& b, Moments PixelMoments::*me
         variance += std::pow(one.standard_error.x, 2) + std::pow(other.standard_error.x, 2);
     }
     EXPECT_NEAR(sum_a, sum_b, 5 * std::sqrt(variance));  // p = 1.6e-4 if one pixel's 15 degrees bear all noise
-    EXPECT_LE(std::sqrt(variance), 0.01 * sum_b);            // found: 0.0007 to 0.0022; else this proves little
+    EXPECT_LE(std::sqrt(variance), 0.01 * sum_b);        // found: 0.0007 to 0.0022; else this proves little
 }
 
 void expect_same_means(const Render& a, const Render& b) {
