@@ -45,20 +45,6 @@ double incomplete_beta(double a, double b, double x) {
     return front / continued_fraction(1, term);
 }
 
-/// Regularised lower incomplete gamma function P(a, x): its series (DLMF 8.11.4) below a + 1, else one minus the
-/// continued fraction of Q (DLMF 8.9.2).
-double incomplete_gamma(double a, double x) {
-    if (x <= 0) return 0;
-    const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
-    if (x < a + 1) {
-        double term = 1 / a, sum = term;
-        for (double n = a + 1; term > sum * epsilon; ++n) sum += term *= x / n;
-        return front * sum;
-    }
-    const auto term = [=](int n) -> Term { return {-n * (n - a), x + 2 * n + 1 - a}; };
-    return 1 - front / continued_fraction(x + 1 - a, term);
-}
-
 /// The x at which the increasing function reaches the probability, by bisection between bounds that are widened first.
 template <class Cdf>
 double inverse(const Cdf& cdf, double probability, double low, double high) {
@@ -76,9 +62,9 @@ void check_degrees(double degrees) {
     if (!(degrees > 0)) fail("degrees of freedom must be above 0, not ", degrees);
 }
 
-}  // namespace
-
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+
+}  // namespace
 
 double normal_quantile(double probability) { return inverse(normal_cdf, probability, -1, 1); }
 
@@ -91,14 +77,4 @@ double student_t_cdf(double t, double degrees) {
 double student_t_quantile(double probability, double degrees) {
     check_degrees(degrees);
     return inverse([=](double t) { return student_t_cdf(t, degrees); }, probability, -1, 1);
-}
-
-double chi_square_cdf(double x, double degrees) {
-    check_degrees(degrees);
-    return incomplete_gamma(degrees / 2, x / 2);
-}
-
-double chi_square_quantile(double probability, double degrees) {
-    check_degrees(degrees);
-    return inverse([=](double x) { return chi_square_cdf(x, degrees); }, probability, 0, degrees);
 }
