@@ -76,9 +76,9 @@ def draw_legend(part, panels, names=()):
 
 
 def shot_title(shot):
-    """Long names of shots are broken at a dot."""
+    """Names of shots that are wider than a panel, of which there may be four in a row, are broken at a dot."""
     parts = shot.split(".")
-    return shot if len(shot) <= 34 or len(parts) < 3 else ".".join(parts[:2]) + "\n." + ".".join(parts[2:])
+    return shot if len(shot) <= 24 or len(parts) < 3 else ".".join(parts[:2]) + "\n." + ".".join(parts[2:])
 
 
 def log_axis(axis, subs=(1, 2, 5)):
