@@ -111,7 +111,7 @@ TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
 }
 
 /// Every combination with the published lobe, and all filtered ones with the other, on the same seeds.
-TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndFilter) {
+TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
     const Config config = read_config(source / "experiments/configs/frostbite.json");
     std::set<std::string> scenes;
     for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
@@ -130,8 +130,9 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndFilter) {
             nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"], p["filtered_sampling"]}
                 .dump());
     }
-    EXPECT_EQ(combinations["normals"].size(), 3u * 3 * 2 * 2 * 2);
-    EXPECT_EQ(combinations["visible_normals"].size(), 3u * 3 * 2 * 2);
+    // Forms x taps x rays x truncation; of the reference form also single taps, and without filtered sampling.
+    EXPECT_EQ(combinations["normals"].size(), 3u * 2 * 2 * 2 + 2 + 2 * 2 * 2);
+    EXPECT_EQ(combinations["visible_normals"].size(), 3u * 2 * 2 * 2);
 }
 
 /// Every switch and choice of the technique, alone.
