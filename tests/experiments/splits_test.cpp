@@ -6,26 +6,36 @@
 #include <cmath>
 #include <random>
 
+namespace {
+
+HostImage noisy_image(glm::uvec2 extent, float mean, float deviation, std::mt19937& random) {
+    std::normal_distribution<float> noise(mean, deviation);
+    HostImage image(extent, 3);
+    for (float& v : image.values) v = noise(random);
+    return image;
+}
+
+/// A reference of 1 everywhere, whose halves have a standard deviation of 0.2 in every channel.
+MetricReference noisy_reference(glm::uvec2 extent, std::mt19937& random) {
+    const ReferenceHalves halves{.a = noisy_image(extent, 1.0f, 0.2f, random),
+                                 .b = noisy_image(extent, 1.0f, 0.2f, random),
+                                 .variance = HostImage(extent, 3, 0.02f),
+                                 .guide = HostImage(extent, 3, 1.0f),
+                                 .samples = 64};
+    HostImage mean = halves.a;
+    for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = 0.5f * (halves.a.values[i] + halves.b.values[i]);
+    return metric_reference(mean, halves, {"mse"}, {});
+}
+
+}  // namespace
+
 TEST(Splits, FindTheBiasAndTheVariance) {
     // Bias 0.5 and standard deviation 0.3 in every channel of 64x64 pixels and 16 seeds; halves of a reference of 1
     // with a standard deviation of 0.2.
     std::mt19937 random(1);
-    const auto noisy = [&](float mean, float deviation) {
-        std::normal_distribution<float> noise(mean, deviation);
-        HostImage image({64, 64}, 3);
-        for (float& v : image.values) v = noise(random);
-        return image;
-    };
-    const ReferenceHalves halves{.a = noisy(1.0f, 0.2f),
-                                 .b = noisy(1.0f, 0.2f),
-                                 .variance = HostImage({64, 64}, 3, 0.02f),
-                                 .guide = HostImage({64, 64}, 3, 1.0f),
-                                 .samples = 64};
-    HostImage mean = halves.a;
-    for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = 0.5f * (halves.a.values[i] + halves.b.values[i]);
-    const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
+    const MetricReference reference = noisy_reference({64, 64}, random);
     SeedSplit split{reference};
-    for (unsigned seed = 0; seed < 16; ++seed) split.add(seed, noisy(1.5f, 0.3f));
+    for (unsigned seed = 0; seed < 16; ++seed) split.add(seed, noisy_image({64, 64}, 1.5f, 0.3f, random));
     const std::vector<Mask> masks = {full_mask({64, 64}),
                                      {.name = "none", .extent = {64, 64}, .inside = std::vector<uint8_t>(64 * 64)}};
     const std::vector<SplitRow> rows = split_rows(split, masks, {.shot = "s"});
@@ -85,18 +95,7 @@ TEST(Splits, HoldTheNoiseOfTheReferenceInTheIntervalOfTheBias) {
     // Seeds without any scatter: all that is uncertain of the bias of 0.5 is the reference, whose halves have a
     // standard deviation of 0.2 in 12288 values.
     std::mt19937 random(2);
-    std::normal_distribution<float> noise(1.0f, 0.2f);
-    ReferenceHalves halves{.a = HostImage({64, 64}, 3),
-                           .b = HostImage({64, 64}, 3),
-                           .variance = HostImage({64, 64}, 3, 0.02f),
-                           .guide = HostImage({64, 64}, 3, 1.0f),
-                           .samples = 64};
-    HostImage mean({64, 64}, 3);
-    for (size_t i = 0; i < mean.values.size(); ++i) {
-        halves.a.values[i] = noise(random), halves.b.values[i] = noise(random);
-        mean.values[i] = 0.5f * (halves.a.values[i] + halves.b.values[i]);
-    }
-    const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
+    const MetricReference reference = noisy_reference({64, 64}, random);
     SeedSplit split{reference};
     for (unsigned seed = 0; seed < 4; ++seed) split.add(seed, HostImage({64, 64}, 3, 1.5f));
     const SplitRow row = split_rows(split, std::vector{full_mask({64, 64})}, {.shot = "s"}).at(0);
@@ -157,18 +156,8 @@ TEST(Splits, NeedTwoSeeds) {
 
 TEST(Splits, OfAPointWithoutSeedsAreAllBias) {
     std::mt19937 random(3);
-    std::normal_distribution<float> noise(1.0f, 0.2f);
-    ReferenceHalves halves{.a = HostImage({16, 16}, 3),
-                           .b = HostImage({16, 16}, 3),
-                           .variance = HostImage({16, 16}, 3, 0.02f),
-                           .guide = HostImage({16, 16}, 3, 1.0f),
-                           .samples = 64};
-    for (HostImage* half : {&halves.a, &halves.b})
-        for (float& v : half->values) v = noise(random);
-    HostImage mean = halves.a;
-    for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = (halves.a.values[i] + halves.b.values[i]) / 2;
     const std::vector<Mask> masks = {full_mask({16, 16})};
-    const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
+    const MetricReference reference = noisy_reference({16, 16}, random);
     SeedSplit split{reference};
     split.add(5, HostImage({16, 16}, 3, 1.5f));
     EXPECT_TRUE(split_rows(split, masks, {}).empty());
