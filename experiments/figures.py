@@ -39,8 +39,6 @@ STUDY_FIGURES = {
     "roughness_error": roughness.draw_error,
     "roughness_bias": roughness.draw_bias,
     "bias_variance": bias_variance.draw,
-    "effects": effects.draw,
-    "otherwise_equal": effects.draw_otherwise_equal,
     "temporal": temporal.draw,
     "frames": frames.draw,
 }
@@ -70,7 +68,12 @@ def main():
             (f"{name}_{shot}", draw, (results, shot, errors, arguments))
             for shot in results.shots()
             for name, draw in SHOT_FIGURES.items()
-        ] + [(name, draw, (results, arguments)) for name, draw in STUDY_FIGURES.items()]
+        ]
+        drawings += [(name, draw, (results, arguments)) for name, draw in STUDY_FIGURES.items()]
+        drawings += [
+            (name, effects.draw, (results, arguments, rows))
+            for name, rows in effects.comparisons(results, arguments).items()
+        ]
         written = []
         for name, draw, what in drawings:
             figure = draw(*what)

@@ -36,22 +36,27 @@ def _rows(results, chosen):
     ]
 
 
-def draw(results, chosen):
-    rows = [e for e in _rows(results, chosen) if e["against"] == "baseline"]
-    if not rows:
-        return None
-    baseline = (rows[0]["against_variant"], rows[0]["against_point"])
-    rows = [e for e in rows if (e["against_variant"], e["against_point"]) == baseline]
-    return _draw(results, chosen, rows, _groups(results, rows), label(*baseline))
+def comparisons(results, chosen):
+    """What `draw` draws, by the name of the figure's file: for each baseline its changes, and for each value that points
+    are compared with which are otherwise the same (`against` of a config) those points."""
+    found = {}
+    for e in _rows(results, chosen):
+        is_baseline = e["against"] == "baseline"
+        other = label(e["against_variant"], e["against_point"]) if is_baseline else f"{e['variant']} {e['against']}"
+        found.setdefault(("effects" if is_baseline else "otherwise_equal", other), []).append(e)
+    kinds = [kind for kind, _ in found]
+    return {
+        kind if kinds.count(kind) == 1 else f"{kind}_{other}": rows
+        for (kind, other), rows in found.items()
+    }
 
 
-def draw_otherwise_equal(results, chosen):
-    rows = [e for e in _rows(results, chosen) if e["against"] != "baseline"]
-    if not rows:
-        return None
-    rows = [e for e in rows if (e["variant"], e["against"]) == (rows[0]["variant"], rows[0]["against"])]
-    groups = {key: label(*key) for key in dict.fromkeys((e["variant"], e["point"]) for e in rows)}
-    return _draw(results, chosen, rows, groups, f"{rows[0]['against']} and otherwise the same")
+def draw(results, chosen, rows):
+    if rows[0]["against"] != "baseline":
+        groups = {key: label(*key) for key in dict.fromkeys((e["variant"], e["point"]) for e in rows)}
+        return _draw(results, chosen, rows, groups, f"{rows[0]['against']} and otherwise the same")
+    baseline = label(rows[0]["against_variant"], rows[0]["against_point"])
+    return _draw(results, chosen, rows, _groups(results, rows), baseline)
 
 
 def _short(groups):

@@ -20,7 +20,7 @@ try:
     import numpy as np
     from figures import SHOT_FIGURES, STUDY_FIGURES
     from matplotlib.text import Text
-    from paper_figures import style
+    from paper_figures import effects, style
     from paper_figures.crops import crop_boxes
     from paper_figures.exr import ExrError, read_exr_rgb
     from paper_figures.lines import draw_lines
@@ -160,6 +160,8 @@ def test_study(folder):
     chosen = argparse.Namespace(target="specular", metric=results.headline_metric(), mask="reflective")
     errors = results.errors_of(chosen.target, chosen.metric, chosen.mask)
     figures_of = {name: draw(results, chosen) for name, draw in STUDY_FIGURES.items()}
+    compared = effects.comparisons(results, chosen)
+    figures_of |= {name: effects.draw(results, chosen, rows) for name, rows in compared.items()}
     panels = {name: [a for a in figure.get_axes() if a.has_data()] for name, figure in figures_of.items()}
     is_single = lambda r: "=" in r["point"]
 
@@ -177,9 +179,11 @@ def test_study(folder):
     check(drawn(panels["bias_variance"], "x") == sorted(expected), "bias and variance")
     texts = [t.get_text() for a in panels["bias_variance"] for t in a.texts]
     check(len(texts) == 7 and all("about 0" in t for t in texts), f"biases that are not above 0: {texts}")
-    effects = [e for e in results.effects if (e["metric"], e["mask"], e["variant"]) == ("relmse", "reflective", "sssr")]
+    all_effects = [
+        e for e in results.effects if (e["metric"], e["mask"], e["variant"]) == ("relmse", "reflective", "sssr")
+    ]
     is_baseline = lambda e: e["against"] == "baseline"
-    against_baseline, otherwise_equal = filter(is_baseline, effects), [e for e in effects if not is_baseline(e)]
+    against_baseline, otherwise_equal = filter(is_baseline, all_effects), [e for e in all_effects if not is_baseline(e)]
     check(drawn(panels["effects"], "x") == numbers(against_baseline, "ratio"), "effects")
     check(len(otherwise_equal) == 7, "the fixture compares two points that differ in one value, in each shot")
     check(drawn(panels["otherwise_equal"], "x") == numbers(otherwise_equal, "ratio"), "points otherwise equal")
@@ -201,6 +205,21 @@ def test_study(folder):
         "without images there are no crops",
     )
     check_text_sizes(figures_of)
+
+
+def test_several_baselines(folder):
+    """Each baseline has a figure of its own, and none of the comparisons is left out."""
+    results = Results(folder)
+    chosen = argparse.Namespace(target="specular", metric="relmse", mask="reflective")
+    of_one = effects.comparisons(results, chosen)
+    second = [dict(e, variant="second", against_variant="second") for e in of_one["effects"]]
+    results.effects += second
+    of_two = effects.comparisons(results, chosen)
+    check(
+        sorted(of_two) == ["effects_second first", "effects_sssr first", "otherwise_equal"], f"figures: {sorted(of_two)}"
+    )
+    check(of_two["effects_second first"] == second, "comparisons with the second baseline")
+    check(of_two["effects_sssr first"] == of_one["effects"], "comparisons with the first")
 
 
 def check_text_sizes(figures_of):
@@ -225,3 +244,4 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     study = os.path.join(temporary, "study")
     subprocess.run([program, "--study", study], check=True)
     test_study(study)
+    test_several_baselines(study)
