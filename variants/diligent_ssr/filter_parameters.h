@@ -45,7 +45,7 @@ struct DiligentFilterParameters {
 
     Switch start_from_black{params, "start_from_black", false,
         {"", "the first frame blends with black histories, as in an application whose previous depth is then the frame's "
-         "own; with the default weight of history that black fades in hundreds of frames only. Otherwise the first frame "
+         "own; with the default weight of history averaging never takes that black away. Otherwise the first frame "
          "has no history, as where the previous depth is cleared", "DiligentFX leaves it to the application"}};
 
     // Corrections.
