@@ -80,6 +80,7 @@ void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows, b
     s.high = *s.value + std::hypot(from_seeds, has_rows ? mean(*highs) - *s.value : 0.0, from_light);
     // Corrected for the reference's noise an error may come out below 0 itself; no interval leaves its value out.
     if (is_error(s.metric)) s.low = std::max(*s.low, std::min(0.0, *s.value));
+    s.high = std::min(*s.high, greatest_value(s.metric));
 }
 
 MetricSummary summary_of(const std::vector<const ResultRow*>& rows, bool depends_on_seed) {

@@ -45,6 +45,12 @@ bool is_error(const std::string& metric) {
            is_lower_better(temporal_metrics(), &TemporalMetric::name, &TemporalMetric::better);
 }
 
+double greatest_value(const std::string& metric) {
+    const bool is_at_most_one = metric.find("ssim") != metric.npos || metric == "flip" || metric == "hdr_flip" ||
+                                metric == "flicker_correlation";
+    return is_at_most_one ? 1 : INFINITY;
+}
+
 TemporalScore empty_score(const std::string& metric, const Mask& mask, const Mask& finite) {
     const TemporalMetric& named = temporal_metric_named(metric);
     TemporalScore row{.metric = &named, .formula = named.formula, .mask = mask.name};

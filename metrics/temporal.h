@@ -28,6 +28,9 @@ const TemporalMetric& temporal_metric_named(const std::string& name);
 /// correction of noise. False for names that are not known.
 bool is_error(const std::string& metric);
 
+/// What no image's value exceeds: 1 of SSIM, FLIP and the correlation of flicker; of all others, infinity.
+double greatest_value(const std::string& metric);
+
 /// One row of results.
 struct TemporalScore {
     const TemporalMetric* metric;

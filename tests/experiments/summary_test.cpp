@@ -53,11 +53,11 @@ TEST(Summary, GivesASingleSeedNoIntervalUnlessAllAreEqual) {
 
 TEST(Summary, GivesTheSeedsAloneWhereTheReferencesNoiseIsNotKnown) {
     // FLIP of three seeds: Student's interval with two degrees of freedom, whose quantile is 4.303.
-    std::vector<ResultRow> rows = rows_of("flip", {11, 12, 13});
+    std::vector<ResultRow> rows = rows_of("flip", {0.11, 0.12, 0.13});
     for (ResultRow& row : rows) row.floor = 0.1;
     const MetricSummary flip = summary(rows);
-    EXPECT_NEAR(*flip.high - 12, 4.3027 / std::sqrt(3.0), 1e-4);
-    EXPECT_NEAR(12 - *flip.low, 4.3027 / std::sqrt(3.0), 1e-4);
+    EXPECT_NEAR(*flip.high - 0.12, 0.043027 / std::sqrt(3.0), 1e-6);
+    EXPECT_NEAR(0.12 - *flip.low, 0.043027 / std::sqrt(3.0), 1e-6);
     EXPECT_EQ(flip.interval, interval::seeds);
     EXPECT_FALSE(flip.holds_all_noise) << "so it is not ranked";
     EXPECT_EQ(summary_without_seeds(rows_of("flip", {1})).interval, interval::unknown_reference);
@@ -91,4 +91,16 @@ TEST(Summary, EndsIntervalsOfErrorsAtZero) {
     EXPECT_EQ(low_of("mse", 0.75), 0.25);
     EXPECT_EQ(low_of("mse", -0.125), -0.125) << "an error below 0, by the correction for noise, lies in its interval";
     EXPECT_EQ(low_of("bias", 0.25), -0.25);
+}
+
+TEST(Summary, EndsIntervalsWhereNoValueLies) {
+    const auto high_of = [](const std::string& metric, std::vector<double> values) {
+        return *summary(rows_of(metric, values)).high;
+    };
+    for (const char* metric : {"ssim", "ms_ssim", "flip", "flicker_correlation"}) {
+        EXPECT_EQ(high_of(metric, {0.7, 0.9}), 1.0) << metric;
+        EXPECT_LT(high_of(metric, {0.80, 0.81}), 1.0) << metric;
+    }
+    EXPECT_GT(high_of("relmse", {0.7, 0.9}), 1.5);
+    EXPECT_GT(high_of("energy_ratio", {0.7, 0.9}), 1.5);
 }
