@@ -98,8 +98,9 @@ int parse_and_run(int argc, char** argv) {
     CLI::Option* fill_option =
         tables_command_.add_flag("--fill", tables.fills, "Fill the tables of all documents from what is kept");
     tables_command_
-        .add_flag("--check", tables.checks,
-                  "Fail if a document differs from what is kept, or what is kept from what today's estimators would give")
+        .add_flag(
+            "--check", tables.checks,
+            "Fail if a document differs from what is kept, or what is kept from what today's estimators would give")
         ->excludes(keep_option)
         ->excludes(fill_option);
     tables_command_.callback([&] { status = tables_command(tables); });
@@ -116,7 +117,8 @@ int parse_and_run(int argc, char** argv) {
         std::vector<std::string> options;
         if (!common.device.empty()) options.push_back("--device=" + common.device);
         if (!common.cache.empty()) options.push_back("--cache=" + common.cache.string());
-        for (const std::filesystem::path& folder : common.scene_path) options.push_back("--scene-path=" + folder.string());
+        for (const std::filesystem::path& folder : common.scene_path)
+            options.push_back("--scene-path=" + folder.string());
         status = search_command(search, options);
     });
 
@@ -160,7 +162,9 @@ int parse_and_run(int argc, char** argv) {
                     "Per pixel, at most; rounded up to 16 x 2^k; default: " +
                         std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
         ->check(CLI::Range(16, 1 << 24));
-    reference_command_.add_option("--seconds", reference.settings.max_seconds, "Time limit; default: none")
+    reference_command_
+        .add_option("--seconds", reference.settings.max_seconds,
+                    "Time limit, beside the 64 samples of the guide; default: none")
         ->check(CLI::PositiveNumber);
     reference_command_
         .add_option("--target", reference.settings.target_relative_error,
