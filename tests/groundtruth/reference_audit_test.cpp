@@ -1,9 +1,11 @@
 // What a reference says of its own errors: its halves against its variance, and light beyond the longest path.
 #include "groundtruth/reference_audit.h"
+#include "groundtruth/reference_error.h"
 
 #include "core/scene/load_scene.h"
 
 #include <gtest/gtest.h>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -87,4 +89,18 @@ TEST_F(Audits, OfReferencesPassAndKnowWhatTheDepthCuts) {
     EXPECT_GT(cut.light_cut, largest_light_cut);
     ASSERT_EQ(cut.warnings.size(), 1u);
     EXPECT_NE(cut.warnings.front().find("max_depth"), std::string::npos);
+}
+
+TEST(ReferenceError, OfDarkPixelsIsRelativeToTheImage) {
+    // Means 2, 0.5 and 0 beside the background's 7: darker than 1 % of 2.5 / 3 is only the last.
+    Reference reference;
+    reference.material_id = HostImage({4, 1}, 1, 1.0f);
+    reference.material_id.values[3] = 0;
+    ReferenceOutput output;
+    output.mean = HostImage({4, 1}, 3), output.variance = HostImage({4, 1}, 3, 0.01f);
+    for (size_t i = 0; i < 4; ++i) output.mean.set_rgb(i, glm::vec3(std::array{2.0f, 0.5f, 0.0f, 7.0f}[i]));
+    const HostImage error = relative_error(reference, output);
+    EXPECT_NEAR(error.values[0], 0.1 / 2, 1e-6);
+    EXPECT_NEAR(error.values[1], 0.1 / 0.5, 1e-6);
+    EXPECT_NEAR(error.values[2], 0.1 / (0.01 * 2.5 / 3), 1e-4);
 }

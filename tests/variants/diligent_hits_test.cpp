@@ -24,6 +24,15 @@ TEST_F(DiligentHits, AreWhereMirrorRaysMeetTheWall) {
         }
 }
 
+TEST_F(DiligentHits, AreNoneWhereSurfacesAreMetFromBehind) {
+    HostGBuffer gbuffer = gbuffer_of(floor_before_white);
+    EXPECT_GT(confidence_of(trace(gbuffer)), 1000);
+    for (size_t i = 0; i < gbuffer.normal.pixel_count(); ++i)
+        if (gbuffer.base_color.values[4 * i + 3] == 0)  // the wall, which now faces away
+            for (size_t c = 4 * i; c < 4 * i + 3; ++c) gbuffer.normal.values[c] *= -1;
+    EXPECT_EQ(confidence_of(trace(gbuffer)), 0);
+}
+
 /// Each ray of the halved image is the one that a pixel of its block would have with that random number.
 TEST_F(DiligentHits, HalfResolutionTracesOnePixelOfEachBlock) {
     view.extent = {127, 121};

@@ -158,4 +158,27 @@ TEST_F(FrostbiteReprojectionTest, FollowsTheSurfaceThatShowsTheEnvironmentToAnOr
     EXPECT_GT(count, 3000u);
 }
 
+/// Half a pixel to the side each place lies between two columns, one of which was too rough to be the same reflector.
+TEST_F(FrostbiteReprojectionTest, CountsTheTexelsThatAreLeftWhole) {
+    const float slope = 2 * std::tan(pose.vertical_fov / 2) / float(view.extent.y);  // of one pixel
+    const SyntheticScene every_other_column = [slope](const CameraRay& ray) {
+        SyntheticHit hit = wall_of_mirror(ray);
+        if (int(std::floor(-ray.direction.x / ray.direction.z / slope)) % 2 != 0) hit.roughness += 0.3f;
+        return hit;
+    };
+    CameraPose before = pose;
+    before.world_from_view = glm::translate(glm::mat4(1), {5 * slope / 2, 0, 0});
+    FrostbiteFilterBench bench(device(), view, history_alone);
+    bench.next(before, every_other_column, [](glm::uvec2, const CameraRay&) {
+        return ResolvedPixel{.radiance = glm::vec3(3, 2, 1), .confidence = 0.5f};
+    });
+    const HostImage found =
+        bench.next(pose, wall_of_mirror, [](glm::uvec2, const CameraRay&) { return ResolvedPixel{.confidence = 0}; });
+    for (unsigned y = 0; y < view.extent.y; ++y)
+        for (unsigned x = 1; x + 1 < view.extent.x; ++x) {
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(found.pixel(x, y)[c], float(3 - c), 1e-5f) << x << ", " << y;
+            ASSERT_NEAR(found.pixel(x, y)[3], 0.5f, 1e-5f) << x << ", " << y;
+        }
+}
+
 }  // namespace

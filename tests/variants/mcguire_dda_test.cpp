@@ -160,16 +160,20 @@ TEST_F(MirrorFloor, FiltersTheColorAtTheHitIfAsked) {
         float worst = 0;
         for (unsigned y = 0; y < extent.y; ++y)
             for (unsigned x = 0; x < extent.x; ++x) {
-                const glm::vec2 place = glm::vec2(hit.pixel(x, y)[0], hit.pixel(x, y)[1]) * glm::vec2(extent);
-                const glm::vec2 centre = floor(place) + 0.5f;
-                const glm::vec2 inside = clamp(place, glm::vec2(0.5f), glm::vec2(extent) - 0.5f);
+                const glm::vec2 screen = glm::vec2(hit.pixel(x, y)[0], hit.pixel(x, y)[1]) * glm::vec2(extent);
+                const glm::vec2 place = screen - view.jitter;  // on the image, whose samples are off the centres
+                const glm::vec2 centre = floor(place) + 0.5f + view.jitter;
+                const glm::vec2 inside = clamp(place, glm::vec2(0.5f), glm::vec2(extent) - 0.5f) + view.jitter;
                 const glm::vec2 seen(radiance.pixel(x, y)[0], radiance.pixel(x, y)[1]);
                 if (hit.pixel(x, y)[3] > 0) worst = std::max(worst, distance(seen, is_bilinear ? inside : centre));
             }
         return worst;
     };
-    EXPECT_LT(worst_error(true), 0.01f);  // filters have 8 fractional bits: 1 / 256 of a pixel to each side
-    EXPECT_LT(worst_error(false), 0.001f);
+    for (const glm::vec2 jitter : {glm::vec2(0), glm::vec2(0.4f, -0.3f)}) {
+        view.jitter = jitter;
+        EXPECT_LT(worst_error(true), 0.01f);  // filters have 8 fractional bits: 1 / 256 of a pixel to each side
+        EXPECT_LT(worst_error(false), 0.001f);
+    }
 }
 
 TEST_F(MirrorFloor, NeverMeetsItself) {
