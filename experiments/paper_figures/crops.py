@@ -131,7 +131,7 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
                 else "" if error.low is None else f"\n[{style.number(error.low)}, {style.number(error.high)}]"
             )
         )
-        grid[0, column].set_title(label(*key) + number)
+        grid[0, column].set_title(style.wrapped(label(*key), style.PANEL_LETTERS) + number)
         for index, box in enumerate(boxes):
             _draw_crop(
                 grid[1 + 2 * index, column],

@@ -10,6 +10,7 @@ from paper_figures.results import label
 
 SIGNIFICANT = 0.05
 LONG_LABEL = 40  # characters, beyond which labels would leave the panels no room
+FARTHEST = 20.0  # ratios further from 1 would squeeze all others; they are written at the border of their panel
 CUT = 2.0  # intervals reach at most this factor beyond the outermost ratio
 
 
@@ -66,37 +67,43 @@ def _short(groups):
     values = {key: dict(t.split("=", 1) for t in key[1].split() if "=" in t) for key in groups}
     names = sorted({name for of_point in values.values() for name in of_point})
     short = {key: "  ".join(of.get(name, "–") for name in names) if of else groups[key] for key, of in values.items()}
-    return short, f"rows: {', '.join(names)} (–: as in the variant's default)\n"
+    legend = style.wrapped(f"rows: {', '.join(names)} (–: as in the variant's default)", style.PAGE_LETTERS)
+    return short, legend + "\n"
 
 
 def _draw(results, chosen, rows, groups, against):
     groups, legend = _short(groups)
-    shots = [s for s in results.shots() if any(e["shot"] == s for e in rows)]
-    columns = min(len(shots), 4)
-    grid_rows = -(-len(shots) // columns)
+    below = legend + style.wrapped(
+        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
+        f"95 % intervals; {_family(rows)}",
+        style.PAGE_LETTERS,
+    )
+    titles = {s: style.shot_title(s) for s in results.shots() if any(e["shot"] == s for e in rows)}
+    columns = min(len(titles), 4)
+    grid_rows = -(-len(titles) // columns)
+    lines = grid_rows * (1 + max(t.count("\n") for t in titles.values())) + below.count("\n")
     figure, grid = plt.subplots(
         grid_rows,
         columns,
-        figsize=(style.DOUBLE_COLUMN, grid_rows * (2.2 + 0.38 * len(groups)) * style.CENTIMETRE),
+        figsize=(
+            style.DOUBLE_COLUMN,
+            (grid_rows * (1.5 + 0.38 * len(groups)) + lines * style.LINE_HEIGHT) * style.CENTIMETRE,
+        ),
         layout="constrained",
         sharex=True,
         sharey=True,
         squeeze=False,
     )
-    for axes in grid.flat[len(shots) :]:
+    for axes in grid.flat[len(titles) :]:
         axes.axis("off")
-    for index, (axes, shot) in enumerate(zip(grid.flat, shots)):
+    for index, (axes, (shot, title)) in enumerate(zip(grid.flat, titles.items())):
         _draw_shot(results, axes, [e for e in rows if e["shot"] == shot], list(groups))
-        axes.set_title(style.shot_title(shot))
-        axes.tick_params(labelbottom=index + columns >= len(shots))
+        axes.set_title(title)
+        axes.tick_params(labelbottom=index + columns >= len(titles))
     grid[0, 0].set_yticks(range(len(groups)), list(groups.values()))
     grid[0, 0].set_ylim(len(groups) - 0.5, -0.5)
     _limit(grid[0, 0], results, rows)
-    figure.supxlabel(
-        f"{legend}{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
-        f"95 % intervals; {_family(rows)}",
-        fontsize=7,
-    )
+    figure.supxlabel(below, fontsize=7)
     return figure
 
 
@@ -115,10 +122,25 @@ def _draw_shot(results, axes, rows, keys):
         ratio = results.measured(e, ("ratio", "low", "high"), "effects.csv")
         if ratio is None:
             continue
+        row = keys.index((e["variant"], e["point"]))
+        if not _is_near(ratio):
+            is_right = ratio.value > 1
+            number = style.number(ratio.value)
+            axes.text(
+                float(is_right),
+                row,
+                f"{number} →" if is_right else f"← {number}",
+                transform=axes.get_yaxis_transform(),
+                ha="right" if is_right else "left",
+                va="center",
+                fontsize=7,
+                color=color,
+            )
+            continue
         is_significant = e["p_holm"] != "" and float(e["p_holm"]) < SIGNIFICANT
         axes.errorbar(
             [ratio.value],
-            [keys.index((e["variant"], e["point"]))],
+            [row],
             xerr=ratio.whiskers(),
             fmt=mark,
             color=color,
@@ -128,14 +150,19 @@ def _draw_shot(results, axes, rows, keys):
         )
 
 
+def _is_near(ratio):
+    return 1 / FARTHEST <= ratio.value <= FARTHEST
+
+
 def _limit(axes, results, rows):
     """One scale for all panels. An interval of few seeds may reach far beyond all ratios: it is cut."""
     measured = [results.measured(e, ("ratio", "low", "high"), "effects.csv") for e in rows]
-    measured = [m for m in measured if m is not None]
+    measured = [m for m in measured if m is not None and _is_near(m)]
     ratios = [1.0] + [m.value for m in measured]
     low, high = min(ratios) / CUT, max(ratios) * CUT
     ends = [max(m.low, low) for m in measured if m.low is not None] + [
         min(m.high, high) for m in measured if m.high is not None
     ]
-    axes.set_xlim(min(ratios + ends) / 1.05, max(ratios + ends) * 1.05)
-    style.log_axis(axes.xaxis, (1, 1.5, 2, 3, 5, 7))
+    low, high = min(ratios + ends) / 1.05, max(ratios + ends) * 1.05
+    axes.set_xlim(low, high)
+    style.log_axis(axes.xaxis, (1, 1.5, 2, 3, 5, 7) if high < 8 * low else (1, 2, 5) if high < 30 * low else (1, 3))

@@ -75,10 +75,23 @@ def draw_legend(part, panels, names=()):
     part.legend([by_label[t] for t in texts], texts, loc="center", ncols=min(len(texts), 5 if is_wide else 2))
 
 
+PANEL_LETTERS = 22  # that fit over a panel, of which there may be four in a row
+LINE_HEIGHT = 0.32  # cm, of such a title
+PAGE_LETTERS = 118  # that fit below a figure of two columns, at 7 pt
+
+
+def wrapped(text, longest):
+    """In lines of `longest` letters at most, broken before a dot and behind a space, '=' or '_'; what has none of these stays."""
+    lines = [""]
+    for part in re.split(r"(?<=[ =_])|(?=\.)", text):
+        if lines[-1] and len(lines[-1] + part.rstrip()) > longest:
+            lines.append("")
+        lines[-1] += part
+    return "\n".join(line.rstrip() for line in lines)
+
+
 def shot_title(shot):
-    """Names of shots that are wider than a panel, of which there may be four in a row, are broken at a dot."""
-    parts = shot.split(".")
-    return shot if len(shot) <= 24 or len(parts) < 3 else ".".join(parts[:2]) + "\n." + ".".join(parts[2:])
+    return wrapped(shot, PANEL_LETTERS)
 
 
 def log_axis(axis, subs=(1, 2, 5)):

@@ -116,6 +116,18 @@ def test_file_names():
     check(len(long[0]) == 150 and long[0] != long[1], f"long names: {long}")
 
 
+def test_wrapped():
+    """Titles stay within their panel: no line is longer than asked, and no letter is lost but spaces."""
+    for text, longest, expected in (
+        ("fence.main.160x90", 22, "fence.main.160x90"),
+        ("contact_hardening.main.320x184.w24", 22, "contact_hardening.main\n.320x184.w24"),
+        ("breakfast_room_glossy_floor.near.320x184", 22, "breakfast_room_glossy_\nfloor.near.320x184"),
+        ("amd_sssr repeatable misses=fallback", 22, "amd_sssr repeatable\nmisses=fallback"),
+        ("x" * 30 + " y", 22, "x" * 30 + "\ny"),
+    ):
+        check(style.wrapped(text, longest) == expected, f"{text} becomes {style.wrapped(text, longest)!r}")
+
+
 def test_values_not_above_zero():
     """Lines of which a logarithmic axis leaves out values say so."""
     lines = {("sssr", "default"): [(0, Measured(1.0, 0.9, 1.1)), (1, Measured(-0.1, -0.2, 0.0))]}
@@ -222,6 +234,19 @@ def test_several_baselines(folder):
     check(of_two["effects_sssr first"] == of_one["effects"], "comparisons with the first")
 
 
+def test_ratios_far_from_one(folder):
+    """They are written where they lie, and the others keep their scale."""
+    results = Results(folder)
+    chosen = argparse.Namespace(target="specular", metric="relmse", mask="reflective")
+    rows = effects.comparisons(results, chosen)["effects"]
+    limits = effects.draw(results, chosen, rows).get_axes()[0].get_xlim()
+    rows.append(dict(rows[0], ratio="328", low="17", high="6330"))
+    figure = effects.draw(results, chosen, rows)
+    check(figure.get_axes()[0].get_xlim() == limits, "a ratio of 328 changes the scale")
+    check("328 →" in [t.get_text() for a in figure.get_axes() for t in a.texts], "a ratio of 328 is not written")
+    plt.close("all")
+
+
 def check_text_sizes(figures_of):
     for name, figure in figures_of.items():
         if figure is None:
@@ -237,6 +262,7 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     test_exr(folder)
     test_crop_boxes()
     test_file_names()
+    test_wrapped()
     test_values_not_above_zero()
     keep_one_shot(folder)
     test_same_bytes(folder, temporary)
@@ -245,3 +271,4 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     subprocess.run([program, "--study", study], check=True)
     test_study(study)
     test_several_baselines(study)
+    test_ratios_far_from_one(study)
