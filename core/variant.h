@@ -7,10 +7,13 @@
 
 #include <string>
 
-/// What each variant estimates for each pixel of the G-buffer.
+/// What each variant estimates for each pixel of the G-buffer, in images of the graph's extent. The formats are the
+/// variant's own choice, which the composite reads as floats.
 struct Reflections {
-    Image radiance;    ///< mean incident radiance over the specular lobe, before the BRDF (rgb, W sr^-1 m^-2)
-    Image confidence;  ///< 0 where the fallback should be used, 1 where `radiance` should
+    Image radiance;  ///< mean incident radiance over the specular lobe, before the BRDF (rgb, W sr^-1 m^-2)
+    /// 0 where the fallback should be used, 1 where `radiance` should, between them their mix. The masks `hit` and
+    /// `miss` divide the pixels at 0.5 (metrics/masks.cpp).
+    Image confidence;
     unsigned confidence_channel = 0;  ///< of `confidence`, which may be `radiance` itself
 };
 
@@ -19,7 +22,9 @@ class Variant {
 public:
     virtual ~Variant() = default;
 
-    /// Adds this frame's passes. Called once per frame, in temporal order, after PassGraph::begin_frame().
+    /// Adds this frame's passes. Called once per frame, in temporal order, after PassGraph::begin_frame(), which was
+    /// given the images of `gbuffer`: every shader may name them (`depth`, `normal`, `lit`, ...) without a
+    /// Pass::read(), which is for the variant's own images, and for sampling other than by texel.
     virtual Reflections render(PassGraph& graph, const GBuffer& gbuffer) = 0;
 
     /// Called before the first frame of a shot, after the parameters are set; not called under --keep-all. From then on

@@ -31,10 +31,12 @@ const char* const webgl2_preamble =
     "precision highp usampler2D;\n"
     "#define push_constant std140\n";
 
-std::string read_shader(const std::string& name) {
+/// `asked_for_by`: ", which FILE:LINE includes", or nothing; for the message if there is no such file.
+std::string read_shader(const std::string& name, const std::string& asked_for_by = {}) {
     for (const auto& root : shader_roots())
         if (std::ifstream in(root / name); in) return {std::istreambuf_iterator<char>(in), {}};
-    fail("no shader file ", name, " under variants/, core/shaders/, tests/shaders/ or the project's root");
+    fail("no shader file ", name, asked_for_by,
+         ", under variants/, core/shaders/, tests/shaders/ or the project's root");
 }
 
 /// Replaces #include "x" by the text of x. Files guard themselves against double inclusion. Each file has a number, its
@@ -53,8 +55,10 @@ std::string expand_includes(const std::string& text, size_t file, std::vector<st
         files.push_back(name);
         const size_t included = files.size() - 1;
         if (files.size() > 200) fail(files[file], " includes itself");
+        const std::string place = files[file] + ":" + std::to_string(number);
         out << "#line 1 " << included << '\n'
-            << expand_includes(read_shader(name), included, files) << "#line " << number + 1 << ' ' << file << '\n';
+            << expand_includes(read_shader(name, ", which " + place + " includes"), included, files) << "#line "
+            << number + 1 << ' ' << file << '\n';
     }
     return out.str();
 }

@@ -21,7 +21,11 @@ std::string error_of(const std::string& file, ShaderLanguage language = ShaderLa
 TEST(Shader, ErrorsNameTheFileAndLineAsWritten) {
     EXPECT_NE(error_of("broken_include.comp").find("broken_part.glsl:3: 'undeclared'"), std::string::npos);
     EXPECT_NE(error_of("broken.comp").find("broken.comp:5: 'nor_this'"), std::string::npos) << error_of("broken.comp");
-    EXPECT_NE(error_of("no_such.comp").find("no shader file no_such.comp under"), std::string::npos);
+    EXPECT_NE(error_of("no_such.comp").find("no shader file no_such.comp, under"), std::string::npos);
+    EXPECT_NE(error_of("missing_include.comp")
+                  .find("no shader file no_such_part.glsl, which missing_include.comp:2 includes, under"),
+              std::string::npos)
+        << error_of("missing_include.comp");
 }
 
 TEST(Shader, WebGl2RefusesWhatItDoesNotHave) {
@@ -48,10 +52,10 @@ TEST(Shader, WebGl2HasItsOwnLanguage) {
         EXPECT_TRUE(is_accepted(text, ShaderLanguage::vulkan)) << text;
         EXPECT_FALSE(is_accepted(text, ShaderLanguage::webgl2)) << text;
     }
-    for (const char* text : {"layout(push_constant) uniform Push { float a; uint b; vec4 c; };",
-                             "uniform usampler2D ids; uint f() { return texelFetch(ids, ivec2(0), 0).x; }",
-                             "layout(location = 0) out vec4 a; layout(location = 1) out float b;",
-                             "#include \"core/shaders/view.glsl\""})
+    for (const char* text :
+         {"layout(push_constant) uniform Push { float a; uint b; vec4 c; };",
+          "uniform usampler2D ids; uint f() { return texelFetch(ids, ivec2(0), 0).x; }",
+          "layout(location = 0) out vec4 a; layout(location = 1) out float b;", "#include \"core/shaders/view.glsl\""})
         for (const ShaderLanguage language : {ShaderLanguage::vulkan, ShaderLanguage::webgl2})
             EXPECT_TRUE(is_accepted(text, language)) << text;
 }
