@@ -36,6 +36,18 @@ def write(file, text):
         stream.write(text)
 
 
+def default_folder(results):
+    return os.path.join(results, "tables")
+
+
+def remove_others(out, names):
+    """Tables that the config no longer asks for; no other files."""
+    for file in os.listdir(out):
+        name, kind = os.path.splitext(file)
+        if kind in (".md", ".tex", ".csv") and name not in names:
+            os.remove(os.path.join(out, file))
+
+
 def make(folder, out, summary_folder):
     """Writes a study's tables; returns how many. `summary_folder`: where the summary is kept, too; may be None."""
     results = Results(folder)
@@ -57,6 +69,8 @@ def make(folder, out, summary_folder):
         write(os.path.join(out, table["name"] + ".csv"), formats.comma_separated(cells))
         tables.append(table)
         every += cells
+    if out == default_folder(folder):
+        remove_others(out, {table["name"] for table in tables})
     if summary_folder:
         summary_file.write(os.path.join(summary_folder, results.manifest["study"]["name"] + ".csv"), origin, tables, every)
     return len(entries)
@@ -72,7 +86,7 @@ def main():
                 print(f"error: {sentence}", file=sys.stderr)
             return 2 if found else 0
         if arguments.results:
-            out = arguments.out or os.path.join(arguments.results, "tables")
+            out = arguments.out or default_folder(arguments.results)
             count = make(arguments.results, out, summaries if arguments.keep else None)
             print(f"{count} tables in {out}")
         if arguments.fill or arguments.keep:

@@ -259,6 +259,19 @@ def test_means_over_what_is_told_apart(folder):
     check(line == "| floor | 0.354 [0.315, 0.396] (0.250 to 0.500) | 0.810 [0.800, 0.820]\N{DAGGER} (1 of 2) |", line)
 
 
+def test_tables_that_nobody_asks_for(temporary):
+    """They leave the results' own folder; a folder that was named keeps what lies in it."""
+    folder, named = os.path.join(temporary, "changed"), os.path.join(temporary, "named")
+    write_results(folder)
+    for out in (os.path.join(folder, "tables"), named):
+        for file in ("old.md", "old.tex", "old.csv", "notes.txt"):
+            write(os.path.join(out, file), "")
+    check(tables(folder).returncode == 0 and tables(folder, "--out", named).returncode == 0, "tables are not made")
+    left = os.listdir(os.path.join(folder, "tables"))
+    check("notes.txt" in left and "changes.md" in left and not any(f.startswith("old") for f in left), f"left: {left}")
+    check("old.md" in os.listdir(named), "a folder that was named lost a file")
+
+
 def test_refusals(folder):
     for changed, why in (
         ({"over": None}, "rows of effects.csv fall on one cell"),
@@ -346,6 +359,7 @@ def main():
         test_times(folder)
         test_means_over_what_is_told_apart(folder)
         test_refusals(folder)
+        test_tables_that_nobody_asks_for(temporary)
         test_documents(temporary)
         test_kept_numbers(temporary)
 
