@@ -126,6 +126,8 @@ def _draw_shot(results, axes, rows, keys):
         if not _is_near(ratio):
             is_right = ratio.value > 1
             number = style.number(ratio.value)
+            if ratio.low is not None:
+                number += f" [{style.number(ratio.low)}, {style.number(ratio.high)}]"
             axes.text(
                 float(is_right),
                 row,
