@@ -4,6 +4,8 @@
 #include "core/gpu/pass_graph.h"
 #include "core/left_out.h"
 #include "core/parameters.h"
+#include "core/gpu/shader.h"
+#include "core/ray_probe.h"
 
 #include <string>
 
@@ -38,6 +40,14 @@ public:
     /// Why a seed's result may differ from run to run, as a clause that names the parameter to blame; empty if it does
     /// not. Called after the parameters are set.
     virtual std::string not_repeatable() const { return {}; }
+
+    /// Includes that render() decides by the parameters, for whoever compiles the technique's shaders outside of it.
+    virtual ShaderIncludes shader_includes() const { return {}; }
+
+    /// Layers of the G-buffer that render() reads besides the visible surface. Called after the parameters are set.
+    virtual GBufferLayers gbuffer_layers() const { return {}; }
+
+    RayProbe* ray_probe = nullptr;  ///< what experiments plug into its tracers
 
     ParameterSet params;
     Limits limits = Limits::none;  ///< of the passes that render() adds; who calls it opens a LimitScope with them

@@ -5,6 +5,13 @@
 
 class EnvironmentImages;
 
+/// What a G-buffer holds of what lies behind the visible surfaces, where a technique asks for it.
+struct GBufferLayers {
+    bool second_depth = false;  ///< the surface behind the visible one
+    bool back_depth = false;    ///< the back of the visible one
+    bool operator==(const GBufferLayers&) const = default;
+};
+
 /// The first hit of every pixel, and the lit colour which SSR reads. World space, metres, linear radiance. Images of one
 /// extent; each is bound in shaders by its member's name.
 struct GBuffer {
@@ -19,9 +26,15 @@ struct GBuffer {
     Image lit;               ///< rgba32f: emission and diffusely reflected radiance towards the camera; environment where nothing was hit
     Image fallback;          ///< rgba32f: the environment prefiltered over each pixel's specular lobe, for composite and variants
 
+    Image second_depth;  ///< r32f: device depth of the second surface along each pixel's ray; that of the far plane where there is none; made for GBufferLayers::second_depth
+    Image back_depth;    ///< r32f: of the first surface behind the visible one that is seen from its back, where the visible object ends; made for GBufferLayers::back_depth
+
     const EnvironmentImages* environment = nullptr;  ///< for bind_environment(); none with a G-buffer from files
 
     std::vector<Image> images() const {
-        return {depth, geometric_normal, normal, base_color, emission, motion, material_id, previous_depth, previous_normal, lit, fallback};
+        std::vector<Image> all = {depth, geometric_normal, normal, base_color, emission, motion, material_id, previous_depth, previous_normal, lit, fallback};
+        for (const Image& layer : {second_depth, back_depth})
+            if (layer.storage) all.push_back(layer);
+        return all;
     }
 };

@@ -132,7 +132,7 @@ void PassGraph::Impl::check_limits(const Pass& pass, const Shader& shader, const
     add_tested(pass.label_, pass.depth_, pass.stencil_, drawn);
     check_resources(pass, shader.interface, drawn);
     try {
-        pipelines.require_webgl2(shader, pass.shader_, *params);
+        pipelines.require_webgl2(shader, pass.shader_, *params, pass.includes_);
     } catch (const Error& error) {
         refuse(pass.label_, std::string("takes GLSL ES 3.00: ") + error.what(), "has a shader of another language");
     }

@@ -36,6 +36,9 @@ PassGraph::Pass& PassGraph::Pass::write(const Image& image) { return writes_.pus
 PassGraph::Pass& PassGraph::Pass::use(const Buffer& buffer) { return buffers_.push_back(buffer), *this; }
 PassGraph::Pass& PassGraph::Pass::stencil(Stencil stencil) { return stencil_ = std::move(stencil), *this; }
 PassGraph::Pass& PassGraph::Pass::depth(DepthTest test) { return depth_ = std::move(test), *this; }
+PassGraph::Pass& PassGraph::Pass::include(const std::string& name, std::string glsl) {
+    return includes_[name] = std::move(glsl), *this;
+}
 PassGraph::Pass& PassGraph::Pass::label(std::string stage) { return label_ = std::move(stage), *this; }
 PassGraph::Pass& PassGraph::Pass::set(const std::string& name, float value) {
     return pushes_.push_back({name, {value}, 4}), *this;
@@ -57,7 +60,7 @@ void PassGraph::Pass::run() {
 }
 
 void PassGraph::Pass::run(glm::uvec2 extent) {
-    const auto local = graph_.pipelines.shader(shader_, vertex_shader_, *graph_.params).interface.local_size;
+    const auto local = graph_.pipelines.shader(shader_, vertex_shader_, *graph_.params, includes_).interface.local_size;
     dispatch_groups({(extent.x + local[0] - 1) / local[0], (extent.y + local[1] - 1) / local[1], 1});
 }
 
@@ -111,7 +114,7 @@ void PassGraph::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& 
 
 void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments,
                           size_t arguments_offset) {
-    const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params);
+    const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_);
     check(pass, shader.interface);
     PipelineState state{.attachments = {},
                         .stencil = pass.stencil_.mode,
@@ -130,7 +133,7 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         for (const Image& image : attachments) state.attachments.push_back(image.format);
     }
     check_limits(pass, shader, attachments);
-    const Pipeline& pipeline = pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, state);
+    const Pipeline& pipeline = pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, pass.includes_, state);
     execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
         commands.bindPipeline(pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics,
                               *pipeline.pipeline);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <span>
 
 class Device;
@@ -145,7 +146,9 @@ public:
     Pass& set(const std::string& name, int value);
     Pass& set(const std::string& name, unsigned value);
     Pass& set(const std::string& name, glm::vec4 value);
+    Pass& include(const std::string& name, std::string glsl);  ///< what `#include "name"` stands for in this pass
     Pass& label(std::string stage);
+    const std::string& stage() const { return label_; }
 
     /// Compute: one invocation per pixel of the first written image, or of `extent`; fragment, draw: over the outputs.
     void run();
@@ -167,6 +170,7 @@ private:
     std::vector<Draw> draws_;
     Stencil stencil_;
     DepthTest depth_;
+    std::map<std::string, std::string> includes_;
     struct PushValue {
         std::string name;
         std::array<float, 4> bits;

@@ -108,14 +108,20 @@ vk::raii::Pipeline make_graphics_pipeline(Device::Impl& gpu, const Stages& stage
                                            .layout = *layout}};
 }
 
+std::string key_of(const ShaderIncludes& includes) {
+    std::string key;
+    for (const auto& [name, text] : includes) key += name + '\n' + text + '\n';
+    return key;
+}
+
 }  // namespace
 
 const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file,
-                                    const ParameterSet& params) {
+                                    const ParameterSet& params, const ShaderIncludes& includes) {
     const std::string prelude = shader_prelude(params);
-    const auto [entry, is_new] = shaders_.try_emplace(file + '\n' + vertex_file + '\n' + prelude);
+    const auto [entry, is_new] = shaders_.try_emplace(file + '\n' + vertex_file + '\n' + key_of(includes) + prelude);
     if (is_new) try {
-            entry->second = compile(file, vertex_file, prelude);
+            entry->second = compile(file, vertex_file, prelude, includes);
         } catch (...) {
             shaders_.erase(entry);
             throw;
@@ -124,21 +130,22 @@ const Shader& PipelineCache::shader(const std::string& file, const std::string& 
 }
 
 /// Once per shader: values of constants do not decide what is valid.
-void PipelineCache::require_webgl2(const Shader& shader, const std::string& file, const ParameterSet& params) {
+void PipelineCache::require_webgl2(const Shader& shader, const std::string& file, const ParameterSet& params,
+                                   const ShaderIncludes& includes) {
     if (webgl2_shaders_.contains(&shader)) return;
-    compile(file, "", shader_prelude(params, ShaderLanguage::webgl2), ShaderLanguage::webgl2);
+    compile(file, "", shader_prelude(params, ShaderLanguage::webgl2), includes, ShaderLanguage::webgl2);
     webgl2_shaders_.insert(&shader);
 }
 
 Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
-                                  const PipelineState& state) {
-    const Shader& shader = this->shader(file, vertex_file, params);
+                                  const ShaderIncludes& includes, const PipelineState& state) {
+    const Shader& shader = this->shader(file, vertex_file, params, includes);
 
     // Only the constants that this shader uses take part in the key: a new value of another one costs it no new
     // pipeline.
     std::vector<uint32_t> values;
     std::vector<vk::SpecializationMapEntry> entries;
-    std::string key = file + '\n' + vertex_file + '\n' + params.glsl() + '\n' + std::to_string(int(state.stencil)) +
+    std::string key = file + '\n' + vertex_file + '\n' + key_of(includes) + params.glsl() + '\n' + std::to_string(int(state.stencil)) +
                       ' ' + std::to_string(state.stencil_value);
     uint32_t id = 0;
     for (const Parameter& p : params) {

@@ -41,7 +41,8 @@ std::string read_shader(const std::string& name, const std::string& asked_for_by
 
 /// Replaces #include "x" by the text of x. Files guard themselves against double inclusion. Each file has a number, its
 /// index in `files`, which #line carries into the compiler's messages.
-std::string expand_includes(const std::string& text, size_t file, std::vector<std::string>& files) {
+std::string expand_includes(const std::string& text, size_t file, const ShaderIncludes& includes,
+                            std::vector<std::string>& files) {
     std::istringstream in(text);
     std::ostringstream out;
     int number = 0;
@@ -56,21 +57,27 @@ std::string expand_includes(const std::string& text, size_t file, std::vector<st
         const size_t included = files.size() - 1;
         if (files.size() > 200) fail(files[file], " includes itself");
         const std::string place = files[file] + ":" + std::to_string(number);
+        const auto decided = includes.find(name);
+        const std::string content =
+            decided != includes.end() ? decided->second : read_shader(name, ", which " + place + " includes");
         out << "#line 1 " << included << '\n'
-            << expand_includes(read_shader(name, ", which " + place + " includes"), included, files) << "#line "
-            << number + 1 << ' ' << file << '\n';
+            << expand_includes(content, included, includes, files) << "#line " << number + 1 << ' ' << file << '\n';
     }
     return out.str();
 }
 
 /// The shader `files[index]` behind the prelude, which is file 0, with its includes, which are added to `files`.
-std::string complete_source(const std::string& prelude, size_t index, std::vector<std::string>& files) {
-    const std::string begin = expand_includes(prelude, 0, files);
-    return begin + "#line 1 " + std::to_string(index) + "\n" + expand_includes(read_shader(files[index]), index, files);
+std::string complete_source(const std::string& prelude, size_t index, const ShaderIncludes& includes,
+                            std::vector<std::string>& files) {
+    const std::string begin = files[index].ends_with(".comp") ? "#define COMPUTE_SHADER\n#line 1 0\n" : "";
+    return begin + expand_includes(prelude, 0, includes, files) + "#line 1 " + std::to_string(index) + "\n" +
+           expand_includes(read_shader(files[index]), index, includes, files);
 }
 
-std::string webgl2_fragment(const std::string& prelude, std::vector<std::string>& files) {
-    return std::string(webgl2_version) + webgl2_preamble + "#line 1 0\n" + complete_source(prelude, 1, files);
+std::string webgl2_fragment(const std::string& prelude, const ShaderIncludes& includes,
+                            std::vector<std::string>& files) {
+    return std::string(webgl2_version) + webgl2_preamble + "#line 1 0\n" +
+           complete_source(prelude, 1, includes, files);
 }
 
 /// glslang writes "ERROR: 3:17: ..." for line 17 of file 3.
@@ -141,13 +148,13 @@ std::string shader_prelude(const ParameterSet& params, ShaderLanguage language) 
            params.glsl(language == ShaderLanguage::webgl2);
 }
 
-Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude) {
+Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude, const ShaderIncludes& includes) {
     std::vector<std::string> files = {"prelude", file};
-    return {.vertex = webgl2_version + fullscreen_triangle("gl_VertexID"), .fragment = webgl2_fragment(prelude, files)};
+    return {.vertex = webgl2_version + fullscreen_triangle("gl_VertexID"), .fragment = webgl2_fragment(prelude, includes, files)};
 }
 
 Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,
-               ShaderLanguage language) {
+               const ShaderIncludes& includes, ShaderLanguage language) {
     static const bool initialised = glslang::InitializeProcess();
     (void)initialised;
     const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
@@ -159,11 +166,11 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
             sources.emplace_back(EShLangVertex, fullscreen_triangle("gl_VertexIndex"));
         } else {
             files.push_back(vertex_file);
-            sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, files));
+            sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, includes, files));
         }
     }
     sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment,
-                         webgl2 ? webgl2_fragment(prelude, files) : complete_source(prelude, 1, files));
+                         webgl2 ? webgl2_fragment(prelude, includes, files) : complete_source(prelude, 1, includes, files));
 
     Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);

@@ -9,7 +9,7 @@ namespace {
 
 std::string error_of(const std::string& file, ShaderLanguage language = ShaderLanguage::vulkan) {
     try {
-        compile(file, "", "", language);
+        compile(file, "", "", {}, language);
     } catch (const Error& error) {
         return error.what();
     }
@@ -38,7 +38,7 @@ TEST(Shader, WebGl2RefusesWhatItDoesNotHave) {
 TEST(Shader, WebGl2HasItsOwnLanguage) {
     const auto is_accepted = [](const char* text, ShaderLanguage language) {
         try {
-            compile("empty.frag", "", shader_prelude({}, language) + text + "\n", language);
+            compile("empty.frag", "", shader_prelude({}, language) + text + "\n", {}, language);
         } catch (const Error&) {
             return false;
         }
@@ -68,7 +68,7 @@ TEST(Shader, SharedHeadersCompileInBothLanguages) {
         const std::string name = file.path().filename();
         const std::string prelude = "#include \"core/shared/" + name + "\"\n";
         for (const ShaderLanguage language : {ShaderLanguage::vulkan, ShaderLanguage::webgl2})
-            EXPECT_NO_THROW(compile("empty.frag", "", prelude, language))
+            EXPECT_NO_THROW(compile("empty.frag", "", prelude, {}, language))
                 << name << (language == ShaderLanguage::webgl2 ? " as GLSL ES 3.00" : " as GLSL 4.60");
         ++count;
     }

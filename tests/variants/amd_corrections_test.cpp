@@ -42,7 +42,7 @@ TEST_F(AmdCorrections, RefinePartialTexelsFindsWhatOddLevelsLackWithReversedDept
     const double standard = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
     view.depth_direction = DepthDirection::reversed;
     const double reversed = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
-    const double mended = sum_of(trace(ceiling_before_white, {{"refine_partial_texels", true}}));
+    const double mended = sum_of(trace(ceiling_before_white, {{"hierarchy.partial_texels", "near_plane"}}));
     EXPECT_LT(reversed, 0.9 * standard);
     EXPECT_NEAR(mended, standard, 0.01 * standard);
 }
@@ -55,7 +55,7 @@ TEST_F(AmdCorrections, StopOutsideScreenEndsRaysAtTheBorder) {
     pose.world_from_view = glm::rotate(glm::mat4(1), -0.85f, glm::vec3(1, 0, 0));
     const HostGBuffer gbuffer = gbuffer_of(floor_below_nothing);
     const auto mean_height = [&](bool stops) {
-        const HostImage found = trace(gbuffer, {{"stop_outside_screen", stops}, {"clip_ray_to_near_plane", true}});
+        const HostImage found = trace(gbuffer, {{"hierarchy.stop_outside_screen", stops}, {"hierarchy.clip_ray_to_near_plane", true}});
         double sum = 0;
         for (unsigned y = 0; y < view.extent.y; ++y) {
             const CameraRay ray = camera_ray(pose, view.extent, glm::vec2(31, y) + 0.5f);
@@ -74,7 +74,7 @@ TEST_F(AmdCorrections, StopOutsideScreenEndsRaysAtTheBorder) {
 TEST_F(AmdCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {
     pose.vertical_fov = 1.9f;
     view.extent = {120, 120};
-    const nlohmann::json thick = {{"depth_buffer_thickness", 0.1}};
+    const nlohmann::json thick = {{"hierarchy.depth_buffer_thickness", 0.1}};
     nlohmann::json clipped = thick;
     clipped["clip_ray_to_near_plane"] = true;
     const double original = sum_of(trace(mirror_beside_wall, thick)),
@@ -84,13 +84,13 @@ TEST_F(AmdCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {
 
 TEST_F(AmdCorrections, AcceptContactHitsShowsTheWallInTheFirstRowsOfTheFloor) {
     const double original = sum_of(trace(floor_before_white, nlohmann::json::object()));
-    const double mended = sum_of(trace(floor_before_white, {{"accept_contact_hits", true}}));
+    const double mended = sum_of(trace(floor_before_white, {{"hierarchy.accept_contact_hits", true}}));
     // One row of 96 pixels at least: the two nearest the wall reflect the two above them.
     EXPECT_GT(mended, original + 0.9 * view.extent.x);
 }
 
 TEST_F(AmdCorrections, RejectUnfinishedIgnoresWhereRaysAreGivenUp) {
-    const nlohmann::json few_steps = {{"max_traversal_intersections", 3}, {"depth_buffer_thickness", 100.0}};
+    const nlohmann::json few_steps = {{"hierarchy.max_traversal_intersections", 3}, {"hierarchy.depth_buffer_thickness", 100.0}};
     nlohmann::json rejected = few_steps;
     rejected["reject_unfinished"] = true;
     HostGBuffer gbuffer = gbuffer_of(floor_before_white);
@@ -125,7 +125,7 @@ TEST_F(AmdCorrections, GuardMirrorNormalHoldsForEveryRandomNumber) {
 /// 0 * infinity, which lavapipe's min() passes over as processors do, while Vulkan leaves it open: the same image.
 TEST_F(AmdCorrections, GuardZeroDirectionTracesAlongColumns) {
     view.extent = {97, 120};
-    const HostImage found = trace(floor_before_white, {{"guard_zero_direction", true}});
+    const HostImage found = trace(floor_before_white, {{"hierarchy.zero_direction", "nudged"}});
     if (device().info().is_cpu()) {
         EXPECT_TRUE(found.values == trace(floor_before_white, {{"guard_zero_direction", false}}).values);
     }
@@ -177,7 +177,7 @@ TEST_F(AmdCorrections, RedrawBelowHorizonLeavesNoRayInTheSurface) {
 TEST_F(AmdCorrections, ThicknessAtHitMipKeepsTheConfidenceOfSlantedSurfaces) {
     pose.world_from_view = glm::rotate(glm::mat4(1), -0.4f, glm::vec3(1, 0, 0));
     const double original = sum_of(trace(floor_before_white, nlohmann::json::object()));
-    const double mended = sum_of(trace(floor_before_white, {{"thickness_at_hit_mip", true}}));
+    const double mended = sum_of(trace(floor_before_white, {{"hierarchy.thickness_at_hit_mip", true}}));
     EXPECT_GT(mended, 1.2 * original);
 }
 

@@ -38,7 +38,7 @@ TEST_F(AmdStages, RaysThatAreNotDrawnAreTheMirrors) {
 
 TEST_F(AmdStages, RaysThatAreNotMarchedSeeTheEnvironment) {
     const HostGBuffer gbuffer = floor_of(0.2f);
-    const HostImage found = trace(gbuffer, {{"march", "none"}}).radiance;
+    const HostImage found = trace(gbuffer, {{"hierarchy.march", "none"}}).radiance;
     unsigned rays = 0;
     for (size_t i = 0; i < found.pixel_count(); ++i) {
         if (gbuffer.base_color.values[4 * i + 3] == 0) continue;
@@ -52,7 +52,7 @@ TEST_F(AmdStages, RaysThatAreNotMarchedSeeTheEnvironment) {
 /// Three steps find nothing here: rays that begin one use them up.
 TEST_F(AmdStages, CountsTheStepsOfEachRay) {
     const HostGBuffer gbuffer = floor_of(0.2f);
-    const nlohmann::json few = {{"max_traversal_intersections", 3}};
+    const nlohmann::json few = {{"hierarchy.max_traversal_intersections", 3}};
     nlohmann::json counted = few;
     counted["count_steps"] = true;
     const AmdTraced found = trace(gbuffer, counted);

@@ -24,11 +24,11 @@ struct AmdSubgroups : VariantTest {
 
     /// Of both forms of the denoiser; and with the early exit of subgroups that few rays are left of.
     LayeredImage images() {
-        const HostImage fast = radiance({{"min_traversal_occupancy", 0}}),
-                        faithful = radiance({{"min_traversal_occupancy", 0},
+        const HostImage fast = radiance({{"hierarchy.min_traversal_occupancy", 0}}),
+                        faithful = radiance({{"hierarchy.min_traversal_occupancy", 0},
                                              {"denoiser_form", "faithful"},
                                              {"barrier_before_average", true}}),
-                        given_up = radiance({{"min_traversal_occupancy", 4}});
+                        given_up = radiance({{"hierarchy.min_traversal_occupancy", 4}});
         return {.layers = {{"fast", "RGBA", fast}, {"faithful", "RGBA", faithful}, {"given_up", "RGBA", given_up}},
                 .attributes = {}};
     }

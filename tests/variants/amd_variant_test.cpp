@@ -60,7 +60,7 @@ struct AmdMirrorFloor : AmdSssrVariant {
     /// Compares what each floor pixel reflects with the point of the wall that its exact mirror ray meets, in pixels:
     /// at most `farthest` away along each axis, `mean_distance` as a mean vector.
     void expect_true_hits(const std::string& preset, float farthest, double mean_distance) {
-        const Frame frame = render({{"denoise", false}, {"float_histories", true}, {"depth_buffer_thickness", 0.5}},
+        const Frame frame = render({{"denoise", false}, {"float_histories", true}, {"hierarchy.depth_buffer_thickness", 0.5}},
                                    preset, floor_before_coordinates);
         const CameraData camera = camera_data(pose, nullptr, view);
         unsigned count = 0, missed = 0, wrong = 0;
@@ -124,7 +124,7 @@ TEST_F(AmdSssrVariant, KeepsWhatAMirrorShows) {
     view.extent = {320, 240};
     // With contact hits, whose rows are black without them and reach far by the tiles' averages.
     const Frame frame =
-        render({{"depth_buffer_thickness", 0.5}, {"accept_contact_hits", true}}, "corrected", mirror_floor, 4);
+        render({{"hierarchy.depth_buffer_thickness", 0.5}, {"hierarchy.accept_contact_hits", true}}, "corrected", mirror_floor, 4);
     const CameraData camera = camera_data(pose, nullptr, view);
     const auto rows_between = [&](glm::vec3 a, glm::vec3 b) {
         return std::abs(pixel_from_world(camera, a).y - pixel_from_world(camera, b).y);
@@ -226,7 +226,7 @@ TEST_F(AmdSssrVariant, LeavesEverythingOutWhereNothingIsGlossy) {
 
 /// The first frame's noise, and with it its rays, are a function of seed and frame alone.
 TEST_F(AmdSssrVariant, RepeatsItselfUnlessTheSeedDiffers) {
-    const nlohmann::json parameters = {{"min_traversal_occupancy", 0}, {"denoise", false}};
+    const nlohmann::json parameters = {{"hierarchy.min_traversal_occupancy", 0}, {"denoise", false}};
     const Frame first = render(parameters, "", glossy_floor), again = render(parameters, "", glossy_floor);
     EXPECT_TRUE(first.radiance.values == again.radiance.values);
     view.seed = 1;

@@ -11,7 +11,7 @@ using DiligentCorrections = DiligentHits;
 /// The original's projection knows of the jitter, its unprojection does not, which turns its rays by an angle that
 /// grows with the scene.
 TEST_F(DiligentCorrections, UnprojectJitterHoldsInScenesOfAnySize) {
-    const nlohmann::json mended = {{"unproject_jitter", true}};
+    const nlohmann::json mended = {{"hierarchy.unproject_jitter", true}};
     const HostGBuffer unjittered = gbuffer_of(floor_before_white);
     EXPECT_EQ(trace(unjittered, mended).direction.values, trace(unjittered).direction.values);
     view.jitter = {0.45f, -0.4f};
@@ -27,7 +27,7 @@ TEST_F(DiligentCorrections, UnprojectJitterHoldsInScenesOfAnySize) {
 
 /// A metre of 100 km is lost in the rounding of float32.
 TEST_F(DiligentCorrections, RelativeRayStepHoldsInScenesOfAnySize) {
-    const nlohmann::json mended = {{"relative_ray_step", true}};
+    const nlohmann::json mended = {{"hierarchy.relative_ray_step", true}};
     EXPECT_GT(quality(mended).right, 0.999);
     enlarge(16384);
     EXPECT_GT(quality(mended, 16384).right, 0.999);
@@ -40,7 +40,7 @@ TEST_F(DiligentCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {
     view.extent = {120, 120};
     const HostGBuffer gbuffer = gbuffer_of(mirror_beside_wall);
     EXPECT_EQ(confidence_of(trace(gbuffer)), 0);
-    EXPECT_GT(confidence_of(trace(gbuffer, {{"clip_ray_to_near_plane", true}})), 300);
+    EXPECT_GT(confidence_of(trace(gbuffer, {{"hierarchy.clip_ray_to_near_plane", true}})), 300);
 }
 
 /// A geometric normal that the shading normal turns rays below of.
@@ -67,7 +67,7 @@ TEST_F(DiligentCorrections, InwardRaysMissOrBringNoLight) {
 TEST_F(DiligentCorrections, RejectUnfinishedIgnoresWhereRaysAreGivenUp) {
     pose.world_from_view = glm::mat4(1);
     const HostGBuffer gbuffer = gbuffer_of(floor_before_white);
-    const nlohmann::json few_steps = {{"max_traversal_intersections", 3}, {"relative_depth_buffer_thickness", 1.0}};
+    const nlohmann::json few_steps = {{"hierarchy.max_traversal_intersections", 3}, {"hierarchy.relative_depth_buffer_thickness", 1.0}};
     nlohmann::json rejected = few_steps;
     rejected["reject_unfinished"] = true;
     EXPECT_GT(confidence_of(trace(gbuffer, few_steps)), 100);
@@ -78,7 +78,7 @@ TEST_F(DiligentCorrections, AcceptContactHitsShowsTheWallInTheFirstRowsOfTheFloo
     pose.world_from_view = glm::mat4(1);
     const HostGBuffer gbuffer = gbuffer_of(floor_before_white);
     const double original = confidence_of(trace(gbuffer)),
-                 mended = confidence_of(trace(gbuffer, {{"accept_contact_hits", true}}));
+                 mended = confidence_of(trace(gbuffer, {{"hierarchy.accept_contact_hits", true}}));
     // One row at least: the two nearest the wall reflect the two above them. At both sides hits fade.
     EXPECT_GT(mended, original + 0.9 * view.extent.x);
 }
@@ -103,7 +103,7 @@ TEST_F(DiligentCorrections, FloatRaysKeepLongDistances) {
     enlarge(scale);
     const auto wrong_share = [&](bool is_float) {
         const HostImage found =
-            trace(gbuffer_of(scaled(scale)), {{"relative_ray_step", true}, {"float_rays", is_float}}).direction;
+            trace(gbuffer_of(scaled(scale)), {{"hierarchy.relative_ray_step", true}, {"float_rays", is_float}}).direction;
         unsigned rays = 0, wrong = 0;
         for (unsigned y = 0; y < view.extent.y; ++y)
             for (unsigned x = 0; x < view.extent.x; ++x) {

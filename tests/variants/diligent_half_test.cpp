@@ -38,7 +38,7 @@ TEST_F(DiligentHalves, OfRaysHoldWhatTheyAreGiven) {
     for (float& value : gbuffer.lit.values) value *= 1e6f;
     for (const bool float_rays : {false, true}) {
         DiligentFrames frame(device(), gbuffer.extent(),
-                             {{"distribution_floor", false}, {"relative_ray_step", true}, {"float_rays", float_rays}});
+                             {{"distribution_floor", false}, {"hierarchy.relative_ray_step", true}, {"float_rays", float_rays}});
         frame.begin(gbuffer);
         PassGraph& graph = frame.graph;
         const Image numbers = graph.image_of("blue_noise", Format::rg32f, noise.extent);

@@ -94,7 +94,7 @@ TEST_F(DiligentHits, AreAsSureWithJitter) {
     HostGBuffer gbuffer = gbuffer_of(floor_before_white);
     encode_hits(gbuffer);
     for (const bool is_undone : {false, true}) {
-        const HostImage found = trace(gbuffer, {{"unproject_jitter", is_undone}}).radiance;
+        const HostImage found = trace(gbuffer, {{"hierarchy.unproject_jitter", is_undone}}).radiance;
         unsigned hits = 0;
         for (size_t i = 0; i < found.pixel_count(); ++i) {
             const glm::vec2 hit(found.rgb(i));
@@ -121,7 +121,7 @@ TEST_F(DiligentHits, PreviousFrameShowsWhereHitsWereThen) {
     HostGBuffer encoded = gbuffer;
     encode_hits(encoded);
     const HostImage found =
-        trace(gbuffer, {{"previous_frame", true}, {"relative_depth_buffer_thickness", 0.5}}, &encoded.lit).radiance;
+        trace(gbuffer, {{"previous_frame", true}, {"hierarchy.relative_depth_buffer_thickness", 0.5}}, &encoded.lit).radiance;
     unsigned shown = 0, wrong = 0, faded_now = 0, faded_then = 0;
     for (unsigned y = 0; y < view.extent.y; ++y)
         for (unsigned x = 0; x < view.extent.x; ++x) {
@@ -147,14 +147,14 @@ TEST_F(DiligentHits, PreviousFrameShowsWhereHitsWereThen) {
 /// Images below 64 pixels have fewer levels than the original reads.
 TEST_F(DiligentHits, AreFoundInSmallImages) {
     view = {.extent = {40, 30}, .depth_direction = DepthDirection::reversed};
-    const Quality found = quality({{"clamp_partial_texels", true}, {"accept_contact_hits", true}});
+    const Quality found = quality({{"hierarchy.partial_texels", "clamped"}, {"hierarchy.accept_contact_hits", true}});
     EXPECT_GT(found.rays, 200u);
     EXPECT_GT(found.right, 0.99);
 
     HostGBuffer glossy = gbuffer_of(floor_before_white);
     for (size_t i = 3; i < glossy.normal.values.size(); i += 4) glossy.normal.values[i] = 0.1f;
-    EXPECT_EQ(trace(glossy, {{"most_detailed_mip", 6}}).direction.values,
-              trace(glossy, {{"most_detailed_mip", 5}}).direction.values);
+    EXPECT_EQ(trace(glossy, {{"hierarchy.most_detailed_mip", 6}}).direction.values,
+              trace(glossy, {{"hierarchy.most_detailed_mip", 5}}).direction.values);
 }
 
 /// Rays of all but mirrors start from the nearest depth of a texel, here of 4x4 pixels, and meet the surface as such
@@ -164,7 +164,7 @@ TEST_F(DiligentHits, AreAsCoarseAsMostDetailedMipExceptForMirrors) {
     HostGBuffer mirror = gbuffer_of(floor_before_white);
     const float roughest_mirror = 2.0f / 255, smoothest_glossy = 3.0f / 255;  // as stored; a mirror's is below 0.01
     for (size_t i = 3; i < mirror.normal.values.size(); i += 4) mirror.normal.values[i] = roughest_mirror;
-    const nlohmann::json coarse = {{"most_detailed_mip", 2}};
+    const nlohmann::json coarse = {{"hierarchy.most_detailed_mip", 2}};
     EXPECT_EQ(trace(mirror, coarse).direction.values, trace(mirror).direction.values);
 
     HostGBuffer glossy = mirror;
@@ -193,7 +193,7 @@ TEST_F(DiligentHits, AreFoundByAnOrthographicCamera) {
     pose.is_orthographic = true;
     pose.orthographic_height = 5;
     pose.world_from_view = glm::rotate(glm::translate(glm::mat4(1), {0, 2.5f, 3}), -0.5f, glm::vec3(1, 0.1f, 0.2f));
-    const Quality found = quality({{"relative_depth_buffer_thickness", 0.5}});
+    const Quality found = quality({{"hierarchy.relative_depth_buffer_thickness", 0.5}});
     EXPECT_GT(found.rays, 2000u);
     EXPECT_GT(found.right, 0.99);
 }

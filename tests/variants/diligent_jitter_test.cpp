@@ -54,7 +54,7 @@ struct DiligentJitter : DiligentHits {
         const CameraPose small = pose;
         enlarge(scale);
         view.jitter = jitter;
-        const nlohmann::json parameters = {{"unproject_jitter", is_undone}};
+        const nlohmann::json parameters = {{"hierarchy.unproject_jitter", is_undone}};
         const Quality hits = quality(parameters, scale);
         const double error = rmse(trace(gbuffer_of(wavy(scale)), parameters).radiance, scale);
         pose = small;

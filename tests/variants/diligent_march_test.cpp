@@ -28,10 +28,10 @@ struct Outcome {
 };
 
 struct DiligentMarch : DiligentTracing {
-    const nlohmann::json mended = {{"clip_ray_to_near_plane", true},
-                                   {"relative_ray_step", true},
-                                   {"max_traversal_intersections", 4096},
-                                   {"stop_outside_screen", true}};
+    const nlohmann::json mended = {{"hierarchy.clip_ray_to_near_plane", true},
+                                   {"hierarchy.relative_ray_step", true},
+                                   {"hierarchy.max_traversal_intersections", 4096},
+                                   {"hierarchy.stop_outside_screen", true}};
 
     /// Rays that leave the screen end at the next border of the level that they are on.
     static bool is_same(const BruteForceEnd& expected, double length, glm::dvec2 pixels_apart) {
@@ -81,7 +81,7 @@ TEST_F(DiligentMarch, ClampPartialTexelsEndsRaysWhereAMarchThroughEveryPixelDoes
                          << extent.x << "x" << extent.y << ", reversed " << (direction == DepthDirection::reversed));
             view.extent = extent;
             view.depth_direction = direction;
-            const Outcome found = compare({{"clamp_partial_texels", true}});
+            const Outcome found = compare({{"hierarchy.partial_texels", "clamped"}});
             EXPECT_GT(found.rays, 1500u);
             EXPECT_GT(found.on_screen, 0.5);
             EXPECT_LT(found.wrong, near_ties);
@@ -106,7 +106,7 @@ TEST_F(DiligentMarch, StopOutsideScreenEndsRaysAtTheBorder) {
     const HostGBuffer gbuffer = gbuffer_of(floor_below_nothing);
     const auto mean_height = [&](bool stops) {
         const HostImage found =
-            trace(gbuffer, {{"stop_outside_screen", stops}, {"clip_ray_to_near_plane", true}}).direction;
+            trace(gbuffer, {{"hierarchy.stop_outside_screen", stops}, {"hierarchy.clip_ray_to_near_plane", true}}).direction;
         double sum = 0;
         for (unsigned y = 0; y < view.extent.y; ++y) {
             const glm::dvec3 ray =

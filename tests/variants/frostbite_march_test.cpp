@@ -224,7 +224,7 @@ TEST_F(FrostbiteMarch, ClimbsAgainBehindThings) {
     std::vector<PixelMarchResult> expected;
     for (const PixelRay& ray : rays) expected.push_back(truth(ray));
     EXPECT_EQ(lost_share(rays, expected), 0);
-    params.assign({{"max_hierarchical_steps", 128}});
+    params.assign({{"frostbite.max_hierarchical_steps", 128}});
     EXPECT_LT(lost_share(rays, expected), 0.01);
 }
 
@@ -249,7 +249,7 @@ TEST_F(FrostbiteMarch, TakesTheStepsThatItSaysForOrthographicCameras) {
 
 TEST_F(FrostbiteMarch, EndsWithItsSteps) {
     make_depth();
-    params.assign({{"max_hierarchical_steps", 1}});
+    params.assign({{"frostbite.max_hierarchical_steps", 1}});
     const std::vector<PixelRay> rays = random_rays(500);
     const std::vector<Found> found = march(rays, false);
     for (size_t i = 0; i < rays.size(); ++i)  // the first is the pixel beside its own
@@ -291,7 +291,7 @@ TEST_F(FrostbiteMarch, LosesWhatItsLimitsSay) {
         double end, pixel;
     };
     for (const Case& c : {Case{8, 0.314, 0.121}, Case{32, 0.110, 0.113}, Case{512, 0.046, 0.058}}) {
-        params.assign({{"linear_steps", c.steps}});
+        params.assign({{"frostbite.linear_steps", c.steps}});
         const Wrong linear = wrong(true);
         EXPECT_NEAR(linear.end, c.end, 0.01) << c.steps;
         EXPECT_NEAR(linear.pixel, c.pixel, 0.01) << c.steps;
@@ -304,17 +304,17 @@ TEST_F(FrostbiteMarch, FindsTheHitWithinItsStep) {
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 100; x < extent.x; ++x) *depth.pixel(x, y) = device_depth(5);
     *depth.pixel(20, 60) = device_depth(5.02f);
-    params.assign({{"linear_steps", 8}, {"relative_thickness", 0.05}});
+    params.assign({{"frostbite.linear_steps", 8}, {"frostbite.relative_thickness", 0.05}});
     for (const float jitter : {0.1f, 0.5f, 0.9f}) {
         PixelRay ray = ray_from({20, 60}, {1, 0, 0});
         ray.jitter = jitter;
         // 21.6 pixels per step, halved to 0.7.
         const int pixel = march(std::vector{ray}, true).front().pixel.x;
         EXPECT_TRUE(pixel >= 100 && pixel <= 102) << pixel;
-        params.assign({{"linear_refinements", 0}});
+        params.assign({{"frostbite.linear_refinements", 0}});
         const double stride = (193 - 20.5) / 8, unrefined = std::ceil((79.5 - jitter * stride) / stride) + jitter;
         EXPECT_EQ(march(std::vector{ray}, true).front().pixel.x, int(20.5 + unrefined * stride));
-        params.assign({{"linear_refinements", 8}});
+        params.assign({{"frostbite.linear_refinements", 8}});
     }
 }
 
@@ -325,7 +325,7 @@ TEST_F(FrostbiteMarch, StepsUpToTheBorder) {
     *depth.pixel(20, 60) = device_depth(5.02f);
     for (const unsigned steps : {1u, 8u, 512u})
         for (const float jitter : {0.0f, 0.1f, 0.9f}) {
-            params.assign({{"linear_steps", steps}});
+            params.assign({{"frostbite.linear_steps", steps}});
             PixelRay ray = ray_from({20, 60}, {1, 0, 0});
             ray.jitter = jitter;
             const Found found = march(std::vector{ray}, true).front();
@@ -364,7 +364,7 @@ TEST_F(FrostbiteMarch, EndsAtTheNearPlane) {
     make_wall(20);
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 0; x < 60; ++x) *depth.pixel(x, y) = device_depth(0.2f);
-    params.assign({{"relative_thickness", 10.0}});
+    params.assign({{"frostbite.relative_thickness", 10.0}});
     EXPECT_FALSE(march(ray_from({97, 65}, {0.02f, 0.001f, 1.0f})).is_hit);
 }
 

@@ -29,8 +29,8 @@ FrostbiteTraced trace_frostbite(PassGraph& graph, const GBuffer& gbuffer, const 
         frostbite_trace(graph, depths, work, FrostbiteHorizonImage().on(graph, parameters.ray), parameters.ray);
     const std::vector<uint32_t> counters = read<uint32_t>(graph, work.counters);
     return {.ray_count = graph.download(tiles.ray_count),
-            .hierarchical_list = read_list(graph, work.hierarchical_list, counters[0]),
-            .linear_list = read_list(graph, work.linear_list, counters[1]),
+            .smooth_list = read_list(graph, work.smooth_list, counters[0]),
+            .rough_list = read_list(graph, work.rough_list, counters[1]),
             .arguments = read<uint32_t>(graph, work.indirect_arguments),
             .extent = work.extent,
             .directions = read<glm::vec4>(graph, rays.directions),

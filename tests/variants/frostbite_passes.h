@@ -14,7 +14,7 @@ struct FrostbiteParameters {
 /// What the passes up to the tracers leave.
 struct FrostbiteTraced {
     HostImage ray_count;
-    std::vector<uint32_t> hierarchical_list, linear_list;
+    std::vector<uint32_t> smooth_list, rough_list;
     std::vector<uint32_t> arguments;
     glm::uvec2 extent;
     std::vector<glm::vec4> directions;

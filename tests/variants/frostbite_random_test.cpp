@@ -185,10 +185,10 @@ SyntheticHit sunken_mirrors(const CameraRay& ray) {
 TEST_F(FrostbiteRandom, DrawsTheMarchApartFromTheDirection) {
     assign(false);
     parameters.params.assign({{"classification", false},
-                              {"linear_steps", 1},
-                              {"linear_refinements", 0},
-                              {"relative_thickness", 10.0},
-                              {"front_faces_only", false}});
+                              {"frostbite.linear_steps", 1},
+                              {"frostbite.linear_refinements", 0},
+                              {"frostbite.relative_thickness", 10.0},
+                              {"frostbite.front_faces_only", false}});
     PassGraph graph(device(), {160, 160});  // 4 m
     const CameraData camera = camera_data(pose, nullptr, {.extent = graph.extent()});
     const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, sunken_mirrors);

@@ -67,9 +67,9 @@ struct FrostbiteRaysTest : VariantTest {
                     EXPECT_EQ(found.is_ray(index), k < rays) << x << ", " << y << ", " << k;
                 }
             }
-        EXPECT_EQ(std::multiset<uint32_t>(found.hierarchical_list.begin(), found.hierarchical_list.end()),
+        EXPECT_EQ(std::multiset<uint32_t>(found.smooth_list.begin(), found.smooth_list.end()),
                   hierarchical);
-        EXPECT_EQ(std::multiset<uint32_t>(found.linear_list.begin(), found.linear_list.end()), linear);
+        EXPECT_EQ(std::multiset<uint32_t>(found.rough_list.begin(), found.rough_list.end()), linear);
         const auto groups = [](size_t rays) { return uint32_t((rays + 63) / 64); };
         EXPECT_EQ(found.arguments, (std::vector<uint32_t>{groups(hierarchical.size()), hierarchical.empty() ? 0u : 1u,
                                                           1, groups(linear.size()), linear.empty() ? 0u : 1u, 1}));
@@ -154,7 +154,7 @@ TEST_F(FrostbiteRaysTest, KeepFiniteDensitiesAtEveryRoughness) {
 }
 
 TEST_F(FrostbiteRaysTest, HitTheWallWhereTheyMeetIt) {
-    parameters.params.assign({{"classification", false}, {"max_rays", 4}, {"linear_steps", 512}});
+    parameters.params.assign({{"classification", false}, {"max_rays", 4}, {"frostbite.linear_steps", 512}});
     const FrostbiteTraced found = trace(strips);
     size_t hits = 0, beside = 0;
     for (size_t i = 0; i < found.directions.size(); ++i) {
@@ -300,13 +300,13 @@ SyntheticHit mirror_and_panel(const CameraRay& ray) {
 }
 
 TEST_F(FrostbiteRaysTest, MissWhatTheyMeetFromBehind) {
-    for (const float hierarchical_below : {0.0f, 1.0f}) {
+    for (const float rough_from : {0.0f, 1.0f}) {
         parameters.params.assign({{"classification", false},
                                   {"half_resolution", false},
-                                  {"hierarchical_below", hierarchical_below},
-                                  {"relative_thickness", 1.0}});
+                                  {"rough_from", rough_from},
+                                  {"frostbite.relative_thickness", 1.0}});
         const FrostbiteTraced found = trace(mirror_and_panel);
-        parameters.params.assign({{"front_faces_only", false}});
+        parameters.params.assign({{"frostbite.front_faces_only", false}});
         const FrostbiteTraced unchecked = trace(mirror_and_panel);
         size_t from_behind = 0;
         for (size_t i = 0; i < found.directions.size(); ++i) {
@@ -317,7 +317,7 @@ TEST_F(FrostbiteRaysTest, MissWhatTheyMeetFromBehind) {
             from_behind += is_behind;
         }
         EXPECT_GT(from_behind, 50u);
-        parameters.params.assign({{"front_faces_only", true}});
+        parameters.params.assign({{"frostbite.front_faces_only", true}});
     }
 }
 
@@ -325,16 +325,16 @@ TEST_F(FrostbiteRaysTest, MissWhatTheyMeetFromBehind) {
 TEST_F(FrostbiteRaysTest, DoNotMeetThePlaneThatTheyLeave) {
     pose.vertical_fov = 0.3f;
     for (const bool leaves : {true, false})
-        for (const float hierarchical_below : {0.0f, 1.0f}) {
+        for (const float rough_from : {0.0f, 1.0f}) {
             parameters.params.assign({{"classification", false},
                                       {"half_resolution", false},
-                                      {"hierarchical_below", hierarchical_below},
-                                      {"front_faces_only", false},
-                                      {"leave_own_plane", leaves}});
+                                      {"rough_from", rough_from},
+                                      {"frostbite.front_faces_only", false},
+                                      {"frostbite.leave_own_plane", leaves}});
             const auto targets = count_targets(trace(bare_floor(0.5f)));
             const size_t hits = targets.contains(0) ? targets.at(0) : 0;
             EXPECT_GT(targets.at(ray_missed), 1000u);
-            EXPECT_EQ(hits == 0, leaves) << hits << ", hierarchical below " << hierarchical_below;
+            EXPECT_EQ(hits == 0, leaves) << hits << ", hierarchical below " << rough_from;
         }
 }
 

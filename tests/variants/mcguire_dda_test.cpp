@@ -101,7 +101,7 @@ TEST_F(MirrorFloor, ReflectsTheWallUnderJitter) {
 }
 
 TEST_F(MirrorFloor, RefinesLongStrides) {
-    variant = make_variant("mcguire_dda", {{"stride", 8}, {"thickness", 10.0}});
+    variant = make_variant("mcguire_dda", {{"dda.stride", 8}, {"dda.thickness", 10.0}});
     render();
     const auto mean_error = [&] {
         double sum = 0;
@@ -116,7 +116,7 @@ TEST_F(MirrorFloor, RefinesLongStrides) {
     };
     const double coarse = mean_error();
     EXPECT_LT(coarse, 12.0);  // a stride and a half
-    variant->params.assign({{"refine", true}});
+    variant->params.assign({{"dda.refine", true}});
     render();
     EXPECT_LT(mean_error(), 0.5 * coarse);
 }
@@ -124,7 +124,7 @@ TEST_F(MirrorFloor, RefinesLongStrides) {
 TEST_F(MirrorFloor, StartsEveryOtherRayHalfAStrideLaterIfAsked) {
     // The camera looks level over a level floor, so that rays run along columns, those of the border too: 8, 16, 24...
     // pixels from their own are tested, of every other ray 12, 20, 28...
-    variant = make_variant("mcguire_dda", {{"stride", 8}, {"checkerboard", true}, {"thickness", 10.0}});
+    variant = make_variant("mcguire_dda", {{"dda.stride", 8}, {"dda.checkerboard", true}, {"dda.thickness", 10.0}});
     render();
     unsigned count = 0;
     for (unsigned y = 0; y < extent.y; ++y)

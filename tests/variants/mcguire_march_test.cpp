@@ -21,7 +21,7 @@ struct McGuireMarch : VariantTest {
     CameraPose pose{.vertical_fov = 1.0f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = extent};
     PassGraph graph{device(), extent};
-    std::unique_ptr<Variant> variant = make_variant("mcguire_dda", {{"max_distance", 50.0}});
+    std::unique_ptr<Variant> variant = make_variant("mcguire_dda", {{"dda.max_distance", 50.0}});
     CameraData camera{};
     HostImage depth{extent, 1};
 
@@ -128,7 +128,7 @@ TEST_F(McGuireMarch, AgreesWithBruteForce) {
 
 TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThickness) {
     make_depth();
-    variant->params.assign({{"stride", 3}, {"jitter", 1.25}, {"thickness", 0.02}, {"relative_thickness", 0.1}});
+    variant->params.assign({{"dda.stride", 3}, {"dda.jitter", 1.25}, {"dda.thickness", 0.02}, {"dda.relative_thickness", 0.1}});
     expect_agreement(random_rays(4000),
                      {.stride = 3, .jitter = 1.25, .thickness = 0.02, .relative_thickness = 0.1, .max_distance = 50},
                      0.1);
@@ -138,7 +138,7 @@ TEST_F(McGuireMarch, AgreesWithBruteForceAsPublished) {
     make_depth();
     // Rays start in front of the surface: on a wall that faces the camera the published first interval begins with a
     // tie.
-    variant->params.assign({{"interval_from_origin", true}, {"thickness", 0.5}});
+    variant->params.assign({{"dda.interval_from_origin", true}, {"dda.thickness", 0.5}});
     std::vector<TestRay> rays = random_rays(4000);
     for (TestRay& ray : rays) ray.origin *= 0.98f;
     expect_agreement(rays, {.thickness = 0.5, .max_distance = 50, .interval_from_origin = true}, 0.1);
@@ -163,7 +163,7 @@ TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThicknessWithReversedDepthA
     view.depth_direction = DepthDirection::reversed;
     view.jitter = {-0.45f, 0.2f};
     make_depth();
-    variant->params.assign({{"stride", 3}, {"jitter", 1.25}, {"thickness", 0.02}, {"relative_thickness", 0.1}});
+    variant->params.assign({{"dda.stride", 3}, {"dda.jitter", 1.25}, {"dda.thickness", 0.02}, {"dda.relative_thickness", 0.1}});
     expect_agreement(random_rays(4000),
                      {.stride = 3, .jitter = 1.25, .thickness = 0.02, .relative_thickness = 0.1, .max_distance = 50},
                      0.1);
@@ -173,7 +173,7 @@ TEST_F(McGuireMarch, IsTheSameAtEveryScale) {
     // A world 1e6 times larger: the thickness is relative, so each pixel must do what it did. Powers of two round
     // alike.
     make_depth();
-    variant->params.assign({{"thickness", 0.0}, {"relative_thickness", 0.05}, {"max_distance", 0.0}});
+    variant->params.assign({{"dda.thickness", 0.0}, {"dda.relative_thickness", 0.05}, {"dda.max_distance", 0.0}});
     std::vector<TestRay> rays = random_rays(1000);
     const std::vector<Found> small = march(rays);
     const float scale = 1048576.0f;
@@ -203,7 +203,7 @@ TEST_F(McGuireMarch, MissesAlongTheView) {
 
 TEST_F(McGuireMarch, MissesWithinItsOwnPixel) {
     make_depth();
-    variant->params.assign({{"max_distance", 1e-3}});
+    variant->params.assign({{"dda.max_distance", 1e-3}});
     EXPECT_FALSE(march({position_at(40, 30), {1, 0, 0}}).is_hit);
     EXPECT_FALSE(march({position_at(40, 30), {0, 1, 0}}).is_hit);
 }
@@ -248,14 +248,14 @@ TEST_F(McGuireMarch, EndsAtTheNearPlane) {
     depth = HostImage(extent, 1, far_clip.z / far_clip.w);
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 0; x < 30; ++x) *depth.pixel(x, y) = box_clip.z / box_clip.w;
-    variant->params.assign({{"thickness", 1e6}});
+    variant->params.assign({{"dda.thickness", 1e6}});
     const Found found = march({{0.0f, 0.0f, -19.0f}, normalize(glm::vec3(0.02f, 0.001f, 1.0f))});
     EXPECT_FALSE(found.is_hit);
 }
 
 TEST_F(McGuireMarch, LeavesTheScreenAtItsBorder) {
     make_depth();
-    variant->params.assign({{"thickness", 1e6}, {"clip_to_viewport", false}});
+    variant->params.assign({{"dda.thickness", 1e6}, {"dda.clip_to_viewport", false}});
     // Just outside the first column there is nothing, whatever a truncating conversion to int would find.
     depth = HostImage(extent, 1, camera.depth.z);
     for (unsigned y = 0; y < extent.y; ++y) *depth.pixel(0, y) = 0.0f;

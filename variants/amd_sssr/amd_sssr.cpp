@@ -1,7 +1,6 @@
 #include "variants/amd_sssr/amd_sssr.h"
 
 #include "variants/amd_sssr/passes.h"
-#include "variants/common/depth_pyramid.h"
 
 Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
     const Image confidence = graph.image("confidence", Format::r8);
@@ -10,13 +9,13 @@ Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
         for (const Image& image : {histories.radiance.current, confidence}) graph.clear(image, {});
         return {histories.radiance.current, confidence};
     }
-    const Image pyramid = nearest_depth_pyramid(graph, gbuffer.depth, tracing_.pyramid_mips);
-    const AmdWork work = amd_classify(graph, gbuffer, pyramid, histories, confidence);
+    const Tracers::Images traced_images = tracing_.tracers.images(graph, gbuffer.depth);
+    const AmdWork work = amd_classify(graph, gbuffer, histories, confidence);
     const Image noise = tracing_.independent_noise_shifts
                             ? noise_.render(graph, NoiseShift::r2, NoisePrecision::float_32)
                             : noise_.render(graph, NoiseShift::golden_diagonal);
     amd_prepare_arguments(graph, work);
-    amd_intersect(graph, gbuffer, pyramid, noise, work, histories, tracing_);
+    amd_intersect(graph, gbuffer, traced_images, noise, work, histories, tracing_, ray_probe);
     if (denoiser_.denoise) amd_denoise(graph, gbuffer, work, histories, denoiser_);
     return {histories.radiance.current, confidence};
 }
@@ -29,8 +28,9 @@ std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
     if (!is_left_out_) return {};
     const std::string fact =
         facts.has_reflective ? "no reflective surface below roughness_threshold_alpha" : "nothing reflective";
-    std::vector<std::string> stages = {"common/depth_pyramid", "amd_sssr/classify", "common/blue_noise",
-                                       "amd_sssr/prepare_arguments", "amd_sssr/intersect"};
+    std::vector<std::string> stages = {"amd_sssr/classify", "common/blue_noise", "amd_sssr/prepare_arguments",
+                                       "amd_sssr/intersect"};
+    if (tracing_.tracers.needs_pyramid()) stages.insert(stages.begin(), "common/depth_pyramid");
     if (denoiser_.denoise)
         stages.insert(stages.end(), {"amd_sssr/reproject", "amd_sssr/prefilter", "amd_sssr/resolve_temporal"});
     std::vector<LeftOut> left_out;
@@ -40,14 +40,13 @@ std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
 
 /// Without the one no surface is smooth enough to start a ray, without the other every ray is the mirror's.
 bool AmdSssr::depends_on_seed() const {
-    return tracing_.roughness_threshold_alpha > 0 && tracing_.draw_directions;
+    return tracing_.roughness_threshold_alpha > 0 &&
+           (tracing_.draw_directions || tracing_.tracers.needs().random);
 }
 
 std::string AmdSssr::not_repeatable() const {
-    std::string why;
-    // Pixels enter the ray list in the order in which atomics let them, and a subgroup gives rays up by their number.
-    if (tracing_.min_traversal_occupancy > 0)
-        why = "min_traversal_occupancy > 0: which rays share a subgroup depends on the order in which threads ran";
+    // Pixels enter the ray list in the order in which atomics let them.
+    std::string why = tracing_.tracers.not_repeatable();
     if (denoiser_.denoise && denoiser_.denoiser_form.is("faithful") && !denoiser_.barrier_before_average)
         why += std::string(why.empty() ? "" : "; ") +
                "denoiser_form = faithful without barrier_before_average: a tile's average may overwrite moments that "

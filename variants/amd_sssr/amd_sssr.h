@@ -14,6 +14,8 @@ public:
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override;
     std::string not_repeatable() const override;
+    ShaderIncludes shader_includes() const override { return tracing_.tracers.includes(); }
+    GBufferLayers gbuffer_layers() const override { return tracing_.tracers.gbuffer_layers(); }
 
 private:
     AmdTracingParameters tracing_{params};

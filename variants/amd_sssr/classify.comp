@@ -6,7 +6,7 @@
 #include "common/mirror_ray.glsl"
 
 layout(local_size_x = 64) in;
-uniform sampler2D depth_pyramid, fallback, previous_variance;
+uniform sampler2D fallback, previous_variance;
 uniform writeonly image2D roughness, radiance, confidence;
 buffer tile_list { uint listed_tile[]; };
 
@@ -20,7 +20,7 @@ struct Pixel {
 Pixel classify(ivec2 position) {
     Pixel pixel = Pixel(false, false, false, 1.0);
     if (!is_on_screen(position)) return pixel;
-    pixel.is_surface = !is_background(texelFetch(depth_pyramid, position, 0).r);
+    pixel.is_surface = !is_background(texelFetch(depth, position, 0).r);
     if (!pixel.is_surface || !has_specular(position)) return pixel;
     float perceptual = texelFetch(normal, position, 0).w;
     pixel.alpha = perceptual * perceptual;

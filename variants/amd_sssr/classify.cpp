@@ -4,7 +4,7 @@
 
 float amd_alpha_of_8_bits(float alpha) { return std::floor(alpha * 255.0f + 0.5f) / 255.0f; }  // as lists.glsl
 
-AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& pyramid, const AmdHistories& histories,
+AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories,
                      const Image& confidence) {
     const glm::uvec2 extent = graph.extent(), tiles = (extent + 7u) / 8u;
     const AmdWork work{.ray_list = graph.buffer("ray_list", size_t(extent.x) * extent.y * 4),
@@ -12,7 +12,6 @@ AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& pyra
                        .counters = graph.buffer("counters", 16),
                        .indirect_arguments = graph.buffer("indirect_arguments", 36)};
     graph.compute("amd_sssr/classify.comp")
-        .read(pyramid)
         .read(gbuffer.fallback)
         .read(histories.variance.previous)
         .write(histories.radiance.current)

@@ -37,16 +37,16 @@ struct AmdWork {
 
 /// Lists rays and tiles; writes alpha, clears histories.radiance.current (environment where too rough) and writes
 /// `confidence`: 1 where the technique is responsible.
-AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const Image& pyramid, const AmdHistories& histories,
-                     const Image& confidence);
+AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence);
 
 /// Turns counters into indirect arguments and rewinds them.
 void amd_prepare_arguments(PassGraph& graph, const AmdWork& work);
 
-/// Traces the listed rays into histories.radiance.current. `noise`: 128x128, two channels in [0, 1]. With count_steps
-/// the image `march_steps` (r32f) gets the texels of the pyramid that each pixel's march read, 0 where none began.
-void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Image& pyramid, const Image& noise,
-                   const AmdWork& work, const AmdHistories& histories, const AmdTracingParameters& parameters);
+/// Traces the listed rays into histories.radiance.current. `noise`: 128x128, two channels in [0, 1]. `images`: of
+/// parameters.tracers.
+void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Images& images, const Image& noise,
+                   const AmdWork& work, const AmdHistories& histories, const AmdTracingParameters& parameters,
+                   RayProbe* probe = nullptr);
 
 /// Reproject reads radiance.previous, variance.previous, sample_count.previous, roughness.previous and writes their
 /// current sides, `reprojected_radiance` and average_radiance.current; prefilter then overwrites radiance.previous and

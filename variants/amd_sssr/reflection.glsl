@@ -29,6 +29,9 @@ vec2 redraw(ivec2 pixel, uint attempt) {
     return random_point(uvec4(pixel, camera.frame.x, camera.frame.y * 16u + attempt));
 }
 
+// Of the start of its march, for tracers that take steps.
+float march_random(ivec2 pixel) { return redraw(pixel, 15u).x; }
+
 // About +z. Of the bounded lobe at most one in thirty directions is below the horizon, so that attempts do not run out.
 vec3 sample_above_horizon(vec3 o, float alpha, vec2 u, ivec2 pixel) {
     float bound = ggx_cap_bound(o.z, alpha);

@@ -33,6 +33,6 @@ Image farthest_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips
     return reduce(graph, depth, mips, "farthest_depth_pyramid", true);
 }
 
-DepthPyramids depth_pyramids(PassGraph& graph, const Image& depth, unsigned mips) {
-    return {nearest_depth_pyramid(graph, depth, mips), farthest_depth_pyramid(graph, depth, mips)};
+Image depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips, bool keeps_farthest) {
+    return keeps_farthest ? farthest_depth_pyramid(graph, depth, mips) : nearest_depth_pyramid(graph, depth, mips);
 }

@@ -10,8 +10,5 @@ Image nearest_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips)
 /// near plane, in mip 0 too.
 Image farthest_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips);
 
-/// Both, for marches that pass over what lies behind them as well as what lies in front.
-struct DepthPyramids {
-    Image nearest, farthest;
-};
-DepthPyramids depth_pyramids(PassGraph& graph, const Image& depth, unsigned mips);
+/// One or the other.
+Image depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips, bool keeps_farthest);

@@ -1,7 +1,7 @@
 // Last pass of DiligentFX's denoising: where the variance is high, an average over neighbours of the same surface,
 // with the edge-stopping functions of Schied et al. 2017 ("Spatiotemporal Variance-Guided Filtering", section 4.4).
 #include "core/shaders/view.glsl"
-#include "diligent_ssr/background.glsl"
+#include "common/image_space.glsl"
 #include "diligent_ssr/camera_depth.glsl"
 #include "diligent_ssr/half.glsl"
 

@@ -19,10 +19,11 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
             ? noise_.render(graph, NoiseShift::r2, NoisePrecision::float_32, NoiseStage::fragment)
             : noise_.render(graph, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8, NoiseStage::fragment);
     const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
-    const Image hierarchy = diligent_depth_hierarchy(graph, gbuffer, tracing_);
+    const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing_);
     const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_, filter_);
     const Image color = tracing_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
-    const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, noise, color, mask, tracing_);
+    const DiligentRays rays =
+        diligent_trace(graph, gbuffer, hierarchies, noise, color, mask, tracing_, ray_probe);
     const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter_);
     const DiligentHistories histories = diligent_histories(graph, filter_);
     diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter_);
@@ -35,7 +36,7 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
 bool DiligentSsr::depends_on_seed() const {
     const bool has_lobes = tracing_.roughness_threshold > 0;
     const bool has_mirror_rays_only = tracing_.bias_towards_mirror && tracing_.ggx_importance_sample_bias == 1;
-    return has_lobes && !has_mirror_rays_only;
+    return has_lobes && (!has_mirror_rays_only || tracing_.tracers.needs().random);
 }
 
 std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
@@ -47,12 +48,12 @@ std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
         facts.has_reflective ? "no reflective surface as smooth as roughness_threshold" : "nothing reflective";
     std::vector<std::string> stages = {"common/blue_noise",
                                        "diligent_ssr/reprojected_depth",
-                                       "diligent_ssr/depth_hierarchy",
                                        "diligent_ssr/mask",
                                        "diligent_ssr/intersection",
                                        "diligent_ssr/spatial_reconstruction",
                                        "diligent_ssr/temporal_accumulation",
                                        "diligent_ssr/bilateral_cleanup"};
+    if (tracing_.tracers.needs_pyramid()) stages.push_back("diligent_ssr/depth_hierarchy");
     if (tracing_.half_resolution) stages.push_back("diligent_ssr/half_resolution_mask");
     if (tracing_.previous_frame) stages.push_back("common/keep_lit");
     std::vector<LeftOut> left_out;

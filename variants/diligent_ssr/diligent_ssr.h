@@ -14,6 +14,8 @@ public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override;
+    ShaderIncludes shader_includes() const override { return tracing_.tracers.includes(); }
+    GBufferLayers gbuffer_layers() const override { return tracing_.tracers.gbuffer_layers(); }
 
 private:
     DiligentTracingParameters tracing_{params};

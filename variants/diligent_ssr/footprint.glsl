@@ -1,6 +1,5 @@
 // What a texel of an image of half the size, rounded down, stands for.
-
-float nearer(float a, float b) { return camera.depth.w == 1.0 ? max(a, b) : min(a, b); }
+#include "common/image_space.glsl"
 
 // Columns and rows of a texel's footprint. Those that an odd size leaves over belong to the last texel; as in the
 // original, every texel takes one more.

@@ -1,6 +1,5 @@
 // Keeps the blocks of 2x2 pixels, and what odd sizes leave over, whose roughest pixel is smooth enough. As in the
 // original this asks the extracted roughness, which pixels that the mask leaves out do not write.
-#include "diligent_ssr/background.glsl"
 #include "diligent_ssr/footprint.glsl"
 uniform sampler2D depth, roughness;
 
@@ -10,7 +9,7 @@ void main() {
     for (int y = 0; y < count.y; ++y)
         for (int x = 0; x < count.x; ++x) {
             ivec2 pixel = min(first + ivec2(x, y), extent - 1);
-            nearest = nearer(nearest, texelFetch(depth, pixel, 0).r);
+            nearest = nearer_of(nearest, texelFetch(depth, pixel, 0).r);
             roughest = max(roughest, texelFetch(roughness, pixel, 0).r);
         }
     if (is_far_plane(nearest) || roughest > roughness_threshold) discard;

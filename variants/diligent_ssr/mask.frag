@@ -1,6 +1,6 @@
 // Keeps the pixels that reflect and are smooth enough, and extracts their roughness.
 #include "common/mirror_ray.glsl"
-#include "diligent_ssr/background.glsl"
+#include "common/image_space.glsl"
 layout(location = 0) out float roughness;
 
 // The original reads roughness from a buffer of 8 bits. Codes become numbers here as on the device that the original

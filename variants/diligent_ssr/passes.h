@@ -42,9 +42,10 @@ DiligentHistories diligent_histories(PassGraph& graph, const DiligentFilterParam
 /// guard_previous_clip that of the near plane for points that were behind the camera.
 Image diligent_reprojected_depth(PassGraph& graph, const GBuffer& gbuffer);
 
-/// Mip 0 is gbuffer.depth, each following texel the nearest of the 2x2 below, or of three where the level below is odd:
-/// `depth_hierarchy`, r32f, 7 mips at most. One draw per mip.
-Image diligent_depth_hierarchy(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& parameters);
+/// The pyramids that parameters.tracers need. Mip 0 is gbuffer.depth, each following texel the nearest (or farthest) of
+/// the 2x2 below, or of three where the level below is odd. One draw per mip.
+Tracers::Images diligent_depth_hierarchies(PassGraph& graph, const GBuffer& gbuffer,
+                                           const DiligentTracingParameters& parameters);
 
 /// Keeps surfaces that reflect and are no rougher than roughness_threshold.
 DiligentMask diligent_mask(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& tracing,
@@ -55,8 +56,9 @@ float diligent_roughness_of_8_bits(float perceptual);
 
 /// One ray per kept pixel of mask.traced. `noise`: 128x128, two channels in [0, 1]. `color`: lit image that hits show;
 /// of the previous frame with previous_frame.
-DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Image& hierarchy, const Image& noise,
-                            const Image& color, const DiligentMask& mask, const DiligentTracingParameters& parameters);
+DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Images& hierarchies,
+                            const Image& noise, const Image& color, const DiligentMask& mask,
+                            const DiligentTracingParameters& parameters, RayProbe* probe = nullptr);
 
 DiligentResolved diligent_reconstruct(PassGraph& graph, const GBuffer& gbuffer, const DiligentRays& rays,
                                       const DiligentMask& mask, const DiligentFilterParameters& parameters);

@@ -1,9 +1,10 @@
 #pragma once
 #include "variants/common/inward_rays.h"
+#include "variants/tracers/tracers.h"
 
-/// Parameters of depth hierarchy, mask, noise and intersection, under the original's names. "DiligentFX" is its
-/// ScreenSpaceReflection as of July 2026, "2024" that of April 2024, which its document describes. Switches under
-/// "corrections" mend one defect each.
+/// Parameters of depth hierarchy, mask, noise and intersection, under the original's names; those of its march begin with
+/// `hierarchy.`. "DiligentFX" is its ScreenSpaceReflection as of July 2026, "2024" that of April 2024, which its document
+/// describes. Switches under "corrections" mend one defect each.
 struct DiligentTracingParameters {
     ParameterSet& params;
 
@@ -22,13 +23,6 @@ struct DiligentTracingParameters {
          "DiligentFX, FEATURE_FLAG_PREVIOUS_FRAME"}};
     Param<float> roughness_threshold{params, "roughness_threshold", 0.2f, {0.0f, 1.0f},
         {"perceptual", "rougher surfaces are left to the fallback", "DiligentFX, RoughnessThreshold"}};
-    Param<unsigned> most_detailed_mip{params, "most_detailed_mip", 0, {0, 6},
-        {"mip", "finest level of the depth hierarchy for all but mirrors, which use 0", "DiligentFX, MostDetailedMip"}};
-    Param<unsigned> max_traversal_intersections{params, "max_traversal_intersections", 128, {0, 4096},
-        {"steps", "texels of the depth hierarchy that one ray may visit", "DiligentFX, MaxTraversalIntersections"}};
-    Param<float> relative_depth_buffer_thickness{params, "relative_depth_buffer_thickness", 0.025f, {1e-6f, 1.0f},
-        {"of the depth", "distance between ray and surface, over the surface's distance from the camera plane, at which "
-         "the confidence of a hit has fallen to 0", "DiligentFX, DepthBufferThickness"}};
     Choice misses{params, "misses", "weight", {"weight", "fallback"},
         {"", "what a ray without a hit contributes, and the share that a hit's confidence leaves. weight: only less "
          "confidence; fallback: the environment in the ray's direction", "DiligentFX: weight; fallback: SSSR 1.5"}};
@@ -37,30 +31,10 @@ struct DiligentTracingParameters {
          "DiligentFX, GGXImportanceSampleBias"}};
 
     // Corrections.
-    Switch clamp_partial_texels{params, "clamp_partial_texels", false,
-        {"", "the last texels of a level serve the rows and columns that odd sizes leave over. The original looks them up "
-         "beyond the level and reads 0 there: with reversed depth whole strips at the lower and right edge are skipped",
-         "ssrlab"}};
-    Switch unproject_jitter{params, "unproject_jitter", false,
-        {"", "view-space positions undo the TAA jitter that the projection of the ray applies. In the original they "
-         "differ, which turns every ray by an angle that grows with the distance", "ssrlab"}};
     Switch bias_towards_mirror{params, "bias_towards_mirror", false,
         {"", "moves the part of the lobe that ggx_importance_sample_bias leaves towards the mirror direction, which a "
          "bias of 1 then gives. The original moves it towards the view direction, and its rays with it", "ssrlab"}};
-    Switch clip_ray_to_near_plane{params, "clip_ray_to_near_plane", false,
-        {"", "shortens the step that gives the ray's direction on the screen so that it stays before the near plane; "
-         "behind the camera it would be mirrored", "ssrlab"}};
-    Switch relative_ray_step{params, "relative_ray_step", false,
-        {"", "makes that step a share of the distance from the camera in place of one metre, which in large scenes is "
-         "lost to rounding", "ssrlab"}};
     Choice inward_rays = inward_rays_parameter(params, "traced", "DiligentFX: traced");
-    Switch stop_outside_screen{params, "stop_outside_screen", false,
-        {"", "ends a ray where it leaves the screen", "ssrlab"}};
-    Switch reject_unfinished{params, "reject_unfinished", false,
-        {"", "a ray that ran out of steps is a miss. The original validates wherever it stood", "ssrlab"}};
-    Switch accept_contact_hits{params, "accept_contact_hits", false,
-        {"", "rejects a hit only in the pixel that its ray started from. The original rejects those nearer than two "
-         "pixels on both axes, so that contact reflections are lost", "ssrlab"}};
     Switch independent_noise_shifts{params, "independent_noise_shifts", false,
         {"", "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts both by "
          "the golden ratio, so that a pixel's samples stay on one diagonal of the unit square and never cover the lobe",
@@ -75,4 +49,16 @@ struct DiligentTracingParameters {
          "after them. The original averages misses as black and then multiplies by the confidence once more, so that "
          "edges of reflections are dark", "ssrlab"}};
     // clang-format on
+
+    Tracers tracers{params,
+                    {{"tracer", "trace", "hierarchy", "the march that finds what a ray meets"}},
+                    "DiligentFX: hierarchy",
+                    {{"hierarchy.accept_contact_hits", false},
+                     {"hierarchy.reject_unfinished", false},
+                     {"hierarchy.stop_outside_screen", false},
+                     {"hierarchy.max_traversal_intersections", 128},
+                     {"hierarchy.clip_ray_to_near_plane", false},
+                     {"hierarchy.relative_ray_step", false},
+                     {"hierarchy.partial_texels", "zero"},
+                     {"hierarchy.unproject_jitter", false}}};
 };

@@ -7,8 +7,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D ray_count;
-buffer hierarchical_list { uint hierarchical_ray[]; };
-buffer linear_list { uint linear_ray[]; };
+buffer smooth_list { uint smooth_ray[]; };
+buffer rough_list { uint rough_ray[]; };
 
 uint rays_of(ivec2 pixel) {
     return starts_rays(pixel) ? uint(texelFetch(ray_count, pixel / tile_width, 0).r) : 0u;
@@ -25,21 +25,21 @@ void main() {
     bool is_traced = all(lessThan(traced, traced_extent()));
     ivec2 pixel = traced_pixel(is_traced ? traced : ivec2(0), camera.frame.x);
     uint count = is_traced ? rays_of(pixel) : 0u;
-    uint tracer = is_hierarchical(pixel) ? 0u : 1u;
+    uint tracer = is_rough(pixel) ? 1u : 0u;
     uint first = count > 0u ? atomicAdd(group_counts[tracer], count) : 0u;
     barrier();
 
     if (gl_LocalInvocationIndex == 0u) {
-        group_first[0] = atomicAdd(hierarchical_count, group_counts[0]);
-        group_first[1] = atomicAdd(linear_count, group_counts[1]);
+        group_first[0] = atomicAdd(smooth_count, group_counts[0]);
+        group_first[1] = atomicAdd(rough_count, group_counts[1]);
     }
     barrier();
 
     for (uint k = 0u; k < count; ++k) {
         uint place = group_first[tracer] + first + k, index = index_of_ray(traced, k);
         if (tracer == 0u)
-            hierarchical_ray[place] = index;
+            smooth_ray[place] = index;
         else
-            linear_ray[place] = index;
+            rough_ray[place] = index;
     }
 }

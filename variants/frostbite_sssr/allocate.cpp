@@ -4,16 +4,16 @@ FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const
                                  const FrostbiteRayParameters& parameters) {
     const glm::uvec2 screen = gbuffer.depth.extent, extent = parameters.half_resolution ? (screen + 1u) / 2u : screen;
     const size_t list_bytes = size_t(extent.x) * extent.y * parameters.max_rays * 4;
-    const FrostbiteWork work{.hierarchical_list = graph.buffer("hierarchical_list", list_bytes),
-                             .linear_list = graph.buffer("linear_list", list_bytes),
+    const FrostbiteWork work{.smooth_list = graph.buffer("smooth_list", list_bytes),
+                             .rough_list = graph.buffer("rough_list", list_bytes),
                              .counters = graph.buffer("counters", 8),
                              .indirect_arguments = graph.buffer("indirect_arguments", 24),
                              .extent = extent};
     graph.clear(work.counters, 0);
     graph.compute("frostbite_sssr/allocate.comp")
         .read(tiles.ray_count)
-        .use(work.hierarchical_list)
-        .use(work.linear_list)
+        .use(work.smooth_list)
+        .use(work.rough_list)
         .use(work.counters)
         .run(extent);
     graph.compute("frostbite_sssr/prepare_arguments.comp")

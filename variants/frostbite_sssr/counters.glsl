@@ -2,7 +2,7 @@
 #ifndef FROSTBITE_SSSR_COUNTERS_GLSL
 #define FROSTBITE_SSSR_COUNTERS_GLSL
 
-buffer counters { uint hierarchical_count, linear_count; };
+buffer counters { uint smooth_count, rough_count; };
 
 // For groups of 64 that indirect_arguments started.
 uint place_in_list() {

@@ -10,13 +10,13 @@ Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
         graph.clear(nothing, {});
         return {nothing, nothing, alpha};
     }
-    const DepthPyramids depths = depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips);
+    const Tracers::Images traced_images = ray_.tracers.images(graph, gbuffer.depth);
     const Image color = resolve_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
     const Image filtered = resolve_.filtered_sampling ? frostbite_color_pyramid(graph, color) : color;
-    const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, color, ray_);
+    const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, traced_images, color, ray_, ray_probe);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, ray_);
     const Image below_horizon = horizon_.on(graph, ray_);
-    const FrostbiteRays rays = frostbite_trace(graph, depths, work, below_horizon, ray_);
+    const FrostbiteRays rays = frostbite_trace(graph, traced_images, work, below_horizon, ray_, ray_probe);
     const Image split_sum = split_sum_.on(graph);
     const FrostbiteResolved resolved =
         frostbite_resolve(graph, gbuffer, filtered, split_sum, below_horizon, rays, resolve_);
@@ -29,9 +29,9 @@ std::vector<LeftOut> FrostbiteSssr::leave_out(const SceneFacts& facts) {
     if (!is_left_out_) return {};
     const std::string fact =
         facts.has_reflective ? "no reflective surface as smooth as max_roughness" : "nothing reflective";
-    std::vector<std::string> stages = {"common/depth_pyramid", "frostbite_sssr/allocate",
-                                       "frostbite_sssr/trace_hierarchical", "frostbite_sssr/trace_linear",
-                                       "frostbite_sssr/resolve"};
+    std::vector<std::string> stages = {"frostbite_sssr/allocate", "frostbite_sssr/trace_smooth",
+                                       "frostbite_sssr/trace_rough", "frostbite_sssr/resolve"};
+    if (ray_.tracers.needs_pyramid()) stages.insert(stages.begin(), "common/depth_pyramid");
     if (resolve_.previous_frame) stages.push_back("common/keep_lit");
     if (resolve_.filtered_sampling) stages.push_back("frostbite_sssr/color_pyramid");
     if (ray_.classification) stages.push_back("frostbite_sssr/classify");

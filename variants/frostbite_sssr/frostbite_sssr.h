@@ -13,6 +13,8 @@ class FrostbiteSssr final : public Variant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
+    ShaderIncludes shader_includes() const override { return ray_.tracers.includes(); }
+    GBufferLayers gbuffer_layers() const override { return ray_.tracers.gbuffer_layers(); }
 
 private:
     FrostbiteRayParameters ray_{params};

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
 #include "core/gpu/pass_graph.h"
-#include "variants/common/depth_pyramid.h"
 #include "variants/frostbite_sssr/ray_parameters.h"
 #include "variants/frostbite_sssr/resolve_parameters.h"
 
@@ -11,9 +10,6 @@
 /// Size of a tile of the classification and distance of its probes (pixels).
 inline constexpr unsigned frostbite_tile = 32, frostbite_probe_spacing = 8;
 
-/// Levels of the depth pyramids.
-inline constexpr unsigned frostbite_pyramid_mips = 7;
-
 /// How many rays each tile gets.
 struct FrostbiteTiles {
     Image ray_count;  ///< r32f, one texel per tile, rounded up: rays of each of its traced pixels, 0: skipped
@@ -21,9 +17,9 @@ struct FrostbiteTiles {
 
 /// Rays to trace, by tracer, and the indirect arguments that start both.
 struct FrostbiteWork {
-    Buffer hierarchical_list, linear_list;  ///< index of the ray: (y * width + x) * max_rays + k, in traced pixels
+    Buffer smooth_list, rough_list;  ///< index of the ray: (y * width + x) * max_rays + k, in traced pixels
     Buffer counters;                        ///< lengths of both
-    Buffer indirect_arguments;              ///< groups of 64 rays: hierarchical (3 words), linear (at byte 12)
+    Buffer indirect_arguments;              ///< groups of 64 rays: smooth (3 words), rough (at byte 12)
     glm::uvec2 extent;                      ///< traced pixels: of the screen, or half of it, rounded up
 };
 
@@ -43,17 +39,19 @@ struct FrostbiteResolved {
 /// `color` and all its mips, each texel the mean over its area, also where sizes are odd: `color_pyramid`, rgba32f.
 Image frostbite_color_pyramid(PassGraph& graph, const Image& color);
 
-/// Probes and the decision per tile.
-FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, const DepthPyramids& depths,
-                                  const Image& color, const FrostbiteRayParameters& parameters);
+/// Probes and the decision per tile. `images`: of parameters.tracers.
+FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Images& images,
+                                  const Image& color, const FrostbiteRayParameters& parameters,
+                                  RayProbe* probe = nullptr);
 
 /// Lists the rays of every traced pixel, and prepares the arguments.
 FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteTiles& tiles,
                                  const FrostbiteRayParameters& parameters);
 
-/// Both tracers. `below_horizon`: of FrostbiteHorizonImage.
-FrostbiteRays frostbite_trace(PassGraph& graph, const DepthPyramids& depths, const FrostbiteWork& work,
-                              const Image& below_horizon, const FrostbiteRayParameters& parameters);
+/// Both tracers. `images`: of parameters.tracers; `below_horizon`: of FrostbiteHorizonImage.
+FrostbiteRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, const FrostbiteWork& work,
+                              const Image& below_horizon, const FrostbiteRayParameters& parameters,
+                              RayProbe* probe = nullptr);
 
 /// `color`: the lit image that hits show, with its mips for filtered_sampling. `split_sum`: of SplitSumImage;
 /// `below_horizon`: of FrostbiteHorizonImage.

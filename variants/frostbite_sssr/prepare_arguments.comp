@@ -3,9 +3,9 @@
 #include "frostbite_sssr/counters.glsl"
 
 layout(local_size_x = 1) in;
-buffer indirect_arguments { uint hierarchical_groups[3], linear_groups[3]; };
+buffer indirect_arguments { uint smooth_groups[3], rough_groups[3]; };
 
 void main() {
-    hierarchical_groups = spread((hierarchical_count + 63u) / 64u);
-    linear_groups = spread((linear_count + 63u) / 64u);
+    smooth_groups = spread((smooth_count + 63u) / 64u);
+    rough_groups = spread((rough_count + 63u) / 64u);
 }

@@ -1,6 +1,6 @@
 // One probe ray per block of 8x8 pixels: what it sees, and whether it is on the screen.
-#include "frostbite_sssr/march_hierarchy.glsl"
-#include "frostbite_sssr/march_linear.glsl"
+#include "tracer"
+#include "rough_tracer"
 #include "frostbite_sssr/reuse.glsl"
 #include "frostbite_sssr/tile.glsl"
 #include "frostbite_sssr/trace_ray.glsl"
@@ -9,9 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D hit_color, fallback;
 uniform writeonly image2D probes;
 
-March march(ScreenLine line, float random) {
-    return is_hierarchical(line.pixel) ? march_hierarchy(line) : march_linear(line, random);
-}
+TraceEnd march(TraceRay ray) { return is_rough(ray.pixel) ? rough_trace(ray) : smooth_trace(ray); }
 
 // Number `turn` of a block's 64 pixels, the next ones as far apart as can be: each pair of bits halves the distance.
 ivec2 pixel_of_turn(uint turn) {

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/parameters.h"
+#include "variants/tracers/tracers.h"
 
 /// Parameters of classification, sampling and tracing. "Slides" are those of Stachowiak and Uludag 2015, "Stochastic
 /// Screen-Space Reflections" (SIGGRAPH, Advances in Real-Time Rendering), as quoted by others: what they leave open is
@@ -40,24 +40,13 @@ struct FrostbiteRayParameters {
         {"", "times that a ray below the horizon is drawn again", "slides: a few times; the number is ours"}};
 
     // The two tracers.
-    Param<float> hierarchical_below{params, "hierarchical_below", 0.2f, {0.0f, 1.0f},
-        {"perceptual", "roughness below which rays march through the depth pyramid; rougher ones take linear steps",
+    Param<float> rough_from{params, "rough_from", 0.2f, {0.0f, 1.0f},
+        {"perceptual", "roughness from which rays are traced by `rough_tracer`; those of smoother surfaces by `tracer`",
          "slides: 20 %, of which roughness they do not say"}};
-    Param<unsigned> max_hierarchical_steps{params, "max_hierarchical_steps", 0, {0, 65536},
-        {"cells", "of the depth pyramid that one ray may pass before it counts as a miss; 0: as many as it takes, which is "
-         "at most the sum of the screen's width and height", "ssrlab"}};
-    Param<unsigned> linear_steps{params, "linear_steps", 32, {1, 4096},
-        {"steps", "into which a rough surface's ray is divided between its start and the border of the screen", "ssrlab"}};
-    Param<unsigned> linear_refinements{params, "linear_refinements", 8, {0, 16},
-        {"", "times at most that the last linear step is halved, to find where on it the ray meets the surface; no more "
-         "once it is a pixel or less", "ssrlab"}};
-    Switch front_faces_only{params, "front_faces_only", true,
-        {"", "a ray that meets a surface from behind counts as a miss: the screen shows the other side of it",
-         "ssrlab; AMD FidelityFX SSSR 1.5 rejects such hits, too"}};
-    Switch leave_own_plane{params, "leave_own_plane", true,
-        {"", "a ray passes over what is less than half as high as itself above the plane that it leaves: samples are "
-         "steps, and at grazing angles the next step of that plane lies in the way", "ssrlab"}};
-    Param<float> relative_thickness{params, "relative_thickness", 0.05f, {1e-6f, 10.0f},
-        {"of the depth", "depth behind the visible surface that counts as solid", "ssrlab"}};
     // clang-format on
+
+    Tracers tracers{params,
+                    {{"tracer", "smooth_trace", "frostbite_hierarchical", "the march of smooth surfaces' rays"},
+                     {"rough_tracer", "rough_trace", "frostbite_linear", "the march of rough surfaces' rays"}},
+                    "slides: through a depth pyramid, and in linear steps"};
 };

@@ -1,26 +1,19 @@
 #include "variants/frostbite_sssr/passes.h"
 
-FrostbiteRays frostbite_trace(PassGraph& graph, const DepthPyramids& depths, const FrostbiteWork& work,
-                              const Image& below_horizon, const FrostbiteRayParameters& parameters) {
+FrostbiteRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, const FrostbiteWork& work,
+                              const Image& below_horizon, const FrostbiteRayParameters& parameters, RayProbe* probe) {
     const size_t rays = size_t(work.extent.x) * work.extent.y * parameters.max_rays;
     const FrostbiteRays traced{.directions = graph.buffer("directions", rays * 16),
                                .hits = graph.buffer("hits", rays * 16)};
     graph.clear(traced.directions, 0);  // of rays that no list has
-    graph.compute("frostbite_sssr/trace_hierarchical.comp")
-        .read(depths.nearest)
-        .read(depths.farthest)
-        .read(below_horizon)
-        .use(work.hierarchical_list)
-        .use(work.counters)
-        .use(traced.directions)
-        .use(traced.hits)
-        .dispatch(work.indirect_arguments);
-    graph.compute("frostbite_sssr/trace_linear.comp")
-        .read(below_horizon)
-        .use(work.linear_list)
-        .use(work.counters)
-        .use(traced.directions)
-        .use(traced.hits)
-        .dispatch(work.indirect_arguments, 12);
+    const auto trace = [&](const char* shader, const char* slot, const Buffer& list, size_t arguments) {
+        PassGraph::Pass pass = graph.compute(shader);
+        pass.read(below_horizon).use(list).use(work.counters).use(traced.directions).use(traced.hits);
+        parameters.tracers.run(
+            graph, pass, {slot}, images, probe, parameters.max_rays,
+            [&](PassGraph::Pass& tracing) { tracing.dispatch(work.indirect_arguments, arguments); });
+    };
+    trace("frostbite_sssr/trace_smooth.comp", "tracer", work.smooth_list, 0);
+    trace("frostbite_sssr/trace_rough.comp", "rough_tracer", work.rough_list, 12);
     return traced;
 }

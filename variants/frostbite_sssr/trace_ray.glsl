@@ -1,12 +1,11 @@
-// One ray from its draw to its end. Whoever includes this says how it marches.
+// One ray from its draw to its end.
 #ifndef FROSTBITE_SSSR_TRACE_RAY_GLSL
 #define FROSTBITE_SSSR_TRACE_RAY_GLSL
 #include "frostbite_sssr/draw_ray.glsl"
 #include "frostbite_sssr/ray.glsl"
-#include "frostbite_sssr/solid.glsl"
 
-// To be defined. `random` in [0, 1).
-March march(ScreenLine line, float random);
+// To be defined by whoever includes this, which says how it marches.
+TraceEnd march(TraceRay ray);
 
 // Ray k of a pixel that starts rays.
 TracedRay trace_ray(ivec2 pixel, uint k, uint first_dimension) {
@@ -18,14 +17,13 @@ TracedRay trace_ray(ivec2 pixel, uint k, uint first_dimension) {
     } else if (dot(drawn.direction, vs_normal) <= 0.0) {
         ray.target = ray_into_surface;
     } else {
-        ScreenLine line = screen_line(pixel, origin, drawn.direction, vs_normal);
-        March end = march(line, random_pair(pixel, k, first_dimension + march_dimension).x);
-        // Behind what it shows from the other side, the screen knows of nothing that the ray could go on to.
-        bool is_seen = !front_faces_only || dot(drawn.direction, view_geometric_normal(end.pixel)) < 0.0;
-        if (end.is_hit && is_seen) {
+        float random = random_pair(pixel, k, first_dimension + march_dimension).x;
+        bool is_mirror = texelFetch(normal, pixel, 0).w == 0.0;
+        TraceEnd end = march(TraceRay(pixel, k, origin, drawn.direction, vs_normal, random, is_mirror));
+        if (end.outcome == outcome_hit) {
             ray.target = packed_pixel(end.pixel);
-            ray.ray_length = distance_at(line, end.t);
-            ray.confidence = 1.0;
+            ray.ray_length = end.distance;
+            ray.confidence = end.confidence;
         }
     }
     return ray;

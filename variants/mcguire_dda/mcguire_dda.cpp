@@ -8,7 +8,8 @@ Reflections McGuireDda::render(PassGraph& graph, const GBuffer& gbuffer) {
         for (const Image& image : {hit, radiance, confidence}) graph.clear(image, {});
         return {radiance, confidence};
     }
-    graph.compute("mcguire_dda/trace.comp").write(hit).run();
+    tracers.run(graph, graph.compute("mcguire_dda/trace.comp").write(hit), {"tracer"},
+                tracers.images(graph, gbuffer.depth), ray_probe, 1, [](PassGraph::Pass& pass) { pass.run(); });
     graph.compute("mcguire_dda/shade.comp")
         .read(hit)
         .read(gbuffer.lit, {.is_linear = bilinear_color})

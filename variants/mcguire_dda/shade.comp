@@ -1,4 +1,4 @@
-// The lit colour at the hit stands for the mirrored radiance; there is no fade, so confidence is 1 or 0.
+// The lit colour at the hit stands for the mirrored radiance.
 #include "common/mirror_ray.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -5,20 +5,21 @@
 // That holds for rays towards the camera, too, and lets rays that have fallen behind things climb again, but needs a
 // second pyramid. At the finest level a ray that meets nothing solid goes on. The result is that of looking at every
 // pixel along the line.
-#ifndef FROSTBITE_SSSR_MARCH_HIERARCHY_GLSL
-#define FROSTBITE_SSSR_MARCH_HIERARCHY_GLSL
-#include "frostbite_sssr/solid.glsl"
+#ifndef TRACERS_FROSTBITE_HIERARCHICAL_GLSL
+#define TRACERS_FROSTBITE_HIERARCHICAL_GLSL
+#include "common/depth_pyramid.glsl"
+#include "tracers/frostbite/solid.glsl"
 
-uniform sampler2D depth_pyramid, farthest_depth_pyramid;
+uniform sampler2D farthest_depth_pyramid;
 
 // Where a line leaves a cell.
-struct Exit {
+struct FrostbiteExit {
     float t;
     ivec2 pixel;  // that it enters there
 };
 
 // Cells are told by integers: no rounding can put a line on the wrong side of a wall.
-Exit exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
+FrostbiteExit frostbite_exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
     ivec2 low = pixel >> level << level, high = low + (1 << level) - 1;
     bvec2 ascends = greaterThan(line.slope.xy, vec2(0.0));
     ivec2 last = mix(low, high, ascends);
@@ -32,11 +33,11 @@ Exit exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
         next.x = ascends.x ? high.x + 1 : low.x - 1;
     else
         next.y = ascends.y ? high.y + 1 : low.y - 1;
-    return Exit(t, next);
+    return FrostbiteExit(t, next);
 }
 
 // Levels leave out the last row or column of odd ones: what they lack is looked at on finer levels.
-int existing_level(ivec2 pixel, int level) {
+int frostbite_existing_level(ivec2 pixel, int level) {
     while (any(greaterThanEqual(pixel >> level, ivec2(camera.extent.xy) >> level))) --level;
     return level;
 }
@@ -44,35 +45,41 @@ int existing_level(ivec2 pixel, int level) {
 // Cells that a ray may pass before it counts as a miss. A line crosses no more pixels than a row and a column have
 // together, so that by default no ray runs out of them. Looks at coarser cells that the march then leaves for finer
 // ones do not count; there are no more than one per cell that was passed.
-uint most_cells() {
-    return max_hierarchical_steps > 0u ? max_hierarchical_steps : uint(camera.extent.x + camera.extent.y);
+uint frostbite_most_cells() {
+    return frostbite_max_hierarchical_steps > 0u ? frostbite_max_hierarchical_steps : uint(camera.extent.x + camera.extent.y);
 }
 
-March march_hierarchy(ScreenLine line) {
-    int coarsest = textureQueryLevels(depth_pyramid) - 1, level = 0;
-    Exit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
-    for (uint passed = 0u, most = most_cells(); passed < most && here.t < line.end;) {
-        level = existing_level(here.pixel, level);
+bool frostbite_passes_behind(float nearest, ivec2 cell, int level) {
+    count_fetch();
+    return frostbite_is_behind_solid(nearest, texelFetch(farthest_depth_pyramid, cell, level).r);
+}
+
+TraceEnd frostbite_hierarchical_trace(TraceRay ray) {
+    ScreenLine line = screen_line(ray);
+    int coarsest = depth_pyramid_coarsest(frostbite_pyramid_mips), level = 0;
+    FrostbiteExit here = frostbite_exit_of_cell(line, line.pixel, 0);  // not its own pixel
+    for (uint passed = 0u, most = frostbite_most_cells(); passed < most && here.t < line.end;) {
+        level = frostbite_existing_level(here.pixel, level);
         ivec2 cell = here.pixel >> level;
-        Exit ahead = exit_of_cell(line, here.pixel, level);
+        FrostbiteExit ahead = frostbite_exit_of_cell(line, here.pixel, level);
         float t_out = min(ahead.t, line.end);
         float depth_in = depth_at(line, here.t), depth_out = depth_at(line, t_out);
         float nearest = nearer_of(depth_in, depth_out), farthest = farther_of(depth_in, depth_out);
+        count_fetch();
         float surface = texelFetch(depth_pyramid, cell, level).r;
-        bool is_passed = is_nearer(farthest, surface) ||
-                         is_behind_solid(nearest, texelFetch(farthest_depth_pyramid, cell, level).r);
+        bool is_passed = is_nearer(farthest, surface) || frostbite_passes_behind(nearest, cell, level);
         if (!is_passed && level > 0) {
             --level;
             continue;
         }
         if (!is_passed) {
-            March end = meet(line, here.pixel, surface, here.t, t_out, farthest);
-            if (end.is_hit) return end;
+            FrostbiteEnd end = frostbite_meet(line, here.pixel, surface, here.t, t_out, farthest);
+            if (end.is_hit) return frostbite_end(line, end, ray, false);
         }
         here = ahead;
         ++passed;
         if (is_passed) level = min(level + 1, coarsest);
     }
-    return miss;
+    return frostbite_end(line, frostbite_no_hit, ray, here.t < line.end);
 }
 #endif

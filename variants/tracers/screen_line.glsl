@@ -1,8 +1,8 @@
 // A ray as a straight line through the samples of the G-buffer. Position and device depth are affine along it, so that
 // the walk needs no division per step.
-#ifndef FROSTBITE_SSSR_SCREEN_LINE_GLSL
-#define FROSTBITE_SSSR_SCREEN_LINE_GLSL
-#include "common/mirror_ray.glsl"
+#ifndef TRACERS_SCREEN_LINE_GLSL
+#define TRACERS_SCREEN_LINE_GLSL
+#include "tracers/trace.glsl"
 
 struct ScreenLine {
     ivec2 pixel;          // that it starts from
@@ -16,7 +16,7 @@ struct ScreenLine {
 };
 
 // Slope of lines that keep to a row or column: they meet its walls too late to matter.
-const float slowest = 1e-20;
+const float slowest_slope = 1e-20;
 
 float t_of_depth(ScreenLine line, float device_depth) { return (device_depth - line.origin.z) / line.slope.z; }
 float depth_at(ScreenLine line, float t) { return line.origin.z + t * line.slope.z; }
@@ -24,7 +24,7 @@ float depth_at(ScreenLine line, float t) { return line.origin.z + t * line.slope
 // Distance along the ray (m).
 float distance_at(ScreenLine line, float t) { return t * line.w / (line.rate - t * line.w_rate); }
 
-float end_of(ScreenLine line) {
+float end_of_line(ScreenLine line) {
     vec2 border = mix(vec2(0.0), camera.extent.xy, greaterThan(line.slope.xy, vec2(0.0)));
     vec2 t_border = (border - line.origin.xy) * line.inverse;
     float end = min(t_border.x, t_border.y);
@@ -32,26 +32,41 @@ float end_of(ScreenLine line) {
     return line.slope.z == 0.0 ? end : min(end, t_of_depth(line, line.slope.z > 0.0 ? 1.0 : 0.0));
 }
 
-// `direction`: view space, unit. The line is the tangent of the projected ray at its origin, which no point behind the
-// camera can turn round.
-ScreenLine screen_line(ivec2 pixel, vec3 vs_origin, vec3 direction, vec3 vs_normal) {
-    vec4 from = camera.clip_from_view * vec4(vs_origin, 1.0), per_meter = camera.clip_from_view * vec4(direction, 0.0);
+// The line is the tangent of the projected ray at its origin, which no point behind the camera can turn round.
+ScreenLine screen_line(TraceRay ray) {
+    vec4 from = camera.clip_from_view * vec4(ray.origin, 1.0),
+         per_meter = camera.clip_from_view * vec4(ray.direction, 0.0);
     vec3 tangent = per_meter.xyz - from.xyz / from.w * per_meter.w;
     tangent.xy *= 0.5 * camera.extent.xy;
 
     ScreenLine line;
-    line.pixel = pixel;
-    line.origin = vec3(vec2(pixel) + 0.5, texelFetch(depth, pixel, 0).r);
-    line.rate = max(max(abs(tangent.x), abs(tangent.y)), slowest);
+    line.pixel = ray.pixel;
+    line.origin = vec3(vec2(ray.pixel) + 0.5, fetch_depth(ray.pixel));
+    line.rate = max(max(abs(tangent.x), abs(tangent.y)), slowest_slope);
     line.slope = tangent / line.rate;
-    line.slope.xy = mix(line.slope.xy, vec2(slowest), lessThan(abs(line.slope.xy), vec2(slowest)));
+    line.slope.xy = mix(line.slope.xy, vec2(slowest_slope), lessThan(abs(line.slope.xy), vec2(slowest_slope)));
     line.inverse = 1.0 / line.slope.xy;
-    line.end = end_of(line);
+    line.end = end_of_line(line);
     line.w = from.w;
     line.w_rate = per_meter.w;
-    line.vs_origin = vs_origin;
-    line.vs_normal = vs_normal;
-    line.rise = dot(direction, vs_normal);
+    line.vs_origin = ray.origin;
+    line.vs_normal = ray.geometric_normal;
+    line.rise = dot(ray.direction, ray.geometric_normal);
     return line;
+}
+
+// On the un-jittered screen (pixels).
+vec2 position_at(ScreenLine line, float t) { return line.origin.xy + t * line.slope.xy + camera.jitter.xy; }
+
+// Of a ray that came to the end of its line, or of as many steps as it may take.
+TraceEnd missed_on_line(ScreenLine line, bool is_unfinished) {
+    vec2 place = line.origin.xy + line.end * line.slope.xy;
+    bool is_at_border = any(lessThan(min(place, camera.extent.xy - place), vec2(0.01)));
+    bool comes_nearer = is_nearer(line.slope.z, 0.0);
+    uint outcome = is_unfinished  ? outcome_unfinished
+                   : is_at_border ? outcome_off_screen
+                   : comes_nearer ? outcome_behind_camera
+                                  : outcome_background;
+    return missed(outcome, place + camera.jitter.xy, distance_at(line, line.end));
 }
 #endif

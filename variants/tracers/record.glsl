@@ -1,0 +1,30 @@
+// Keeps what a tracer got and what it said, for core/ray_probe.h. The include that a pass decides (tracers.cpp) defines
+// `recorded_rays_per_pixel` before.
+#ifndef TRACERS_RECORD_GLSL
+#define TRACERS_RECORD_GLSL
+#include "tracers/trace.glsl"
+
+struct RayRecord {
+    vec3 origin;
+    float is_traced;
+    vec3 direction;
+    float confidence;
+    vec2 position;
+    float distance;
+    uint outcome;
+    uvec2 pixel;
+    uint fetches, unused;
+};
+
+layout(std430) buffer ray_records { RayRecord record_of_ray[]; };
+
+uint record_index(TraceRay ray) {
+    uint pixel = uint(ray.pixel.y * int(camera.extent.x) + ray.pixel.x);
+    return pixel * recorded_rays_per_pixel + ray.number;
+}
+
+void record(TraceRay ray, TraceEnd end) {
+    record_of_ray[record_index(ray)] = RayRecord(ray.origin, 1.0, ray.direction, end.confidence, end.position,
+                                                 end.distance, end.outcome, uvec2(end.pixel), depth_fetches, 0u);
+}
+#endif

@@ -1,0 +1,44 @@
+// What techniques and tracers say to each other. A technique writes `#include "tracer"` and calls trace(); the pass says
+// which tracer that is (variants/tracers/tracers.h). All global names of a tracer begin with its own.
+#ifndef TRACERS_TRACE_GLSL
+#define TRACERS_TRACE_GLSL
+#include "common/image_space.glsl"
+#include "common/mirror_ray.glsl"
+#include "tracers/outcome.h"
+
+struct TraceRay {
+    ivec2 pixel;            // that it starts from
+    uint number;            // among the rays of that pixel
+    vec3 origin;            // of the pixel's surface: view space (m)
+    vec3 direction;         // view space, unit
+    vec3 geometric_normal;  // of that surface: view space, unit
+    float random;           // [0, 1)
+    bool is_mirror;         // of a perfect mirror: nothing blurs what it meets
+};
+
+struct TraceEnd {
+    ivec2 pixel;       // whose surface it met; of hits
+    vec2 position;     // where it ended on the un-jittered screen (pixels)
+    float distance;    // along the ray (m), of misses too
+    float confidence;  // of a hit, in (0, 1]; 0 for misses
+    uint outcome;      // outcome.h
+};
+
+TraceEnd missed(uint outcome, vec2 position, float distance) {
+    return TraceEnd(ivec2(0), position, distance, 0.0, outcome);
+}
+
+// Tracers read depth through these, which are counted where the pass that includes them asks for it.
+uint depth_fetches = 0u;
+void count_fetch() {
+#ifdef COUNT_DEPTH_FETCHES
+    ++depth_fetches;
+#endif
+}
+float fetch_depth(ivec2 pixel) {
+    count_fetch();
+    return texelFetch(depth, pixel, 0).r;
+}
+
+vec2 screen_from_image(vec2 uv) { return uv * camera.extent.xy + camera.jitter.xy; }  // (pixels)
+#endif

@@ -1,0 +1,184 @@
+#include "variants/tracers/tracers.h"
+
+#include "core/error.h"
+#include "core/near_miss.h"
+#include "variants/common/depth_pyramid.h"
+
+#include <algorithm>
+#include <cstring>
+
+TracerEntry dda_tracer();
+TracerEntry hierarchy_tracer();
+TracerEntry frostbite_hierarchical_tracer();
+TracerEntry frostbite_linear_tracer();
+
+std::span<const TracerEntry> tracer_table() {
+    static const std::vector<TracerEntry> table = {
+        dda_tracer(),
+        hierarchy_tracer(),
+        frostbite_hierarchical_tracer(),
+        frostbite_linear_tracer(),
+    };
+    return table;
+}
+
+namespace {
+
+std::vector<std::string> tracer_names() {
+    std::vector<std::string> names;
+    for (const TracerEntry& entry : tracer_table()) names.push_back(entry.name);
+    return names;
+}
+
+/// What an include does besides tracing.
+enum class Including { trace, record, rays_only };
+
+std::string defines_of(const TracerNeeds& needs) {
+    return std::string(needs.second_layer ? "#define TRACER_HAS_SECOND_LAYER\n" : "") +
+           (needs.back_faces ? "#define TRACER_HAS_BACK_FACES\n" : "");
+}
+
+/// The GLSL that stands for the slot. `needs`: of all slots that the shader includes.
+std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const TracerNeeds& needs, Including what,
+                    unsigned rays_per_pixel) {
+    const std::string head = "TraceEnd " + slot.function + "(TraceRay ray) ", call = tracer.name + "_trace(ray)";
+    const std::string file = "#include \"" + tracer.shader + "\"\n";
+    const std::string constants = "#ifndef RECORDED_RAYS_PER_PIXEL\n#define RECORDED_RAYS_PER_PIXEL\nconst uint "
+                                  "recorded_rays_per_pixel = " + std::to_string(rays_per_pixel) + "u;\n#endif\n";
+    const std::string recorder = constants + "#include \"tracers/record.glsl\"\n";
+    if (what == Including::rays_only)
+        return recorder + head +
+               "{\n    TraceEnd end = missed(outcome_unfinished, vec2(0.0), 0.0);\n    record(ray, end);\n    return "
+               "end;\n}\n";
+    std::string text = defines_of(needs);
+    if (needs.exact_hits) text += recorder;
+    if (what == Including::trace) return text + file + head + "{ return " + call + "; }\n";
+    return "#ifndef COUNT_DEPTH_FETCHES\n#define COUNT_DEPTH_FETCHES\n#endif\n" + text + file + recorder + head +
+           "{\n    depth_fetches = 0u;\n    TraceEnd end = " + call + ";\n    record(ray, end);\n    return end;\n}\n";
+}
+
+TracerNeeds both(const TracerNeeds& a, const TracerNeeds& b) {
+    return {.nearest_mips = std::max(a.nearest_mips, b.nearest_mips),
+            .farthest_mips = std::max(a.farthest_mips, b.farthest_mips),
+            .second_layer = a.second_layer || b.second_layer,
+            .back_faces = a.back_faces || b.back_faces,
+            .random = a.random || b.random,
+            .exact_hits = a.exact_hits || b.exact_hits};
+}
+
+std::vector<RayRecord> download_records(PassGraph& graph, const Buffer& buffer) {
+    const std::vector<std::byte> bytes = graph.download(buffer);
+    std::vector<RayRecord> rays(bytes.size() / sizeof(RayRecord));
+    std::memcpy(rays.data(), bytes.data(), rays.size() * sizeof(RayRecord));
+    return rays;
+}
+
+}  // namespace
+
+const TracerEntry& find_tracer(const std::string& name) {
+    for (const TracerEntry& entry : tracer_table())
+        if (entry.name == name) return entry;
+    fail("unknown tracer '", name, "'", suggestion(name, tracer_names()));
+}
+
+Tracers::Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std::string& source,
+                 const nlohmann::json& defaults)
+    : params_(params), slots_(std::move(slots)) {
+    for (const TracerSlot& slot : slots_)
+        Choice(params, slot.name, slot.initial, tracer_names(), {"", slot.doc, source});
+    for (const TracerEntry& entry : tracer_table()) tracers_.push_back(entry.create(params));
+    params.change_defaults(defaults);
+}
+
+const TracerEntry& Tracers::chosen(const std::string& slot) const {
+    const auto parameter = std::ranges::find(params_, slot, &Parameter::name);
+    return find_tracer(parameter->value.get<std::string>());
+}
+
+TracerNeeds Tracers::needs(const std::string& slot) const {
+    return tracer_of(slot).needs();
+}
+
+const Tracer& Tracers::tracer_of(const std::string& slot) const {
+    return *tracers_[size_t(&chosen(slot) - tracer_table().data())];
+}
+
+TracerNeeds Tracers::needs() const {
+    TracerNeeds all;
+    for (const TracerSlot& slot : slots_) all = both(all, needs(slot.name));
+    return all;
+}
+
+GBufferLayers Tracers::gbuffer_layers() const {
+    const TracerNeeds all = needs();
+    return {.second_depth = all.second_layer, .back_depth = all.back_faces};
+}
+
+bool Tracers::needs_pyramid() const {
+    const TracerNeeds all = needs();
+    return all.nearest_mips > 0 || all.farthest_mips > 0;
+}
+
+bool Tracers::fit_webgl2() const {
+    return std::ranges::all_of(slots_, [&](const TracerSlot& slot) { return chosen(slot.name).fits_webgl2; });
+}
+
+std::string Tracers::not_repeatable() const {
+    for (const TracerSlot& slot : slots_)
+        if (std::string why = tracer_of(slot.name).not_repeatable(); !why.empty()) return why;
+    return {};
+}
+
+Tracers::Images Tracers::images(PassGraph& graph, const Image& depth, const PyramidMaker& make) const {
+    const PyramidMaker maker = make ? make : PyramidMaker(depth_pyramid);
+    const TracerNeeds all = needs();
+    Images images;
+    if (all.nearest_mips > 0) images.nearest = maker(graph, depth, all.nearest_mips, false);
+    if (all.farthest_mips > 0) images.farthest = maker(graph, depth, all.farthest_mips, true);
+    return images;
+}
+
+void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots,
+                  const Images& images, RayProbe* probe, unsigned rays_per_pixel,
+                  const std::function<void(PassGraph::Pass&)>& run) const {
+    TracerNeeds needed;
+    for (const std::string& slot : slots) needed = both(needed, needs(slot));
+    if (needed.exact_hits && (!probe || !probe->exact_hits))
+        fail("the tracer exact_scene asks the scene, which only ssrlab's commands plug in, and not for captures");
+
+    const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
+    const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
+    const auto run_as = [&](Including what) {
+        PassGraph::Pass tracing = pass;
+        for (const TracerSlot& slot : slots_)
+            if (std::ranges::count(slots, slot.name))
+                tracing.include(slot.name, glsl_of(slot, chosen(slot.name), needed, what, rays_per_pixel));
+        const bool traces = what != Including::rays_only;
+        if (traces && needed.nearest_mips > 0) tracing.read(images.nearest);
+        if (traces && needed.farthest_mips > 0) tracing.read(images.farthest);
+        if (traces && needed.exact_hits) tracing.use(graph.buffer("exact_hits", rays * sizeof(ExactHit)));
+        if (what != Including::trace) {
+            graph.clear(buffer(), 0);
+            tracing.use(buffer());
+        }
+        run(tracing);
+    };
+    if (needed.exact_hits) {
+        run_as(Including::rays_only);
+        const std::vector<ExactHit> hits = probe->exact_hits(download_records(graph, buffer()));
+        graph.upload(graph.buffer("exact_hits", rays * sizeof(ExactHit)), std::as_bytes(std::span(hits)));
+    }
+    if (probe && probe->is_recording) {
+        run_as(Including::record);
+        probe->recorded.push_back({pass.stage(), rays_per_pixel, download_records(graph, buffer())});
+    }
+    run_as(Including::trace);
+}
+
+ShaderIncludes Tracers::includes() const {
+    ShaderIncludes includes;
+    const TracerNeeds all = needs();
+    for (const TracerSlot& slot : slots_)
+        includes[slot.name] = glsl_of(slot, chosen(slot.name), all, Including::trace, 1);
+    return includes;
+}

@@ -1,0 +1,65 @@
+#pragma once
+#include "core/gbuffer/gbuffer.h"
+#include "core/gpu/pass_graph.h"
+#include "core/gpu/shader.h"
+#include "core/ray_probe.h"
+#include "variants/tracers/tracer.h"
+
+#include <span>
+
+/// All tracers, by name.
+std::span<const TracerEntry> tracer_table();
+
+/// Fails with a near miss if there is none of that name.
+const TracerEntry& find_tracer(const std::string& name);
+
+/// How a technique makes pyramids of depth (common/depth_pyramid.h): of at most so many levels, of the nearest or of the
+/// farthest depths.
+using PyramidMaker = std::function<Image(PassGraph&, const Image& depth, unsigned mips, bool keeps_farthest)>;
+
+/// The place of a tracer in a technique: the parameter `name`, which chooses one. Shaders write `#include "<name>"` and
+/// call `function`.
+struct TracerSlot {
+    std::string name, function, initial, doc;
+};
+
+/// The tracers that a technique can use, their parameters, and the choice among them.
+class Tracers {
+public:
+    /// Declares a choice for each slot, then the parameters of all tracers. `defaults`: where they are the technique's
+    /// own, as of ParameterSet::change_defaults(). `source`: of the slots' initial tracers.
+    Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std::string& source,
+            const nlohmann::json& defaults = nlohmann::json::object());
+
+    /// The entry that a slot's parameter has chosen.
+    const TracerEntry& chosen(const std::string& slot) const;
+    TracerNeeds needs(const std::string& slot) const;
+    TracerNeeds needs() const;  ///< of all slots
+    GBufferLayers gbuffer_layers() const;
+    bool needs_pyramid() const;
+    bool fit_webgl2() const;             ///< all chosen ones
+    std::string not_repeatable() const;  ///< of the first that says so
+
+    /// What all slots need, made for this frame.
+    struct Images {
+        Image nearest, farthest;  ///< pyramids; without storage where no tracer needs them
+    };
+    Images images(PassGraph& graph, const Image& depth, const PyramidMaker& make = {}) const;
+
+    /// Runs `pass`, whose shader includes `slots`, once by `run`; with a probe that asks for it a second time before, to
+    /// get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different TraceRay::number. Fails if a
+    /// tracer needs exact hits and `probe` has none.
+    void run(PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots,
+             const Images& images, RayProbe* probe, unsigned rays_per_pixel,
+             const std::function<void(PassGraph::Pass&)>& run) const;
+
+    /// What the slots' names stand for in shaders, for whoever compiles them outside of run().
+    ShaderIncludes includes() const;
+
+private:
+    const Tracer& tracer_of(const std::string& slot) const;
+
+    ParameterSet& params_;
+    std::vector<TracerSlot> slots_;
+    std::vector<std::unique_ptr<Tracer>> tracers_;  // as tracer_table()
+};
