@@ -43,5 +43,5 @@ struct RayProbe {
     std::vector<RecordedRays> recorded;  ///< of the last frame, by pass in their order
 
     /// What the rays truly meet, for the tracer exact_scene; in the order of the rays.
-    std::function<std::vector<ExactHit>(const std::vector<RayRecord>&)> exact_hits;
+    std::function<std::vector<ExactHit>(const RecordedRays&)> exact_hits;
 };

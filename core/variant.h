@@ -44,8 +44,11 @@ public:
     /// Includes that render() decides by the parameters, for whoever compiles the technique's shaders outside of it.
     virtual ShaderIncludes shader_includes() const { return {}; }
 
-    /// Layers of the G-buffer that render() reads besides the visible surface. Called after the parameters are set.
-    virtual GBufferLayers gbuffer_layers() const { return {}; }
+    /// Whether render() reads GBuffer::second_depth or ::back_depth. Called after the parameters are set.
+    virtual bool needs_depth_layers() const { return false; }
+
+    /// Whether render() asks ray_probe->exact_hits, so that its time means nothing. Called after the parameters are set.
+    virtual bool asks_scene() const { return false; }
 
     RayProbe* ray_probe = nullptr;  ///< what experiments plug into its tracers
 

@@ -50,6 +50,19 @@ struct TimeRow {
     bool is_disturbed = false;                ///< other work took too much of the machine meanwhile
 };
 
+/// One row of hits.csv: what became of the rays that one pass traced.
+struct HitRow {
+    std::string shot, frame, variant, point;
+    std::string stage;     ///< the pass
+    std::string mask;      ///< of the pixels that they start from
+    std::string quantity;  ///< a verdict of judged_hits.h; "miss: " and the outcome that the tracer gave for an avoidable
+                           ///< one; "distance_error"; "fetches"
+    unsigned seeds = 0;
+    double rays = 0;  ///< mean over the seeds
+    double value = 0;
+    std::optional<double> low, high;  ///< over the seeds; none with a single one
+};
+
 /// What a run makes of one shot and variant point with all its seeds: the unit of work that is done once, kept, and
 /// never done again.
 struct Cell {
@@ -57,6 +70,7 @@ struct Cell {
     std::vector<SplitRow> splits;
     std::vector<ReferenceNoise> reference_noise;
     std::vector<TimeRow> times;
+    std::vector<HitRow> hits;
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
     std::vector<std::string> notes;                   ///< sentences for the manifest: what could not be told, and why

@@ -248,7 +248,9 @@ void read_variant(JsonObject entry, const std::optional<std::vector<unsigned>>& 
             variant.parameters.update(point);
             if (!point.empty()) variant.point += (preset.empty() ? "" : " ") + label_of(point);
             if (variant.point.empty()) variant.point = "default";
-            variant.depends_on_seed = make_checked(entry, name, variant.parameters, preset)->depends_on_seed();
+            const auto made = make_checked(entry, name, variant.parameters, preset);
+            variant.depends_on_seed = made->depends_on_seed();
+            variant.is_timed = is_timed && !made->asks_scene();
             variant.seeds = seeds_of(own_seeds, study_seeds, variant.depends_on_seed);
             if (!against.is_null()) make_checked(entry, name, with_values(variant.parameters, against), preset);
             variants.push_back(std::move(variant));
@@ -350,6 +352,13 @@ Config read_config(const std::filesystem::path& file) {
         if (config.timing.frames > 0 && config.timing.frames < 15)
             fail(file.string(), ": timing: 'frames' = ", config.timing.frames,
                  " is too few for a median with an interval; allowed are 0 (no timing) or at least 15");
+    }
+    if (object.has("hits")) {
+        JsonObject hits = object.object("hits");
+        config.hits = JudgedRays{};
+        config.hits->every = unsigned(hits.integer("every", 1, 64, int(config.hits->every)));
+        config.hits->seeds = unsigned(hits.integer("seeds", 1, 1000000, int(config.hits->seeds)));
+        hits.finish();
     }
     config.metrics = known_names(object, "metrics", metric_names(),
                                  {"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"});

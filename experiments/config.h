@@ -50,6 +50,12 @@ struct TimingConfig {
     unsigned warm_up = 3;
 };
 
+/// Which rays of a technique are compared with what they truly meet.
+struct JudgedRays {
+    unsigned every = 1;  ///< of the pixels along each axis
+    unsigned seeds = 1000000;  ///< the first of a point's seeds, at most
+};
+
 /// The comparisons that a study is made for: one error of all points and shots. All others are exploratory.
 struct PrimaryComparisons {
     std::string metric = "relmse", mask = "reflective", target = "specular";
@@ -70,6 +76,7 @@ struct Config {
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     TimingConfig timing;
+    std::optional<JudgedRays> hits;  ///< none: no ray is judged
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;
     std::vector<std::string> targets;

@@ -55,7 +55,7 @@ json table_schema() {
     const json text = {{"type", "string"}}, any_object = {{"type", "object"}};
     return object({{"name", text},
                    {"caption", text},
-                   {"of", {{"enum", {"effects", "results", "splits", "times", "time_effects"}}}},
+                   {"of", {{"enum", {"effects", "results", "splits", "times", "time_effects", "hits"}}}},
                    {"where", any_object},
                    {"rows", one_or_more(text)},
                    {"columns", one_or_more(text)},
@@ -123,6 +123,7 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"depth_format", {{"enum", {"d32f", "d24", "d16"}}}},
                 {"depth_direction", {{"enum", {"standard", "reversed"}}}},
                 {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}})},
+                {"hits", object({{"every", integer(1, 64)}, {"seeds", integer(1, 1000000)}})},
                 {"metrics", list_of(metric_names())},
                 {"masks", masks()},
                 {"frame_metrics", {{"anyOf", {list_of(metric_names()), {{"type", "array"}, {"maxItems", 0}}}}}},

@@ -2,8 +2,15 @@
 
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
+#include "variants/registry.h"
+
+#include <algorithm>
 
 namespace {
+
+bool needs_depth_layers(const VariantConfig& variant) {
+    return make_variant(variant.variant, variant.parameters, variant.preset)->needs_depth_layers();
+}
 
 class SceneSource final : public FrameSource {
 public:
@@ -11,7 +18,9 @@ public:
         : shot_(shot),
           config_(config),
           rasterizer_(device, shot.scene,
-                      {.extent = shot.config.extent, .depth_format = config.depth_format, .keep_all = keep_all}) {}
+                      {.extent = shot.config.extent, .depth_format = config.depth_format,
+                       .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
+                       .keep_all = keep_all}) {}
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
         const GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,

@@ -24,6 +24,11 @@ nlohmann::json reference_entry(const Reference& reference, unsigned frame, const
 CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections,
                                   const Composite& composite, const HostImage& reflectance);
 
+/// Writes the verdicts of map_of_verdicts() (judged_hits.h) into images/<shot>/; returns the manifest's entry. `stage`:
+/// of the rays.
+nlohmann::json save_verdict_image(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix,
+                                  const std::string& stage, const HostImage& map);
+
 /// (test - reference) / (|reference| + 1 % of the reference's mean), each channel by itself: what error images hold.
 HostImage relative_error(const HostImage& test, const HostImage& reference);
 

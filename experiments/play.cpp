@@ -2,7 +2,9 @@
 
 #include "core/gbuffer/composite.h"
 #include "core/gpu/device.h"
+#include "experiments/exact_rays.h"
 #include "experiments/frame_means.h"
+#include "experiments/judged_hits.h"
 #include "experiments/lit_noise.h"
 #include "experiments/manifest.h"
 #include "experiments/render_variant.h"
@@ -22,6 +24,7 @@ namespace {
 struct SeedRun {
     unsigned seed;
     std::unique_ptr<Variant> variant;
+    std::unique_ptr<RayProbe> probe;  ///< of the variant
     std::unique_ptr<PassGraph> graph;
     std::unique_ptr<Compositor> compositor;
 
@@ -49,6 +52,8 @@ struct Play {
     std::map<std::pair<std::string, std::string>, std::set<std::string>>
         untold;  ///< masks, by temporal metric and reason
     size_t rendered = 0;
+    std::map<unsigned, ExactRays> exact_rays = {};    ///< by frame
+    std::map<std::string, JudgedHits> judged = {};    ///< by the number of the frame
 
     const FrameStep& last_step() const { return shot.steps.back(); }
     ResultRow row(const std::string& frame, unsigned seed) const {
@@ -68,7 +73,9 @@ SeedRun start(Play& play, unsigned seed) {
     const VariantConfig& v = play.variant;
     SeedRun run{.seed = seed,
                 .variant = make_variant(v.variant, v.parameters, v.preset),
+                .probe = std::make_unique<RayProbe>(),
                 .graph = std::make_unique<PassGraph>(play.device, play.shot.config.extent)};
+    run.variant->ray_probe = run.probe.get();
     if (!play.settings.keep_all) run.variant->leave_out(play.shot.facts);
     run.compositor = std::make_unique<Compositor>(*run.graph);
     return run;
@@ -146,7 +153,59 @@ void report_step(Play& play) {
     play.settings.report(double(++play.rendered) / double(play.shot.steps.size() * runs));
 }
 
+const ExactRays& exact_rays(Play& play, const FrameStep& step, const CameraData& camera) {
+    return play.exact_rays.try_emplace(step.frame, play.shot, step.frame, camera).first->second;
+}
+
+/// What the step's rays truly meet, for the tracer exact_scene; a capture has no scene to ask.
+void plug_in_scene(Play& play, SeedRun& run, const FrameStep& step, const FrameStore::Frame& frame) {
+    if (!play.shot.config.gbuffer.empty()) return;
+    run.probe->exact_hits = [&play, &step, camera = frame.camera](const RecordedRays& recorded) {
+        return exact_rays(play, step, camera).hits(recorded);
+    };
+}
+
+bool judges_rays(const Play& play, const SeedRun& run, const FrameStep& step) {
+    const auto& seeds = play.variant.seeds;
+    return play.config.hits && step.is_measured && play.shot.config.gbuffer.empty() && play.truth.frame(step) &&
+           size_t(std::ranges::find(seeds, run.seed) - seeds.begin()) < play.config.hits->seeds;
+}
+
+/// The rays that were recorded in this step against what they truly meet.
+void judge_rays(Play& play, SeedRun& run, const FrameStep& step, const CameraData& camera,
+                std::span<const Mask> masks) {
+    const ResultRow row = play.row(std::to_string(step.frame), run.seed);
+    const bool is_shown = &step == &play.last_step() && run.seed == play.variant.seeds.front();
+    for (const RecordedRays& recorded : run.probe->recorded) {
+        const std::vector<ExactHit> truth = exact_rays(play, step, camera).hits(recorded);
+        play.judged[row.frame].add(run.seed, recorded, truth, play.shot.config.extent, play.config.hits->every,
+                                   {masks.begin(), masks.end()});
+        if (is_shown)
+            play.cell.images.push_back(
+                save_verdict_image(play.settings.out, row, play.settings.image_suffix, recorded.stage,
+                                   map_of_verdicts(recorded, truth, play.shot.config.extent)));
+    }
+    run.probe->recorded.clear();
+}
+
+void add_hits(Play& play) {
+    for (const auto& [frame, judged] : play.judged) {
+        const HitRow shared{.shot = play.shot.name(),
+                            .frame = frame,
+                            .variant = play.variant.variant,
+                            .point = play.variant.point,
+                            .stage = {},
+                            .mask = {},
+                            .quantity = {},
+                            .low = {},
+                            .high = {}};
+        for (HitRow& row : judged.rows(shared)) play.cell.hits.push_back(std::move(row));
+    }
+}
+
 void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameStore::Frame& frame) {
+    plug_in_scene(play, run, step, frame);
+    run.probe->is_recording = judges_rays(play, run, step);
     const Reflections reflections = render_variant(*run.graph, *run.variant, frame.camera, run.seed, frame.gbuffer);
     if (!step.is_warm_up) {
         const Composite composite = run.compositor->render(frame.gbuffer, reflections);
@@ -154,6 +213,8 @@ void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameSto
         const CompositedImages images = download_results(*run.graph, frame.gbuffer, reflections, composite,
                                                          truth ? truth->reflectance : HostImage{});
         measure_step(play, run, step, images);
+        if (run.probe->is_recording)
+            judge_rays(play, run, step, frame.camera, masks_of(*truth, images.confidence, play.config));
         if (&step == &play.last_step() && run.seed == play.variant.seeds.front())
             for (nlohmann::json& entry : save_result_images(
                      play.settings.out, play.row(std::to_string(step.frame), run.seed), play.settings.image_suffix,
@@ -169,6 +230,7 @@ CompositedImages rendered_with(Play& play, SeedRun& run, const FrameStep& step, 
                                const HostImage& lit) {
     HostImage rgba(lit.extent, 4);
     for (size_t i = 0; i < lit.pixel_count(); ++i) rgba.set_rgb(i, lit.rgb(i));
+    plug_in_scene(play, run, step, frame);
     frame.gbuffer.lit = run.graph->image("lit_of_half", Format::rgba32f).as("lit");
     run.graph->upload(frame.gbuffer.lit, rgba);
     const Reflections reflections = render_variant(*run.graph, *run.variant, frame.camera, run.seed, frame.gbuffer);
@@ -289,6 +351,7 @@ Cell play_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameS
         for (SeedRun& run : runs) finish(play, run);
     }
     add_splits(play);
+    add_hits(play);
     play.cell.reference_noise =
         play.noise.means({.shot = shot.name(), .variant = variant.variant, .point = variant.point});
     add_notes(play);

@@ -4,6 +4,9 @@ Reflections render_variant(PassGraph& graph, Variant& variant, CameraData camera
                            const GBuffer& gbuffer) {
     camera.frame.y = seed;
     graph.begin_frame(camera, variant.params, gbuffer.images());
-    const LimitScope limits(graph, variant.limits);
+    // Rays are recorded in storage buffers, which is no part of the technique.
+    const bool is_recording = variant.ray_probe && variant.ray_probe->is_recording;
+    if (is_recording) variant.ray_probe->recorded.clear();
+    const LimitScope limits(graph, is_recording ? Limits::none : variant.limits);
     return variant.render(graph, gbuffer);
 }

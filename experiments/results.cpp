@@ -15,6 +15,8 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& 
         "shot,frame,variant,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels,bias_"
         "squared_low,bias_squared_high\n";
     std::string times = "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n";
+    std::string hits = "shot,frame,variant,point,stage,mask,quantity,seeds,rays,value,low,high\n";
+    const size_t no_hits = hits.size();
     for (const Cell& cell : cells) {
         for (const ResultRow& r : cell.rows)
             rows += csv_line(r.shot, r.scene, r.camera, r.frame, r.width, r.height, r.variant, r.point, r.seed,
@@ -27,8 +29,15 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& 
         for (const TimeRow& t : cell.times)
             times += csv_line(t.shot, t.variant, t.point, t.seed, t.stage, t.frame, t.milliseconds, t.clock,
                               t.foreign_load, t.is_disturbed);
+        for (const HitRow& h : cell.hits)
+            hits += csv_line(h.shot, h.frame, h.variant, h.point, h.stage, h.mask, h.quantity, h.seeds, h.rays, h.value,
+                             h.low, h.high);
     }
     write_text(folder / "results.csv", rows);
+    if (hits.size() > no_hits)
+        write_text(folder / "hits.csv", hits);
+    else
+        std::filesystem::remove(folder / "hits.csv");  // of an earlier version of the study
     write_text(folder / "splits.csv", splits);
     write_text(folder / "times.csv", times);
 }

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-/// Writes results.csv, splits.csv and times.csv, in the order of `cells`; the columns are those of
+/// Writes results.csv, splits.csv and times.csv, and hits.csv if rays were judged, in the order of `cells`; the columns are those of
 /// experiments/RESULTS.md.
 void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& cells);
 

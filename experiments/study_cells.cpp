@@ -35,6 +35,7 @@ std::string cell_hash(const Study& study, const ShotRun& run, const std::string&
     }
     hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)),
         hash.add(int(study.settings.keep_all));
+    hash.add(c.hits ? int(c.hits->every) : 0), hash.add(c.hits ? int(c.hits->seeds) : 0);
     hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance), hash.add(run.shot.camera.exposure_ev);
     return hash.hex();
 }

@@ -153,7 +153,7 @@ const std::vector<VariantEntry> table = {
                                                {"temporal_radiance_stability_factor", 0.8},
                                                {"spatial_reconstruction_radius", 2},
                                                {"ggx_importance_sample_bias", 0.15}})}},
-        .limits = {.api = Limits::webgl2, .lifted_by = {{"hierarchy", "mip_views"}}},
+        .limits = {.api = Limits::webgl2, .lifted_by = {{"hierarchy", "mip_views"}, {"tracer", "exact_scene"}}},
         .create = create<DiligentSsr>,
     },
     {

@@ -5,12 +5,6 @@
 
 class EnvironmentImages;
 
-/// What a G-buffer holds of what lies behind the visible surfaces, where a technique asks for it.
-struct GBufferLayers {
-    bool second_depth = false;  ///< the surface behind the visible one
-    bool back_depth = false;    ///< the back of the visible one
-    bool operator==(const GBufferLayers&) const = default;
-};
 
 /// The first hit of every pixel, and the lit colour which SSR reads. World space, metres, linear radiance. Images of one
 /// extent; each is bound in shaders by its member's name.
@@ -26,8 +20,10 @@ struct GBuffer {
     Image lit;               ///< rgba32f: emission and diffusely reflected radiance towards the camera; environment where nothing was hit
     Image fallback;          ///< rgba32f: the environment prefiltered over each pixel's specular lobe, for composite and variants
 
-    Image second_depth;  ///< r32f: device depth of the second surface along each pixel's ray; that of the far plane where there is none; made for GBufferLayers::second_depth
-    Image back_depth;    ///< r32f: of the first surface behind the visible one that is seen from its back, where the visible object ends; made for GBufferLayers::back_depth
+    // What lies behind, without storage unless it was asked for (Variant::needs_depth_layers()); in float32, whatever the
+    // depth format.
+    Image second_depth;  ///< r32f: device depth of the next surface along each pixel's ray; of the far plane where there is none
+    Image back_depth;    ///< r32f: the same if that is the back of a surface, where what is visible ends; `depth` if it is a front, or there is none: then what is visible counts as a sheet
 
     const EnvironmentImages* environment = nullptr;  ///< for bind_environment(); none with a G-buffer from files
 

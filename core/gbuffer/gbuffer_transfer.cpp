@@ -16,7 +16,7 @@ Image uploaded(PassGraph& graph, const std::string& name, Format format, const H
 }  // namespace
 
 HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& g, const CameraData& camera, DepthFormat depth_format) {
-    return {.camera = camera,
+    HostGBuffer host{.camera = camera,
             .depth_format = depth_format,
             .depth = graph.download(g.depth),
             .geometric_normal = graph.download(g.geometric_normal),
@@ -29,13 +29,16 @@ HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& g, const CameraDat
             .previous_normal = graph.download(g.previous_normal),
             .lit = graph.download(g.lit),
             .fallback = graph.download(g.fallback)};
+    if (g.second_depth.storage) host.second_depth = graph.download(g.second_depth);
+    if (g.back_depth.storage) host.back_depth = graph.download(g.back_depth);
+    return host;
 }
 
 GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& g) {
     if (graph.extent() != g.extent())
         fail("a G-buffer of ", g.extent().x, " x ", g.extent().y, " does not fit the pass graph of ", graph.extent().x,
              " x ", graph.extent().y);
-    return {.depth = uploaded(graph, "depth", Format::r32f, g.depth),
+    GBuffer gbuffer{.depth = uploaded(graph, "depth", Format::r32f, g.depth),
             .geometric_normal = uploaded(graph, "geometric_normal", Format::rgba32f, g.geometric_normal),
             .normal = uploaded(graph, "normal", Format::rgba32f, g.normal),
             .base_color = uploaded(graph, "base_color", Format::rgba32f, g.base_color),
@@ -46,4 +49,7 @@ GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& g) {
             .previous_normal = uploaded(graph, "previous_normal", Format::rgba32f, g.previous_normal),
             .lit = uploaded(graph, "lit", Format::rgba32f, g.lit),
             .fallback = uploaded(graph, "fallback", Format::rgba32f, g.fallback)};
+    if (!g.second_depth.values.empty()) gbuffer.second_depth = uploaded(graph, "second_depth", Format::r32f, g.second_depth);
+    if (!g.back_depth.values.empty()) gbuffer.back_depth = uploaded(graph, "back_depth", Format::r32f, g.back_depth);
+    return gbuffer;
 }

@@ -132,6 +132,8 @@ GBuffer Rasterizer::draw(const Frame& frame) {
     draw_kind(g, depth_buffer, DrawnScene::Kind::masked, "masked");
     graph_.fragment("gbuffer/copy_depth.frag").read(depth_buffer).write(g.depth).run();
 
+    if (options_.has_depth_layers) draw_depth_layers(g);
+
     if (options_.keep_all || (facts_.has_geometry && facts_.has_reflective)) {
         auto pass = graph_.compute("gbuffer/fallback.comp");
         environment_.bind(pass).read(g.depth).read(g.normal).write(g.fallback).run();
@@ -157,6 +159,34 @@ void Rasterizer::draw_kind(const GBuffer& g, const Image& depth_buffer, DrawnSce
                 .image = depth_buffer})
         .label(std::string("gbuffer/draw_") + name)
         .run();
+}
+
+void Rasterizer::draw_depth_layers(GBuffer& g) {
+    g.second_depth = graph_.image("second_depth", Format::r32f);
+    g.back_depth = graph_.image("back_depth", Format::r32f);
+    graph_.fragment("gbuffer/no_layers.frag").read(g.depth).write(g.second_depth).write(g.back_depth).run();
+    const Image depth_buffer = graph_.image("second_depth_buffer", Format::d32f);
+    graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
+    const bool is_reversed = camera_.depth.w == 1;
+    // What the depth buffer rounds: half a step of its codes, and as much again for rounding on the way.
+    const float depth_step = options_.depth_format == DepthFormat::d32f  ? 0.0f
+                             : options_.depth_format == DepthFormat::d24 ? 0x1p-24f
+                                                                         : 0x1p-16f;
+    for (const DrawnScene::Kind kind :
+         {DrawnScene::Kind::plain, DrawnScene::Kind::textured, DrawnScene::Kind::masked}) {
+        if (drawn_.draws(kind).empty()) continue;
+        const bool is_masked = kind == DrawnScene::Kind::masked;
+        graph_.draw("gbuffer/mesh.vert", is_masked ? "gbuffer/peel_masked.frag" : "gbuffer/peel.frag", drawn_.draws(kind))
+            .read(g.depth)
+            .write(g.second_depth)
+            .write(g.back_depth)
+            .set("depth_step", depth_step)
+            .depth({.compare = is_reversed ? DepthTest::Compare::greater : DepthTest::Compare::less,
+                    .is_written = true,
+                    .image = depth_buffer})
+            .label("gbuffer/draw_layers")
+            .run();
+    }
 }
 
 void Rasterizer::light_directly(const GBuffer& g) {

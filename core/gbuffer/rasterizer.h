@@ -8,6 +8,7 @@
 struct RasterizerOptions {
     glm::uvec2 extent{0, 0};
     DepthFormat depth_format = DepthFormat::d32f;
+    bool has_depth_layers = false;  ///< also GBuffer::second_depth and ::back_depth
     bool keep_all = false;  ///< run and compile also what left_out() names: the same images, slower
 };
 
@@ -44,6 +45,7 @@ private:
     Frame pose(const SceneCamera& camera, const FrameView& view) const;
     GBuffer draw(const Frame& frame);
     void draw_kind(const GBuffer& gbuffer, const Image& depth_buffer, DrawnScene::Kind kind, const char* name);
+    void draw_depth_layers(GBuffer& gbuffer);
     void list_left_out();
 
     const Scene& scene_;

@@ -9,6 +9,7 @@ PassGraph::PassGraph(Device& device, glm::uvec2 extent, Clock clock)
 PassGraph::~PassGraph() = default;
 
 Clock PassGraph::clock() const { return impl_->clock; }
+bool PassGraph::has_input(const std::string& name) const { return impl_->inputs.contains(name); }
 glm::uvec2 PassGraph::extent() const { return impl_->extent; }
 Device& PassGraph::device() { return impl_->device; }
 

@@ -107,6 +107,9 @@ public:
     /// and `inputs` by name. `params` must outlive the frame.
     void begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs);
 
+    /// Whether begin_frame() was given an image of that name.
+    bool has_input(const std::string& name) const;
+
     void clear(const Image& image,
                glm::vec4 value);  ///< all its mips; timed as the stage "clear"; depth: x depth, y stencil
     void clear(const Buffer& buffer, uint32_t value);

@@ -15,7 +15,8 @@ public:
     bool depends_on_seed() const override;
     std::string not_repeatable() const override;
     ShaderIncludes shader_includes() const override { return tracing_.tracers.includes(); }
-    GBufferLayers gbuffer_layers() const override { return tracing_.tracers.gbuffer_layers(); }
+    bool asks_scene() const override { return tracing_.tracers.needs().exact_hits; }
+    bool needs_depth_layers() const override { return tracing_.tracers.needs().depth_layers; }
 
 private:
     AmdTracingParameters tracing_{params};

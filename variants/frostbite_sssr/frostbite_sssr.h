@@ -14,7 +14,8 @@ public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     ShaderIncludes shader_includes() const override { return ray_.tracers.includes(); }
-    GBufferLayers gbuffer_layers() const override { return ray_.tracers.gbuffer_layers(); }
+    bool asks_scene() const override { return ray_.tracers.needs().exact_hits; }
+    bool needs_depth_layers() const override { return ray_.tracers.needs().depth_layers; }
 
 private:
     FrostbiteRayParameters ray_{params};

@@ -11,7 +11,8 @@ public:
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override { return tracers.needs().random; }
     ShaderIncludes shader_includes() const override { return tracers.includes(); }
-    GBufferLayers gbuffer_layers() const override { return tracers.gbuffer_layers(); }
+    bool asks_scene() const override { return tracers.needs().exact_hits; }
+    bool needs_depth_layers() const override { return tracers.needs().depth_layers; }
 
 private:
     bool is_left_out_ = false;

@@ -9,8 +9,7 @@
 struct TracerNeeds {
     unsigned nearest_mips = 0;   ///< levels at most of `depth_pyramid`; 0: none
     unsigned farthest_mips = 0;  ///< of `farthest_depth_pyramid`
-    bool second_layer = false;   ///< GBuffer::second_depth; its shader is given the macro TRACER_HAS_SECOND_LAYER
-    bool back_faces = false;     ///< GBuffer::back_depth; the macro TRACER_HAS_BACK_FACES
+    bool depth_layers = false;   ///< GBuffer::second_depth and ::back_depth; shaders see TRACER_HAS_DEPTH_LAYERS
     bool random = false;         ///< TraceRay::random: another seed may find another end
     bool exact_hits = false;     ///< RayProbe::answer of variants/tracers/ray_probe.h
 };

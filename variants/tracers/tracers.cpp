@@ -11,6 +11,8 @@ TracerEntry dda_tracer();
 TracerEntry hierarchy_tracer();
 TracerEntry frostbite_hierarchical_tracer();
 TracerEntry frostbite_linear_tracer();
+TracerEntry exact_layer_tracer();
+TracerEntry exact_scene_tracer();
 
 std::span<const TracerEntry> tracer_table() {
     static const std::vector<TracerEntry> table = {
@@ -18,6 +20,8 @@ std::span<const TracerEntry> tracer_table() {
         hierarchy_tracer(),
         frostbite_hierarchical_tracer(),
         frostbite_linear_tracer(),
+        exact_layer_tracer(),
+        exact_scene_tracer(),
     };
     return table;
 }
@@ -33,11 +37,6 @@ std::vector<std::string> tracer_names() {
 /// What an include does besides tracing.
 enum class Including { trace, record, rays_only };
 
-std::string defines_of(const TracerNeeds& needs) {
-    return std::string(needs.second_layer ? "#define TRACER_HAS_SECOND_LAYER\n" : "") +
-           (needs.back_faces ? "#define TRACER_HAS_BACK_FACES\n" : "");
-}
-
 /// The GLSL that stands for the slot. `needs`: of all slots that the shader includes.
 std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const TracerNeeds& needs, Including what,
                     unsigned rays_per_pixel) {
@@ -50,7 +49,7 @@ std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const Tra
         return recorder + head +
                "{\n    TraceEnd end = missed(outcome_unfinished, vec2(0.0), 0.0);\n    record(ray, end);\n    return "
                "end;\n}\n";
-    std::string text = defines_of(needs);
+    std::string text = needs.depth_layers ? "#define TRACER_HAS_DEPTH_LAYERS\n" : "";
     if (needs.exact_hits) text += recorder;
     if (what == Including::trace) return text + file + head + "{ return " + call + "; }\n";
     return "#ifndef COUNT_DEPTH_FETCHES\n#define COUNT_DEPTH_FETCHES\n#endif\n" + text + file + recorder + head +
@@ -60,8 +59,7 @@ std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const Tra
 TracerNeeds both(const TracerNeeds& a, const TracerNeeds& b) {
     return {.nearest_mips = std::max(a.nearest_mips, b.nearest_mips),
             .farthest_mips = std::max(a.farthest_mips, b.farthest_mips),
-            .second_layer = a.second_layer || b.second_layer,
-            .back_faces = a.back_faces || b.back_faces,
+            .depth_layers = a.depth_layers || b.depth_layers,
             .random = a.random || b.random,
             .exact_hits = a.exact_hits || b.exact_hits};
 }
@@ -109,11 +107,6 @@ TracerNeeds Tracers::needs() const {
     return all;
 }
 
-GBufferLayers Tracers::gbuffer_layers() const {
-    const TracerNeeds all = needs();
-    return {.second_depth = all.second_layer, .back_depth = all.back_faces};
-}
-
 bool Tracers::needs_pyramid() const {
     const TracerNeeds all = needs();
     return all.nearest_mips > 0 || all.farthest_mips > 0;
@@ -146,6 +139,8 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
     if (needed.exact_hits && (!probe || !probe->exact_hits))
         fail("the tracer exact_scene asks the scene, which only ssrlab's commands plug in, and not for captures");
 
+    if (needed.depth_layers && !graph.has_input("second_depth"))
+        fail("the chosen tracer reads what lies behind the visible surfaces, which captures do not hold");
     const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
     const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
     const auto run_as = [&](Including what) {
@@ -165,7 +160,7 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
     };
     if (needed.exact_hits) {
         run_as(Including::rays_only);
-        const std::vector<ExactHit> hits = probe->exact_hits(download_records(graph, buffer()));
+        const std::vector<ExactHit> hits = probe->exact_hits({pass.stage(), rays_per_pixel, download_records(graph, buffer())});
         graph.upload(graph.buffer("exact_hits", rays * sizeof(ExactHit)), std::as_bytes(std::span(hits)));
     }
     if (probe && probe->is_recording) {

@@ -35,7 +35,6 @@ public:
     const TracerEntry& chosen(const std::string& slot) const;
     TracerNeeds needs(const std::string& slot) const;
     TracerNeeds needs() const;  ///< of all slots
-    GBufferLayers gbuffer_layers() const;
     bool needs_pyramid() const;
     bool fit_webgl2() const;             ///< all chosen ones
     std::string not_repeatable() const;  ///< of the first that says so

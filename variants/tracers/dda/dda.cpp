@@ -5,7 +5,7 @@ namespace {
 struct Dda final : Tracer {
     explicit Dda(ParameterSet& params) : Tracer(params) {}
 
-    TracerNeeds needs() const override { return {.second_layer = layers.is("2")}; }
+    TracerNeeds needs() const override { return {.depth_layers = layers.is("2")}; }
 
     // clang-format off
     Param<unsigned> stride{params, "dda.stride", 1, {1, 64},

@@ -5,7 +5,7 @@
 #define TRACERS_DDA_GLSL
 #include "tracers/trace.glsl"
 
-#ifdef TRACER_HAS_SECOND_LAYER
+#ifdef TRACER_HAS_DEPTH_LAYERS
 uniform sampler2D second_depth;
 #endif
 
@@ -127,7 +127,7 @@ float dda_start(ivec2 pixel) {
 
 // Deviation: of the second layer the G-buffer keeps no colour, so that it ends rays in place of being shown.
 bool dda_meets_second_layer(ivec2 pixel, float z_min, float z_max) {
-#ifdef TRACER_HAS_SECOND_LAYER
+#ifdef TRACER_HAS_DEPTH_LAYERS
     count_fetch();
     return dda_layers == 1u && dda_meets(texelFetch(second_depth, pixel, 0).r, z_min, z_max);
 #else

@@ -1,0 +1,1 @@
+#include "core/shaders/gbuffer/peel.glsl"

@@ -1,0 +1,2 @@
+#define HAS_MASK
+#include "core/shaders/gbuffer/peel.glsl"

@@ -1,0 +1,19 @@
+// The yardstick of what any tracer can find: what the ray truly meets, asked of the scene between two passes, and whether
+// the screen shows it. RayProbe::exact_hits of core/ray_probe.h answers, in the order of the records.
+#ifndef TRACERS_EXACT_SCENE_GLSL
+#define TRACERS_EXACT_SCENE_GLSL
+#include "tracers/record.glsl"
+
+struct ExactHit {
+    vec2 position;
+    float distance;
+    uint outcome;
+};
+layout(std430) buffer exact_hits { ExactHit exact_hit_of_ray[]; };
+
+TraceEnd exact_scene_trace(TraceRay ray) {
+    ExactHit found = exact_hit_of_ray[record_index(ray)];
+    if (found.outcome != outcome_hit) return missed(found.outcome, found.position, found.distance);
+    return TraceEnd(pixel_from_screen(found.position), found.position, found.distance, 1.0, outcome_hit);
+}
+#endif
