@@ -27,7 +27,10 @@ struct VariantEntry {
     std::function<std::unique_ptr<Variant>()> create;
 };
 
-/// All techniques, the baseline first.
+/// Parameter values with others changed or added: for presets that begin with another.
+nlohmann::json changed(nlohmann::json parameters, const nlohmann::json& more);
+
+/// All techniques, the baseline first. Adding one takes a line in registry.cpp and an entry in its own folder.
 std::span<const VariantEntry> variant_table();
 
 /// Fails with a near miss if there is none of that name.

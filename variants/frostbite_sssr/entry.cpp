@@ -1,0 +1,41 @@
+#include "variants/frostbite_sssr/frostbite_sssr.h"
+#include "variants/registry.h"
+
+VariantEntry frostbite_sssr_entry() {
+    return {
+        .name = "frostbite_sssr",
+        .title = "Frostbite's stochastic screen-space reflections, with ray reuse",
+        .source =
+            "Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections, SIGGRAPH course Advances in Real-Time "
+            "Rendering, as quoted by others; what they leave open is ours",
+        .description =
+            "Probes decide how many rays each tile gets; a hierarchical march serves smooth surfaces and linear steps "
+            "rough ones; each pixel weighs its neighbours' rays by its own BRDF, takes their colours from mip levels, "
+            "and blends with what it reflected in the frame before.",
+        .needs = {"has_reflective", "min_roughness"},
+        .presets =
+            {{"frostbite_2015",
+              "the configuration whose times were published: 1 ray per half-resolution pixel, 4 taps, 0.7 of the "
+              "lobe cut off, estimator a; where nothing was published, our defaults",
+              nlohmann::json::object()},
+             {"one_ray_one_tap",
+              "the same without reuse: each pixel shows its own half-resolution pixel's ray (not published)",
+              {{"taps", "1"}}},
+             {"four_rays_one_tap",
+              "the published comparison, which takes twice as long and looks worse: 4 rays per half-resolution "
+              "pixel in place of reuse",
+              {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
+             {"best",
+              "the least error that experiments/configs/search_frostbite.json found: one ray per pixel from 0.7 of the "
+              "lobe of visible normals; hits that the previous frame did not show see the environment",
+              {{"half_resolution", false},
+               {"lobe", "visible_normals"},
+               {"importance_bias", 0.3},
+               {"frostbite.relative_thickness", 0.02},
+               {"hidden_hits", "miss"},
+               {"cone_scale", 0.5},
+               {"pattern", "interleaved"},
+               {"clamp_scale", 1.0}}}},
+        .create = [] { return std::make_unique<FrostbiteSssr>(); },
+    };
+}

@@ -1,0 +1,14 @@
+#include "variants/none/none.h"
+#include "variants/registry.h"
+
+VariantEntry none_entry() {
+    return {
+        .name = "none",
+        .title = "No screen-space reflections",
+        .source = "ssrlab",
+        .description = "Confidence 0 everywhere: the fallback alone, against which every technique is read.",
+        .needs = {},
+        .presets = {},
+        .create = [] { return std::make_unique<None>(); },
+    };
+}
