@@ -32,15 +32,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeRow, shot, variant, point, seed, stage, f
                                    is_disturbed)
 
 void to_json(nlohmann::json& json, const Cell& cell) {
-    json = {{"rows", cell.rows},
-            {"splits", cell.splits},
-            {"reference_noise", cell.reference_noise},
-            {"times", cell.times},
-            {"hits", cell.hits},
-            {"images", cell.images},
-            {"timing", cell.timing},
-            {"notes", cell.notes},
-            {"provenance", cell.provenance}};
+    json = {{"rows", cell.rows},     {"splits", cell.splits}, {"reference_noise", cell.reference_noise},
+            {"times", cell.times},   {"hits", cell.hits},     {"images", cell.images},
+            {"timing", cell.timing}, {"notes", cell.notes},   {"provenance", cell.provenance}};
 }
 
 void from_json(const nlohmann::json& json, Cell& cell) {

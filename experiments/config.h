@@ -36,7 +36,7 @@ struct VariantConfig {
     std::string point;          ///< its label in results: the preset and the swept values, or "default"
     std::vector<unsigned> seeds;
     bool depends_on_seed = true;  ///< else one seed tells all, see Variant::depends_on_seed()
-    bool is_baseline = false;  ///< all other points are compared with it, over the seeds that both have
+    bool is_baseline = false;     ///< all other points are compared with it, over the seeds that both have
     nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
     std::string against_point;  ///< of the same variant; "" for that point itself
     bool is_timed = true;
@@ -52,7 +52,7 @@ struct TimingConfig {
 
 /// Which rays of a technique are compared with what they truly meet.
 struct JudgedRays {
-    unsigned every = 1;  ///< of the pixels along each axis
+    unsigned every = 1;        ///< of the pixels along each axis
     unsigned seeds = 1000000;  ///< the first of a point's seeds, at most
 };
 
@@ -76,7 +76,7 @@ struct Config {
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     TimingConfig timing;
-    std::optional<JudgedRays> hits;  ///< none: no ray is judged
+    std::optional<JudgedRays> hits;    ///< none: no ray is judged
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;
     std::vector<std::string> targets;
@@ -85,7 +85,7 @@ struct Config {
     std::vector<std::string> frame_masks;      ///< of each of those frames; their mean has all masks
     float reflective_max_roughness = 0.6f;     ///< the mask `reflective`: perceptual roughness at most this ...
     float reflective_min_reflectance = 0.02f;  ///< ... and F0 A + F90 B (largest channel) at least this
-    bool is_search = false;  ///< its only variant is where `ssrlab search` starts from
+    bool is_search = false;                    ///< its only variant is where `ssrlab search` starts from
     nlohmann::json source;                     ///< as read, for the manifest
 };
 

@@ -18,7 +18,8 @@ public:
         : shot_(shot),
           config_(config),
           rasterizer_(device, shot.scene,
-                      {.extent = shot.config.extent, .depth_format = config.depth_format,
+                      {.extent = shot.config.extent,
+                       .depth_format = config.depth_format,
                        .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
                        .keep_all = keep_all}) {}
 

@@ -8,9 +8,9 @@
 
 namespace {
 
-const std::array<const char*, outcome_count> outcome_names = {
-    "hit",       "off_screen",  "behind_camera", "unfinished", "background",
-    "too_thick", "from_behind", "own_surface",   "hidden"};
+const std::array<const char*, outcome_count> outcome_names = {"hit",         "off_screen",  "behind_camera",
+                                                              "unfinished",  "background",  "too_thick",
+                                                              "from_behind", "own_surface", "hidden"};
 
 bool is_nothing(const ExactHit& truth) {
     return truth.outcome == outcome_background || truth.outcome == outcome_own_surface;
@@ -19,8 +19,8 @@ bool is_nothing(const ExactHit& truth) {
 }  // namespace
 
 const std::array<const char*, ray_verdict_count>& ray_verdict_names() {
-    static const std::array<const char*, ray_verdict_count> names = {
-        "right", "wrong_place", "false_hit", "avoidable_miss", "unavoidable_miss", "empty"};
+    static const std::array<const char*, ray_verdict_count> names = {"right",          "wrong_place",      "false_hit",
+                                                                     "avoidable_miss", "unavoidable_miss", "empty"};
     return names;
 }
 
@@ -46,8 +46,8 @@ JudgedHits::Count& JudgedHits::count(const Key& key, unsigned seed) {
     return entry->second[index];
 }
 
-void JudgedHits::add(unsigned seed, const RecordedRays& recorded, const std::vector<ExactHit>& truth,
-                     glm::uvec2 extent, unsigned every, const std::vector<Mask>& masks) {
+void JudgedHits::add(unsigned seed, const RecordedRays& recorded, const std::vector<ExactHit>& truth, glm::uvec2 extent,
+                     unsigned every, const std::vector<Mask>& masks) {
     for (const Mask& mask : masks) {
         Count& sums = count({recorded.stage, mask.name}, seed);
         sums.missed_by_outcome.resize(outcome_count);
@@ -100,6 +100,11 @@ std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
         for (size_t v = 0; v < ray_verdict_count; ++v)
             add(ray_verdict_names()[v],
                 [&](const Count& c) -> std::optional<double> { return c.verdicts[v] / c.rays; });
+        add("correct", [](const Count& c) -> std::optional<double> {
+            return (c.verdicts[size_t(RayVerdict::right)] + c.verdicts[size_t(RayVerdict::unavoidable_miss)] +
+                    c.verdicts[size_t(RayVerdict::empty)]) /
+                   c.rays;
+        });
         for (size_t outcome = 0; outcome < outcome_count; ++outcome) {
             const auto share = [&](const Count& c) -> std::optional<double> {
                 return c.missed_by_outcome[outcome] / c.rays;

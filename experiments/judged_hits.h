@@ -28,8 +28,8 @@ RayVerdict verdict_of_miss(const ExactHit& truth);
 /// Collects the rays of a frame over seeds.
 class JudgedHits {
 public:
-    /// `truth`: of recorded.rays. Of the pixels inside each mask (everywhere, if `inside` is empty) one in `every` counts
-    /// along each axis.
+    /// `truth`: of recorded.rays. Of the pixels inside each mask (everywhere, if `inside` is empty) one in `every`
+    /// counts along each axis.
     void add(unsigned seed, const RecordedRays& recorded, const std::vector<ExactHit>& truth, glm::uvec2 extent,
              unsigned every, const std::vector<Mask>& masks);
 
@@ -54,7 +54,7 @@ private:
     Count& count(const Key& key, unsigned seed);
 };
 
-/// The verdict of each pixel's first ray in one colour each (RGB), black where none was traced: right green, wrong place
-/// orange, false hit red-purple, avoidable miss yellow, unavoidable miss blue, empty grey (Okabe and Ito's colours,
-/// which people of any colour vision tell apart).
+/// The verdict of each pixel's first ray in one colour each (RGB), black where none was traced: right green, wrong
+/// place orange, false hit red-purple, avoidable miss yellow, unavoidable miss blue, empty grey (Okabe and Ito's
+/// colours, which people of any colour vision tell apart).
 HostImage map_of_verdicts(const RecordedRays& recorded, const std::vector<ExactHit>& truth, glm::uvec2 extent);

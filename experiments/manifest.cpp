@@ -243,8 +243,9 @@ nlohmann::json save_verdict_image(const std::filesystem::path& out, const Result
                                   const std::string& stage, const HostImage& map) {
     const std::string name =
         file_name(row.variant + "." + row.point, 150) + ".s" + std::to_string(row.seed) + "." + suffix;
-    const nlohmann::json entry = {{"shot", row.shot},   {"frame", std::stoul(row.frame)}, {"variant", row.variant},
-                                  {"point", row.point}, {"seed", row.seed},               {"kind", "hits"},
+    const nlohmann::json entry = {{"shot", row.shot},       {"frame", std::stoul(row.frame)},
+                                  {"variant", row.variant}, {"point", row.point},
+                                  {"seed", row.seed},       {"kind", "hits"},
                                   {"target", stage}};
     return save_image(out, row.shot, name + ".hits." + file_name(stage, 60), map, 0.0f, entry);
 }

@@ -52,8 +52,8 @@ struct Play {
     std::map<std::pair<std::string, std::string>, std::set<std::string>>
         untold;  ///< masks, by temporal metric and reason
     size_t rendered = 0;
-    std::map<unsigned, ExactRays> exact_rays = {};    ///< by frame
-    std::map<std::string, JudgedHits> judged = {};    ///< by the number of the frame
+    std::map<unsigned, ExactRays> exact_rays = {};  ///< by frame
+    std::map<std::string, JudgedHits> judged = {};  ///< by the number of the frame
 
     const FrameStep& last_step() const { return shot.steps.back(); }
     ResultRow row(const std::string& frame, unsigned seed) const {
@@ -181,9 +181,9 @@ void judge_rays(Play& play, SeedRun& run, const FrameStep& step, const CameraDat
         play.judged[row.frame].add(run.seed, recorded, truth, play.shot.config.extent, play.config.hits->every,
                                    {masks.begin(), masks.end()});
         if (is_shown)
-            play.cell.images.push_back(
-                save_verdict_image(play.settings.out, row, play.settings.image_suffix, recorded.stage,
-                                   map_of_verdicts(recorded, truth, play.shot.config.extent)));
+            play.cell.images.push_back(save_verdict_image(play.settings.out, row, play.settings.image_suffix,
+                                                          recorded.stage,
+                                                          map_of_verdicts(recorded, truth, play.shot.config.extent)));
     }
     run.probe->recorded.clear();
 }

@@ -18,10 +18,10 @@ using nlohmann::json;
 constexpr size_t page_bytes = 15'000'000;  ///< a page is mailed and opened on slow machines: larger ones are not
 
 /// The page's scripts, in the order in which they build on each other.
-constexpr const char* scripts[] = {"data.js",       "page.js",      "sections.js", "points.js",       "axes.js",
-                                   "line_chart.js", "strips.js",    "ladder.js",   "summary.js",      "overview.js",
-                                   "charts.js",     "roughness.js", "splits.js",   "effects.js",      "temporal.js",
-                                   "image_data.js", "panes.js",     "viewer.js",   "viewer_input.js", "start.js"};
+constexpr const char* scripts[] = {
+    "data.js",    "page.js",     "sections.js",   "points.js", "axes.js",      "line_chart.js",   "strips.js",
+    "ladder.js",  "summary.js",  "overview.js",   "charts.js", "roughness.js", "splits.js",       "hits.js",
+    "effects.js", "temporal.js", "image_data.js", "panes.js",  "viewer.js",    "viewer_input.js", "start.js"};
 
 std::string part(const std::string& name) {
     return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report" / name);

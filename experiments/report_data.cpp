@@ -91,6 +91,12 @@ json error_row(const MetricSummary& e, Texts& code) {
             optional_json(e.lit_noise)};
 }
 
+json hit_row(const HitRow& h, Texts& code) {
+    return {code(h.shot),  code(h.frame), code(h.variant),      code(h.point),
+            code(h.stage), code(h.mask),  code(h.quantity),     h.seeds,
+            h.rays,        h.value,       optional_json(h.low), optional_json(h.high)};
+}
+
 json split_row(const SplitRow& s, Texts& code) {
     return {code(s.shot),
             code(s.frame),
@@ -153,6 +159,7 @@ json time_row(const TimeSummary& t, Texts& code) {
 ReportTables read_report_tables(const std::filesystem::path& folder, const json& manifest) {
     ReportTables tables{.errors = summarise(read_result_rows(folder / "results.csv"), points_without_seeds(manifest)),
                         .splits = {},
+                        .hits = {},
                         .effects = {},
                         .time_effects = {},
                         .times = {}};
@@ -162,6 +169,7 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
         if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
     const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
     if (has("splits.csv")) tables.splits = read_split_rows(folder / "splits.csv");
+    if (has("hits.csv")) tables.hits = read_hit_rows(folder / "hits.csv");
     if (has("effects.csv")) tables.effects = read_effect_rows(folder / "effects.csv");
     if (has("time_effects.csv")) tables.time_effects = read_time_effect_rows(folder / "time_effects.csv");
     if (has("times.csv")) tables.times = summarise(read_time_rows(folder / "times.csv"));
@@ -183,21 +191,27 @@ json report_data(const ReportTables& tables, std::span<const SingleChange> chang
     Texts code;
     const PointSet singles = points_of(changes);
     const std::set<Quantity> over_frames = quantities_over_frames(tables.errors);
-    json errors = json::array(), frames = json::array(), splits = json::array(), effects = json::array(),
-         time_effects = json::array(), times = json::array(), single = json::array();
+    json errors = json::array(), frames = json::array(), splits = json::array(), hits = json::array(),
+         effects = json::array(), time_effects = json::array(), times = json::array(), single = json::array();
     for (const MetricSummary* e : rows_for_shots(tables.errors)) errors.push_back(error_row(*e, code));
     for (const MetricSummary& e : tables.errors)
         if (e.frame != "all" && over_frames.contains(quantity_of(e)) && !singles.contains({e.variant, e.point}))
             frames.push_back(error_row(e, code));
     for (const SplitRow& s : tables.splits) splits.push_back(split_row(s, code));
+    for (const HitRow& h : tables.hits) hits.push_back(hit_row(h, code));
     for (const EffectRow& e : tables.effects) effects.push_back(effect_row(e, code));
     for (const TimeEffectRow& e : tables.time_effects) time_effects.push_back(time_effect_row(e, code));
     for (const TimeSummary& t : tables.times) times.push_back(time_row(t, code));
     for (const SingleChange& c : changes)
         single.push_back({{"variant", c.variant}, {"point", c.point}, {"parameter", c.parameter}, {"value", c.value}});
-    return {{"texts", std::move(code.list)},   {"errors", std::move(errors)},
-            {"frames", std::move(frames)},     {"splits", std::move(splits)},
-            {"effects", std::move(effects)},   {"time_effects", std::move(time_effects)},
-            {"times", std::move(times)},       {"single_changes", std::move(single)},
+    return {{"texts", std::move(code.list)},
+            {"errors", std::move(errors)},
+            {"frames", std::move(frames)},
+            {"splits", std::move(splits)},
+            {"hits", std::move(hits)},
+            {"effects", std::move(effects)},
+            {"time_effects", std::move(time_effects)},
+            {"times", std::move(times)},
+            {"single_changes", std::move(single)},
             {"metrics", metric_descriptions()}};
 }

@@ -151,6 +151,15 @@ std::vector<SplitRow> read_split_rows(const std::filesystem::path& file) {
     return rows;
 }
 
+std::vector<HitRow> read_hit_rows(const std::filesystem::path& file) {
+    std::vector<HitRow> rows;
+    for (CsvReader csv(file); csv.next();)
+        rows.push_back({csv.text("shot"), csv.text("frame"), csv.text("variant"), csv.text("point"), csv.text("stage"),
+                        csv.text("mask"), csv.text("quantity"), small_count(csv, "seeds"), csv.number("rays"),
+                        csv.number("value"), csv.optional_number("low"), csv.optional_number("high")});
+    return rows;
+}
+
 std::vector<EffectRow> read_effect_rows(const std::filesystem::path& file) {
     std::vector<EffectRow> rows;
     for (CsvReader csv(file); csv.next();)

@@ -12,6 +12,7 @@
 /// results.csv, splits.csv, effects.csv and times.csv as they were written. Every mistake in them is an Error that
 /// names file, line and column.
 std::vector<ResultRow> read_result_rows(const std::filesystem::path& file);
+std::vector<HitRow> read_hit_rows(const std::filesystem::path& file);
 std::vector<SplitRow> read_split_rows(const std::filesystem::path& file);
 std::vector<EffectRow> read_effect_rows(const std::filesystem::path& file);
 std::vector<TimeRow> read_time_rows(const std::filesystem::path& file);

@@ -14,9 +14,11 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "splits": ("splits.csv", None),  # its quantities are columns: see _split_rows()
     "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
+    "hits": ("hits.csv", ("value", "low", "high")),
 }
+SHARES = ("hits",)  # may be 0: their mean over shots is the arithmetic one
 KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "labels"}
-NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "clock")
+NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
 SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
 
 
@@ -188,6 +190,25 @@ def _geometric_mean(parts):
     return result
 
 
+def _arithmetic_mean(parts):
+    """Of shares over shots, which are what they are and no sample; intervals as those of _geometric_mean()."""
+    cells = [c for c in parts if c.value is not None]
+    result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
+    if not cells:
+        return result
+    result.value = sum(c.value for c in cells) / len(cells)
+    result.least, result.most = min(c.value for c in cells), max(c.value for c in cells)
+    result.seeds = min((c.seeds for c in cells if c.seeds is not None), default=None)
+    if all(c.low is not None and c.high is not None for c in cells):
+        half = math.sqrt(sum(((c.high - c.low) / 2) ** 2 for c in cells)) / len(cells)
+        result.low, result.high = result.value - half, result.value + half
+    return result
+
+
+def _mean(table, parts):
+    return _arithmetic_mean(parts) if table.of in SHARES else _geometric_mean(parts)
+
+
 def _refuse_shared(selection, name, rows):
     """Rows of one cell must be told apart by what the mean is over: a mean of two masks of a shot is none over shots."""
     table = selection.table
@@ -196,7 +217,7 @@ def _refuse_shared(selection, name, rows):
         if len(rows) > 1:
             raise ResultsError(
                 f"table '{table.name}': {len(rows)} rows of {file} fall on one cell {place}; "
-                "narrow it with 'where', tell them apart by 'rows' or 'columns', or name what the geometric mean is 'over'"
+                "narrow it with 'where', tell them apart by 'rows' or 'columns', or name what the mean is 'over'"
             )
         return
     seen = {}
@@ -241,7 +262,7 @@ def cells_of(results, table):
         _refuse_shared(selection, name, rows)
         parts = [_cell(selection, row, name) for row in rows]
         filled += [row for row, part in zip(rows, parts) if part.value is not None]
-        cells.append(parts[0] if table.over is None else _geometric_mean(parts))
+        cells.append(parts[0] if table.over is None else _mean(table, parts))
     return _about(selection, filled), _sorted(cells, table.sort)
 
 

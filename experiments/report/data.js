@@ -41,6 +41,20 @@ function readData() {
         biasSquared: {value: r[8], low: r[9], high: r[10]},
         variance: {value: r[11], low: r[12], high: r[13]}
     });
+    const hit = r => ({
+        shot: t[r[0]],
+        frame: t[r[1]],
+        variant: t[r[2]],
+        point: t[r[3]],
+        stage: t[r[4]],
+        mask: t[r[5]],
+        quantity: t[r[6]],
+        seeds: r[7],
+        rays: r[8],
+        value: r[9],
+        low: r[10],
+        high: r[11]
+    });
     const effect = r => ({
         shot: t[r[0]],
         variant: t[r[1]],
@@ -96,6 +110,7 @@ function readData() {
         errors: raw.errors.map(error),  // those that speak for their shot
         frames: raw.frames.map(error),  // those of each frame, where the ones above are over all of them
         splits: raw.splits.map(split),
+        hits: raw.hits.map(hit),
         effects: raw.effects.map(effect),
         timeEffects: raw.time_effects.map(timeEffect),
         times: raw.times.map(time)

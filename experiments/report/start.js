@@ -11,6 +11,7 @@ if (report.errors.length) {
 }
 showRoughness();
 showSplits();
+showHits();
 showStages();
 showEffects();
 showTemporal();

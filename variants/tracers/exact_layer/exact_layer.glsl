@@ -39,6 +39,22 @@ float exact_layer_solid_end(ivec2 pixel, ExactLayerPatch patch_of_pixel) {
     return patch_of_pixel.position.z * (1.0 + exact_layer_relative_thickness);
 }
 
+// Whether the surface of a pixel may reach as far as a depth (view-space z): a plane that is seen nearly from its edge
+// spans any depth within a pixel. Beyond two pixels' widths it reaches as far as a neighbour of the same plane does.
+bool exact_layer_reaches(ivec2 pixel, ExactLayerPatch shown, float z) {
+    float off = abs(z - shown.position.z), width = exact_layer_pixel_width(shown.position.z);
+    if (off <= 2.0 * width) return true;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 neighbour = pixel + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5));
+        if (!is_on_screen(neighbour)) continue;
+        ExactLayerPatch beside = exact_layer_patch(neighbour);
+        if (is_background(beside.device_depth)) continue;
+        bool is_same_plane = abs(dot(beside.position - shown.position, shown.normal)) <= width;
+        if (is_same_plane && off <= abs(beside.position.z - shown.position.z)) return true;
+    }
+    return false;
+}
+
 TraceEnd exact_layer_hit(ScreenLine line, ivec2 pixel, float t, TraceRay ray) {
     return TraceEnd(pixel, position_at(line, t), distance_at(line, t), 1.0, outcome_hit);
 }
@@ -60,13 +76,16 @@ TraceEnd exact_layer_trace(TraceRay ray) {
 
         vec3 p_in = ray.origin + s_in * ray.direction, p_out = ray.origin + s_out * ray.direction;
         float height_in = dot(p_in - shown.position, shown.normal), height_out = dot(p_out - shown.position, shown.normal);
-        if (height_in >= 0.0 && height_out < 0.0)
-            return exact_layer_hit(line, pixel, mix(t_in, t_out, height_in / (height_in - height_out)), ray);
-        if (height_in >= 0.0) continue;
+        if (height_in >= 0.0) {
+            if (height_out >= 0.0) continue;
+            float share = height_in / (height_in - height_out);
+            if (!exact_layer_reaches(pixel, shown, mix(p_in.z, p_out.z, share))) continue;
+            return exact_layer_hit(line, pixel, mix(t_in, t_out, share), ray);
+        }
         // Behind the plane at once. Planes of neighbours on a curved surface do not join: less than a pixel's width is a
         // crack between them.
-        if (height_in > -exact_layer_pixel_width(p_in.z))
-            if (dot(ray.direction, shown.normal) < 0.0) return exact_layer_hit(line, pixel, t_in, ray);
+        bool is_in_crack = height_in > -exact_layer_pixel_width(p_in.z) && dot(ray.direction, shown.normal) < 0.0;
+        if (is_in_crack && exact_layer_reaches(pixel, shown, p_in.z)) return exact_layer_hit(line, pixel, t_in, ray);
         float z_near = max(p_in.z, p_out.z), z_far = min(p_in.z, p_out.z);
         float solid_end = exact_layer_solid_end(pixel, shown);
         bool is_inside = solid_end < shown.position.z && z_far < shown.position.z && z_near > solid_end;
