@@ -22,8 +22,9 @@ struct FrostbiteExit {
 FrostbiteExit frostbite_exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
     ivec2 low = pixel >> level << level, high = low + (1 << level) - 1;
     bvec2 ascends = greaterThan(line.slope.xy, vec2(0.0));
-    ivec2 last = mix(low, high, ascends);
-    vec2 walls = vec2(mix(low, high + 1, ascends));
+    // As floats, which hold every pixel: GLSL ES 3.00 mixes no integers.
+    ivec2 last = ivec2(mix(vec2(low), vec2(high), ascends));
+    vec2 walls = mix(vec2(low), vec2(high + 1), ascends);
     vec2 t_walls = (walls - line.origin.xy) * line.inverse;
     bool is_x = t_walls.x < t_walls.y;
     float t = is_x ? t_walls.x : t_walls.y;
