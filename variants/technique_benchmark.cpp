@@ -67,7 +67,7 @@ void frames(benchmark::State& state, const char* name, const char* preset, const
     state.counters["cpu_ms"] = benchmark::Counter(cpu_ms, benchmark::Counter::kAvgIterations);
 }
 
-/// AMD's march alone: rays and texels of the depth pyramid per second of its pass, and texels per ray.
+/// AMD's march alone: rays and texels of depth per second of its pass, and texels per ray.
 void march(benchmark::State& state, const char* preset, const nlohmann::json& parameters) {
     static Device device;
     const glm::uvec2 extent(state.range(0), state.range(1));
@@ -76,9 +76,10 @@ void march(benchmark::State& state, const char* preset, const nlohmann::json& pa
     PassGraph graph(device, extent), counting_graph(device, extent);
     const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, strips_before_wall);
     const std::unique_ptr<Variant> variant = make_variant("amd_sssr", parameters, preset);
-    nlohmann::json counted = parameters;
-    counted["count_steps"] = true;
-    const std::unique_ptr<Variant> counting = make_variant("amd_sssr", counted, preset);
+    const std::unique_ptr<Variant> counting = make_variant("amd_sssr", parameters, preset);
+    RayProbe probe;
+    probe.is_recording = true;
+    counting->ray_probe = &probe;
 
     double rays = 0, texels = 0, seconds = 0;
     unsigned index = 0;
@@ -89,11 +90,12 @@ void march(benchmark::State& state, const char* preset, const nlohmann::json& pa
         state.SetIterationTime(milliseconds * 1e-3);
         seconds += milliseconds * 1e-3;
         // The same frame with the same histories sends the same rays.
+        probe.recorded.clear();
         run(counting_graph, *counting, upload_gbuffer(counting_graph, pose, camera, strips_before_wall), camera,
             index++);
-        for (const float steps : counting_graph.download(counting_graph.image("march_steps", Format::r32f)).values) {
-            rays += steps > 0;
-            texels += double(steps);
+        for (const RayRecord& ray : probe.recorded.at(0).rays) {
+            rays += double(ray.is_traced);
+            texels += ray.fetches;
         }
     }
     state.counters["rays_per_s"] = rays / seconds;
@@ -109,7 +111,7 @@ void at_both_sizes(benchmark::internal::Benchmark* registered) {
 const nlohmann::json full = {{"roughness_threshold", 0.447}},
                      views = {{"roughness_threshold", 0.447}, {"hierarchy", "mip_views"}},
                      half = {{"roughness_threshold", 0.447}, {"half_resolution", true}},
-                     quarter = {{"guided_tracing", false}}, coarser = {{"most_detailed_mip", 1}},
+                     quarter = {{"guided_tracing", false}}, coarser = {{"hierarchy.most_detailed_mip", 1}},
                      as_is = nlohmann::json::object();
 
 }  // namespace

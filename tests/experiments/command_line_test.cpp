@@ -54,8 +54,8 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dad"}]})");
     expect_mistake("run study.json", "did you mean 'mcguire_dda'?");
     config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"thicknes": 1}}]})");
-    expect_mistake("run study.json", "did you mean 'thickness'?");
-    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"stride": 1000}}]})");
+    expect_mistake("run study.json", "did you mean 'dda.thickness'?");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.stride": 1000}}]})");
     expect_mistake("run study.json", "[1, 64]");
     config(R"({"shots": [{"scene": "sky_only", "resolution": [0, 8]}], "variants": [{"variant": "none"}]})");
     expect_mistake("run study.json", "'resolution' [0,8]");
@@ -93,8 +93,8 @@ TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
     expect_mistake("run study.json", "reflective_max_roughness: the number 1e400");
     config("{\"timing\": {\"frames\": 0, \"frames\": 15}" + rest);
     expect_mistake("run study.json", "study.json: timing: the key 'frames' comes twice");
-    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"thickness": 1e39}}]})");
-    expect_mistake("run study.json", "'thickness' = 1e+39");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.thickness": 1e39}}]})");
+    expect_mistake("run study.json", "'dda.thickness' = 1e+39");
     const std::string name(300'000, 'n');
     for (const std::string extension : {"", ".json", ".glb"}) {
         config(R"({"shots": [{"scene": ")" + name + extension + R"("}], "variants": [{"variant": "none"}]})");
@@ -142,10 +142,10 @@ TEST_F(CommandLine, EveryCommandExplainsItself) {
         EXPECT_EQ(o.code, 0);
         EXPECT_GT(o.text.size(), 100u) << command;
     }
-    EXPECT_NE(ssrlab("describe mcguire_dda").text.find("thickness"), std::string::npos);
+    EXPECT_NE(ssrlab("describe mcguire_dda").text.find("dda.thickness"), std::string::npos);
     EXPECT_NE(ssrlab("describe diligent_ssr").text.find("Enforced limits: WebGL 2"), std::string::npos);
     EXPECT_EQ(ssrlab("describe amd_sssr").text.find("Enforced limits"), std::string::npos);
-    EXPECT_NE(ssrlab("describe --schema").text.find("\"max_steps\""), std::string::npos);
+    EXPECT_NE(ssrlab("describe --schema").text.find("\"dda.max_steps\""), std::string::npos);
 }
 
 TEST_F(CommandLine, SavesGBuffers) {

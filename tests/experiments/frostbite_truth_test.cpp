@@ -115,8 +115,8 @@ struct FrostbiteTruth : testing::Test {
                                      {"taps", "16"},
                                      {"reuse_jacobian", true},
                                      {"half_resolution", false},
-                                     {"hierarchical_below", 1.0},
-                                     {"relative_thickness", 0.001},
+                                     {"rough_from", 1.0},
+                                     {"frostbite.relative_thickness", 0.001},
                                      {"importance_bias", 0.0},
                                      {"max_rays", 4}};
         parameters.update(changes);

@@ -81,7 +81,7 @@ Agreement measure_agreement(const std::string& name, const nlohmann::json& param
 
 TEST(HitAgreement, UprightThingsOnALevelMirrorAreFound) {
     // Geometry of 0.1 m and more: all that can go wrong are the pixels of edges, 480 columns with some 60 of them.
-    const Agreement a = measure_agreement("mirror_pillars", {{"thickness", 0.1}});
+    const Agreement a = measure_agreement("mirror_pillars", {{"dda.thickness", 0.1}});
     ASSERT_GT(a.visible, 20000u);
     EXPECT_GT(a.rate(), 0.98);
 }
@@ -89,11 +89,11 @@ TEST(HitAgreement, UprightThingsOnALevelMirrorAreFound) {
 TEST(HitAgreement, HoldsOnEveryMirrorScene) {
     // These scenes are made to be hard (thin wires, curved mirrors, hidden undersides): each bound is a few per cent below what
     // was measured, so that a mistake in the march cannot hide.
-    for (const auto& [scene, bound] : {std::pair("fence", 0.80), {"floating_holes", 0.95}, {"curved_mirror", 0.85}}) EXPECT_GT(measure_agreement(scene, {{"thickness", 0.1}}).rate(), bound) << scene;
+    for (const auto& [scene, bound] : {std::pair("fence", 0.80), {"floating_holes", 0.95}, {"curved_mirror", 0.85}}) EXPECT_GT(measure_agreement(scene, {{"dda.thickness", 0.1}}).rate(), bound) << scene;
 }
 
 TEST(HitAgreement, ALargerStrideFindsLess) {
-    const double fine = measure_agreement("fence", {{"thickness", 0.1}}).rate();
-    const double coarse = measure_agreement("fence", {{"thickness", 0.1}, {"stride", 8}}).rate();
+    const double fine = measure_agreement("fence", {{"dda.thickness", 0.1}}).rate();
+    const double coarse = measure_agreement("fence", {{"dda.thickness", 0.1}, {"dda.stride", 8}}).rate();
     EXPECT_LT(coarse, fine);
 }

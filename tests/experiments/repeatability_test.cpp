@@ -11,16 +11,17 @@ std::string reason(const nlohmann::json& parameters) { return make_variant("amd_
 }  // namespace
 
 TEST(Repeatability, IsWhatTheOrderOfThreadsCannotChange) {
-    EXPECT_NE(reason({{"min_traversal_occupancy", 1}}).find("min_traversal_occupancy"), std::string::npos);
-    const nlohmann::json faithful = {{"min_traversal_occupancy", 0}, {"denoiser_form", "faithful"}};
+    EXPECT_NE(reason({{"hierarchy.min_traversal_occupancy", 1}}).find("hierarchy.min_traversal_occupancy"),
+              std::string::npos);
+    const nlohmann::json faithful = {{"hierarchy.min_traversal_occupancy", 0}, {"denoiser_form", "faithful"}};
     EXPECT_NE(reason(faithful).find("barrier_before_average"), std::string::npos);
-    EXPECT_EQ(reason(faithful).find("min_traversal_occupancy"), std::string::npos);
+    EXPECT_EQ(reason(faithful).find("hierarchy.min_traversal_occupancy"), std::string::npos);
     nlohmann::json both = faithful;
-    both["min_traversal_occupancy"] = 4;
+    both["hierarchy.min_traversal_occupancy"] = 4;
     EXPECT_NE(reason(both).find("barrier_before_average"), std::string::npos);
-    EXPECT_NE(reason(both).find("min_traversal_occupancy"), std::string::npos);
+    EXPECT_NE(reason(both).find("hierarchy.min_traversal_occupancy"), std::string::npos);
 
-    EXPECT_EQ(reason({{"min_traversal_occupancy", 0}}), "") << "the fast form shares no moments";
+    EXPECT_EQ(reason({{"hierarchy.min_traversal_occupancy", 0}}), "") << "the fast form shares no moments";
     nlohmann::json mended = faithful, raw = faithful;
     mended["barrier_before_average"] = true;
     raw["denoise"] = false;
@@ -53,7 +54,7 @@ TEST_F(StudyTest, SaysWhichPointsDifferFromRunToRun) {
     for (const std::string& warning : report_warnings(manifest, {}, {}))
         if (warning.find("from run to run") != std::string::npos) {
             EXPECT_TRUE(warning.starts_with("amd_sssr (" + point + "): ")) << warning;
-            EXPECT_NE(warning.find("min_traversal_occupancy"), std::string::npos) << warning;
+            EXPECT_NE(warning.find("hierarchy.min_traversal_occupancy"), std::string::npos) << warning;
             ++warnings;
         }
     EXPECT_EQ(warnings, 1u);

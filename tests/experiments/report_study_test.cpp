@@ -42,12 +42,12 @@ TEST_F(StudyReport, TellsSingleChangesFromPresets) {
 TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredVariants) {
     const nlohmann::json manifest = {
         {"variants",
-         {{{"variant", "amd_sssr"}, {"point", "slides"}, {"parameters", {{"march", "slides"}}}},
+         {{{"variant", "amd_sssr"}, {"point", "slides"}, {"parameters", {{"hierarchy.march", "slides"}}}},
           {{"variant", "of another build"}, {"point", "default"}, {"parameters", nlohmann::json::object()}}}}};
     const nlohmann::json defaults = parameter_defaults(manifest);
     ASSERT_EQ(defaults.size(), 1u);
     EXPECT_EQ(defaults["amd_sssr"]["denoiser_form"], "fast");
-    EXPECT_EQ(defaults["amd_sssr"]["march"], "sdk");
+    EXPECT_EQ(defaults["amd_sssr"]["hierarchy.march"], "sdk");
     EXPECT_TRUE(parameter_defaults(nlohmann::json::object()).empty());
 }
 

@@ -210,9 +210,10 @@ TEST_F(StudyTest, SweepsOfManyParametersFitIntoFileNames) {
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "fence", "resolution": [32, 18]}], "reference": {"samples": 16},
         "timing": {"frames": 0}, "targets": ["specular"], "metrics": ["mse"],
-        "variants": [{"variant": "amd_sssr", "sweep": {"max_traversal_intersections": [128], "min_traversal_occupancy": [4],
-            "depth_buffer_thickness": [0.015], "roughness_threshold_alpha": [0.2], "thickness_at_hit_mip": [true],
-            "independent_noise_shifts": [true], "clip_ray_to_near_plane": [true]}}]})");
+        "variants": [{"variant": "amd_sssr", "sweep": {"hierarchy.max_traversal_intersections": [128],
+            "hierarchy.min_traversal_occupancy": [4], "hierarchy.depth_buffer_thickness": [0.015],
+            "roughness_threshold_alpha": [0.2], "hierarchy.thickness_at_hit_mip": [true],
+            "independent_noise_shifts": [true], "hierarchy.clip_ray_to_near_plane": [true]}}]})");
     const Config study = read_config(folder / "study.json");
     ASSERT_EQ(study.variants.size(), 1u);
     ASSERT_GT(study.variants.front().point.size(), 150u);

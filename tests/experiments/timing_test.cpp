@@ -194,8 +194,8 @@ TEST_F(Timing, TakesTimesWhereLoadCannotBeTold) {
 TEST_F(Timing, PairsEveryTimedPointAndLeavesOutTheOthers) {
     config.variants.push_back({.variant = "mcguire_dda",
                                .preset = "",
-                               .parameters = {{"stride", 4}},
-                               .point = "stride=4",
+                               .parameters = {{"dda.stride", 4}},
+                               .point = "dda.stride=4",
                                .seeds = {3},
                                .is_timed = false});
     const Shot still = shot("fence", {0});
@@ -208,7 +208,7 @@ TEST_F(Timing, PairsEveryTimedPointAndLeavesOutTheOthers) {
         EXPECT_GT(times.pairs[i].second_ms, 0.0);
         EXPECT_NE(times.pairs[i].first_ms, times.pairs[i].second_ms) << "measured once, told twice";
     }
-    EXPECT_TRUE(std::ranges::none_of(times.rows, [](const TimeRow& row) { return row.point == "stride=4"; }));
+    EXPECT_TRUE(std::ranges::none_of(times.rows, [](const TimeRow& row) { return row.point == "dda.stride=4"; }));
 
     for (VariantConfig& variant : config.variants) variant.is_timed = false;
     EXPECT_TRUE(time(source, still).rows.empty());

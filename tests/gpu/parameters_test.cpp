@@ -79,6 +79,53 @@ TEST(Parameters, DeclareThemselvesInGlsl) {
     EXPECT_EQ(ParameterSet{}.glsl(), "");
 }
 
+/// Of parts that techniques share: GLSL's names have no dots.
+TEST(Parameters, OfAPartBeginWithItsName) {
+    ParameterSet params;
+    const Param<float> thickness(params, "dda.thickness", 0.5f, {0.0f, 1.0f},
+                                 {"m", "depth behind a surface", "ssrlab"});
+    const Switch refine(params, "dda.refine", false, {"", "bisects", "ssrlab"});
+    params.assign({{"dda.thickness", 0.25}, {"dda.refine", true}});
+    EXPECT_EQ(thickness, 0.25f);
+    EXPECT_TRUE(refine);
+    EXPECT_EQ(params.glsl(),
+              "layout(constant_id = 0) const bool dda_refine = bool(false);\n"
+              "layout(std140) uniform Params {\n    float dda_thickness;\n};\n");
+    EXPECT_EQ(params.glsl(true),
+              "const bool dda_refine = bool(true);\n"
+              "layout(std140) uniform Params {\n    float dda_thickness;\n};\n");
+    EXPECT_EQ(message_of([&] {
+                  params.assign({{"thickness", 0.1}});
+              }),
+              "unknown parameter 'thickness'; did you mean 'dda.thickness'?");
+    EXPECT_EQ(message_of([&] {
+                  params.assign({{"dda_thickness", 0.1}});
+              }),
+              "unknown parameter 'dda_thickness'; did you mean 'dda.thickness'?");
+}
+
+TEST(Parameters, HaveDefaultsThatATechniqueChanges) {
+    Demo demo;
+    demo.params.change_defaults({{"thickness", 0.25}, {"max_steps", 128}, {"filter", "nearest"}});
+    EXPECT_EQ(demo.thickness, 0.25f);
+    EXPECT_EQ(demo.max_steps, 128u);
+    EXPECT_TRUE(demo.filter.is("nearest"));
+    EXPECT_FALSE(demo.refine);
+    const nlohmann::json members = demo.params.schema().at("properties");
+    EXPECT_EQ(members.at("thickness").at("default"), 0.25);
+    EXPECT_EQ(members.at("offset").at("default"), -1);
+    EXPECT_NE(demo.params.glsl().find("max_steps = uint(128)"), std::string::npos);
+    demo.params.assign({{"thickness", 0.5}});
+    EXPECT_EQ(demo.params.schema().at("properties").at("thickness").at("default"), 0.25) << "of values alone";
+
+    EXPECT_THROW(demo.params.change_defaults({{"offset", 2}, {"thickness", 5}}), Error);
+    EXPECT_EQ(demo.offset, -1);
+    EXPECT_EQ(message_of([&] {
+                  demo.params.change_defaults({{"thicknes", 0.1}});
+              }),
+              "unknown parameter 'thicknes'; did you mean 'thickness'?");
+}
+
 TEST(Parameters, HaveTheBitsThatTheGpuReads) {
     Demo demo;
     EXPECT_EQ(named(demo.params, "thickness").bits(), std::bit_cast<uint32_t>(0.05f));

@@ -175,6 +175,36 @@ TEST_F(Graph, UploadsAndDownloadsEachFormat) {
     }
 }
 
+/// Also where a shader of another text, or of the same one, was compiled before.
+TEST_F(Graph, PassesDecideWhatAnIncludeStandsFor) {
+    PassGraph graph(device, {4, 4});
+    begin(graph);
+    const Image color = graph.image("color", Format::rgba32f);
+    const auto drawn = [&](const std::string& glsl) {
+        graph.fragment("decided_include.frag").include("decided", glsl).write(color).run();
+        return graph.download(color).values.front();
+    };
+    const std::string three = "float decided() { return 3.0; }\n", five = "float decided() { return 5.0; }\n",
+                      of_file =
+                          "#include \"core/shaders/view.glsl\"\n"
+                          "float decided() { return is_background(camera.depth.z) ? 7.0 : 8.0; }\n",
+                      no_glsl_es = "float decided() { return 3; }\n";
+    EXPECT_EQ(drawn(three), 3.0f);
+    EXPECT_EQ(drawn(five), 5.0f);
+    EXPECT_EQ(drawn(three), 3.0f);
+    EXPECT_EQ(drawn(no_glsl_es), 3.0f);
+    {
+        const LimitScope limits(graph, Limits::webgl2);
+        EXPECT_EQ(drawn(five), 5.0f);
+        EXPECT_EQ(drawn(of_file), 7.0f);
+        const std::string refused = message([&] { drawn(no_glsl_es); });
+        EXPECT_NE(refused.find("GLSL ES 3.00"), std::string::npos) << refused;
+        EXPECT_NE(refused.find("decided:1"), std::string::npos) << refused;
+    }
+    const std::string undecided = message([&] { graph.fragment("decided_include.frag").write(color).run(); });
+    EXPECT_NE(undecided.find("which decided_include.frag:1 includes"), std::string::npos) << undecided;
+}
+
 TEST_F(Graph, MistakesNameTheCulprit) {
     PassGraph graph(device, {16, 16});
     begin(graph);

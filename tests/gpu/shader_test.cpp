@@ -60,6 +60,12 @@ TEST(Shader, WebGl2HasItsOwnLanguage) {
             EXPECT_TRUE(is_accepted(text, language)) << text;
 }
 
+TEST(Shader, KnowsWhetherItIsAComputeShader) {
+    const std::string only_compute = "#ifndef COMPUTE_SHADER\n#error no compute shader\n#endif\n";
+    EXPECT_NO_THROW(compile("store_value.comp", "", only_compute));
+    EXPECT_THROW(compile("empty.frag", "", only_compute), Error);
+}
+
 /// The formulas that the path tracer, the rasteriser and the variants share compile in every language they are meant
 /// for.
 TEST(Shader, SharedHeadersCompileInBothLanguages) {

@@ -19,7 +19,7 @@ struct AmdCorrections : VariantTest {
 
     /// rgb: (lit at the hit, blended by its confidence with a black environment); w: length (m).
     HostImage trace(const HostGBuffer& gbuffer, nlohmann::json parameters) {
-        parameters["min_traversal_occupancy"] = 0;
+        parameters["hierarchy.min_traversal_occupancy"] = 0;
         parameters["samples_per_quad"] = 4;
         return amd_trace_frame(device(), gbuffer, parameters, noise).radiance;
     }
@@ -37,7 +37,7 @@ double sum_of(const HostImage& radiance) {
 
 /// 120 rows are 7.5 texels of the pyramid's fourth level, as 1080 are 67.5: it has no texels for the last 8 rows, to
 /// which the ceiling's rays go.
-TEST_F(AmdCorrections, RefinePartialTexelsFindsWhatOddLevelsLackWithReversedDepth) {
+TEST_F(AmdCorrections, PartialTexelsAsTheNearPlaneShowWhatOddLevelsLackWithReversedDepth) {
     pose.world_from_view = glm::translate(glm::mat4(1), {0, 0.8f, 0});
     const double standard = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
     view.depth_direction = DepthDirection::reversed;
@@ -55,7 +55,8 @@ TEST_F(AmdCorrections, StopOutsideScreenEndsRaysAtTheBorder) {
     pose.world_from_view = glm::rotate(glm::mat4(1), -0.85f, glm::vec3(1, 0, 0));
     const HostGBuffer gbuffer = gbuffer_of(floor_below_nothing);
     const auto mean_height = [&](bool stops) {
-        const HostImage found = trace(gbuffer, {{"hierarchy.stop_outside_screen", stops}, {"hierarchy.clip_ray_to_near_plane", true}});
+        const HostImage found =
+            trace(gbuffer, {{"hierarchy.stop_outside_screen", stops}, {"hierarchy.clip_ray_to_near_plane", true}});
         double sum = 0;
         for (unsigned y = 0; y < view.extent.y; ++y) {
             const CameraRay ray = camera_ray(pose, view.extent, glm::vec2(31, y) + 0.5f);
@@ -76,7 +77,7 @@ TEST_F(AmdCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {
     view.extent = {120, 120};
     const nlohmann::json thick = {{"hierarchy.depth_buffer_thickness", 0.1}};
     nlohmann::json clipped = thick;
-    clipped["clip_ray_to_near_plane"] = true;
+    clipped["hierarchy.clip_ray_to_near_plane"] = true;
     const double original = sum_of(trace(mirror_beside_wall, thick)),
                  mended = sum_of(trace(mirror_beside_wall, clipped));
     EXPECT_GT(mended, 2 * original + 100);
@@ -90,9 +91,10 @@ TEST_F(AmdCorrections, AcceptContactHitsShowsTheWallInTheFirstRowsOfTheFloor) {
 }
 
 TEST_F(AmdCorrections, RejectUnfinishedIgnoresWhereRaysAreGivenUp) {
-    const nlohmann::json few_steps = {{"hierarchy.max_traversal_intersections", 3}, {"hierarchy.depth_buffer_thickness", 100.0}};
+    const nlohmann::json few_steps = {{"hierarchy.max_traversal_intersections", 3},
+                                      {"hierarchy.depth_buffer_thickness", 100.0}};
     nlohmann::json rejected = few_steps;
-    rejected["reject_unfinished"] = true;
+    rejected["hierarchy.reject_unfinished"] = true;
     HostGBuffer gbuffer = gbuffer_of(floor_before_white);
     gbuffer.lit = HostImage(gbuffer.extent(), 4, 1.0f);
     const double original = sum_of(trace(gbuffer, few_steps)), mended = sum_of(trace(gbuffer, rejected));
@@ -121,13 +123,14 @@ TEST_F(AmdCorrections, GuardMirrorNormalHoldsForEveryRandomNumber) {
     for (const float value : trace(gbuffer, nlohmann::json::object()).values) EXPECT_TRUE(std::isfinite(value));
 }
 
-/// In the middle of 97 columns rays stay in their column exactly. Without the guard the distance to the next column is
-/// 0 * infinity, which lavapipe's min() passes over as processors do, while Vulkan leaves it open: the same image.
-TEST_F(AmdCorrections, GuardZeroDirectionTracesAlongColumns) {
+/// In the middle of 97 columns rays stay in their column exactly. Unless they are nudged the distance to the next
+/// column is 0 * infinity, which lavapipe's min() passes over as processors do, while Vulkan leaves it open: the same
+/// image.
+TEST_F(AmdCorrections, ZeroDirectionNudgedTracesAlongColumns) {
     view.extent = {97, 120};
     const HostImage found = trace(floor_before_white, {{"hierarchy.zero_direction", "nudged"}});
     if (device().info().is_cpu()) {
-        EXPECT_TRUE(found.values == trace(floor_before_white, {{"guard_zero_direction", false}}).values);
+        EXPECT_TRUE(found.values == trace(floor_before_white, {{"hierarchy.zero_direction", "whole_vector"}}).values);
     }
     double column = 0, beside = 0;
     for (unsigned y = 0; y < 120; ++y) {

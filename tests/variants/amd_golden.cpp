@@ -39,7 +39,8 @@ struct TracedFrame {
     AmdParameters parameters;
     GBuffer gbuffer;
     AmdHistories histories;
-    Image pyramid, confidence;
+    Tracers::Images images;
+    Image confidence;
     AmdWork work;
 
     TracedFrame(Device& device, const HostGBuffer& host, const nlohmann::json& overrides)
@@ -48,10 +49,10 @@ struct TracedFrame {
         graph.begin_frame(host.camera, parameters.params, gbuffer.images());
         histories = amd_histories(graph, true, parameters.tracing.float_roughness);
         confidence = graph.image("confidence", Format::r8);
-        pyramid = nearest_depth_pyramid(graph, gbuffer.depth, parameters.tracing.pyramid_mips);
+        images = parameters.tracing.tracers.images(graph, gbuffer.depth);
     }
 
-    void classify() { work = amd_classify(graph, gbuffer, pyramid, histories, confidence); }
+    void classify() { work = amd_classify(graph, gbuffer, histories, confidence); }
 
     /// `counters`: where those of rays and tiles are, before or after the arguments are prepared.
     AmdTraced result(unsigned rays, unsigned tiles) {
@@ -76,18 +77,15 @@ AmdTraced amd_classify_frame(Device& device, const HostGBuffer& gbuffer, const n
 }
 
 AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
-                          const HostImage& noise) {
+                          const HostImage& noise, RayProbe* probe) {
     TracedFrame frame(device, gbuffer, parameters);
     const Image numbers = frame.graph.image_of("blue_noise", Format::rg32f, noise.extent);
     frame.graph.upload(numbers, noise);
     frame.classify();
     amd_prepare_arguments(frame.graph, frame.work);
-    amd_intersect(frame.graph, frame.gbuffer, frame.pyramid, numbers, frame.work, frame.histories,
-                  frame.parameters.tracing);
-    AmdTraced result = frame.result(1, 3);
-    if (frame.parameters.tracing.count_steps)
-        result.steps = frame.graph.download(frame.graph.image("march_steps", Format::r32f));
-    return result;
+    amd_intersect(frame.graph, frame.gbuffer, frame.images, numbers, frame.work, frame.histories,
+                  frame.parameters.tracing, probe);
+    return frame.result(1, 3);
 }
 
 HostImage map_of_rays(const AmdTraced& traced, glm::uvec2 extent) {
@@ -129,10 +127,10 @@ nlohmann::json amd_golden_parameters(const std::string& set, const std::string& 
     static const std::map<std::string, std::string> ours = {
         {"samplesPerQuad", "samples_per_quad"},
         {"temporalVarianceGuidedTracingEnabled", "guided_tracing"},
-        {"minTraversalOccupancy", "min_traversal_occupancy"},
-        {"depthBufferThickness", "depth_buffer_thickness"},
-        {"mostDetailedMip", "most_detailed_mip"},
-        {"maxTraversalIntersections", "max_traversal_intersections"},
+        {"minTraversalOccupancy", "hierarchy.min_traversal_occupancy"},
+        {"depthBufferThickness", "hierarchy.depth_buffer_thickness"},
+        {"mostDetailedMip", "hierarchy.most_detailed_mip"},
+        {"maxTraversalIntersections", "hierarchy.max_traversal_intersections"},
         {"roughnessThreshold (alpha)", "roughness_threshold_alpha"}};
     const nlohmann::json recorded = golden_meta(set)["parameter_sets"][name]["parameters"];
     nlohmann::json parameters;

@@ -26,7 +26,6 @@ struct AmdTraced {
     HostImage radiance;                 ///< rgb, w length of the ray (m)
     HostImage roughness, confidence;
     std::vector<uint32_t> arguments;  ///< after intersection
-    HostImage steps;                  ///< with count_steps, after intersection
 };
 
 /// Runs one frame. `parameters` override the defaults; radiance is kept in 32 bits. `variance`: of the frame before, or
@@ -34,7 +33,7 @@ struct AmdTraced {
 AmdTraced amd_classify_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
                              const HostImage* variance = nullptr);
 AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
-                          const HostImage& noise);
+                          const HostImage& noise, RayProbe* probe = nullptr);
 
 /// A map of what is listed: 1 + copy flags (bits 29 to 31 as 2, 4, 8), 0 where no ray is. Fails a test if a pixel is
 /// listed twice or lies outside.

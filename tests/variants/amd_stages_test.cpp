@@ -1,8 +1,9 @@
-// Stages of AMD's technique switched off one by one, and what its march counts.
+// Stages of AMD's technique switched off one by one, and what its march reads.
 #include "tests/variants/amd_golden.h"
 #include "tests/variants/denoiser_scene.h"
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/variant_fixture.h"
+#include "variants/tracers/outcome.h"
 
 #include <cmath>
 
@@ -22,10 +23,10 @@ struct AmdStages : VariantTest {
         gbuffer.fallback = HostImage(gbuffer.extent(), 4, 0.5f);
         return gbuffer;
     }
-    AmdTraced trace(const HostGBuffer& gbuffer, nlohmann::json parameters) {
-        parameters["min_traversal_occupancy"] = 0;
+    AmdTraced trace(const HostGBuffer& gbuffer, nlohmann::json parameters, RayProbe* probe = nullptr) {
+        parameters["hierarchy.min_traversal_occupancy"] = 0;
         parameters["samples_per_quad"] = 4;
-        return amd_trace_frame(device(), gbuffer, parameters, noise);
+        return amd_trace_frame(device(), gbuffer, parameters, noise, probe);
     }
 };
 
@@ -49,21 +50,38 @@ TEST_F(AmdStages, RaysThatAreNotMarchedSeeTheEnvironment) {
     EXPECT_GT(rays, 1000u);
 }
 
-/// Three steps find nothing here: rays that begin one use them up.
-TEST_F(AmdStages, CountsTheStepsOfEachRay) {
+/// Three steps are used up by all rays here, which read a texel in each. Another is the origin's; the few that end with
+/// the last step read one more, by which their end is judged.
+TEST_F(AmdStages, CountsWhatEachRayReads) {
     const HostGBuffer gbuffer = floor_of(0.2f);
-    const nlohmann::json few = {{"hierarchy.max_traversal_intersections", 3}};
-    nlohmann::json counted = few;
-    counted["count_steps"] = true;
-    const AmdTraced found = trace(gbuffer, counted);
-    EXPECT_EQ(found.radiance.values, trace(gbuffer, few).radiance.values);
-    for (size_t i = 0; i < found.steps.pixel_count(); ++i)
-        EXPECT_EQ(found.steps.values[i], gbuffer.base_color.values[4 * i + 3] > 0 ? 3 : 0);
-    counted["max_traversal_intersections"] = 128;
-    double mean = 0;
-    for (const float steps : trace(gbuffer, counted).steps.values) mean += steps / double(found.steps.pixel_count());
-    EXPECT_GT(mean, 3);
-    EXPECT_LT(mean, 64);
+    nlohmann::json parameters = {{"hierarchy.max_traversal_intersections", 3}, {"hierarchy.reject_unfinished", true}};
+    RayProbe probe;
+    probe.is_recording = true;
+    const AmdTraced found = trace(gbuffer, parameters, &probe);
+    EXPECT_EQ(found.radiance.values, trace(gbuffer, parameters).radiance.values);
+    ASSERT_EQ(probe.recorded.size(), 1u);
+    EXPECT_EQ(probe.recorded[0].stage, "amd_sssr/intersect");
+    ASSERT_EQ(probe.recorded[0].rays.size(), found.radiance.pixel_count());
+    size_t judged = 0;
+    for (size_t i = 0; i < found.radiance.pixel_count(); ++i) {
+        const RayRecord& ray = probe.recorded[0].rays[i];
+        const bool is_traced = gbuffer.base_color.values[4 * i + 3] > 0;
+        EXPECT_EQ(ray.is_traced, is_traced);
+        // Of places off the screen and next to the origin none is.
+        const bool is_judged = is_traced && ray.outcome != outcome_unfinished && ray.outcome != outcome_own_surface &&
+                               ray.outcome != outcome_off_screen;
+        judged += is_judged;
+        EXPECT_EQ(ray.fetches, !is_traced ? 0u : is_judged ? 1u + 3u + 1u : 1u + 3u);
+    }
+    EXPECT_LT(judged, found.radiance.pixel_count() / 50);
+    parameters["hierarchy.max_traversal_intersections"] = 128;
+    probe.recorded.clear();
+    trace(gbuffer, parameters, &probe);
+    double least = 0, most = 0;  // steps per pixel, if each ray's end was judged and if none was
+    for (const RayRecord& ray : probe.recorded.at(0).rays)
+        if (ray.is_traced > 0) least += ray.fetches - 2, most += ray.fetches - 1;
+    EXPECT_GT(least, 3.0 * double(found.radiance.pixel_count()));
+    EXPECT_LT(most, 64.0 * double(found.radiance.pixel_count()));
 }
 
 /// What each pass of the denoiser leaves when it is off, after frames in which it had history to work with. Both forms

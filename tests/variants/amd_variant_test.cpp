@@ -60,8 +60,9 @@ struct AmdMirrorFloor : AmdSssrVariant {
     /// Compares what each floor pixel reflects with the point of the wall that its exact mirror ray meets, in pixels:
     /// at most `farthest` away along each axis, `mean_distance` as a mean vector.
     void expect_true_hits(const std::string& preset, float farthest, double mean_distance) {
-        const Frame frame = render({{"denoise", false}, {"float_histories", true}, {"hierarchy.depth_buffer_thickness", 0.5}},
-                                   preset, floor_before_coordinates);
+        const Frame frame =
+            render({{"denoise", false}, {"float_histories", true}, {"hierarchy.depth_buffer_thickness", 0.5}}, preset,
+                   floor_before_coordinates);
         const CameraData camera = camera_data(pose, nullptr, view);
         unsigned count = 0, missed = 0, wrong = 0;
         glm::dvec2 mean(0);
@@ -123,8 +124,8 @@ TEST_F(AmdMirrorFloor, ShowsItToAnOrthographicCamera) {
 TEST_F(AmdSssrVariant, KeepsWhatAMirrorShows) {
     view.extent = {320, 240};
     // With contact hits, whose rows are black without them and reach far by the tiles' averages.
-    const Frame frame =
-        render({{"hierarchy.depth_buffer_thickness", 0.5}, {"hierarchy.accept_contact_hits", true}}, "corrected", mirror_floor, 4);
+    const Frame frame = render({{"hierarchy.depth_buffer_thickness", 0.5}, {"hierarchy.accept_contact_hits", true}},
+                               "corrected", mirror_floor, 4);
     const CameraData camera = camera_data(pose, nullptr, view);
     const auto rows_between = [&](glm::vec3 a, glm::vec3 b) {
         return std::abs(pixel_from_world(camera, a).y - pixel_from_world(camera, b).y);

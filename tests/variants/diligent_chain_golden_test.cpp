@@ -85,9 +85,9 @@ Stages render(DiligentFrames& frames, const HostImage& noise) {
     const Image numbers = graph.image_of("blue_noise", Format::rg32f, noise.extent);
     graph.upload(numbers, noise);
     const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
-    const Image hierarchy = diligent_depth_hierarchy(graph, gbuffer, tracing);
+    const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing);
     const DiligentMask mask = frames.mask();
-    const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, numbers, gbuffer.lit, mask, tracing);
+    const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchies, numbers, gbuffer.lit, mask, tracing);
     const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter);
     const DiligentHistories histories = diligent_histories(graph, filter);
     diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter);

@@ -67,9 +67,10 @@ TEST_F(DiligentCorrections, InwardRaysMissOrBringNoLight) {
 TEST_F(DiligentCorrections, RejectUnfinishedIgnoresWhereRaysAreGivenUp) {
     pose.world_from_view = glm::mat4(1);
     const HostGBuffer gbuffer = gbuffer_of(floor_before_white);
-    const nlohmann::json few_steps = {{"hierarchy.max_traversal_intersections", 3}, {"hierarchy.relative_depth_buffer_thickness", 1.0}};
+    const nlohmann::json few_steps = {{"hierarchy.max_traversal_intersections", 3},
+                                      {"hierarchy.relative_depth_buffer_thickness", 1.0}};
     nlohmann::json rejected = few_steps;
-    rejected["reject_unfinished"] = true;
+    rejected["hierarchy.reject_unfinished"] = true;
     EXPECT_GT(confidence_of(trace(gbuffer, few_steps)), 100);
     EXPECT_EQ(confidence_of(trace(gbuffer, rejected)), 0);
 }
@@ -103,7 +104,8 @@ TEST_F(DiligentCorrections, FloatRaysKeepLongDistances) {
     enlarge(scale);
     const auto wrong_share = [&](bool is_float) {
         const HostImage found =
-            trace(gbuffer_of(scaled(scale)), {{"hierarchy.relative_ray_step", true}, {"float_rays", is_float}}).direction;
+            trace(gbuffer_of(scaled(scale)), {{"hierarchy.relative_ray_step", true}, {"float_rays", is_float}})
+                .direction;
         unsigned rays = 0, wrong = 0;
         for (unsigned y = 0; y < view.extent.y; ++y)
             for (unsigned x = 0; x < view.extent.x; ++x) {

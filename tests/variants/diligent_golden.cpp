@@ -12,10 +12,10 @@ const glm::vec2 uv_from_ndc_motion{0.5f, -0.5f};
 
 nlohmann::json our_names(const nlohmann::json& recorded, const std::string& set) {
     static const std::map<std::string, std::string> ours = {
-        {"DepthBufferThickness", "relative_depth_buffer_thickness"},
+        {"DepthBufferThickness", "hierarchy.relative_depth_buffer_thickness"},
         {"GGXImportanceSampleBias", "ggx_importance_sample_bias"},
-        {"MostDetailedMip", "most_detailed_mip"},
-        {"MaxTraversalIntersections", "max_traversal_intersections"},
+        {"MostDetailedMip", "hierarchy.most_detailed_mip"},
+        {"MaxTraversalIntersections", "hierarchy.max_traversal_intersections"},
         {"RoughnessThreshold (perceptual)", "roughness_threshold"}};
     nlohmann::json parameters = nlohmann::json::object();
     for (const auto& [key, value] : recorded.items()) {

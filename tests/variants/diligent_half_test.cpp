@@ -37,15 +37,16 @@ TEST_F(DiligentHalves, OfRaysHoldWhatTheyAreGiven) {
     HostGBuffer gbuffer = gbuffer_of(scaled(scale));
     for (float& value : gbuffer.lit.values) value *= 1e6f;
     for (const bool float_rays : {false, true}) {
-        DiligentFrames frame(device(), gbuffer.extent(),
-                             {{"distribution_floor", false}, {"hierarchy.relative_ray_step", true}, {"float_rays", float_rays}});
+        DiligentFrames frame(
+            device(), gbuffer.extent(),
+            {{"distribution_floor", false}, {"hierarchy.relative_ray_step", true}, {"float_rays", float_rays}});
         frame.begin(gbuffer);
         PassGraph& graph = frame.graph;
         const Image numbers = graph.image_of("blue_noise", Format::rg32f, noise.extent);
         graph.upload(numbers, noise);
-        const Image hierarchy = diligent_depth_hierarchy(graph, frame.gbuffer, wide().tracing);
+        const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, frame.gbuffer, wide().tracing);
         const DiligentRays rays =
-            diligent_trace(graph, frame.gbuffer, hierarchy, numbers, frame.gbuffer.lit, frame.mask(), wide().tracing);
+            diligent_trace(graph, frame.gbuffer, hierarchies, numbers, frame.gbuffer.lit, frame.mask(), wide().tracing);
         const HostImage radiance = graph.download(rays.radiance), direction = graph.download(rays.direction);
         HostImage density(direction.extent, 1);
         for (size_t i = 0; i < density.pixel_count(); ++i) density.values[i] = direction.values[4 * i + 3];

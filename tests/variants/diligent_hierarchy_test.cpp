@@ -17,7 +17,7 @@ HostGBuffer gbuffer_of(HostImage depth, bool is_reversed) {
 std::vector<HostImage> hierarchy_of(Device& device, const HostGBuffer& gbuffer, const std::string& form) {
     DiligentFrames frames(device, gbuffer.extent(), {{"hierarchy", form}});
     frames.begin(gbuffer);
-    const Image hierarchy = diligent_depth_hierarchy(frames.graph, frames.gbuffer, frames.parameters.tracing);
+    const Image hierarchy = diligent_depth_hierarchies(frames.graph, frames.gbuffer, frames.parameters.tracing).nearest;
     std::vector<HostImage> levels;
     for (unsigned level = 0; level < hierarchy.mips; ++level)
         levels.push_back(frames.graph.download(hierarchy.mip(level)));

@@ -121,7 +121,8 @@ TEST_F(DiligentHits, PreviousFrameShowsWhereHitsWereThen) {
     HostGBuffer encoded = gbuffer;
     encode_hits(encoded);
     const HostImage found =
-        trace(gbuffer, {{"previous_frame", true}, {"hierarchy.relative_depth_buffer_thickness", 0.5}}, &encoded.lit).radiance;
+        trace(gbuffer, {{"previous_frame", true}, {"hierarchy.relative_depth_buffer_thickness", 0.5}}, &encoded.lit)
+            .radiance;
     unsigned shown = 0, wrong = 0, faded_now = 0, faded_then = 0;
     for (unsigned y = 0; y < view.extent.y; ++y)
         for (unsigned x = 0; x < view.extent.x; ++x) {

@@ -74,7 +74,7 @@ struct DiligentMarch : DiligentTracing {
 constexpr double near_ties = 0.005;
 
 /// Sizes of which the coarser levels leave columns and rows over, and one that 64 divides.
-TEST_F(DiligentMarch, ClampPartialTexelsEndsRaysWhereAMarchThroughEveryPixelDoes) {
+TEST_F(DiligentMarch, PartialTexelsClampedEndRaysWhereAMarchThroughEveryPixelDoes) {
     for (const glm::uvec2 extent : {glm::uvec2(161, 93), glm::uvec2(128, 64), glm::uvec2(101, 127)})
         for (const DepthDirection direction : {DepthDirection::standard, DepthDirection::reversed}) {
             SCOPED_TRACE(testing::Message()
@@ -90,11 +90,11 @@ TEST_F(DiligentMarch, ClampPartialTexelsEndsRaysWhereAMarchThroughEveryPixelDoes
 
 /// The texels that the original misses are near ones with standard depth, which only costs steps, but far ones with
 /// reversed depth, which rays pass below.
-TEST_F(DiligentMarch, WithoutItPartialTexelsAreLostWithReversedDepth) {
+TEST_F(DiligentMarch, PartialTexelsOfZeroAreLostWithReversedDepth) {
     view.extent = {161, 93};
-    EXPECT_LT(compare({{"clamp_partial_texels", false}}).wrong, near_ties);
+    EXPECT_LT(compare({{"hierarchy.partial_texels", "zero"}}).wrong, near_ties);
     view.depth_direction = DepthDirection::reversed;
-    EXPECT_GT(compare({{"clamp_partial_texels", false}}).wrong, 0.03);
+    EXPECT_GT(compare({{"hierarchy.partial_texels", "zero"}}).wrong, 0.03);
 }
 
 /// A floor that fills the image, whose rays leave upwards. 64 divides the height, so that all levels have a border at
@@ -106,7 +106,8 @@ TEST_F(DiligentMarch, StopOutsideScreenEndsRaysAtTheBorder) {
     const HostGBuffer gbuffer = gbuffer_of(floor_below_nothing);
     const auto mean_height = [&](bool stops) {
         const HostImage found =
-            trace(gbuffer, {{"hierarchy.stop_outside_screen", stops}, {"hierarchy.clip_ray_to_near_plane", true}}).direction;
+            trace(gbuffer, {{"hierarchy.stop_outside_screen", stops}, {"hierarchy.clip_ray_to_near_plane", true}})
+                .direction;
         double sum = 0;
         for (unsigned y = 0; y < view.extent.y; ++y) {
             const glm::dvec3 ray =

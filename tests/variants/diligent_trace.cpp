@@ -15,8 +15,8 @@ DiligentTraced diligent_trace_frame(Device& device, const HostGBuffer& gbuffer, 
         shown = graph.image("color", Format::rgba32f);
         graph.upload(shown, *color);
     }
-    const Image hierarchy = diligent_depth_hierarchy(graph, frame.gbuffer, tracing);
-    const DiligentRays rays = diligent_trace(graph, frame.gbuffer, hierarchy, numbers, shown, frame.mask(), tracing);
+    const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, frame.gbuffer, tracing);
+    const DiligentRays rays = diligent_trace(graph, frame.gbuffer, hierarchies, numbers, shown, frame.mask(), tracing);
     return {graph.download(rays.radiance), graph.download(rays.direction)};
 }
 

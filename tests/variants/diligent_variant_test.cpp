@@ -52,9 +52,9 @@ struct DiligentVariant : DiligentSequence {
             const Image color = graph.image("color", Format::rgba32f);
             graph.upload(color, hosts[tracing.previous_frame && i > 0 ? i - 1 : i].lit);
             const Image depth_before = diligent_reprojected_depth(graph, gbuffer);
-            const Image hierarchy = diligent_depth_hierarchy(graph, gbuffer, tracing);
+            const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing);
             const DiligentMask mask = frame.mask();
-            const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchy, numbers, color, mask, tracing);
+            const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchies, numbers, color, mask, tracing);
             const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter);
             const DiligentHistories histories = diligent_histories(graph, filter);
             diligent_accumulate(graph, gbuffer, depth_before, resolved, histories, mask, filter);

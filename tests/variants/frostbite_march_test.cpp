@@ -23,6 +23,14 @@ struct FrostbiteMarch : VariantTest {
     ParameterSet params;
     FrostbiteRayParameters parameters{params};
 
+    /// The marches on the CPU know no front of a surface.
+    void SetUp() override { params.assign({{"frostbite.front_faces_only", false}}); }
+
+    template <class T>
+    T value(const char* parameter) const {
+        return params.values().at(parameter).get<T>();
+    }
+
     float device_depth(float distance) const {
         const glm::vec4 clip = camera.clip_from_view * glm::vec4(0, 0, -distance, 1);
         return clip.z / clip.w;
@@ -100,7 +108,7 @@ struct FrostbiteMarch : VariantTest {
                                         upload("geometric_normal", Format::rgba32f, normal)};
         graph.begin_frame(camera, params, inputs);
         const Image found = graph.image_of("found", Format::rgba32f, line);
-        const DepthPyramids depths = depth_pyramids(graph, inputs[0], frostbite_pyramid_mips);
+        const Tracers::Images depths = parameters.tracers.images(graph, inputs[0]);
         graph.compute("frostbite_rays.comp")
             .read(depths.nearest)
             .read(depths.farthest)
@@ -121,7 +129,7 @@ struct FrostbiteMarch : VariantTest {
     Found march(const PixelRay& ray) { return march(std::vector{ray}, false).front(); }
 
     PixelMarchResult truth(const PixelRay& ray) const {
-        return march_every_pixel(depth, camera, ray, parameters.relative_thickness);
+        return march_every_pixel(depth, camera, ray, value<float>("frostbite.relative_thickness"));
     }
 
     /// Over 1920x1080: a fence of poles three pixels wide, with two wires and a board of 300 pixels, 2 m away before a
@@ -161,8 +169,9 @@ struct FrostbiteMarch : VariantTest {
         size_t hits = 0, close_calls = 0;
         for (size_t i = 0; i < rays.size(); ++i) {
             const PixelMarchResult expected =
-                is_linear ? march_equal_steps(depth, camera, rays[i], parameters.relative_thickness,
-                                              parameters.linear_steps, parameters.linear_refinements)
+                is_linear ? march_equal_steps(depth, camera, rays[i], value<float>("frostbite.relative_thickness"),
+                                              value<unsigned>("frostbite.linear_steps"),
+                                              value<unsigned>("frostbite.linear_refinements"))
                           : truth(rays[i]);
             hits += expected.is_hit;
             // Depth is affine on the screen to a few 1e-7 of its range, and a ray's length is found from its place

@@ -22,7 +22,7 @@ std::vector<uint32_t> read_list(PassGraph& graph, const Buffer& list, uint32_t c
 }  // namespace
 
 FrostbiteTraced trace_frostbite(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteParameters& parameters) {
-    const DepthPyramids depths = depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips);
+    const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
     const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
     const FrostbiteRays rays =

@@ -65,7 +65,7 @@ struct FrostbiteRandom : VariantTest {
             graph.upload(counts, ray_count);
             camera.frame.x = frame;
             graph.begin_frame(camera, parameters.params, gbuffer.images());
-            const DepthPyramids depths = depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips);
+            const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
             const FrostbiteWork work = frostbite_allocate(graph, gbuffer, {counts}, parameters.ray);
             const Image horizon = FrostbiteHorizonImage().on(graph, parameters.ray);
             const std::vector<std::byte> bytes =

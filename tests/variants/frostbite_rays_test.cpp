@@ -67,8 +67,7 @@ struct FrostbiteRaysTest : VariantTest {
                     EXPECT_EQ(found.is_ray(index), k < rays) << x << ", " << y << ", " << k;
                 }
             }
-        EXPECT_EQ(std::multiset<uint32_t>(found.smooth_list.begin(), found.smooth_list.end()),
-                  hierarchical);
+        EXPECT_EQ(std::multiset<uint32_t>(found.smooth_list.begin(), found.smooth_list.end()), hierarchical);
         EXPECT_EQ(std::multiset<uint32_t>(found.rough_list.begin(), found.rough_list.end()), linear);
         const auto groups = [](size_t rays) { return uint32_t((rays + 63) / 64); };
         EXPECT_EQ(found.arguments, (std::vector<uint32_t>{groups(hierarchical.size()), hierarchical.empty() ? 0u : 1u,
@@ -334,7 +333,7 @@ TEST_F(FrostbiteRaysTest, DoNotMeetThePlaneThatTheyLeave) {
             const auto targets = count_targets(trace(bare_floor(0.5f)));
             const size_t hits = targets.contains(0) ? targets.at(0) : 0;
             EXPECT_GT(targets.at(ray_missed), 1000u);
-            EXPECT_EQ(hits == 0, leaves) << hits << ", hierarchical below " << rough_from;
+            EXPECT_EQ(hits == 0, leaves) << hits << ", rough from " << rough_from;
         }
 }
 

@@ -125,8 +125,8 @@ struct FrostbiteProbes : FrostbiteTilesTest {
     }
 
     FrostbiteTiles classify(const GBuffer& gbuffer) {
-        return frostbite_classify(graph, gbuffer, depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips),
-                                  gbuffer.lit, parameters.ray);
+        return frostbite_classify(graph, gbuffer, parameters.ray.tracers.images(graph, gbuffer.depth), gbuffer.lit,
+                                  parameters.ray);
     }
 
     HostImage probes_of(const GBuffer& gbuffer) {
@@ -208,6 +208,7 @@ struct FrostbiteThinObject : FrostbiteProbes {
     /// Tiles in which some pixel's mirror ray meets the post.
     std::set<unsigned> tiles_that_hit(const GBuffer& gbuffer) {
         const HostImage depth = graph.download(gbuffer.depth), normal = graph.download(gbuffer.normal);
+        const float thickness = parameters.params.values().at("frostbite.relative_thickness");
         std::set<unsigned> tiles;
         for (unsigned y = 0; y < extent.y; ++y)
             for (unsigned x = 0; x < extent.x; ++x) {
@@ -218,7 +219,7 @@ struct FrostbiteThinObject : FrostbiteProbes {
                 const glm::vec4 v = camera.view_from_clip * glm::vec4(ndc, *depth.pixel(x, y), 1);
                 const glm::vec3 origin = glm::vec3(v) / v.w, up(0, 1, 0);
                 const PixelRay ray{{x, y}, origin, glm::reflect(glm::normalize(origin), up), up};
-                if (march_every_pixel(depth, camera, ray, parameters.ray.relative_thickness).is_hit) tiles.insert(tile);
+                if (march_every_pixel(depth, camera, ray, thickness).is_hit) tiles.insert(tile);
             }
         return tiles;
     }
@@ -272,7 +273,7 @@ struct FrostbiteTileEdges : FrostbiteProbes {
         camera.frame.y = seed;
         const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, rough_floor);
         graph.begin_frame(camera, parameters.params, gbuffer.images());
-        const DepthPyramids depths = depth_pyramids(graph, gbuffer.depth, frostbite_pyramid_mips);
+        const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
         const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
         const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
         const Image horizon = FrostbiteHorizonImage().on(graph, parameters.ray);

@@ -128,7 +128,8 @@ TEST_F(McGuireMarch, AgreesWithBruteForce) {
 
 TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThickness) {
     make_depth();
-    variant->params.assign({{"dda.stride", 3}, {"dda.jitter", 1.25}, {"dda.thickness", 0.02}, {"dda.relative_thickness", 0.1}});
+    variant->params.assign(
+        {{"dda.stride", 3}, {"dda.jitter", 1.25}, {"dda.thickness", 0.02}, {"dda.relative_thickness", 0.1}});
     expect_agreement(random_rays(4000),
                      {.stride = 3, .jitter = 1.25, .thickness = 0.02, .relative_thickness = 0.1, .max_distance = 50},
                      0.1);
@@ -163,7 +164,8 @@ TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThicknessWithReversedDepthA
     view.depth_direction = DepthDirection::reversed;
     view.jitter = {-0.45f, 0.2f};
     make_depth();
-    variant->params.assign({{"dda.stride", 3}, {"dda.jitter", 1.25}, {"dda.thickness", 0.02}, {"dda.relative_thickness", 0.1}});
+    variant->params.assign(
+        {{"dda.stride", 3}, {"dda.jitter", 1.25}, {"dda.thickness", 0.02}, {"dda.relative_thickness", 0.1}});
     expect_agreement(random_rays(4000),
                      {.stride = 3, .jitter = 1.25, .thickness = 0.02, .relative_thickness = 0.1, .max_distance = 50},
                      0.1);

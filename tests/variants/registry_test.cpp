@@ -1,6 +1,8 @@
 #include "core/error.h"
+#include "core/files.h"
 #include "core/gpu/shader.h"
 #include "tests/variants/variant_fixture.h"
+#include "variants/tracers/tracers.h"
 
 #include <filesystem>
 #include <map>
@@ -22,11 +24,11 @@ TEST(Registry, NamesTheNearestVariant) {
     EXPECT_EQ(message_of([] {
                   make_variant("mcguire_dda", {{"thicknes", 1}});
               }),
-              "variant 'mcguire_dda': unknown parameter 'thicknes'; did you mean 'thickness'?");
+              "variant 'mcguire_dda': unknown parameter 'thicknes'; did you mean 'dda.thickness'?");
     EXPECT_EQ(message_of([] {
-                  make_variant("mcguire_dda", {{"stride", 0}});
+                  make_variant("mcguire_dda", {{"dda.stride", 0}});
               }),
-              "variant 'mcguire_dda': parameter 'stride' = 0 is outside of its range: [1, 64]");
+              "variant 'mcguire_dda': parameter 'dda.stride' = 0 is outside of its range: [1, 64]");
     EXPECT_EQ(message_of([] { make_variant("mcguire_dda", {}, "corse"); }),
               "unknown preset of variant 'mcguire_dda': 'corse'; did you mean 'coarse'?");
     EXPECT_EQ(message_of([] { make_variant("none", {}, "fast"); }),
@@ -34,9 +36,9 @@ TEST(Registry, NamesTheNearestVariant) {
 }
 
 TEST(Registry, AppliesPresetsBeforeParameters) {
-    const auto variant = make_variant("mcguire_dda", {{"stride", 7}}, "coarse");
-    EXPECT_EQ(variant->params.values().at("stride"), 7);
-    EXPECT_EQ(variant->params.values().at("refine"), true);
+    const auto variant = make_variant("mcguire_dda", {{"dda.stride", 7}}, "coarse");
+    EXPECT_EQ(variant->params.values().at("dda.stride"), 7);
+    EXPECT_EQ(variant->params.values().at("dda.refine"), true);
 }
 
 TEST(Registry, DescribesEveryVariantInFull) {
@@ -82,10 +84,38 @@ TEST(Registry, CompilesEveryShaderOfEveryVariant) {
              std::filesystem::recursive_directory_iterator(SSRLAB_SOURCE_DIR "/variants/" + entry.name)) {
             if (file.path().extension() != ".comp" && file.path().extension() != ".frag") continue;
             const std::string name = std::filesystem::relative(file.path(), SSRLAB_SOURCE_DIR "/variants");
-            EXPECT_NO_THROW(compile(name, "", shader_prelude(entry.create()->params))) << name;
+            const std::unique_ptr<Variant> variant = entry.create();
+            EXPECT_NO_THROW(compile(name, "", shader_prelude(variant->params), variant->shader_includes())) << name;
             ++count;
         }
     EXPECT_GE(count, 2u);
+}
+
+/// Any tracer runs in any technique: their names, and those of the technique, stay apart.
+TEST(Registry, CompilesEveryTechniqueWithEveryTracer) {
+    size_t count = 0;
+    for (const VariantEntry& entry : variant_table())
+        for (const TracerEntry& tracer : tracer_table()) {
+            nlohmann::json chosen = nlohmann::json::object();
+            const std::unique_ptr<Variant> default_variant = entry.create();
+            for (const Parameter& p : default_variant->params)
+                if (std::ranges::count(p.choices, tracer.name)) chosen[p.name] = tracer.name;
+            const std::unique_ptr<Variant> variant = make_variant(entry.name, chosen);
+            for (const auto& file : std::filesystem::directory_iterator(SSRLAB_SOURCE_DIR "/variants/" + entry.name)) {
+                if (file.path().extension() != ".comp" && file.path().extension() != ".frag") continue;
+                if (read_text(file.path()).find("tracer\"\n") == std::string::npos) continue;
+                const std::string name = std::filesystem::relative(file.path(), SSRLAB_SOURCE_DIR "/variants");
+                const auto compiles_as = [&](ShaderLanguage language) {
+                    compile(name, "", shader_prelude(variant->params, language), variant->shader_includes(), language);
+                };
+                EXPECT_NO_THROW(compiles_as(ShaderLanguage::vulkan)) << name << ", " << tracer.name;
+                if (entry.limits.api == Limits::webgl2 && tracer.fits_webgl2) {
+                    EXPECT_NO_THROW(compiles_as(ShaderLanguage::webgl2)) << name << ", " << tracer.name;
+                }
+                ++count;
+            }
+        }
+    EXPECT_EQ(count, tracer_table().size() * 6) << "shaders that trace";
 }
 
 }  // namespace

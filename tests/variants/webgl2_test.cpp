@@ -65,7 +65,8 @@ TEST_F(Webgl2Variant, HasShadersInGlslEs) {
         const auto variant = make_variant("diligent_ssr", {}, preset);
         const std::string prelude = shader_prelude(variant->params, ShaderLanguage::webgl2);
         for (const std::string& file : files)
-            EXPECT_NO_THROW(compile(file, "", prelude, ShaderLanguage::webgl2)) << file << ", " << preset;
+            EXPECT_NO_THROW(compile(file, "", prelude, variant->shader_includes(), ShaderLanguage::webgl2))
+                << file << ", " << preset;
     }
 }
 
@@ -89,10 +90,9 @@ TEST_F(Webgl2Variant, MayLiftThem) {
         render(*variant, Limits::webgl2, 1);
         ADD_FAILURE() << "mip_views needs no lifted limits";
     } catch (const Error& error) {
-        EXPECT_STREQ(
-            error.what(),
-            "pass diligent_ssr/depth_hierarchy reads 'finer_depth' and draws to it as 'nearest_depth', outside "
-            "the limits of WebGL 2, which reads no image while it is drawn to");
+        EXPECT_STREQ(error.what(),
+                     "pass diligent_ssr/depth_hierarchy reads 'finer_depth' and draws to it as 'kept_depth', outside "
+                     "the limits of WebGL 2, which reads no image while it is drawn to");
     }
 }
 

@@ -58,7 +58,7 @@ struct Sources {
         const std::string prelude = shader_prelude(variant.params, ShaderLanguage::webgl2);
         for (const std::string& folder : {entry.name, std::string("common")})
             for (const std::string& file : fragment_shaders(folder)) {
-                const Webgl2Sources sources = webgl2_sources(file, prelude);
+                const Webgl2Sources sources = webgl2_sources(file, prelude, variant.shader_includes());
                 if (!seen.insert(file + '\n' + what_counts(sources.fragment)).second) continue;
                 list.push_back({{"name", file + " of " + entry.name + point},
                                 {"vertex", sources.vertex},
