@@ -205,17 +205,17 @@ int parse_and_run(int argc, char** argv) {
     DescribeOptions describe;
     CLI::App& describe_command_ =
         *app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
-    describe_command_.add_option("variant", describe.variant, "Default: all")->type_name("VARIANT");
+    describe_command_.add_option("variant", describe.variant, "A variant or a tracer; default: all variants")->type_name("NAME");
     describe_command_.add_flag("--schema", describe.as_schema,
                                "Print a JSON Schema for configs, so that editors complete them");
     describe_command_.callback([&] { describe_command(describe); });
 
     std::string what;
-    CLI::App& list_command_ = *app.add_subcommand("list", "List scenes, variants, metrics or devices");
+    CLI::App& list_command_ = *app.add_subcommand("list", "List scenes, variants, tracers, metrics or devices");
     list_command_.add_option("what", what)
         ->required()
-        ->check(CLI::IsMember({"scenes", "variants", "metrics", "devices"}))
-        ->type_name("scenes|variants|metrics|devices");
+        ->check(CLI::IsMember({"scenes", "variants", "tracers", "metrics", "devices"}))
+        ->type_name("scenes|variants|tracers|metrics|devices");
     add_scene_path(list_command_, common);
     list_command_.callback([&] { list_command(what, common); });
 

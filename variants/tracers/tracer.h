@@ -35,6 +35,7 @@ protected:
 struct TracerEntry {
     std::string name, title, source, description;
     std::string shader;      ///< "tracers/dda/dda.glsl"
+    std::string part = {};   ///< what its parameters' names begin with; "": its own name
     bool fits_webgl2 = true; ///< what it reads and its shader lie within Limits::webgl2
     /// Declares the parameters.
     std::function<std::unique_ptr<Tracer>(ParameterSet&)> create;

@@ -53,6 +53,7 @@ TracerEntry frostbite_hierarchical_tracer() {
             .description = "Walks cells of pyramids of nearest and farthest depths, and passes behind what is thin: the "
                            "result of looking at every pixel along the line.",
             .shader = "tracers/frostbite/hierarchical.glsl",
+            .part = "frostbite",
             .create = [](ParameterSet& params) { return std::make_unique<Hierarchical>(params); }};
 }
 
@@ -63,5 +64,6 @@ TracerEntry frostbite_linear_tracer() {
             .description = "Equal steps on the screen from a random start, halved where they meet something. Parameters "
                            "of what counts as met are those of frostbite_hierarchical.",
             .shader = "tracers/frostbite/linear.glsl",
+            .part = "frostbite",
             .create = [](ParameterSet& params) { return std::make_unique<Linear>(params); }};
 }
