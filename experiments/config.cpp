@@ -335,8 +335,11 @@ Config read_config(const std::filesystem::path& file) {
     for (JsonObject& shot : object.objects("shots")) read_shot(shot, file.parent_path(), config.shots);
     const std::optional<std::vector<unsigned>> seeds = read_seeds(object);
     for (JsonObject& variant : object.objects("variants")) read_variant(variant, seeds, config.variants);
-    if (object.has("reference")) config.reference = read_reference(object.object("reference"));
+    config.has_reference = !(object.has("reference") && object.any("reference") == "none");
+    if (object.has("reference") && config.has_reference) config.reference = read_reference(object.object("reference"));
     config.direct_lit = object.choice("lit", {"path_traced", "direct"}, "path_traced") == "direct";
+    if (!config.has_reference && !config.direct_lit)
+        fail(file.string(), ": 'reference' = \"none\" leaves no path-traced light to read; add \"lit\": \"direct\"");
 
     const std::vector<std::string> formats = {"d32f", "d24", "d16"};
     const std::string format = object.choice("depth_format", formats, "d32f");

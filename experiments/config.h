@@ -72,6 +72,7 @@ struct Config {
     std::vector<ShotConfig> shots;
     std::vector<VariantConfig> variants;
     ReferenceSettings reference;
+    bool has_reference = true;  ///< else no error is measured: frames are timed and rays judged
     bool direct_lit = false;  ///< SSR reads rasterised direct light in place of the path-traced lit colour
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;

@@ -118,7 +118,7 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"shots", {{"type", "array"}, {"items", {{"anyOf", {shot, capture}}}}, {"minItems", 1}}},
                 {"variants", {{"type", "array"}, {"items", {{"anyOf", variants}}}, {"minItems", 1}}},
                 {"seeds", counts(100000)},
-                {"reference", reference},
+                {"reference", {{"anyOf", {reference, {{"const", "none"}}}}}},
                 {"lit", {{"enum", {"path_traced", "direct"}}}},
                 {"depth_format", {{"enum", {"d32f", "d24", "d16"}}}},
                 {"depth_direction", {{"enum", {"standard", "reversed"}}}},

@@ -59,13 +59,15 @@ ExactHit ExactRays::hit(glm::uvec2 pixel, const RayRecord& ray) const {
     return judged(met->point, direction, met->distance);
 }
 
-std::vector<ExactHit> ExactRays::hits(const RecordedRays& recorded) const {
+std::vector<ExactHit> ExactRays::hits(const RecordedRays& recorded, unsigned every) const {
     std::vector<ExactHit> hits(recorded.rays.size());
-    tbb::parallel_for(size_t(0), size_t(extent_.y), [&](size_t y) {
-        const size_t row = size_t(extent_.x) * recorded.rays_per_pixel;
-        for (size_t i = y * row; i < (y + 1) * row; ++i)
-            if (recorded.rays[i].is_traced > 0)
-                hits[i] = hit({unsigned((i - y * row) / recorded.rays_per_pixel), unsigned(y)}, recorded.rays[i]);
+    const size_t per_pixel = recorded.rays_per_pixel;
+    tbb::parallel_for(0u, (extent_.y + every - 1) / every, [&](unsigned row) {
+        for (glm::uvec2 pixel(0, row * every); pixel.x < extent_.x; pixel.x += every)
+            for (size_t number = 0; number < per_pixel; ++number) {
+                const size_t i = (size_t(pixel.y) * extent_.x + pixel.x) * per_pixel + number;
+                if (recorded.rays[i].is_traced > 0) hits[i] = hit(pixel, recorded.rays[i]);
+            }
     });
     return hits;
 }

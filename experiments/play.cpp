@@ -165,9 +165,11 @@ void plug_in_scene(Play& play, SeedRun& run, const FrameStep& step, const FrameS
     };
 }
 
+const Mask everywhere{.name = "all", .extent = {}, .inside = {}};  // the only one that needs no truth
+
 bool judges_rays(const Play& play, const SeedRun& run, const FrameStep& step) {
     const auto& seeds = play.variant.seeds;
-    return play.config.hits && step.is_measured && play.shot.config.gbuffer.empty() && play.truth.frame(step) &&
+    return play.config.hits && step.is_measured && play.shot.config.gbuffer.empty() &&
            size_t(std::ranges::find(seeds, run.seed) - seeds.begin()) < play.config.hits->seeds;
 }
 
@@ -177,10 +179,10 @@ void judge_rays(Play& play, SeedRun& run, const FrameStep& step, const CameraDat
     const ResultRow row = play.row(std::to_string(step.frame), run.seed);
     const bool is_shown = &step == &play.last_step() && run.seed == play.variant.seeds.front();
     for (const RecordedRays& recorded : run.probe->recorded) {
-        const std::vector<ExactHit> truth = exact_rays(play, step, camera).hits(recorded);
+        const std::vector<ExactHit> truth = exact_rays(play, step, camera).hits(recorded, play.config.hits->every);
         play.judged[row.frame].add(run.seed, recorded, truth, play.shot.config.extent, play.config.hits->every,
                                    {masks.begin(), masks.end()});
-        if (is_shown)
+        if (is_shown && play.config.hits->every == 1)
             play.cell.images.push_back(save_verdict_image(play.settings.out, row, play.settings.image_suffix,
                                                           recorded.stage,
                                                           map_of_verdicts(recorded, truth, play.shot.config.extent)));
@@ -214,8 +216,10 @@ void render_step(Play& play, SeedRun& run, const FrameStep& step, const FrameSto
                                                          truth ? truth->reflectance : HostImage{});
         measure_step(play, run, step, images);
         if (run.probe->is_recording)
-            judge_rays(play, run, step, frame.camera, masks_of(*truth, images.confidence, play.config));
-        if (&step == &play.last_step() && run.seed == play.variant.seeds.front())
+            judge_rays(play, run, step, frame.camera,
+                       truth ? masks_of(*truth, images.confidence, play.config) : std::vector<Mask>{everywhere});
+        const bool is_kept = &step == &play.last_step() && run.seed == play.variant.seeds.front();
+        if (is_kept && play.config.has_reference)
             for (nlohmann::json& entry : save_result_images(
                      play.settings.out, play.row(std::to_string(step.frame), run.seed), play.settings.image_suffix,
                      play.truth.pose(step), images, play.shot.camera.exposure_ev))

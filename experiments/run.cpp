@@ -83,9 +83,11 @@ void enter_shot(Study& study, ShotRun& run, const std::vector<std::string>& note
         if (needs_ladder(study.config))
             entry["truth_ladder"] = rung_entries(run.truth.pose(last), run.truth.frame(last)->masks);
     } else {
-        entry["lit"] = "file";
+        entry["lit"] = study.config.has_reference ? "file" : "direct";
         entry["warnings"].push_back(
-            "This G-buffer came without a reference: its results are rendered and timed, not measured.");
+            study.config.has_reference
+                ? "This G-buffer came without a reference: its results are rendered and timed, not measured."
+                : "The study asks for no reference: no error is measured.");
     }
     for (const std::string& note : notes) entry["warnings"].push_back(note);
     study.manifest["shots"].push_back(std::move(entry));
@@ -125,12 +127,15 @@ void run_scene_shot(Study& study, const ShotConfig& config) {
     ShotRun run{
         .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
     unsigned references = 0;
-    run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, bool is_of_last) {
-        Reference reference = obtain_reference(study, shot, frame, is_of_last);
-        note_reference(study, run, reference, frame, is_of_last);
-        ++references;
-        return reference;
-    });
+    if (!study.config.has_reference)
+        run.truth = truth_of_lit(shot, {});
+    else
+        run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, bool is_of_last) {
+            Reference reference = obtain_reference(study, shot, frame, is_of_last);
+            note_reference(study, run, reference, frame, is_of_last);
+            ++references;
+            return reference;
+        });
     study.work.plan("reference", double(references) - double(config.frames.size()),
                     reference_guess);  // the others look the same
     enter_shot(study, run, {});
@@ -151,7 +156,7 @@ void run_gbuffer_shot(Study& study, const ShotConfig& config) {
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
     if (reference && !study.config.direct_lit) loaded.gbuffer.lit = {};
     ShotTruth lit_alone =
-        truth_of_lit(loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
+        truth_of_lit(shot, loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
     const std::unique_ptr<FrameSource> source = file_source(study.device, std::move(loaded.gbuffer));
     ShotRun run{
         .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};

@@ -87,7 +87,7 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     return truth;
 }
 
-ShotTruth truth_of_lit(HostImage lit) {
+ShotTruth truth_of_lit(const Shot& shot, HostImage lit) {
     ShotTruth truth;
     PoseTruth pose{.diffuse = lit,
                    .lit_halves = {},
@@ -99,6 +99,7 @@ ShotTruth truth_of_lit(HostImage lit) {
                    .material_id = {},
                    .flip_exposures = {},
                    .content_hash = "none"};
-    truth.poses[0] = std::make_shared<PoseTruth>(std::move(pose));
+    const auto shared = std::make_shared<PoseTruth>(std::move(pose));
+    for (const FrameStep& step : shot.steps) truth.poses[step.frame] = shared;
     return truth;
 }

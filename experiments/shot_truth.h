@@ -30,5 +30,5 @@ bool is_after_change(const Shot& shot, const FrameStep& step);
 ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
                      const std::function<Reference(unsigned frame, bool is_of_last)>& obtain);
 
-/// Where there is no reference nothing is measured: the lit colour alone.
-ShotTruth truth_of_lit(HostImage lit);
+/// Where there is no reference nothing is measured: the lit colour alone, for the frames of `shot`.
+ShotTruth truth_of_lit(const Shot& shot, HostImage lit);
