@@ -19,8 +19,8 @@ struct Point {
 /// The default, all presets, and what the declarations turn on. Every parameter of every variant at both ends of its
 /// range, and every choice, was tried once, which takes minutes: a point that declares itself free of seeds always is.
 /// Six that do not are none the less equal for two seeds, as they find nothing in this scene:
-/// max_traversal_intersections = 0 of both, min_traversal_occupancy = 128, dark_exit_radiance = 1, and at 32x18
-/// most_detailed_mip = 6 and alpha_interpolation = 0.
+/// hierarchy.max_traversal_intersections = 0 of both, hierarchy.min_traversal_occupancy = 128, dark_exit_radiance = 1,
+/// and at 32x18 hierarchy.most_detailed_mip = 6 and alpha_interpolation = 0.
 std::vector<Point> points_of(const VariantEntry& entry) {
     std::vector<Point> points = {{}};
     for (const Preset& preset : entry.presets) points.push_back({.preset = preset.name});

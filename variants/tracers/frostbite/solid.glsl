@@ -34,7 +34,8 @@ FrostbiteEnd frostbite_meet(ScreenLine line, ivec2 pixel, float surface, float t
     float nearest = nearer_of(depth_at(line, t_in), depth_at(line, t_out));
     if (frostbite_is_behind_solid(nearest, surface)) return frostbite_no_hit;
     float t = frostbite_closest_t(line, surface, t_in, t_out);
-    return frostbite_leave_own_plane && frostbite_is_own_plane(line, pixel, t) ? frostbite_no_hit : FrostbiteEnd(true, pixel, t);
+    bool is_own = frostbite_leave_own_plane && frostbite_is_own_plane(line, pixel, t);
+    return FrostbiteEnd(!is_own, pixel, t);
 }
 
 // Behind what it shows from the other side, the screen knows of nothing that the ray could go on to.

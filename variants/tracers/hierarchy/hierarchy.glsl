@@ -144,9 +144,11 @@ TraceEnd hierarchy_trace(TraceRay ray) {
     float ray_length = length(vs_ray);
     if (end.is_unfinished && (hierarchy_reject_unfinished || hierarchy_march == hierarchy_march_none))
         return missed(is_outside(end.position.xy) ? outcome_off_screen : outcome_unfinished, position, ray_length);
-    HierarchyJudgement judged = hierarchy_judgement == hierarchy_judgement_amd
-                                    ? hierarchy_judged_by_amd(origin, end.position, vs_ray, finest)
-                                    : hierarchy_judged_by_diligent(origin, end.position, ray.direction);
+    HierarchyJudgement judged;  // WebGL 2 has no ?: of structures
+    if (hierarchy_judgement == hierarchy_judgement_amd)
+        judged = hierarchy_judged_by_amd(origin, end.position, vs_ray, finest);
+    else
+        judged = hierarchy_judged_by_diligent(origin, end.position, ray.direction);
     if (judged.outcome != outcome_hit) return missed(judged.outcome, position, ray_length);
     return TraceEnd(ivec2(camera.extent.xy * end.position.xy), position, ray_length, judged.confidence, outcome_hit);
 }

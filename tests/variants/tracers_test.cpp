@@ -1,0 +1,63 @@
+// Any tracer in any technique.
+#include "variants/tracers/tracers.h"
+#include "tests/variants/amd_scenes.h"
+#include "tests/variants/variant_fixture.h"
+#include "variants/tracers/outcome.h"
+
+namespace {
+
+struct TracersTest : VariantTest {
+    CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
+    FrameView view{.extent = {67, 45}};
+
+    HostImage render(Variant& variant) {
+        PassGraph graph(device(), view.extent);
+        const CameraData camera = camera_data(pose, nullptr, view);
+        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, glossy_floor);
+        graph.begin_frame(camera, variant.params, gbuffer.images());
+        const LimitScope limits(graph, variant.ray_probe ? Limits::none : variant.limits);
+        return graph.download(variant.render(graph, gbuffer).radiance);
+    }
+};
+
+/// Parameters of a technique that choose among tracers, all set to one; and those that make runs repeat and short.
+nlohmann::json all_by(const TracerEntry& tracer, const VariantEntry& entry) {
+    nlohmann::json parameters = {{"hierarchy.min_traversal_occupancy", 0}};
+    const std::unique_ptr<Variant> variant = entry.create();
+    for (const Parameter& p : variant->params)
+        if (std::ranges::count(p.choices, tracer.name)) parameters[p.name] = tracer.name;
+    if (entry.name == "amd_sssr") parameters["denoise"] = false;
+    if (entry.name == "frostbite_sssr") parameters["max_rays"] = parameters["min_rays"] = 4;  // probes have one
+    return parameters;
+}
+
+}  // namespace
+
+TEST_F(TracersTest, TraceForEveryTechniqueAndChangeNothingWhenRecorded) {
+    for (const VariantEntry& entry : variant_table())
+        for (const TracerEntry& tracer : tracer_table()) {
+            if (entry.name == "none") continue;
+            SCOPED_TRACE(entry.name + ", " + tracer.name);
+            const std::unique_ptr<Variant> plain = make_variant(entry.name, all_by(tracer, entry)),
+                                           probed = make_variant(entry.name, all_by(tracer, entry));
+            RayProbe probe;
+            probe.is_recording = true;
+            probed->ray_probe = &probe;
+            EXPECT_TRUE(render(*probed).values == render(*plain).values);
+            EXPECT_FALSE(probe.recorded.empty());
+            size_t hits = 0, rays = 0;
+            for (const RecordedRays& recorded : probe.recorded) {
+                ASSERT_EQ(recorded.rays.size(), view.extent.x * view.extent.y * recorded.rays_per_pixel);
+                for (const RayRecord& ray : recorded.rays) {
+                    if (ray.is_traced == 0) continue;
+                    ++rays;
+                    hits += ray.outcome == outcome_hit;
+                    ASSERT_LT(ray.outcome, outcome_count);
+                    ASSERT_EQ(ray.confidence > 0, ray.outcome == outcome_hit);
+                    ASSERT_NEAR(glm::length(ray.direction), 1, 1e-4);
+                }
+            }
+            EXPECT_GT(rays, 400u);
+            EXPECT_GT(double(hits), 0.2 * double(rays));
+        }
+}
