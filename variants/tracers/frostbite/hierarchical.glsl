@@ -9,38 +9,9 @@
 #define TRACERS_FROSTBITE_HIERARCHICAL_GLSL
 #include "common/depth_pyramid.glsl"
 #include "tracers/frostbite/solid.glsl"
+#include "tracers/screen_cells.glsl"
 
 uniform sampler2D farthest_depth_pyramid;
-
-// Where a line leaves a cell.
-struct FrostbiteExit {
-    float t;
-    ivec2 pixel;  // that it enters there
-};
-
-// Cells are told by integers: no rounding can put a line on the wrong side of a wall.
-FrostbiteExit frostbite_exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
-    ivec2 low = pixel >> level << level, high = low + (1 << level) - 1;
-    bvec2 ascends = greaterThan(line.slope.xy, vec2(0.0));
-    ivec2 last = mix(low, high, ascends);
-    vec2 walls = vec2(mix(low, high + 1, ascends));
-    vec2 t_walls = (walls - line.origin.xy) * line.inverse;
-    bool is_x = t_walls.x < t_walls.y;
-    float t = is_x ? t_walls.x : t_walls.y;
-    ivec2 next = ivec2(floor(line.origin.xy + t * line.slope.xy));
-    next = clamp(next, min(pixel, last), max(pixel, last));
-    if (is_x)
-        next.x = ascends.x ? high.x + 1 : low.x - 1;
-    else
-        next.y = ascends.y ? high.y + 1 : low.y - 1;
-    return FrostbiteExit(t, next);
-}
-
-// Levels leave out the last row or column of odd ones: what they lack is looked at on finer levels.
-int frostbite_existing_level(ivec2 pixel, int level) {
-    while (any(greaterThanEqual(pixel >> level, ivec2(camera.extent.xy) >> level))) --level;
-    return level;
-}
 
 // Cells that a ray may pass before it counts as a miss. A line crosses no more pixels than a row and a column have
 // together, so that by default no ray runs out of them. Looks at coarser cells that the march then leaves for finer
@@ -57,11 +28,11 @@ bool frostbite_passes_behind(float nearest, ivec2 cell, int level) {
 TraceEnd frostbite_hierarchical_trace(TraceRay ray) {
     ScreenLine line = screen_line(ray);
     int coarsest = depth_pyramid_coarsest(frostbite_pyramid_mips), level = 0;
-    FrostbiteExit here = frostbite_exit_of_cell(line, line.pixel, 0);  // not its own pixel
+    CellExit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
     for (uint passed = 0u, most = frostbite_most_cells(); passed < most && here.t < line.end;) {
-        level = frostbite_existing_level(here.pixel, level);
+        level = existing_level(here.pixel, level);
         ivec2 cell = here.pixel >> level;
-        FrostbiteExit ahead = frostbite_exit_of_cell(line, here.pixel, level);
+        CellExit ahead = exit_of_cell(line, here.pixel, level);
         float t_out = min(ahead.t, line.end);
         float depth_in = depth_at(line, here.t), depth_out = depth_at(line, t_out);
         float nearest = nearer_of(depth_in, depth_out), farthest = farther_of(depth_in, depth_out);
