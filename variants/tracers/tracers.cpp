@@ -11,6 +11,10 @@ TracerEntry dda_tracer();
 TracerEntry hierarchy_tracer();
 TracerEntry frostbite_hierarchical_tracer();
 TracerEntry frostbite_linear_tracer();
+TracerEntry hzb_tracer();
+TracerEntry fixed_stride_tracer();
+TracerEntry cells_tracer();
+TracerEntry view_space_tracer();
 
 std::span<const TracerEntry> tracer_table() {
     static const std::vector<TracerEntry> table = {
@@ -18,6 +22,10 @@ std::span<const TracerEntry> tracer_table() {
         hierarchy_tracer(),
         frostbite_hierarchical_tracer(),
         frostbite_linear_tracer(),
+        hzb_tracer(),
+        fixed_stride_tracer(),
+        cells_tracer(),
+        view_space_tracer(),
     };
     return table;
 }
