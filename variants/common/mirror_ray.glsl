@@ -24,9 +24,11 @@ bool reflects(ivec2 pixel, float roughness_limit) {
            texelFetch(normal, pixel, 0).w <= roughness_limit;
 }
 
-vec3 view_position(ivec2 pixel) {
-    return view_from_screen(screen_from_pixel(pixel) * camera.extent.zw, texelFetch(depth, pixel, 0).r);
+// Of what a pixel shows at a device depth.
+vec3 view_position_at(ivec2 pixel, float device_depth) {
+    return view_from_screen(screen_from_pixel(pixel) * camera.extent.zw, device_depth);
 }
+vec3 view_position(ivec2 pixel) { return view_position_at(pixel, texelFetch(depth, pixel, 0).r); }
 
 vec3 view_from_world_normal(vec3 ws_normal) { return normalize(mat3(camera.view_from_world) * ws_normal); }
 

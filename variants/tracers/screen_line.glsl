@@ -2,6 +2,7 @@
 // the walk needs no division per step.
 #ifndef TRACERS_SCREEN_LINE_GLSL
 #define TRACERS_SCREEN_LINE_GLSL
+#include "tracers/own_plane.glsl"
 #include "tracers/trace.glsl"
 
 struct ScreenLine {
@@ -23,6 +24,17 @@ float depth_at(ScreenLine line, float t) { return line.origin.z + t * line.slope
 
 // Distance along the ray (m).
 float distance_at(ScreenLine line, float t) { return t * line.w / (line.rate - t * line.w_rate); }
+
+// t at a distance along the ray (m); none of the camera's side is that far if it passes the camera plane before.
+float t_of_distance(ScreenLine line, float distance) {
+    float w = line.w + distance * line.w_rate;
+    return w > 0.0 ? distance * line.rate / w : 3.402823466e38;
+}
+
+// The place between two t that comes nearest to the depth of a surface.
+float closest_t(ScreenLine line, float surface, float t_in, float t_out) {
+    return line.slope.z == 0.0 ? t_in : clamp(t_of_depth(line, surface), t_in, t_out);
+}
 
 float end_of_line(ScreenLine line) {
     vec2 border = mix(vec2(0.0), camera.extent.xy, greaterThan(line.slope.xy, vec2(0.0)));
@@ -55,8 +67,31 @@ ScreenLine screen_line(TraceRay ray) {
     return line;
 }
 
+// The line from the origin to the projection of the ray's point at `distance` (m), as it comes out where nobody looks
+// whether that lies behind the camera: turned round then, to where the ray never goes.
+ScreenLine line_to_unclipped_end(ScreenLine line, float distance) {
+    if (line.w + distance * line.w_rate > 0.0) return line;
+    line.slope = -line.slope;
+    line.inverse = -line.inverse;
+    line.rate = -line.rate;
+    line.end = end_of_line(line);
+    return line;
+}
+
+// Ends the line where the ray has this length (m).
+void shorten_line(inout ScreenLine line, float distance) { line.end = min(line.end, t_of_distance(line, distance)); }
+
 // On the un-jittered screen (pixels).
 vec2 position_at(ScreenLine line, float t) { return line.origin.xy + t * line.slope.xy + camera.jitter.xy; }
+ivec2 pixel_at(ScreenLine line, float t) {
+    return clamp(ivec2(floor(line.origin.xy + t * line.slope.xy)), ivec2(0), ivec2(camera.extent.xy) - 1);
+}
+
+// Whether what `pixel` shows at the device depth `surface` is of the plane that the ray leaves; the ray passes it at t.
+bool is_own_plane_at(ScreenLine line, ivec2 pixel, float surface, float t) {
+    vec3 from_origin = view_position_at(pixel, surface) - line.vs_origin;
+    return is_own_plane(from_origin, line.vs_normal, line.rise, distance_at(line, t));
+}
 
 // Of a ray that came to the end of its line, or of as many steps as it may take.
 TraceEnd missed_on_line(ScreenLine line, bool is_unfinished) {
@@ -67,7 +102,7 @@ TraceEnd missed_on_line(ScreenLine line, bool is_unfinished) {
                    : is_at_border ? outcome_off_screen
                    : comes_nearer ? outcome_behind_camera
                                   : outcome_background;
-    return missed(outcome, place + camera.jitter.xy, distance_at(line, line.end));
+    return missed(outcome, place + camera.jitter.xy, max(distance_at(line, line.end), 0.0));
 }
 
 // Where a line leaves a cell of 2^level pixels.

@@ -40,5 +40,8 @@ float fetch_depth(ivec2 pixel) {
     return texelFetch(depth, pixel, 0).r;
 }
 
+// Whether a ray meets the side of a pixel's surface that the camera does not see.
+bool comes_from_behind(vec3 direction, ivec2 pixel) { return !(dot(direction, view_geometric_normal(pixel)) < 0.0); }
+
 vec2 screen_from_image(vec2 uv) { return uv * camera.extent.xy + camera.jitter.xy; }  // (pixels)
 #endif

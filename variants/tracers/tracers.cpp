@@ -11,6 +11,10 @@ TracerEntry dda_tracer();
 TracerEntry hierarchy_tracer();
 TracerEntry frostbite_hierarchical_tracer();
 TracerEntry frostbite_linear_tracer();
+TracerEntry hzb_tracer();
+TracerEntry fixed_stride_tracer();
+TracerEntry cells_tracer();
+TracerEntry view_space_tracer();
 TracerEntry exact_layer_tracer();
 TracerEntry exact_scene_tracer();
 
@@ -20,6 +24,10 @@ std::span<const TracerEntry> tracer_table() {
         hierarchy_tracer(),
         frostbite_hierarchical_tracer(),
         frostbite_linear_tracer(),
+        hzb_tracer(),
+        fixed_stride_tracer(),
+        cells_tracer(),
+        view_space_tracer(),
         exact_layer_tracer(),
         exact_scene_tracer(),
     };

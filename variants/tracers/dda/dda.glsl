@@ -3,6 +3,7 @@
 // 1/w, are affine along that line, so the ray's depth at a pixel costs one division.
 #ifndef TRACERS_DDA_GLSL
 #define TRACERS_DDA_GLSL
+#include "tracers/stride.glsl"
 #include "tracers/trace.glsl"
 
 #ifdef TRACER_HAS_DEPTH_LAYERS
@@ -66,12 +67,6 @@ struct DdaLine {
     uint end_outcome;      // of a ray that comes to the line's end
 };
 
-// Coarse near the camera, where a pixel is short, and single pixels from `stride_z_cutoff` on (kode80's port).
-float dda_stride_of(TraceRay ray) {
-    if (dda_stride_z_cutoff == 0.0) return float(dda_stride);
-    return mix(float(dda_stride), 1.0, min(-ray.origin.z / dda_stride_z_cutoff, 1.0));
-}
-
 DdaLine dda_line(TraceRay ray) {
     vec3 far_end = dda_far_end(ray);
     DdaPoint a = dda_project(ray.origin), b = dda_project(far_end);
@@ -89,7 +84,7 @@ DdaLine dda_line(TraceRay ray) {
     vec2 extent = abs(b.p - a.p);
     float pixels = max(extent.x, extent.y);
     return DdaLine(a, DdaPoint((b.p - a.p) / pixels, (b.q - a.q) / pixels, (b.k - a.k) / pixels), pixels,
-                   dda_stride_of(ray), end_outcome);
+                   stride_at(ray.origin.z, float(dda_stride), dda_stride_z_cutoff), end_outcome);
 }
 
 // Deviation: points are taken at start + t * step, where the paper adds up steps: the same points, fewer roundings.

@@ -9,14 +9,9 @@
 #define TRACERS_FROSTBITE_HIERARCHICAL_GLSL
 #include "common/depth_pyramid.glsl"
 #include "tracers/frostbite/solid.glsl"
+#include "tracers/screen_cells.glsl"
 
 uniform sampler2D farthest_depth_pyramid;
-
-// Levels leave out the last row or column of odd ones: what they lack is looked at on finer levels.
-int frostbite_existing_level(ivec2 pixel, int level) {
-    while (any(greaterThanEqual(pixel >> level, ivec2(camera.extent.xy) >> level))) --level;
-    return level;
-}
 
 // Cells that a ray may pass before it counts as a miss. A line crosses no more pixels than a row and a column have
 // together, so that by default no ray runs out of them. Looks at coarser cells that the march then leaves for finer
@@ -35,7 +30,7 @@ TraceEnd frostbite_hierarchical_trace(TraceRay ray) {
     int coarsest = depth_pyramid_coarsest(frostbite_pyramid_mips), level = 0;
     CellExit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
     for (uint passed = 0u, most = frostbite_most_cells(); passed < most && here.t < line.end;) {
-        level = frostbite_existing_level(here.pixel, level);
+        level = existing_level(here.pixel, level);
         ivec2 cell = here.pixel >> level;
         CellExit ahead = exit_of_cell(line, here.pixel, level);
         float t_out = min(ahead.t, line.end);

@@ -4,13 +4,9 @@
 #define TRACERS_FROSTBITE_LINEAR_GLSL
 #include "tracers/frostbite/solid.glsl"
 
-ivec2 frostbite_pixel_at(ScreenLine line, float t) {
-    return clamp(ivec2(floor(line.origin.xy + t * line.slope.xy)), ivec2(0), ivec2(camera.extent.xy) - 1);
-}
-
 // The step from t_in to t_out against what is seen at its end.
 FrostbiteEnd frostbite_meet_at_end(ScreenLine line, float t_in, float t_out) {
-    ivec2 pixel = frostbite_pixel_at(line, t_out);
+    ivec2 pixel = pixel_at(line, t_out);
     return frostbite_meet(line, pixel, fetch_depth(pixel), t_in, t_out, depth_at(line, t_out));
 }
 
@@ -42,7 +38,7 @@ TraceEnd frostbite_linear_trace(TraceRay ray) {
         float t_out = (float(step) + ray.random) * stride;
         is_last = step == frostbite_linear_steps || t_out >= line.end;
         if (is_last) t_out = line.end;
-        if (frostbite_pixel_at(line, t_out) == line.pixel) continue;
+        if (pixel_at(line, t_out) == line.pixel) continue;
         FrostbiteEnd end = frostbite_meet_at_end(line, t_in, t_out);
         if (end.is_hit) return frostbite_end(line, frostbite_refine(line, end, t_in, t_out), ray, false);
         t_in = t_out;

@@ -14,17 +14,8 @@ struct FrostbiteEnd {
 const FrostbiteEnd frostbite_no_hit = FrostbiteEnd(false, ivec2(0), 0.0);
 
 // Whether all of a line that comes no nearer than a device depth is behind what counts as solid of a surface.
-bool frostbite_is_behind_solid(float nearest, float surface) { return view_z(nearest) < view_z(surface) * (1.0 + frostbite_relative_thickness); }
-
-// Of the plane that the ray leaves, and so not what it meets.
-bool frostbite_is_own_plane(ScreenLine line, ivec2 pixel, float t) {
-    float height = dot(view_position(pixel) - line.vs_origin, line.vs_normal);
-    return height < 0.5 * line.rise * distance_at(line, t);
-}
-
-// The place between two t that comes nearest to the depth of a surface.
-float frostbite_closest_t(ScreenLine line, float surface, float t_in, float t_out) {
-    return line.slope.z == 0.0 ? t_in : clamp(t_of_depth(line, surface), t_in, t_out);
+bool frostbite_is_behind_solid(float nearest, float surface) {
+    return view_z(nearest) < view_z(surface) * (1.0 + frostbite_relative_thickness);
 }
 
 // The part of the line from t_in to t_out, whose device depth there comes to `farthest` at most, against what `pixel`
@@ -33,8 +24,8 @@ FrostbiteEnd frostbite_meet(ScreenLine line, ivec2 pixel, float surface, float t
     if (is_background(surface) || is_nearer(farthest, surface)) return frostbite_no_hit;
     float nearest = nearer_of(depth_at(line, t_in), depth_at(line, t_out));
     if (frostbite_is_behind_solid(nearest, surface)) return frostbite_no_hit;
-    float t = frostbite_closest_t(line, surface, t_in, t_out);
-    bool is_own = frostbite_leave_own_plane && frostbite_is_own_plane(line, pixel, t);
+    float t = closest_t(line, surface, t_in, t_out);
+    bool is_own = frostbite_leave_own_plane && is_own_plane_at(line, pixel, surface, t);
     return FrostbiteEnd(!is_own, pixel, t);
 }
 
@@ -43,7 +34,7 @@ TraceEnd frostbite_end(ScreenLine line, FrostbiteEnd end, TraceRay ray, bool is_
     if (!end.is_hit) return missed_on_line(line, is_unfinished);
     vec2 position = position_at(line, end.t);
     float ray_length = distance_at(line, end.t);
-    if (frostbite_front_faces_only && !(dot(ray.direction, view_geometric_normal(end.pixel)) < 0.0))
+    if (frostbite_front_faces_only && comes_from_behind(ray.direction, end.pixel))
         return missed(outcome_from_behind, position, ray_length);
     return TraceEnd(end.pixel, position, ray_length, 1.0, outcome_hit);
 }

@@ -1,0 +1,77 @@
+// Mode HiZ of an engine's reflection pass (its documentation, "Hi-Z Ray Marching"): from wall to wall of a depth
+// pyramid's cells, a level coarser after some of them in which the ray stayed in front, a level finer where it is
+// behind.
+#ifndef TRACERS_CELLS_GLSL
+#define TRACERS_CELLS_GLSL
+#include "common/depth_pyramid.glsl"
+#include "tracers/fades.glsl"
+#include "tracers/screen_cells.glsl"
+
+const uint cells_back_faces_fade = 1u, cells_back_faces_reject = 2u;  // parameter `back_faces`
+
+float cells_reach() { return cells_max_distance > 0.0 ? cells_max_distance : 2.0 * camera.depth.y; }
+
+bool cells_is_sky(float device_depth) { return abs(device_depth - camera.depth.z) <= cells_sky_depth; }
+
+// Whether a ray that comes no nearer than a device depth is behind all that counts as solid of a surface.
+bool cells_is_behind_solid(float nearest, float surface) {
+    float scene_z = view_z(surface);
+    return view_z(nearest) < scene_z - (cells_thickness + cells_relative_thickness * -scene_z);
+}
+
+// A hit loses what its surface is turned away, and what the ray is near to the plane that it leaves.
+TraceEnd cells_hit(ScreenLine line, TraceRay ray, ivec2 pixel, float t) {
+    vec2 position = position_at(line, t);
+    float ray_length = max(distance_at(line, t), 0.0);
+    TraceEnd end = TraceEnd(pixel, position, ray_length, 1.0, outcome_hit);
+    if (cells_back_faces == cells_back_faces_reject && comes_from_behind(ray.direction, pixel))
+        return missed(outcome_from_behind, position, ray_length);
+    if (cells_back_faces == cells_back_faces_fade)
+        end = faded(end, clamp(1.0 - dot(ray.direction, view_geometric_normal(pixel)), 0.0, 1.0), outcome_from_behind);
+    if (cells_edge_fade)
+        end = faded(end, edge_fade(position, cells_fade_start, cells_fade_end), outcome_off_screen);
+    if (cells_distance_fade) end = faded(end, distance_fade(ray_length, cells_reach()), outcome_unfinished);
+    if (cells_grazing_fade > 0.0)
+        end = faded(end, clamp(line.rise / cells_grazing_fade, 0.0, 1.0), outcome_own_surface);
+    return end;
+}
+
+TraceEnd cells_trace(TraceRay ray) {
+    ScreenLine line = screen_line(ray);
+    if (!cells_clip_to_near_plane) line = line_to_unclipped_end(line, cells_reach());
+    float t_border = line.end;
+    shorten_line(line, cells_reach());
+
+    int coarsest = depth_pyramid_coarsest(cells_pyramid_mips), level = 0;
+    uint safe_steps = 0u;
+    CellExit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
+    for (uint i = 0u; i < cells_max_steps; ++i) {
+        if (here.t >= line.end) return missed_on_line(line, line.end < t_border);
+        level = existing_level(here.pixel, level);
+        CellExit ahead = exit_of_cell(line, here.pixel, level);
+        float t_out = cells_interval ? min(ahead.t, line.end) : here.t;  // the flaw: only where it enters
+        float depth_in = depth_at(line, here.t), depth_out = depth_at(line, t_out);
+        count_fetch();
+        float surface = texelFetch(depth_pyramid, here.pixel >> level, level).r;
+        if (is_nearer(farther_of(depth_in, depth_out), surface)) {
+            here = ahead;
+            if (++safe_steps < cells_safe_steps) continue;
+            level = min(level + 1, coarsest);
+            if (cells_reset_safe_steps) safe_steps = 0u;
+            continue;
+        }
+        safe_steps = 0u;
+        if (level > 0) {
+            --level;
+            continue;
+        }
+        float t = closest_t(line, surface, here.t, t_out);
+        bool is_met = !cells_is_sky(surface) && !cells_is_behind_solid(nearer_of(depth_in, depth_out), surface);
+        if (is_met && !(cells_leave_own_plane && is_own_plane_at(line, here.pixel, surface, t)))
+            return cells_hit(line, ray, here.pixel, t);
+        here = ahead;
+    }
+    line.end = min(line.end, here.t);
+    return missed_on_line(line, true);
+}
+#endif
