@@ -93,8 +93,7 @@ TEST_F(Cells, CompareAllDepthsOfTheRayInACell) {
 }
 
 /// The depth at a cell's entry alone does not: a ray comes out of a coarse cell farther behind the wall than counts as
-/// solid, or is seen to be behind it in the next pixel. Whether safe steps are counted anew decides how coarse cells
-/// are.
+/// solid, or is seen to be behind it in the next pixel. Whether safe steps are counted anew changes little.
 TEST_F(Cells, MissWhatLiesBehindTheEntryOfACellAsPrinted) {
     show_posts();
     EXPECT_EQ(wrong().end, 0);

@@ -19,7 +19,7 @@ std::vector<std::string> screen_tracers() {
 
 /// Parameters with which steps are short enough for closed forms: of tracers that may step over things by default.
 nlohmann::json fine_steps(const std::string& tracer) {
-    if (tracer == "view_space") return {{"view_space.steps", 4096}};             // 5 mm
+    if (tracer == "view_space") return {{"view_space.steps", 8192}};             // 5 mm
     if (tracer == "frostbite_linear") return {{"frostbite.linear_steps", 512}};  // single pixels
     return nlohmann::json::object();
 }
@@ -269,7 +269,7 @@ TEST_F(TracersInRoom, SayHowRaysMiss) {
             EXPECT_GE(counts[outcome], 50u) << outcome;
         for (const std::string& tracer : screen_tracers()) {
             // hierarchy goes on behind the near plane, and says no more than that it did not finish in the sky;
-            // view_space ends after 20 m.
+            // view_space ends after 40 m.
             const auto is_right = [&](unsigned outcome, unsigned expected) {
                 if (outcome == expected) return true;
                 if (tracer == "hierarchy")

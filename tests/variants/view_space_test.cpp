@@ -19,7 +19,7 @@ struct ViewSpace : TracerAtWall {
 TEST_F(ViewSpace, RefinesToTheColumn) {
     for (const unsigned refinements : {0u, 1u, 5u, 12u}) {
         const BenchEnd end = trace(to_column(), {{"view_space.refinements", refinements}});
-        const float step = 20.0f / 256 / std::exp2(float(refinements));
+        const float step = 40.0f / 512 / std::exp2(float(refinements));
         EXPECT_TRUE(end.is_hit()) << end;
         EXPECT_EQ(end.confidence, 1);
         EXPECT_GE(end.distance, column_meters() - 1e-4f);
@@ -48,7 +48,7 @@ TEST_F(ViewSpace, ReachesAsFarAsItsDistance) {
 TEST_F(ViewSpace, TakesItsSteps) {
     make_wall();  // the column is a pixel wide: 7 cm
     const float meters = to_column_meters(1);
-    EXPECT_TRUE(trace(to_column(), {{"view_space.steps", unsigned(20 / meters * 1.1f)}}).is_hit());
+    EXPECT_TRUE(trace(to_column(), {{"view_space.steps", unsigned(40 / meters * 1.1f)}}).is_hit());
     // One step ends half a step before the column, the next as far behind it.
     const float step = column_meters() / 3.5f;
     EXPECT_FALSE(trace(to_column(), {{"view_space.steps", 6}, {"view_space.max_distance", 6 * step}}).is_hit());
@@ -96,7 +96,7 @@ TEST_F(ViewSpace, ClipsAtTheNearPlane) {
     EXPECT_EQ(end.outcome, outcome_behind_camera) << end;
     EXPECT_NEAR(end.distance, distance(bench.position({90, 40}), glm::vec3(0, 0, -0.1f)), 0.05);
     EXPECT_EQ(unclipped.outcome, outcome_unfinished) << unclipped;
-    EXPECT_NEAR(unclipped.distance, 20, 1e-3);
+    EXPECT_NEAR(unclipped.distance, 40, 1e-3);
 }
 
 TEST_F(ViewSpace, LeavesItsOwnSurface) {
@@ -117,7 +117,7 @@ TEST_F(ViewSpace, RejectsBackFaces) {
 TEST_F(ViewSpace, FadesByVisibility) {
     const BenchEnd end = trace(to_column(), {{"view_space.visibility_fade", true}});
     const float towards_camera = std::max(glm::normalize(-bench.position(start)).x, 0.0f);
-    const float expected = (1 - towards_camera) * (1 - 0.02f / 0.1f) * (1 - end.distance / 20);
+    const float expected = (1 - towards_camera) * (1 - 0.02f / 0.1f) * (1 - end.distance / 40);
     EXPECT_NEAR(end.confidence, expected, 2e-3);                  // of depth, which float keeps to 1e-4 of 2 cm
     EXPECT_TRUE(towards_camera > 0.1f && towards_camera < 0.9f);  // not an empty test
 }

@@ -15,6 +15,8 @@ void main() {
         float random = random_point(uvec4(pixel, camera.frame.xy)).x;
         if (trace_inward_rays || dot(ray.direction, vs_normal) > 0.0) {
             TraceEnd end = trace(TraceRay(pixel, 0u, ray.origin, ray.direction, vs_normal, random, true));
+            // On the border between two pixels, or where a step ended beside the hit, the pixel that was met decides.
+            if (pixel_from_screen(end.position) != end.pixel) end.position = screen_from_pixel(end.pixel);
             if (end.outcome == outcome_hit) result = vec4(end.position * camera.extent.zw, end.distance, end.confidence);
         }
     }

@@ -104,28 +104,4 @@ TraceEnd missed_on_line(ScreenLine line, bool is_unfinished) {
                                   : outcome_background;
     return missed(outcome, place + camera.jitter.xy, max(distance_at(line, line.end), 0.0));
 }
-
-// Where a line leaves a cell of 2^level pixels.
-struct CellExit {
-    float t;
-    ivec2 pixel;  // that it enters there
-};
-
-// Cells are told by integers: no rounding can put a line on the wrong side of a wall.
-CellExit exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
-    ivec2 low = pixel >> level << level, high = low + (1 << level) - 1;
-    bvec2 ascends = greaterThan(line.slope.xy, vec2(0.0));
-    ivec2 last = ivec2(ascends.x ? high.x : low.x, ascends.y ? high.y : low.y);
-    vec2 walls = vec2(ascends.x ? last.x + 1 : last.x, ascends.y ? last.y + 1 : last.y);
-    vec2 t_walls = (walls - line.origin.xy) * line.inverse;
-    bool is_x = t_walls.x < t_walls.y;
-    float t = is_x ? t_walls.x : t_walls.y;
-    ivec2 next = ivec2(floor(line.origin.xy + t * line.slope.xy));
-    next = clamp(next, min(pixel, last), max(pixel, last));
-    if (is_x)
-        next.x = ascends.x ? high.x + 1 : low.x - 1;
-    else
-        next.y = ascends.y ? high.y + 1 : low.y - 1;
-    return CellExit(t, next);
-}
 #endif

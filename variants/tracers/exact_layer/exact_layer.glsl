@@ -2,7 +2,7 @@
 // the plane through its sample, as its geometric normal says, not a step. Nothing of it is meant to be fast.
 #ifndef TRACERS_EXACT_LAYER_GLSL
 #define TRACERS_EXACT_LAYER_GLSL
-#include "tracers/screen_line.glsl"
+#include "tracers/screen_cells.glsl"
 
 const uint exact_layer_thickness_of_scene = 1u;  // parameter `thickness_from`
 
@@ -70,9 +70,9 @@ TraceEnd exact_layer_trace(TraceRay ray) {
         ExactLayerPatch shown = exact_layer_patch(pixel);
         if (is_background(shown.device_depth)) continue;
 
-        // Of the plane that the ray leaves: at grazing angles rounding puts its samples in the way.
+        // At grazing angles rounding puts samples of the plane that the ray leaves in its way.
         float s_in = distance_at(line, t_in), s_out = distance_at(line, t_out);
-        if (dot(shown.position - ray.origin, ray.geometric_normal) < 0.5 * line.rise * s_out) continue;
+        if (is_own_plane(shown.position - ray.origin, ray.geometric_normal, line.rise, s_out)) continue;
 
         vec3 p_in = ray.origin + s_in * ray.direction, p_out = ray.origin + s_out * ray.direction;
         float height_in = dot(p_in - shown.position, shown.normal), height_out = dot(p_out - shown.position, shown.normal);

@@ -8,12 +8,12 @@ struct ViewSpace final : Tracer {
     // "Lettier": the tutorial 3D Game Shaders for Beginners, chapter Screen Space Reflection, whose code and text
     // differ.
     // clang-format off
-    Param<float> max_distance{params, "view_space.max_distance", 20.0f, {0.0f, 1e9f},
+    Param<float> max_distance{params, "view_space.max_distance", 40.0f, {0.0f, 1e9f},
         {"m", "length of a ray; the default fits rooms, not small or large scenes",
          "Lettier: 8 in the code, 15 in the text; the default crosses a hall"}};
     Param<float> relative_max_distance{params, "view_space.relative_max_distance", 0.0f, {0.0f, 1e6f},
         {"of the depth", "of the ray's origin; added to max_distance, and so fits scenes of any size", "ssrlab"}};
-    Param<unsigned> steps{params, "view_space.steps", 256, {1, 65536},
+    Param<unsigned> steps{params, "view_space.steps", 512, {1, 65536},
         {"steps", "into which a ray is divided", "ssrlab; the slides name none, and Lettier steps on the screen"}};
     Param<float> thickness{params, "view_space.thickness", 0.1f, {0.0f, 1e6f},
         {"m", "depth behind the visible surface that counts as solid. If a step goes farther into depth, rays slip "
