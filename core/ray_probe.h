@@ -40,7 +40,7 @@ struct RecordedRays {
 struct RayProbe {
     /// Keeps the rays of the frames that follow; they are traced a second time for it.
     bool is_recording = false;
-    std::vector<RecordedRays> recorded;  ///< of the last frame, by pass in their order
+    std::vector<RecordedRays> recorded;  ///< by pass in their order; whoever reads them clears them
 
     /// What the rays truly meet, for the tracer exact_scene; in the order of the rays.
     std::function<std::vector<ExactHit>(const RecordedRays&)> exact_hits;

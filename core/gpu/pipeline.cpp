@@ -116,8 +116,8 @@ std::string key_of(const ShaderIncludes& includes) {
 
 }  // namespace
 
-const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file,
-                                    const ParameterSet& params, const ShaderIncludes& includes) {
+const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
+                                    const ShaderIncludes& includes) {
     const std::string prelude = shader_prelude(params);
     const auto [entry, is_new] = shaders_.try_emplace(file + '\n' + vertex_file + '\n' + key_of(includes) + prelude);
     if (is_new) try {
@@ -145,8 +145,8 @@ Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& ve
     // pipeline.
     std::vector<uint32_t> values;
     std::vector<vk::SpecializationMapEntry> entries;
-    std::string key = file + '\n' + vertex_file + '\n' + key_of(includes) + params.glsl() + '\n' + std::to_string(int(state.stencil)) +
-                      ' ' + std::to_string(state.stencil_value);
+    std::string key = file + '\n' + vertex_file + '\n' + key_of(includes) + params.glsl() + '\n' +
+                      std::to_string(int(state.stencil)) + ' ' + std::to_string(state.stencil_value);
     uint32_t id = 0;
     for (const Parameter& p : params) {
         if (p.use != Use::constant || !shader.interface.constants.contains(id++)) continue;

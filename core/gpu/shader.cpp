@@ -76,8 +76,7 @@ std::string complete_source(const std::string& prelude, size_t index, const Shad
 
 std::string webgl2_fragment(const std::string& prelude, const ShaderIncludes& includes,
                             std::vector<std::string>& files) {
-    return std::string(webgl2_version) + webgl2_preamble + "#line 1 0\n" +
-           complete_source(prelude, 1, includes, files);
+    return std::string(webgl2_version) + webgl2_preamble + "#line 1 0\n" + complete_source(prelude, 1, includes, files);
 }
 
 /// glslang writes "ERROR: 3:17: ..." for line 17 of file 3.
@@ -150,7 +149,8 @@ std::string shader_prelude(const ParameterSet& params, ShaderLanguage language) 
 
 Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude, const ShaderIncludes& includes) {
     std::vector<std::string> files = {"prelude", file};
-    return {.vertex = webgl2_version + fullscreen_triangle("gl_VertexID"), .fragment = webgl2_fragment(prelude, includes, files)};
+    return {.vertex = webgl2_version + fullscreen_triangle("gl_VertexID"),
+            .fragment = webgl2_fragment(prelude, includes, files)};
 }
 
 Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,
@@ -169,8 +169,9 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
             sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, includes, files));
         }
     }
-    sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment,
-                         webgl2 ? webgl2_fragment(prelude, includes, files) : complete_source(prelude, 1, includes, files));
+    sources.emplace_back(
+        is_compute ? EShLangCompute : EShLangFragment,
+        webgl2 ? webgl2_fragment(prelude, includes, files) : complete_source(prelude, 1, includes, files));
 
     Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);

@@ -20,12 +20,24 @@ float view_z(float device_depth) {
     return view.z / view.w;
 }
 
+// Distance from the camera plane (m) of a device depth, by the projection, not by its inverse as view_z(): edges of a flat
+// surface are found by differences that are as small as the rounding.
+float camera_depth(float device_depth) {
+    mat4 clip_from_view = camera.clip_from_view;
+    return (device_depth * clip_from_view[3][3] - clip_from_view[3][2]) /
+           (device_depth * clip_from_view[2][3] - clip_from_view[2][2]);
+}
+
 vec3 world_from_screen(vec2 uv, float device_depth) {
     return (camera.world_from_view * vec4(view_from_screen(uv, device_depth), 1.0)).xyz;
 }
 
 // True where the depth buffer still holds its clear value: nothing was drawn there.
 bool is_background(float device_depth) { return device_depth == camera.depth.z; }
+
+bool is_on_screen(ivec2 pixel) {
+    return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy)));
+}
 
 // Unit vector from the camera towards the view-space position.
 vec3 view_direction(vec3 vs_position) {

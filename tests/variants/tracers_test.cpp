@@ -26,6 +26,7 @@ nlohmann::json all_by(const TracerEntry& tracer, const VariantEntry& entry) {
     const std::unique_ptr<Variant> variant = entry.create();
     for (const Parameter& p : variant->params)
         if (std::ranges::count(p.choices, tracer.name)) parameters[p.name] = tracer.name;
+    parameters["exact_layer.thickness_from"] = "parameter";  // the made-up G-buffer has one layer
     if (entry.name == "amd_sssr") parameters["denoise"] = false;
     if (entry.name == "frostbite_sssr") parameters["max_rays"] = parameters["min_rays"] = 4;  // probes have one
     return parameters;
@@ -36,7 +37,7 @@ nlohmann::json all_by(const TracerEntry& tracer, const VariantEntry& entry) {
 TEST_F(TracersTest, TraceForEveryTechniqueAndChangeNothingWhenRecorded) {
     for (const VariantEntry& entry : variant_table())
         for (const TracerEntry& tracer : tracer_table()) {
-            if (entry.name == "none") continue;
+            if (entry.name == "none" || tracer.name == "exact_scene") continue;  // there is no scene to ask
             SCOPED_TRACE(entry.name + ", " + tracer.name);
             const std::unique_ptr<Variant> plain = make_variant(entry.name, all_by(tracer, entry)),
                                            probed = make_variant(entry.name, all_by(tracer, entry));

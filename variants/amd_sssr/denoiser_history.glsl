@@ -46,7 +46,7 @@ Surface surface_of(ivec2 pixel, float alpha, float length_of_ray) {
 }
 
 float depth_in_history(vec2 uv, float device_depth) {
-    if (!reproject_history_depth) return linear_depth(uv, device_depth);
+    if (!reproject_history_depth) return -view_z(device_depth);
     vec4 view = camera.previous_view_from_clip * vec4(uv * 2.0 - 1.0, device_depth, 1.0);
     return abs(view.z / view.w);
 }

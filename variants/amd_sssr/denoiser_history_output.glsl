@@ -1,10 +1,19 @@
-// What the reprojection writes.
+// What the reprojection writes, and how pixels count in the averages of 8x8 tiles.
 #ifndef AMD_SSSR_DENOISER_HISTORY_OUTPUT_GLSL
 #define AMD_SSSR_DENOISER_HISTORY_OUTPUT_GLSL
-#include "amd_sssr/denoiser_average.glsl"
 #include "amd_sssr/denoiser_history.glsl"
 
 uniform writeonly image2D reprojected_radiance, variance, sample_count, average_radiance;
+
+// rgb times weight, weight; 0 where the pixel must not count.
+vec4 weighted_for_average(ivec2 pixel, vec3 color) {
+    if (finite_neighborhood && is_finite(color)) color = min(color, largest_half);
+    float weight = max(exp(-avg_radiance_luminance_weight * floored_luminance(color)), 0.01);
+    bool counts = is_on_screen(pixel) && is_finite(color * weight) && weight <= 1e3;
+    return counts ? vec4(color * weight, weight) : vec4(0.0);
+}
+
+vec3 average_of(vec4 weighted_sum) { return weighted_sum.rgb / max(weighted_sum.w, 1e-3); }
 
 // Returns what the pixel adds to its tile's average.
 vec3 store_history(ivec2 pixel, float alpha, vec3 color, History history) {

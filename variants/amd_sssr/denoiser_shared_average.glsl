@@ -27,6 +27,6 @@ void average_tile(ivec2 first) {
             i += 8;
         } while (i < sums * sums);
     }
-    if (lane == 0 && is_in_image(first)) store_average(first / 8, shared_at(ivec2(0)));
+    if (lane == 0 && is_on_screen(first)) store_average(first / 8, shared_at(ivec2(0)));
 }
 #endif

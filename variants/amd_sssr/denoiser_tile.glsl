@@ -2,6 +2,7 @@
 #ifndef AMD_SSSR_DENOISER_TILE_GLSL
 #define AMD_SSSR_DENOISER_TILE_GLSL
 #include "amd_sssr/lists.glsl"
+#include "common/luminance.glsl"
 #include "core/shaders/view.glsl"
 
 buffer tile_list { uint listed_tile[]; };
@@ -18,14 +19,10 @@ ivec2 tile_start(uint index) {
     return ivec2(word & 0xffffu, word >> 16);
 }
 
-bool is_in_image(ivec2 pixel) {
-    return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy)));
-}
-
 ivec2 last_pixel() { return ivec2(camera.extent.xy) - 1; }
 
 // 0 outside of the image, which the original leaves to the driver.
-vec4 texel(sampler2D image, ivec2 pixel) { return is_in_image(pixel) ? texelFetch(image, pixel, 0) : vec4(0.0); }
+vec4 texel(sampler2D image, ivec2 pixel) { return is_on_screen(pixel) ? texelFetch(image, pixel, 0) : vec4(0.0); }
 
 uvec2 packed_halves(vec4 color) { return uvec2(packHalf2x16(color.xy), packHalf2x16(color.zw)); }
 vec4 unpacked_halves(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
@@ -35,17 +32,14 @@ bool is_finite(vec3 color) { return !any(isnan(color)) && !any(isinf(color)); }
 // Length 0 where there is no surface, as all comparisons with the original's NaN come out.
 vec3 unit_or_zero(vec3 v) { return v / max(length(v), 1e-20); }
 
-// View-space distance along the viewing axis (m).
-float linear_depth(vec2 uv, float device_depth) { return abs(view_from_screen(uv, device_depth).z); }
-
 // The centre of a pixel on the un-jittered screen.
 vec2 uv_of(ivec2 pixel) { return (vec2(pixel) + 0.5 + camera.jitter.xy) * camera.extent.zw; }
 
-float luminance(vec3 color) { return max(dot(color, vec3(0.299, 0.587, 0.114)), 0.001); }
+float floored_luminance(vec3 color) { return max(luma_bt601(color), 0.001); }
 
 // Squared relative change of luminance: what the denoiser calls variance.
 float relative_change(vec3 a, vec3 b) {
-    float y_a = luminance(a), y_b = luminance(b);
+    float y_a = floored_luminance(a), y_b = floored_luminance(b);
     float change = abs(y_a - y_b) / max(max(y_a, y_b), 0.5);
     return change * change;
 }

@@ -11,7 +11,7 @@ void share_neighbor(ivec2 pixel, ivec2 at) {
     share_color(at, counted(texel(radiance, pixel).rgb));
     shared_normal[at.y][at.x] =
         packed_halves(vec4(unit_or_zero(texel(normal, pixel).xyz), texel(variance, pixel).r));
-    shared_depth[at.y][at.x] = linear_depth(uv_of(pixel), texel(depth, pixel).r);
+    shared_depth[at.y][at.x] = -view_z(texel(depth, pixel).r);
 }
 
 Neighbor neighbor_at(ivec2 at) {
@@ -26,7 +26,7 @@ void main() {
         share_neighbor(pixel - reach + block, local + block);
     }
     barrier();
-    if (!is_in_image(pixel)) return;
+    if (!is_on_screen(pixel)) return;
     Filter filtered = start_filter(neighbor_at(local + reach), average_around(pixel));
     for (int i = 0; i < 15; ++i) add_tap(filtered, neighbor_at(local + reach + filter_taps[i]));
     store_filtered(pixel, filtered);

@@ -32,7 +32,7 @@ Neighbor neighbor_at(ivec2 first, ivec2 offset) {
     vec4 normal_and_variance = float_histories ? normal_and_variance_of(first + offset)
                                                : unpacked_halves(shared_normal[gl_LocalInvocationID.y][index]);
     return Neighbor(color.rgb, color.w, normal_and_variance.xyz, normal_and_variance.w,
-                    linear_depth(uv_of(at), texelFetch(depth, at, 0).r));
+                    -view_z(texelFetch(depth, at, 0).r));
 }
 
 void main() {
@@ -49,6 +49,6 @@ void main() {
             add_tap(filters[y], neighbor_at(first, filter_taps[tap] + ivec2(0, y)));
     [[unroll]] for (int y = 0; y < 8; ++y) {
         ivec2 pixel = first + ivec2(0, y);
-        if (is_in_image(pixel)) store_filtered(pixel, filters[y]);
+        if (is_on_screen(pixel)) store_filtered(pixel, filters[y]);
     }
 }

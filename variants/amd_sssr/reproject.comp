@@ -1,6 +1,5 @@
 // AMD FidelityFX Denoiser 1.3 (reflections), first pass, laid out as the original: history and its confidence for every
 // glossy pixel, and the average radiance of the tile.
-#include "amd_sssr/denoiser_average.glsl"
 #include "amd_sssr/denoiser_history.glsl"
 #include "amd_sssr/denoiser_history_output.glsl"
 #include "amd_sssr/denoiser_shared_halves.glsl"
@@ -48,7 +47,7 @@ void main() {
     float alpha = texel(roughness, pixel).r;
     vec4 color = texel(radiance, pixel);
     vec3 averaged = color.rgb;
-    if (is_in_image(pixel) && is_glossy(alpha)) {
+    if (is_on_screen(pixel) && is_glossy(alpha)) {
         History history = find_history(surface_of(pixel, alpha, color.w), neighborhood_at(local + reach));
         averaged = store_history(pixel, alpha, color.rgb, history);
     }
@@ -63,5 +62,5 @@ void main() {
                                   shared_color_at(ivec2(near.x, far.y)) + shared_color_at(far));
         barrier();
     }
-    if (local == ivec2(0) && is_in_image(pixel)) store_average(pixel / 8, shared_color_at(ivec2(0)));
+    if (local == ivec2(0) && is_on_screen(pixel)) store_average(pixel / 8, shared_color_at(ivec2(0)));
 }

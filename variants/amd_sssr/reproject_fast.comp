@@ -46,7 +46,7 @@ Neighborhood in_original_order(ivec2 pixel) {
     Moments sum = no_moments;
     for (int i = 0; i < 81; ++i) {
         ivec2 offset = ivec2(i % 9, i / 9) - reach;
-        vec4 color = is_in_image(pixel + offset) ? strip_neighbor(pixel + offset) : outside_color;
+        vec4 color = is_on_screen(pixel + offset) ? strip_neighbor(pixel + offset) : outside_color;
         add_neighbor(color, kernel_weight(offset.x) * kernel_weight(offset.y), sum);
     }
     return neighborhood_of(sum);
@@ -77,7 +77,7 @@ void main() {
         float alpha = texel(roughness, pixel).r;
         vec4 color = texel(radiance, pixel);
         vec3 averaged = color.rgb;
-        if (is_in_image(pixel) && is_glossy(alpha)) {
+        if (is_on_screen(pixel) && is_glossy(alpha)) {
             Lookup lookup = first_lookup(surface_of(pixel, alpha, color.w), around[y]);
             if (is_rejected(lookup, around[y])) lookup.history.factor = history_rejected;
             if (is_settled(lookup, around[y]))

@@ -9,8 +9,8 @@ void main() {
     ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = tile_start(group_index()) + local;
     for (int i = 0; i < 4; ++i) {
         ivec2 block = ivec2(i & 1, i >> 1) * 8, neighbor = pixel - reach + block;
-        share_color(local + block, is_in_image(neighbor) ? counted(filtered_color(neighbor)) : outside_color);
+        share_color(local + block, is_on_screen(neighbor) ? counted(filtered_color(neighbor)) : outside_color);
     }
     barrier();
-    if (is_in_image(pixel)) resolve(pixel, shared_color_at(local + reach).rgb, neighborhood_at(local + reach));
+    if (is_on_screen(pixel)) resolve(pixel, shared_color_at(local + reach).rgb, neighborhood_at(local + reach));
 }

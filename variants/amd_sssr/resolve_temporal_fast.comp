@@ -10,6 +10,6 @@ void main() {
     Neighborhood around[8] = strip_neighborhoods(first);
     for (int y = 0; y < 8; ++y) {
         ivec2 pixel = first + ivec2(0, y);
-        if (is_in_image(pixel)) resolve(pixel, strip_neighbor(pixel).rgb, around[y]);
+        if (is_on_screen(pixel)) resolve(pixel, strip_neighbor(pixel).rgb, around[y]);
     }
 }

@@ -1,5 +1,7 @@
 // All levels of a depth pyramid in one dispatch, as AMD's Single Pass Downsampler: a group reduces 64x64 texels to one,
 // and the group that finishes last reduces what the others have left.
+#include "common/image_space.glsl"
+
 layout(local_size_x = 256) in;
 layout(push_constant) uniform Levels { uint level_count, group_count, keeps_farthest; };
 uniform sampler2D depth;
@@ -10,8 +12,7 @@ buffer depth_pyramid_counter { uint finished_groups; };
 shared float tile[32 * 32];
 shared bool is_last_group;
 
-bool is_larger_kept() { return (camera.depth.w == 1.0) != (keeps_farthest == 1u); }
-float kept_of(float a, float b) { return is_larger_kept() ? max(a, b) : min(a, b); }
+float kept_of(float a, float b) { return keeps_farthest == 1u ? farther_of(a, b) : nearer_of(a, b); }
 
 // Background is no surface: the farthest one is not there.
 float device_depth_of(ivec2 pixel) {

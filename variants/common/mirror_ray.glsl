@@ -9,10 +9,6 @@ uniform sampler2D depth, geometric_normal, normal, base_color, emission;
 vec2 screen_from_pixel(ivec2 pixel) { return vec2(pixel) + 0.5 + camera.jitter.xy; }
 ivec2 pixel_from_screen(vec2 position) { return ivec2(floor(position - camera.jitter.xy)); }
 
-bool is_on_screen(ivec2 pixel) {
-    return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy)));
-}
-
 // For pixels that show a surface.
 bool has_specular(ivec2 pixel) {
     return texelFetch(emission, pixel, 0).w > 0.0 || texelFetch(base_color, pixel, 0).w > 0.0;

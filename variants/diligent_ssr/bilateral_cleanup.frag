@@ -2,7 +2,7 @@
 // with the edge-stopping functions of Schied et al. 2017 ("Spatiotemporal Variance-Guided Filtering", section 4.4).
 #include "core/shaders/view.glsl"
 #include "common/image_space.glsl"
-#include "diligent_ssr/camera_depth.glsl"
+#include "core/shaders/view.glsl"
 #include "diligent_ssr/half.glsl"
 
 layout(location = 0) out vec4 reflections;

@@ -1,6 +1,6 @@
 // What the previous frame knew of a surface, unless something else was in front of it then: near its position, too.
 #include "diligent_ssr/history_taps.glsl"
-#include "diligent_ssr/camera_depth.glsl"
+#include "core/shaders/view.glsl"
 
 uniform sampler2D previous_depth;
 

@@ -1,6 +1,6 @@
 // Second pass of DiligentFX's denoising, after the rays: each pixel reuses the rays of eight neighbours.
 #include "diligent_ssr/half.glsl"
-#include "diligent_ssr/luminance.glsl"
+#include "common/luminance.glsl"
 #include "diligent_ssr/neighbor_rays.glsl"
 #include "diligent_ssr/reuse.glsl"
 #include "diligent_ssr/unknown_variance.glsl"
@@ -24,9 +24,9 @@ void add(inout Reuse reuse, Ray ray, float weight) {
     if (weight == 0.0) return;
     reuse.radiance += weight * ray.radiance;
     reuse.weight += weight;
-    float from_old_mean = luminance(ray.radiance.rgb) - reuse.mean_luminance;
+    float from_old_mean = luma_bt601(ray.radiance.rgb) - reuse.mean_luminance;
     reuse.mean_luminance += weight / reuse.weight * from_old_mean;
-    reuse.squares += weight * from_old_mean * (luminance(ray.radiance.rgb) - reuse.mean_luminance);
+    reuse.squares += weight * from_old_mean * (luma_bt601(ray.radiance.rgb) - reuse.mean_luminance);
     if (weight > least_weight) reuse.hit_distance = max(reuse.hit_distance, length(ray.ws_direction));
 }
 

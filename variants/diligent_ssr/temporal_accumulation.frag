@@ -1,7 +1,7 @@
 // Third pass of DiligentFX's denoising: blends with history, which it takes from where the surface or from where its
 // mirror image was.
 #include "diligent_ssr/history_search.glsl"
-#include "diligent_ssr/luminance.glsl"
+#include "common/luminance.glsl"
 #include "diligent_ssr/unknown_variance.glsl"
 
 layout(location = 0) out vec4 accumulated_radiance;
@@ -54,7 +54,7 @@ vec3 mirror_image_before(ivec2 pixel) {
 }
 
 float unlikeness(vec4 radiance, Neighborhood neighborhood) {
-    return abs(luminance(radiance.rgb) - luminance(neighborhood.mean.rgb));
+    return abs(luma_bt601(radiance.rgb) - luma_bt601(neighborhood.mean.rgb));
 }
 
 // The surface's position or its mirror image's, whose history looks more like the pixel's neighborhood now.

@@ -7,6 +7,7 @@
 //   c: sum L q / p over sum q / p: Blender's EEVEE.
 #ifndef FROSTBITE_SSSR_ESTIMATORS_GLSL
 #define FROSTBITE_SSSR_ESTIMATORS_GLSL
+#include "common/luminance.glsl"
 #include "frostbite_sssr/horizon.glsl"
 #include "frostbite_sssr/ray_radiance.glsl"
 
@@ -21,7 +22,6 @@ struct Sums {
 
 const Sums no_sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0.0);
 
-float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }  // ITU-R BT.709
 
 void add_ray_length(inout Sums sums, float ray_length, float weight, float density_ratio) {
     // Those that the pixel itself would hardly have drawn must not decide alone (Wicked Engine's threshold).
@@ -59,15 +59,15 @@ void add_ray(inout Sums sums, ivec2 pixel, Surface surface, ReusedRay ray) {
     sums.known_weight += seen.confidence * weight;
     sums.weighed_radiance += seen.confidence * weight * seen.radiance;
     if (is_into_surface) return;
-    add_ray_length(sums, own.ray_length, ray.traced.confidence * luminance(weight), density_ratio);
+    add_ray_length(sums, own.ray_length, ray.traced.confidence * luminance_bt709(weight), density_ratio);
 }
 
 vec3 ratio_or_zero(vec3 a, vec3 b) { return mix(vec3(0.0), a / max(b, vec3(1e-37)), greaterThan(b, vec3(0.0))); }
 
 // rgb: radiance before the BRDF, or times its integral without reflectance_after_filter; w: confidence.
 vec4 resolved(Sums sums, Surface surface) {
-    float weight = luminance(sums.weight);
-    float confidence = weight > 0.0 ? luminance(sums.known_weight) / weight : 0.0;
+    float weight = luminance_bt709(sums.weight);
+    float confidence = weight > 0.0 ? luminance_bt709(sums.known_weight) / weight : 0.0;
     if (!is_estimator_b) {
         vec3 radiance = ratio_or_zero(sums.weighed_radiance, sums.known_weight);
         return vec4(reflectance_after_filter ? radiance : radiance * reflectance(surface), confidence);

@@ -1,6 +1,7 @@
 // One probe ray per block of 8x8 pixels: what it sees, and whether it is on the screen.
 #include "tracer"
 #include "rough_tracer"
+#include "common/luminance.glsl"
 #include "frostbite_sssr/reuse.glsl"
 #include "frostbite_sssr/tile.glsl"
 #include "frostbite_sssr/trace_ray.glsl"
@@ -34,7 +35,7 @@ ivec2 probed_pixel(ivec2 block) {
 vec3 color_at(ivec2 pixel) { return textureLod(hit_color, color_uv_of(pixel), 0.0).rgb; }
 
 float compressed_luminance(vec3 color) {
-    float luminance = max(dot(color, vec3(0.2126, 0.7152, 0.0722)), 0.0);
+    float luminance = max(luminance_bt709(color), 0.0);
     return luminance / (1.0 + luminance);
 }
 

@@ -50,8 +50,10 @@ std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const Tra
                     unsigned rays_per_pixel) {
     const std::string head = "TraceEnd " + slot.function + "(TraceRay ray) ", call = tracer.name + "_trace(ray)";
     const std::string file = "#include \"" + tracer.shader + "\"\n";
-    const std::string constants = "#ifndef RECORDED_RAYS_PER_PIXEL\n#define RECORDED_RAYS_PER_PIXEL\nconst uint "
-                                  "recorded_rays_per_pixel = " + std::to_string(rays_per_pixel) + "u;\n#endif\n";
+    const std::string constants =
+        "#ifndef RECORDED_RAYS_PER_PIXEL\n#define RECORDED_RAYS_PER_PIXEL\nconst uint "
+        "recorded_rays_per_pixel = " +
+        std::to_string(rays_per_pixel) + "u;\n#endif\n";
     const std::string recorder = constants + "#include \"tracers/record.glsl\"\n";
     if (what == Including::rays_only)
         return recorder + head +
@@ -101,9 +103,7 @@ const TracerEntry& Tracers::chosen(const std::string& slot) const {
     return find_tracer(parameter->value.get<std::string>());
 }
 
-TracerNeeds Tracers::needs(const std::string& slot) const {
-    return tracer_of(slot).needs();
-}
+TracerNeeds Tracers::needs(const std::string& slot) const { return tracer_of(slot).needs(); }
 
 const Tracer& Tracers::tracer_of(const std::string& slot) const {
     return *tracers_[size_t(&chosen(slot) - tracer_table().data())];
@@ -168,7 +168,8 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
     };
     if (needed.exact_hits) {
         run_as(Including::rays_only);
-        const std::vector<ExactHit> hits = probe->exact_hits({pass.stage(), rays_per_pixel, download_records(graph, buffer())});
+        const std::vector<ExactHit> hits =
+            probe->exact_hits({pass.stage(), rays_per_pixel, download_records(graph, buffer())});
         graph.upload(graph.buffer("exact_hits", rays * sizeof(ExactHit)), std::as_bytes(std::span(hits)));
     }
     if (probe && probe->is_recording) {

@@ -13,8 +13,8 @@ std::span<const TracerEntry> tracer_table();
 /// Fails with a near miss if there is none of that name.
 const TracerEntry& find_tracer(const std::string& name);
 
-/// How a technique makes pyramids of depth (common/depth_pyramid.h): of at most so many levels, of the nearest or of the
-/// farthest depths.
+/// How a technique makes pyramids of depth (common/depth_pyramid.h): of at most so many levels, of the nearest or of
+/// the farthest depths.
 using PyramidMaker = std::function<Image(PassGraph&, const Image& depth, unsigned mips, bool keeps_farthest)>;
 
 /// The place of a tracer in a technique: the parameter `name`, which chooses one. Shaders write `#include "<name>"` and
@@ -45,12 +45,11 @@ public:
     };
     Images images(PassGraph& graph, const Image& depth, const PyramidMaker& make = {}) const;
 
-    /// Runs `pass`, whose shader includes `slots`, once by `run`; with a probe that asks for it a second time before, to
-    /// get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different TraceRay::number. Fails if a
+    /// Runs `pass`, whose shader includes `slots`, once by `run`; with a probe that asks for it a second time before,
+    /// to get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different TraceRay::number. Fails if a
     /// tracer needs exact hits and `probe` has none.
-    void run(PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots,
-             const Images& images, RayProbe* probe, unsigned rays_per_pixel,
-             const std::function<void(PassGraph::Pass&)>& run) const;
+    void run(PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots, const Images& images,
+             RayProbe* probe, unsigned rays_per_pixel, const std::function<void(PassGraph::Pass&)>& run) const;
 
     /// What the slots' names stand for in shaders, for whoever compiles them outside of run().
     ShaderIncludes includes() const;
