@@ -169,6 +169,7 @@ const Mask everywhere{.name = "all", .extent = {}, .inside = {}};  // the only o
 
 bool judges_rays(const Play& play, const SeedRun& run, const FrameStep& step) {
     const auto& seeds = play.variant.seeds;
+    if (!play.variant.depends_on_seed && run.seed != seeds.front()) return false;  // it would trace the same rays
     return play.config.hits && step.is_measured && play.shot.config.gbuffer.empty() &&
            size_t(std::ranges::find(seeds, run.seed) - seeds.begin()) < play.config.hits->seeds;
 }

@@ -55,6 +55,11 @@ bool exact_layer_reaches(ivec2 pixel, ExactLayerPatch shown, float z) {
     return false;
 }
 
+// At grazing angles rounding puts samples of the plane that the ray leaves in its way.
+bool exact_layer_is_own(ScreenLine line, ExactLayerPatch shown, float distance) {
+    return is_own_plane(shown.position - line.vs_origin, line.vs_normal, line.rise, distance);
+}
+
 TraceEnd exact_layer_hit(ScreenLine line, ivec2 pixel, float t, TraceRay ray) {
     return TraceEnd(pixel, position_at(line, t), distance_at(line, t), 1.0, outcome_hit);
 }
@@ -70,18 +75,17 @@ TraceEnd exact_layer_trace(TraceRay ray) {
         ExactLayerPatch shown = exact_layer_patch(pixel);
         if (is_background(shown.device_depth)) continue;
 
-        // At grazing angles rounding puts samples of the plane that the ray leaves in its way.
         float s_in = distance_at(line, t_in), s_out = distance_at(line, t_out);
-        if (is_own_plane(shown.position - ray.origin, ray.geometric_normal, line.rise, s_out)) continue;
-
         vec3 p_in = ray.origin + s_in * ray.direction, p_out = ray.origin + s_out * ray.direction;
         float height_in = dot(p_in - shown.position, shown.normal), height_out = dot(p_out - shown.position, shown.normal);
         if (height_in >= 0.0) {
             if (height_out >= 0.0) continue;
             float share = height_in / (height_in - height_out);
+            if (exact_layer_is_own(line, shown, mix(s_in, s_out, share))) continue;
             if (!exact_layer_reaches(pixel, shown, mix(p_in.z, p_out.z, share))) continue;
             return exact_layer_hit(line, pixel, mix(t_in, t_out, share), ray);
         }
+        if (exact_layer_is_own(line, shown, s_in)) continue;
         // Behind the plane at once. Planes of neighbours on a curved surface do not join: less than a pixel's width is a
         // crack between them.
         bool is_in_crack = height_in > -exact_layer_pixel_width(p_in.z) && dot(ray.direction, shown.normal) < 0.0;

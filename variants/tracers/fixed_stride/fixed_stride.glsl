@@ -42,7 +42,9 @@ FixedStrideSample fixed_stride_sample(ScreenLine line, float t) {
     result.surface = fetch_depth(result.pixel);
     result.is_behind = !is_nearer(depth_at(line, t), result.surface) && !fixed_stride_is_sky(result.surface);
     if (fixed_stride_leave_own_surface && result.is_behind)
-        result.is_behind = result.pixel != line.pixel && !is_own_plane_at(line, result.pixel, result.surface, t);
+        // Where the ray passes the surface's depth: a step later it may be far above what it leaves.
+        result.is_behind = result.pixel != line.pixel &&
+                           !is_own_plane_at(line, result.pixel, result.surface, closest_t(line, result.surface, 0.0, t));
     return result;
 }
 
