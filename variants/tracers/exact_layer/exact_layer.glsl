@@ -72,7 +72,7 @@ TraceEnd exact_layer_trace(TraceRay ray) {
 
         // Of the plane that the ray leaves: at grazing angles rounding puts its samples in the way.
         float s_in = distance_at(line, t_in), s_out = distance_at(line, t_out);
-        if (dot(shown.position - ray.origin, ray.geometric_normal) < 0.5 * line.rise * s_out) continue;
+        if (dot(shown.position - ray.origin, ray.geometric_normal) < 0.5 * line.rise * s_in) continue;
 
         vec3 p_in = ray.origin + s_in * ray.direction, p_out = ray.origin + s_out * ray.direction;
         float height_in = dot(p_in - shown.position, shown.normal), height_out = dot(p_out - shown.position, shown.normal);
