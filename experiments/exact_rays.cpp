@@ -34,8 +34,9 @@ ExactRays::ExactRays(const Shot& shot, unsigned frame, const CameraData& camera)
 }
 
 ExactHit ExactRays::judged(const SurfacePoint& point, glm::vec3 direction, float distance) const {
+    const float view_z = (camera_.view_from_world * glm::vec4(point.position, 1.0f)).z;
+    if (view_z >= 0) return {.distance = distance, .outcome = outcome_behind_camera};
     const glm::vec4 clip = camera_.clip_from_world * glm::vec4(point.position, 1.0f);
-    if (clip.w <= 0) return {.distance = distance, .outcome = outcome_behind_camera};
     const glm::vec2 position = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(extent_);
     if (!view_.frames(point.position)) return {position, distance, outcome_off_screen};
     const glm::vec3 to_eye = view_.to_eye(point.position);
