@@ -23,6 +23,11 @@ EnvironmentImages::EnvironmentImages(PassGraph& graph, const Environment& enviro
 
 PassGraph::Pass& EnvironmentImages::bind(PassGraph::Pass& pass) const { return bind_sharp(pass).read(atlas_); }
 
+PassGraph::Pass& EnvironmentImages::bind_rays(PassGraph::Pass& pass) const {
+    compile_in(pass, unsigned(environment_.type));
+    return bind_sharp(pass);
+}
+
 PassGraph::Pass& EnvironmentImages::bind_sharp(PassGraph::Pass& pass) const {
     return pass.read(sharp_)
         .set("environment_type", unsigned(environment_.type))
@@ -32,10 +37,16 @@ PassGraph::Pass& EnvironmentImages::bind_sharp(PassGraph::Pass& pass) const {
         .set("environment_axis", glm::vec4(environment_.axis, 0));
 }
 
+void EnvironmentImages::compile_in(PassGraph::Pass& pass, unsigned kind) {
+    pass.include("core/shaders/gbuffer/environment_kind.glsl", "const uint any_environment = 4u, environment_kind = " +
+                                                                   std::to_string(kind) + "u;\n");
+}
+
 PassGraph::Pass& bind_environment(PassGraph::Pass& pass, const GBuffer& gbuffer) {
-    if (gbuffer.environment) return gbuffer.environment->bind_sharp(pass);
+    if (gbuffer.environment) return gbuffer.environment->bind_rays(pass);
     const unsigned type_of_file = 3;
     const glm::vec4 unused(0);
+    EnvironmentImages::compile_in(pass, type_of_file);
     return pass.read(gbuffer.fallback.as("environment"))
         .set("environment_type", type_of_file)
         .set("environment_rotation", 0.0f)

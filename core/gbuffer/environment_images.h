@@ -12,6 +12,9 @@ public:
     /// Binds images and constants to the pass; `bind_sharp` for shaders that do not read the prefiltered image.
     PassGraph::Pass& bind(PassGraph::Pass& pass) const;
     PassGraph::Pass& bind_sharp(PassGraph::Pass& pass) const;
+    /// The same, with the kind of environment compiled in.
+    PassGraph::Pass& bind_rays(PassGraph::Pass& pass) const;
+    static void compile_in(PassGraph::Pass& pass, unsigned kind);
 
     const PrefilteredEnvironment& prefiltered() const { return prefiltered_; }
 

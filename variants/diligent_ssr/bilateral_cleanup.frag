@@ -26,15 +26,15 @@ bool is_kept(ivec2 pixel) {
     return texelFetch(roughness, pixel, 0).r <= roughness_threshold && !is_far_plane(texelFetch(depth, pixel, 0).r);
 }
 
-// `depth_change`: of the camera depth over the offset, if the surface is flat (m).
-float edge_stop(ivec2 pixel, ivec2 neighbor, float depth_change) {
-    vec3 ws_normal = texelFetch(normal, pixel, 0).xyz, ws_neighbor_normal = texelFetch(normal, neighbor, 0).xyz;
-    float same_normal = pow(max(dot(ws_normal, ws_neighbor_normal), 0.0), normal_exponent);
-    float difference = abs(camera_depth_at(pixel) - camera_depth_at(neighbor));
+// `ws_normal`, `pixel_depth`: of the pixel. `depth_change`: of the camera depth over the offset, if the surface is flat (m).
+float edge_stop(vec3 ws_normal, float pixel_depth, ivec2 neighbor, float depth_change) {
+    float same_normal = pow(max(dot(ws_normal, texelFetch(normal, neighbor, 0).xyz), 0.0), normal_exponent);
+    float difference = abs(pixel_depth - camera_depth_at(neighbor));
     return same_normal * exp(-difference / (abs(depth_change) + 1e-6));
 }
 
-vec4 filtered(ivec2 pixel, int radius, vec2 depth_gradient) {
+vec4 filtered(ivec2 pixel, float pixel_depth, int radius, vec2 depth_gradient) {
+    vec3 ws_normal = texelFetch(normal, pixel, 0).xyz;
     float sigma = bilateral_cleanup_spatial_sigma_factor, weight_sum = 0.0;
     vec4 sum = vec4(0.0);
     for (int y = -radius; y <= radius; ++y)
@@ -43,7 +43,7 @@ vec4 filtered(ivec2 pixel, int radius, vec2 depth_gradient) {
             if (!is_kept(neighbor)) continue;
             vec2 offset = vec2(float(x), float(y));
             float weight = exp(-dot(offset, offset) / (2.0 * sigma * sigma)) *
-                           edge_stop(pixel, neighbor, dot(offset, depth_gradient));
+                           edge_stop(ws_normal, pixel_depth, neighbor, dot(offset, depth_gradient));
             sum += weight * texelFetch(accumulated_radiance, neighbor, 0);
             weight_sum += weight;
         }
@@ -55,7 +55,7 @@ void main() {
     float pixel_depth = camera_depth_at(pixel);
     vec2 depth_gradient = vec2(dFdx(pixel_depth), dFdy(pixel_depth));
     int radius = bilateral_cleanup ? kernel_radius(pixel) : 0;
-    vec4 radiance = radius > 0 ? filtered(pixel, radius, depth_gradient) : texelFetch(accumulated_radiance, pixel, 0);
+    vec4 radiance = radius > 0 ? filtered(pixel, pixel_depth, radius, depth_gradient) : texelFetch(accumulated_radiance, pixel, 0);
     if (premultiply_confidence) radiance.rgb = radiance.a > 0.0 ? radiance.rgb / radiance.a : vec3(0.0);
     reflections = vec4(radiance.rgb, radiance.a * alpha_interpolation);
     if (!float_histories) reflections = as_halves(reflections);  // rgb / a may exceed what a half holds
