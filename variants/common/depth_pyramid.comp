@@ -12,7 +12,8 @@ buffer depth_pyramid_counter { uint finished_groups; };
 shared float tile[32 * 32];
 shared bool is_last_group;
 
-float kept_of(float a, float b) { return keeps_farthest == 1u ? farther_of(a, b) : nearer_of(a, b); }
+bool keeps_larger() { return is_reversed() != (keeps_farthest == 1u); }
+float kept_of(float a, float b) { return keeps_larger() ? max(a, b) : min(a, b); }
 
 // Background is no surface: the farthest one is not there.
 float device_depth_of(ivec2 pixel) {

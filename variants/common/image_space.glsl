@@ -12,8 +12,8 @@ vec3 view_from_image(vec3 position) { return view_from_screen(position.xy + jitt
 bool is_reversed() { return camera.depth.w == 1.0; }
 bool is_farther(float a, float b) { return is_reversed() ? a < b : a > b; }
 bool is_nearer(float a, float b) { return is_reversed() ? a > b : a < b; }
-float nearer_of(float a, float b) { return is_nearer(a, b) ? a : b; }
-float farther_of(float a, float b) { return is_nearer(a, b) ? b : a; }
+float nearer_of(float a, float b) { return is_reversed() ? max(a, b) : min(a, b); }
+float farther_of(float a, float b) { return is_reversed() ? min(a, b) : max(a, b); }
 
 // Where DiligentFX takes the depth buffer for empty: also a surface that close to the far plane.
 bool is_far_plane(float device_depth) { return is_reversed() ? device_depth < 1e-6 : device_depth >= 1.0 - 1e-6; }

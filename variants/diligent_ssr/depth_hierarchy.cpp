@@ -7,13 +7,20 @@ namespace {
 
 const std::string stage = "diligent_ssr/depth_hierarchy";
 
-void copy_level(PassGraph& graph, const Image& source, const Image& target, unsigned level, bool drops_background) {
+void copy_level(PassGraph& graph, const Image& source, const Image& target, unsigned level) {
     graph.fragment("diligent_ssr/copy_level.frag")
         .label(stage)
         .read(source.as("copied"))
         .write(target.mip(level).as("copied_depth"))
         .set("level", int(level))
-        .set("drops_background", int(drops_background))
+        .run();
+}
+
+void copy_surfaces(PassGraph& graph, const Image& depth, const Image& target) {
+    graph.fragment("diligent_ssr/copy_surfaces.frag")
+        .label(stage)
+        .read(depth.as("copied"))
+        .write(target.as("copied_depth"))
         .run();
 }
 
@@ -33,7 +40,10 @@ Image depth_hierarchy(PassGraph& graph, const Image& depth, unsigned max_mips, b
     const unsigned mips = std::min(max_mips, unsigned(std::bit_width(std::max(extent.x, extent.y))));
     const std::string name = keeps_farthest ? "farthest_depth_pyramid" : "depth_pyramid";
     const Image hierarchy = graph.image_of(name, Format::r32f, extent, mips);
-    copy_level(graph, depth, hierarchy, 0, keeps_farthest);
+    if (keeps_farthest)
+        copy_surfaces(graph, depth, hierarchy.mip(0));
+    else
+        copy_level(graph, depth, hierarchy, 0);
     if (has_mip_views) {
         for (unsigned level = 1; level < mips; ++level)
             draw_level(graph, hierarchy.mip(level - 1), 0, hierarchy.mip(level), keeps_farthest);
@@ -42,7 +52,7 @@ Image depth_hierarchy(PassGraph& graph, const Image& depth, unsigned max_mips, b
     // The original copies the last level, too, which nothing reads.
     const Image intermediate = graph.image_of(name + "_intermediate", Format::r32f, extent, mips);
     for (unsigned level = 1; level < mips; ++level) {
-        copy_level(graph, hierarchy, intermediate, level - 1, false);
+        copy_level(graph, hierarchy, intermediate, level - 1);
         draw_level(graph, intermediate, level - 1, hierarchy.mip(level), keeps_farthest);
     }
     return hierarchy;

@@ -47,7 +47,7 @@ struct Hierarchy final : Tracer {
          "0, and in fragment shaders: none are", "SSSR 1.5, minTraversalOccupancy: 4"}, Use::constant};
     Param<unsigned> most_detailed_mip{params, "hierarchy.most_detailed_mip", 0, {0, 6},
         {"mip", "finest level of the depth pyramid for all but mirrors, which use 0",
-         "SSSR 1.5, mostDetailedMip; DiligentFX, MostDetailedMip"}};
+         "SSSR 1.5, mostDetailedMip; DiligentFX, MostDetailedMip"}, Use::constant};
     Param<unsigned> pyramid_mips{params, "hierarchy.pyramid_mips", 7, {2, 13},
         {"mips", "levels of the depth pyramid, the full resolution included; as many as the image has, at most",
          "SSSR 1.5 and DiligentFX: 7; SSSR 1.3 builds the whole chain"}};

@@ -132,11 +132,17 @@ HierarchyJudgement hierarchy_judged_by_diligent(vec3 origin, vec3 hit, vec3 dire
 }
 
 TraceEnd hierarchy_trace(TraceRay ray) {
-    int finest =
-        ray.is_mirror ? 0 : min(int(hierarchy_most_detailed_mip), depth_pyramid_coarsest(hierarchy_pyramid_mips));
+    int finest = 0;
+    if (hierarchy_most_detailed_mip > 0u && !ray.is_mirror)
+        finest = min(int(hierarchy_most_detailed_mip), depth_pyramid_coarsest(hierarchy_pyramid_mips));
     vec2 uv = (vec2(ray.pixel) + 0.5) * camera.extent.zw;
-    vec3 origin = vec3(uv, hierarchy_surface_depth(ivec2(uv * camera.extent.xy / float(1 << finest)), finest));
-    vec3 vs_origin = finest == 0 ? ray.origin : hierarchy_view_from_image(origin);
+    vec3 origin = vec3(uv, 0.0), vs_origin = ray.origin;
+    if (finest == 0) {
+        origin.z = fetch_depth(ray.pixel);
+    } else {
+        origin.z = hierarchy_surface_depth(ivec2(uv * camera.extent.xy / float(1 << finest)), finest);
+        vs_origin = hierarchy_view_from_image(origin);
+    }
 
     HierarchyEnd end = hierarchy_walk(hierarchy_screen_ray(origin, vs_origin, ray.direction), finest, ray.is_mirror);
     vec3 vs_ray = hierarchy_view_from_image(end.position) - vs_origin;

@@ -1,0 +1,9 @@
+// The depth of surfaces alone: of the farthest ones background is none, and stands as the near plane.
+#include "core/shaders/view.glsl"
+uniform sampler2D copied;
+layout(location = 0) out float copied_depth;
+
+void main() {
+    copied_depth = texelFetch(copied, ivec2(gl_FragCoord.xy), 0).r;
+    if (is_background(copied_depth)) copied_depth = 1.0 - camera.depth.z;
+}
