@@ -152,6 +152,46 @@ void add_times(const StudyShot& shot, const StudyPoint& point, double slowness, 
     }
 }
 
+/// Two passes, one of which traced rough surfaces only; two masks. The moving shot has two frames.
+void add_hits(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
+    const auto add = [&](const std::string& frame, const char* stage, const char* mask, double right) {
+        const auto add_row = [&](const char* quantity, double value, bool has_interval = true) {
+            HitRow row{.shot = shot.name,
+                       .frame = frame,
+                       .variant = point.variant,
+                       .point = point.point,
+                       .stage = stage,
+                       .mask = mask,
+                       .quantity = quantity,
+                       .seeds = point.seeds,
+                       .rays = 1234.5,
+                       .value = value,
+                       .low = {},
+                       .high = {}};
+            if (has_interval) row.low = 0.9 * value, row.high = 1.1 * value;
+            cell.hits.push_back(row);
+        };
+        add_row("right", right);
+        add_row("wrong_place", 0.0625);
+        add_row("false_hit", 0, false);
+        add_row("avoidable_miss", 0.4375 - right);
+        add_row("unavoidable_miss", 0.25);
+        add_row("empty", 0.25);
+        add_row("correct", right + 0.5);
+        add_row("miss: too_thick", 0.25 * (0.4375 - right));
+        add_row("miss: off_screen", 0.75 * (0.4375 - right));
+        if (right > 0) add_row("distance_error", 0.00123, false);
+        add_row("fetches", 17.25, false);
+    };
+    const std::string last = std::to_string(shot.frames.back());
+    for (const char* mask : {"all", "reflective"}) {
+        const double right = point.error * (mask[0] == 'a' ? 0.25 : 0.125);
+        add(last, "sssr/trace_smooth", mask, right);
+        add(last, "sssr/trace_rough", mask, 0);
+        if (shot.name == study_moving_shot) add("3", "sssr/trace_smooth", mask, 0.5 * right);
+    }
+}
+
 json study_manifest(const std::vector<StudyShot>& shots) {
     json manifest = {
         {"title", "A study of changes"},
@@ -232,6 +272,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
                 add_temporal(make);
             }
             add_split(shot, point, cell);
+            if (point.point == "first" || point.point == "mended") add_hits(shot, point, cell);
             if (point.point == "first") add_times(shot, point, 1, cell);
             if (point.point == "mended") add_times(shot, point, 2, cell);
             times.insert(times.end(), cell.times.begin(), cell.times.end());

@@ -243,6 +243,39 @@ def test_times(folder):
     check("clock gpu_timestamp and host_fence." in lines[7], lines[7])
 
 
+def test_shares(folder):
+    """Shares of rays may be 0; their mean over shots is the arithmetic one."""
+    shares = {  # quantity: by shot (value, low, high)
+        "correct": {"floor": (0.9, 0.88, 0.92), "wall": (0.6, 0.58, 0.62)},
+        "false_hit": {"floor": (0, 0, 0), "wall": (0.5, 0.4, 0.6)},
+        "empty": {"floor": (0, "", ""), "wall": (0, "", "")},
+    }
+    table = {"name": "rays", "caption": "Rays", "of": "hits", "where": {"quantity": list(shares), "mask": "all"}}
+    table |= {"rows": ["point", "stage"], "columns": "quantity", "over": "shot"}
+    write_results(folder, [table])
+    rows = [
+        {"shot": shot, "frame": "0", "variant": "sssr", "point": "default", "stage": "trace", "mask": mask, "quantity": quantity}
+        | {"seeds": 4, "rays": 100, "value": value, "low": low, "high": high}
+        for quantity, by_shot in shares.items()
+        for shot, (value, low, high) in by_shot.items()
+        for mask in ("all", "edge")
+    ]
+    write_rows(os.path.join(folder, "hits.csv"), rows)
+    result = tables(folder)
+    check(result.returncode == 0, result.stderr)
+    lines = read(os.path.join(folder, "tables", "rays.md")).splitlines()
+    check(lines[2] == "| | correct | false_hit | empty |", lines[2])
+    grid = list(csv.reader(open(os.path.join(folder, "tables", "rays.csv"))))
+    check(grid[1][0] == "default, trace", grid[1])
+    numbers = [float(text) if text else None for text in grid[1][1:]]
+    # Half-widths of 0.02 and 0.02, and of 0 and 0.1: the root of their squares' sum over 2.
+    half = math.sqrt(2 * 0.02**2) / 2
+    expected = [0.75, 0.75 - half, 0.75 + half, 0.25, 0.2, 0.3, 0, None, None]
+    for number, value in zip(numbers, expected, strict=True):
+        check((number is None) == (value is None) and (number is None or abs(number - value) < 1e-12), f"{numbers}, expected {expected}")
+    check("(0.600 to 0.900)" in lines[4], lines[4])
+
+
 def test_means_over_what_is_told_apart(folder):
     """Two metrics of a shot are not two shots."""
     for changed, parts in (
@@ -357,6 +390,7 @@ def main():
         test_footers(folder)
         test_what_intervals_hold(folder)
         test_times(folder)
+        test_shares(folder)
         test_means_over_what_is_told_apart(folder)
         test_refusals(folder)
         test_tables_that_nobody_asks_for(temporary)
