@@ -10,6 +10,7 @@
 #include "experiments/host_info.h"
 #include "experiments/manifest.h"
 #include "experiments/provenance.h"
+#include "experiments/rehearsal.h"
 #include "experiments/report.h"
 #include "experiments/report_points.h"
 #include "experiments/results.h"
@@ -253,6 +254,7 @@ void run_study(const Config& config, const RunSettings& settings) {
     for (const auto& warning : study.manifest["warnings"]) study.progress.say("warning: " + warning.get<std::string>());
     plan_work(study);
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
+    rehearse(device, config.variants);
     study.manifest_before = read_manifest_before(settings.out / "manifest.json");
     for (const ShotConfig& shot : config.shots) {
         if (shot.gbuffer.empty())
