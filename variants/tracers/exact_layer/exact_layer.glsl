@@ -60,8 +60,8 @@ bool exact_layer_is_own(ScreenLine line, ExactLayerPatch shown, float distance) 
     return is_own_plane(shown.position - line.vs_origin, line.vs_normal, line.rise, distance);
 }
 
-TraceEnd exact_layer_hit(ScreenLine line, ivec2 pixel, float t, TraceRay ray) {
-    return TraceEnd(pixel, position_at(line, t), distance_at(line, t), 1.0, outcome_hit);
+TraceEnd exact_layer_hit(ScreenLine line, ivec2 pixel, float distance) {
+    return TraceEnd(pixel, position_at(line, t_of_distance(line, distance)), distance, 1.0, outcome_hit);
 }
 
 TraceEnd exact_layer_trace(TraceRay ray) {
@@ -81,15 +81,16 @@ TraceEnd exact_layer_trace(TraceRay ray) {
         if (height_in >= 0.0) {
             if (height_out >= 0.0) continue;
             float share = height_in / (height_in - height_out);
-            if (exact_layer_is_own(line, shown, mix(s_in, s_out, share))) continue;
+            float distance = mix(s_in, s_out, share);
+            if (exact_layer_is_own(line, shown, distance)) continue;
             if (!exact_layer_reaches(pixel, shown, mix(p_in.z, p_out.z, share))) continue;
-            return exact_layer_hit(line, pixel, mix(t_in, t_out, share), ray);
+            return exact_layer_hit(line, pixel, distance);
         }
         if (exact_layer_is_own(line, shown, s_in)) continue;
         // Behind the plane at once. Planes of neighbours on a curved surface do not join: less than a pixel's width is a
         // crack between them.
         bool is_in_crack = height_in > -exact_layer_pixel_width(p_in.z) && dot(ray.direction, shown.normal) < 0.0;
-        if (is_in_crack && exact_layer_reaches(pixel, shown, p_in.z)) return exact_layer_hit(line, pixel, t_in, ray);
+        if (is_in_crack && exact_layer_reaches(pixel, shown, p_in.z)) return exact_layer_hit(line, pixel, s_in);
         float z_near = max(p_in.z, p_out.z), z_far = min(p_in.z, p_out.z);
         float solid_end = exact_layer_solid_end(pixel, shown);
         bool is_inside = solid_end < shown.position.z && z_far < shown.position.z && z_near > solid_end;
@@ -98,7 +99,7 @@ TraceEnd exact_layer_trace(TraceRay ray) {
         if (exact_layer_thickness_from == exact_layer_thickness_of_scene)
             return missed(outcome_hidden, position_at(line, t_in), s_in);
         if (dot(ray.direction, shown.normal) >= 0.0) return missed(outcome_from_behind, position_at(line, t_in), s_in);
-        return exact_layer_hit(line, pixel, t_in, ray);
+        return exact_layer_hit(line, pixel, s_in);
     }
     return missed_on_line(line, false);
 }
