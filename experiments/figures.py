@@ -1,10 +1,10 @@
 """Paper figures from a results folder, as PDF, SVG and PNG. Of each shot: error against time, stage times, and crops with
 error maps. Of the study, where it has such results: error and bias by roughness, bias and variance, effects of changes,
-temporal metrics, and the error of each frame.
+temporal metrics, the error of each frame, and depth fetches per ray against the resolution.
 
 usage: figures.py RESULTS [--out DIR] [--target specular] [--metric relmse] [--mask reflective]
 
-It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv and the EXR images (experiments/RESULTS.md), and writes the same bytes
+It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv and the EXR images (experiments/RESULTS.md), and writes the same bytes
 whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
 """
 
@@ -25,6 +25,7 @@ from paper_figures import (
     crops,
     effects,
     error_time,
+    fetches,
     frames,
     roughness,
     stage_times,
@@ -41,7 +42,9 @@ STUDY_FIGURES = {
     "bias_variance": bias_variance.draw,
     "temporal": temporal.draw,
     "frames": frames.draw,
+    "fetches": fetches.draw,
 }
+UNMEASURED_FIGURES = ("fetches",)  # of studies without a reference
 
 
 def parse_arguments():
@@ -60,8 +63,10 @@ def main():
     style.apply()
     try:
         results = Results(arguments.results)
-        arguments.metric = arguments.metric or results.headline_metric()
-        errors = results.errors_of(arguments.target, arguments.metric, arguments.mask)
+        is_measured = bool(results.errors) or not results.hits
+        if is_measured:
+            arguments.metric = arguments.metric or results.headline_metric()
+            errors = results.errors_of(arguments.target, arguments.metric, arguments.mask)
         out = arguments.out or os.path.join(arguments.results, "figures")
         os.makedirs(out, exist_ok=True)
         drawings = [
@@ -69,8 +74,10 @@ def main():
             for shot in results.shots()
             for name, draw in SHOT_FIGURES.items()
         ]
-        drawings += [(name, draw, (results, arguments)) for name, draw in STUDY_FIGURES.items()]
         drawings += [
+            (name, draw, (results, arguments)) for name, draw in STUDY_FIGURES.items() if is_measured or name in UNMEASURED_FIGURES
+        ]
+        drawings += [] if not is_measured else [
             (name, effects.draw, (results, arguments, rows))
             for name, rows in effects.comparisons(results, arguments).items()
         ]

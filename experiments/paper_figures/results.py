@@ -66,6 +66,7 @@ class Results:
         self.times = self.read_csv("time_summary.csv")
         self.splits = self.read_csv("splits.csv", is_optional=True)
         self.effects = self.read_csv("effects.csv", is_optional=True)
+        self.hits = self.read_csv("hits.csv", is_optional=True)
         self.single_changes = self._single_changes()
 
     def _read_manifest(self):
