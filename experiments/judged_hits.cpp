@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace {
 
 const std::array<const char*, outcome_count> outcome_names = {"hit",         "off_screen",  "behind_camera",
                                                               "unfinished",  "background",  "too_thick",
                                                               "from_behind", "own_surface", "hidden"};
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();  // of what is no share
 
 bool is_nothing(const ExactHit& truth) {
     return truth.outcome == outcome_background || truth.outcome == outcome_own_surface;
@@ -74,7 +77,7 @@ void JudgedHits::add(unsigned seed, const RecordedRays& recorded, const std::vec
 std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
     std::vector<HitRow> rows;
     for (const auto& [key, seeds] : counts_) {
-        const auto add = [&](const std::string& quantity, const auto& value_of) {
+        const auto add = [&](const std::string& quantity, const auto& value_of, double most = 1.0) {
             std::vector<double> values;
             double rays = 0;
             for (const Count& count : seeds) {
@@ -93,7 +96,7 @@ std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
             row.value = sum / double(values.size());
             if (values.size() >= 2) {
                 const Estimate estimate = mean_estimate(values);
-                row.low = estimate.low, row.high = estimate.high;
+                row.low = std::max(estimate.low, 0.0), row.high = std::min(estimate.high, most);  // a share stays one
             }
             rows.push_back(std::move(row));
         };
@@ -112,14 +115,18 @@ std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
             if (std::ranges::any_of(seeds, [&](const Count& c) { return c.rays > 0 && *share(c) > 0; }))
                 add(std::string("miss: ") + outcome_names[outcome], share);
         }
-        add("distance_error", [](const Count& c) -> std::optional<double> {
-            if (c.distance_errors.empty()) return {};
-            std::vector<float> errors = c.distance_errors;
-            const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
-            std::ranges::nth_element(errors, middle);
-            return double(*middle);
-        });
-        add("fetches", [](const Count& c) -> std::optional<double> { return c.fetches / c.rays; });
+        add(
+            "distance_error",
+            [](const Count& c) -> std::optional<double> {
+                if (c.distance_errors.empty()) return {};
+                std::vector<float> errors = c.distance_errors;
+                const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
+                std::ranges::nth_element(errors, middle);
+                return double(*middle);
+            },
+            unbounded);
+        add(
+            "fetches", [](const Count& c) -> std::optional<double> { return c.fetches / c.rays; }, unbounded);
     }
     return rows;
 }

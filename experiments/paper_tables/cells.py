@@ -17,6 +17,7 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "hits": ("hits.csv", ("value", "low", "high")),
 }
 SHARES = ("hits",)  # may be 0: their mean over shots is the arithmetic one
+NOT_SHARES = ("fetches", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
 KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "labels"}
 NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
 SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
@@ -143,6 +144,8 @@ def _timed(row, against=""):
 def _cell(selection, row, name):
     table = selection.table
     value, low, high = (_number(row, c) for c in SOURCES[table.of][1] or ("value", "low", "high"))
+    if table.of in SHARES and row["quantity"] not in NOT_SHARES:
+        low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
     p = _number(row, "p_holm")
     seeds = _number(row, "seeds")
     shares = [selection.disturbed.get(key) for key in (_timed(row), _timed(row, "against_"))]

@@ -1,4 +1,5 @@
 #pragma once
+#include "variants/common/blue_noise.h"
 #include "variants/common/inward_rays.h"
 #include "variants/tracers/tracers.h"
 
@@ -31,10 +32,7 @@ struct AmdTracingParameters {
          "fallback: the environment in the ray's direction", "SSSR 1.5: fallback; weight: DiligentFX"}};
 
     // Corrections.
-    Switch independent_noise_shifts{params, "independent_noise_shifts", false,
-        {"", "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts "
-         "both by the golden ratio, so that a pixel's samples stay on one diagonal of the unit square and never "
-         "cover the lobe", "ssrlab; Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"}};
+    Switch independent_noise_shifts = independent_noise_shifts_parameter(params);
     Switch trace_orphans{params, "trace_orphans", false,
         {"", "a pixel that waits for the ray of a quad neighbour which traces none traces its own. In the original it "
          "stays black: dark contours where a quad's first pixel is sky, rough or of another surface", "ssrlab"}};

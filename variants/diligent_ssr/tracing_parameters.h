@@ -1,4 +1,5 @@
 #pragma once
+#include "variants/common/blue_noise.h"
 #include "variants/common/inward_rays.h"
 #include "variants/tracers/tracers.h"
 
@@ -35,10 +36,7 @@ struct DiligentTracingParameters {
         {"", "moves the part of the lobe that ggx_importance_sample_bias leaves towards the mirror direction, which a "
          "bias of 1 then gives. The original moves it towards the view direction, and its rays with it", "ssrlab"}};
     Choice inward_rays = inward_rays_parameter(params, "traced", "DiligentFX: traced");
-    Switch independent_noise_shifts{params, "independent_noise_shifts", false,
-        {"", "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts both by "
-         "the golden ratio, so that a pixel's samples stay on one diagonal of the unit square and never cover the lobe",
-         "ssrlab; Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"}};
+    Switch independent_noise_shifts = independent_noise_shifts_parameter(params);
     Switch float_roughness{params, "float_roughness", false,
         {"", "keeps the roughness that is extracted with the mask in 32 bits in place of 8", "ssrlab; DiligentFX stores R8_UNORM"}};
     Switch float_rays{params, "float_rays", false,
