@@ -1,6 +1,7 @@
 #include "core/gpu/device.h"
 #include "tests/variants/synthetic_gbuffer.h"
 #include "variants/registry.h"
+#include "variants/tracers/tracers.h"
 
 #include <benchmark/benchmark.h>
 #include <algorithm>
@@ -127,4 +128,16 @@ BENCHMARK_CAPTURE(frames, diligent_current_mip_views, "diligent_ssr", "current",
 BENCHMARK_CAPTURE(frames, diligent_current_half, "diligent_ssr", "current", half)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_corrected, "diligent_ssr", "corrected", full)->Apply(at_both_sizes);
 
-BENCHMARK_MAIN();
+// One mirror ray per pixel by each tracer that the made-up G-buffer has all for.
+int main(int argc, char** argv) {
+    for (const TracerEntry& tracer : tracer_table())
+        if (tracer.name != "exact_scene") {
+            const nlohmann::json parameters = {{"tracer", tracer.name}, {"exact_layer.thickness_from", "parameter"}};
+            at_both_sizes(benchmark::RegisterBenchmark(
+                ("tracers/" + tracer.name).c_str(),
+                [=](benchmark::State& state) { frames(state, "mcguire_dda", "", parameters); }));
+        }
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}
