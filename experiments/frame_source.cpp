@@ -103,7 +103,7 @@ FrameStore::FrameStore(FrameSource& source, DepthFormat depth_format, size_t max
 FrameStore::~FrameStore() = default;
 
 FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit) {
-    constexpr size_t bytes_per_pixel = 132;  // of the formats in gbuffer.h
+    constexpr size_t bytes_per_pixel = 140;  // of the formats in gbuffer.h, with both depth layers
     const auto key = std::pair(step.frame, step.previous_frame);
     auto found = stored_.find(key);
     if (found == stored_.end() || !found->second) {

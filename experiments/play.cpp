@@ -53,7 +53,7 @@ struct Play {
         untold;  ///< masks, by temporal metric and reason
     size_t rendered = 0;
     std::map<unsigned, ExactRays> exact_rays = {};  ///< by frame
-    std::map<std::string, JudgedHits> judged = {};  ///< by the number of the frame
+    std::map<unsigned, JudgedHits> judged = {};  ///< by frame
 
     const FrameStep& last_step() const { return shot.steps.back(); }
     ResultRow row(const std::string& frame, unsigned seed) const {
@@ -181,7 +181,7 @@ void judge_rays(Play& play, SeedRun& run, const FrameStep& step, const CameraDat
     const bool is_shown = &step == &play.last_step() && run.seed == play.variant.seeds.front();
     for (const RecordedRays& recorded : run.probe->recorded) {
         const std::vector<ExactHit> truth = exact_rays(play, step, camera).hits(recorded, play.config.hits->every);
-        play.judged[row.frame].add(run.seed, recorded, truth, play.shot.config.extent, play.config.hits->every,
+        play.judged[step.frame].add(run.seed, recorded, truth, play.shot.config.extent, play.config.hits->every,
                                    {masks.begin(), masks.end()});
         if (is_shown && play.config.hits->every == 1)
             play.cell.images.push_back(save_verdict_image(play.settings.out, row, play.settings.image_suffix,
@@ -194,7 +194,7 @@ void judge_rays(Play& play, SeedRun& run, const FrameStep& step, const CameraDat
 void add_hits(Play& play) {
     for (const auto& [frame, judged] : play.judged) {
         const HitRow shared{.shot = play.shot.name(),
-                            .frame = frame,
+                            .frame = std::to_string(frame),
                             .variant = play.variant.variant,
                             .point = play.variant.point,
                             .stage = {},
