@@ -16,11 +16,6 @@ std::span<const VariantEntry> variant_table() {
     return table;
 }
 
-nlohmann::json changed(nlohmann::json parameters, const nlohmann::json& more) {
-    parameters.update(more);
-    return parameters;
-}
-
 namespace {
 
 template <class T>

@@ -13,7 +13,7 @@ LEAST_RESOLUTIONS = 3
 
 def series(results):
     """{scene: {(variant, point): [(rows of pixels, fetches)]}} of the passes that trace a point's rays, all rays."""
-    heights = {s["shot"]: (s["scene"], s["height"]) for s in results.manifest["shots"]}
+    heights = {s["shot"]: (s["scene"], s["height"]) for s in results.manifest["shots"]} if results.hits else {}
     found = {}
     for row in results.hits:
         if row["quantity"] != "fetches" or row["mask"] != "all" or row["shot"] not in heights:
@@ -64,7 +64,7 @@ def draw(results, _chosen):
                 f"{exponent:.2f} ± {half:.2f}",
                 (x[-1], y[-1]),
                 color=color,
-                fontsize=6,
+                fontsize=7,
                 xytext=(-2, -9 if is_below else 4),
                 textcoords="offset points",
                 ha="right",

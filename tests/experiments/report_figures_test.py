@@ -20,7 +20,7 @@ try:
     import numpy as np
     from figures import SHOT_FIGURES, STUDY_FIGURES
     from matplotlib.text import Text
-    from paper_figures import effects, style
+    from paper_figures import effects, fetches, style
     from paper_figures.crops import crop_boxes
     from paper_figures.exr import ExrError, read_exr_rgb
     from paper_figures.lines import draw_lines
@@ -174,6 +174,9 @@ def test_study(folder):
     figures_of = {name: draw(results, chosen) for name, draw in STUDY_FIGURES.items()}
     compared = effects.comparisons(results, chosen)
     figures_of |= {name: effects.draw(results, chosen, rows) for name, rows in compared.items()}
+    check(figures_of.pop("fetches") is None, "one resolution has no fit")
+    power, half = fetches.power_of([(rows, 3 * rows**0.5) for rows in (480, 720, 1080)])
+    check(abs(power - 0.5) < 1e-9 and half < 1e-6, f"power {power}")  # rounding of logarithms
     panels = {name: [a for a in figure.get_axes() if a.has_data()] for name, figure in figures_of.items()}
     is_single = lambda r: "=" in r["point"]
 

@@ -1,5 +1,5 @@
 #include "variants/amd_sssr/amd_sssr.h"
-#include "variants/registry.h"
+#include "variants/common/variant_entry.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
+#include "variants/common/variant_entry.h"
 #include "variants/diligent_ssr/diligent_ssr.h"
-#include "variants/registry.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
+#include "variants/common/variant_entry.h"
 #include "variants/frostbite_sssr/frostbite_sssr.h"
-#include "variants/registry.h"
 
 VariantEntry frostbite_sssr_entry() {
     return {

@@ -1,5 +1,5 @@
+#include "variants/common/variant_entry.h"
 #include "variants/mcguire_dda/mcguire_dda.h"
-#include "variants/registry.h"
 
 VariantEntry mcguire_dda_entry() {
     return {

@@ -1,5 +1,5 @@
+#include "variants/common/variant_entry.h"
 #include "variants/none/none.h"
-#include "variants/registry.h"
 
 VariantEntry none_entry() {
     return {
