@@ -13,7 +13,7 @@ LEAST_RESOLUTIONS = 3
 
 def series(results):
     """{scene: {(variant, point): [(rows of pixels, fetches)]}} of the passes that trace a point's rays, all rays."""
-    heights = {s["shot"]: (s["scene"], s["height"]) for s in results.manifest["shots"]} if results.hits else {}
+    heights = {s["shot"]: (s.get("scene", s["shot"]), s["height"]) for s in results.manifest["shots"] if "height" in s}
     found = {}
     for row in results.hits:
         if row["quantity"] != "fetches" or row["mask"] != "all" or row["shot"] not in heights:
