@@ -1,5 +1,6 @@
-"""What the tests in a browser share: the browser, and for those of the report checks and canvas pixels."""
+"""What the tests in a browser share: the browser, and for those of the report checks, tables and canvas pixels."""
 
+import csv
 import os
 import sys
 
@@ -81,3 +82,32 @@ def canvas(page, pane):
 def srgb_code(v):
     v = min(max(v, 0), 1)
     return round(255 * (12.92 * v if v <= 0.0031308 else 1.055 * v ** (1 / 2.4) - 0.055))
+
+
+def rows_of(folder, name, **wanted):
+    """Of a CSV file of results, those whose columns have these values."""
+    with open(os.path.join(folder, name), newline="") as file:
+        return [r for r in csv.DictReader(file) if all(r[k] == v for k, v in wanted.items())]
+
+
+def values(page, selector):
+    """The values of the marks there, with all digits."""
+    return page.execute_script(
+        "return [...document.querySelectorAll(arguments[0])].map(p => Number(p.dataset.value))", selector
+    )
+
+
+def choose_in(page, section, label, text):
+    """In any section; choose() is for the pictures' own."""
+    element = page.find_element(
+        By.XPATH, f"//section[@id='{section}']//label[normalize-space(text())='{label}']/select"
+    )
+    Select(element).select_by_visible_text(text)
+
+
+def table_of(page, selector):
+    return page.execute_script(
+        """return [...document.querySelector(arguments[0]).querySelectorAll('tbody tr')].map(tr =>
+        [...tr.cells].map(td => [td.innerText, td.dataset.value ?? null]))""",
+        selector,
+    )

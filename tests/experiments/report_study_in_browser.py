@@ -3,49 +3,22 @@
 usage: report_study_in_browser.py REPORT_PAGE_PROGRAM
 """
 
-import csv
 import math
 import os
 import subprocess
 import sys
 import tempfile
 
-from report_browser import By, Select, check, equal, open_browser
+from report_browser import By, check, choose_in, equal, open_browser, rows_of, table_of, values
+from report_rays import test_rays
 from selenium.webdriver.support.ui import WebDriverWait
 
 RACING, LADDER = "first race=true", "truth ladder"
 STEP, MOVING = "step.main.160x90.f29-44.w8", "moving.main.160x90.f3-6.w4"
 
 
-def rows_of(folder, name, **wanted):
-    with open(os.path.join(folder, name), newline="") as file:
-        return [r for r in csv.DictReader(file) if all(r[k] == v for k, v in wanted.items())]
-
-
 def is_single_change(row):
     return "=" in row["point"]
-
-
-def values(page, selector):
-    """The values of the marks there, with all digits."""
-    return page.execute_script(
-        "return [...document.querySelectorAll(arguments[0])].map(p => Number(p.dataset.value))", selector
-    )
-
-
-def choose(page, section, label, text):
-    element = page.find_element(
-        By.XPATH, f"//section[@id='{section}']//label[normalize-space(text())='{label}']/select"
-    )
-    Select(element).select_by_visible_text(text)
-
-
-def table_of(page, selector):
-    return page.execute_script(
-        """return [...document.querySelector(arguments[0]).querySelectorAll('tbody tr')].map(tr =>
-        [...tr.cells].map(td => [td.innerText, td.dataset.value ?? null]))""",
-        selector,
-    )
 
 
 def test_results(page, folder):
@@ -118,13 +91,13 @@ def test_truth_ladder(page, folder):
     check(bold and LADDER not in bold, f"best values are those of techniques: {bold}")
     heads = [e.text for e in page.find_elements(By.CSS_SELECTOR, "#overview th")]
     check("truth ladder · on_screen" in heads, f"columns of the overview: {heads}")
-    choose(page, "results", "Target", "incident")
+    choose_in(page, "results", "Target", "incident")
     check(all(c[1][0] != LADDER for c in table_of(page, "#summary")), "no limit where none was measured")
-    choose(page, "results", "Target", "specular")
+    choose_in(page, "results", "Target", "specular")
 
 
 def test_images_of_a_rung(page):
-    choose(page, "viewer", "Target", "on_screen")
+    choose_in(page, "viewer", "Target", "on_screen")
     WebDriverWait(page, 20).until(lambda p: len(p.find_elements(By.CSS_SELECTOR, "#panes figcaption")) == 2)
     captions = [c.text for c in page.find_elements(By.CSS_SELECTOR, "#panes figcaption")]
     check(captions[0].endswith("reference") and captions[1].endswith("sssr · first"), f"rung and technique: {captions}")
@@ -184,58 +157,6 @@ def test_splits(page, folder):
         [float(r[k]) for r in rows for k in ("bias_squared", "variance")],
         "marks of bias and variance",
     )
-
-
-def test_rays(page, folder):
-    verdicts = ("right", "unavoidable_miss", "empty", "avoidable_miss", "wrong_place", "false_hit")
-
-    def shown_rows():
-        return table_of(page, "#hit-table")
-
-    def lines_of(shot, mask):
-        """What hits.csv has of each point, frame and pass, in its order."""
-        lines = {}
-        for r in rows_of(folder, "hits.csv", shot=shot, mask=mask):
-            lines.setdefault((r["variant"], r["point"], r["stage"], r["frame"]), {})[r["quantity"]] = r
-        return lines
-
-    def expect(shot, mask):
-        lines, shown = lines_of(shot, mask), shown_rows()
-        has_frames = len({key[3] for key in lines}) > 1
-        equal(len(shown), len(lines), f"rows of rays: {shot}, {mask}")
-        for cells, ((variant, point, stage, frame), by) in zip(shown, lines.items()):
-            equal(cells[0][0], f"{variant} · {point}", "the point")
-            equal(cells[1][0], stage.split("/")[1] + (f", frame {frame}" if has_frames else ""), "the pass")
-            numbers = [None if cells[i][1] in (None, "undefined", "null") else float(cells[i][1]) for i in (3, 4, 5, 6)]
-            distance = by.get("distance_error")
-            expected = [float(by["correct"]["value"]), float(distance["value"]) if distance else None]
-            equal(numbers, expected + [float(by["fetches"]["value"]), float(by["correct"]["rays"])], f"numbers of {point}, {stage}")
-            ends = [float(x) for x in cells[3][0].split("[")[1].split("]")[0].split(",")]
-            for end, name in zip(ends, ("low", "high")):  # rounded to a tenth
-                check(abs(end - 100 * float(by["correct"][name])) < 0.0501, f"interval of {point}: {cells[3][0]}")
-            told = [f"{name} {100 * float(by['miss: ' + name.replace(' ', '_')]['value']):.3g} %" for name in ("off screen", "too thick")]
-            equal(cells[7][0], ", ".join(told), "avoidable misses, the most frequent first")
-        bars = page.execute_script(
-            """return [...document.querySelectorAll('#hit-table .shares')].map(bar =>
-            [[...bar.children].map(part => parseFloat(part.style.width)), bar.getAttribute('aria-label')])"""
-        )
-        for (widths, label), by in zip(bars, lines.values()):
-            equal(widths, [100 * float(by[v]["value"]) for v in verdicts], "a bar's parts")
-            check(abs(sum(widths) - 100) < 1e-3, f"a bar is whole: {widths}")
-            check(label.startswith(f"right {100 * float(by['right']['value']):.3g} %"), f"what a bar is read as: {label}")
-
-    shots = list(dict.fromkeys(r["shot"] for r in rows_of(folder, "hits.csv")))
-    expect(shots[0], "reflective")
-    choose(page, "hits", "Mask", "all")
-    expect(shots[0], "all")
-    choose(page, "hits", "Shot", MOVING)
-    expect(MOVING, "all")
-    legend = page.execute_script("return [...document.querySelectorAll('#hits .legend .swatch')].map(s => s.style.background)")
-    parts = page.execute_script(
-        "return [...document.querySelector('#hit-table .shares').children].map(part => part.style.background)"
-    )
-    equal(legend, parts, "colours of the legend and of the bars")
-    equal(len(set(legend)), 6, "a colour for each verdict")
 
 
 def test_stages(page):
@@ -307,7 +228,7 @@ def test_effects(page, folder):
         if times:
             mean, _, _ = mean_ratio(times, point)
             check(abs(float(cells[6][1]) - mean) < 1e-12 * mean, f"mean ratio of times: {cells[6]}, expected {mean}")
-    choose(page, "effects", "Shot", STEP)
+    choose_in(page, "effects", "Shot", STEP)
     for cells, point in zip(table_of(page, "#effect-table"), points):
         row = next(r for r in rows if r["point"] == point and r["shot"] == STEP)
         equal(float(cells[2][1]), float(row["ratio"]), f"ratio of {point}")
@@ -349,7 +270,7 @@ def test_effects(page, folder):
         points.index(RACING),
     )
     equal(racing, [0, "var(--card)", "no interval: it races", True], "a hollow mark without interval, and why")
-    choose(page, "effects", "Scale", "0.91 to 1.1")
+    choose_in(page, "effects", "Scale", "0.91 to 1.1")
     arrows = page.execute_script(
         "return [...document.querySelectorAll('#effect-table .point text')].map(t => t.textContent)"
     )
@@ -360,10 +281,10 @@ def test_effects(page, folder):
         ("bias_squared", "sssr · mended", "bias² is not above 0"),
     ):
         options = page.find_elements(By.XPATH, "//section[@id='effects']//label[starts-with(., 'Metric')]//option")
-        choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith(metric)))
+        choose_in(page, "effects", "Metric", next(o.text for o in options if o.text.startswith(metric)))
         row = next(c for c in table_of(page, "#effect-table") if c[0][0].split("\n")[0] == point)
         equal(row[-1][0], reason, f"why {point} has no ratio of {metric}")
-    choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("mse")))
+    choose_in(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("mse")))
     note = page.find_element(By.ID, "effect-family").text
     check(note.startswith("Exploratory") and "relmse of specular, reflective" in note, f"what mse stands for: {note}")
     heads = [e.text for e in page.find_elements(By.CSS_SELECTOR, "#effect-table th")]
@@ -373,8 +294,8 @@ def test_effects(page, folder):
         p => !p.querySelector('[fill="var(--card)"]') && !p.querySelector('text')).length"""
     )
     equal(filled, 0, "filled marks among exploratory ratios")
-    choose(page, "effects", "Against", "sssr with float_histories=false and otherwise the same")
-    choose(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("relmse")))
+    choose_in(page, "effects", "Against", "sssr with float_histories=false and otherwise the same")
+    choose_in(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("relmse")))
     quantity = dict(target="specular", metric="relmse", mask="reflective", shot=STEP)
     expected = rows_of(folder, "effects.csv", against="float_histories=false", **quantity)
     equal([r["against_point"] for r in expected], ["first round_up_tiles=true"], "what is otherwise the same")
@@ -438,7 +359,7 @@ def main():
             test_images_of_a_rung(page)
             test_roughness(page, folder)
             test_splits(page, folder)
-            test_rays(page, folder)
+            test_rays(page, folder, MOVING)
             test_stages(page)
             test_effects(page, folder)
             test_temporal(page, folder)

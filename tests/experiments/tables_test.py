@@ -1,4 +1,5 @@
-"""Tables of a made-up study, from its results folder to the documents that show them.
+"""Tables of a made-up study, from its results folder to the documents that show them. All checks read that one study,
+and so stand in one file.
 
 usage: tables_test.py TABLES_SCRIPT
 """
