@@ -40,6 +40,17 @@ float fetch_depth(ivec2 pixel) {
     return texelFetch(depth, pixel, 0).r;
 }
 
+// Length of a ray (m), for parameters of which 0 stands for more than any scene within the far plane has.
+float reach_of(float max_distance) { return max_distance > 0.0 ? max_distance : 2.0 * camera.depth.y; }
+
+// Depth behind the visible surface that counts as solid (m). `scene_z`: that surface's, in view space.
+float solid_depth(float scene_z, float thickness, float relative_thickness) {
+    return thickness + relative_thickness * -scene_z;
+}
+
+// Whether a device depth counts as nothing drawn. `sky_depth`: distance from the far plane's up to which it does.
+bool is_sky(float device_depth, float sky_depth) { return abs(device_depth - camera.depth.z) <= sky_depth; }
+
 // Whether a ray meets the side of a pixel's surface that the camera does not see.
 bool comes_from_behind(vec3 direction, ivec2 pixel) { return !(dot(direction, view_geometric_normal(pixel)) < 0.0); }
 

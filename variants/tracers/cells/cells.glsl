@@ -9,14 +9,10 @@
 
 const uint cells_back_faces_fade = 1u, cells_back_faces_reject = 2u;  // parameter `back_faces`
 
-float cells_reach() { return cells_max_distance > 0.0 ? cells_max_distance : 2.0 * camera.depth.y; }
-
-bool cells_is_sky(float device_depth) { return abs(device_depth - camera.depth.z) <= cells_sky_depth; }
-
 // Whether a ray that comes no nearer than a device depth is behind all that counts as solid of a surface.
 bool cells_is_behind_solid(float nearest, float surface) {
     float scene_z = view_z(surface);
-    return view_z(nearest) < scene_z - (cells_thickness + cells_relative_thickness * -scene_z);
+    return view_z(nearest) < scene_z - solid_depth(scene_z, cells_thickness, cells_relative_thickness);
 }
 
 // A hit loses what its surface is turned away, and what the ray is near to the plane that it leaves.
@@ -30,7 +26,8 @@ TraceEnd cells_hit(ScreenLine line, TraceRay ray, ivec2 pixel, float t) {
         end = faded(end, clamp(1.0 - dot(ray.direction, view_geometric_normal(pixel)), 0.0, 1.0), outcome_from_behind);
     if (cells_edge_fade)
         end = faded(end, edge_fade(position, cells_fade_start, cells_fade_end), outcome_off_screen);
-    if (cells_distance_fade) end = faded(end, distance_fade(ray_length, cells_reach()), outcome_unfinished);
+    if (cells_distance_fade)
+        end = faded(end, distance_fade(ray_length, reach_of(cells_max_distance)), outcome_unfinished);
     if (cells_grazing_fade > 0.0)
         end = faded(end, clamp(line.rise / cells_grazing_fade, 0.0, 1.0), outcome_own_surface);
     return end;
@@ -38,9 +35,9 @@ TraceEnd cells_hit(ScreenLine line, TraceRay ray, ivec2 pixel, float t) {
 
 TraceEnd cells_trace(TraceRay ray) {
     ScreenLine line = screen_line(ray);
-    if (!cells_clip_to_near_plane) line = line_to_unclipped_end(line, cells_reach());
+    if (!cells_clip_to_near_plane) line = line_to_unclipped_end(line, reach_of(cells_max_distance));
     float t_border = line.end;
-    shorten_line(line, cells_reach());
+    shorten_line(line, reach_of(cells_max_distance));
 
     int coarsest = depth_pyramid_coarsest(cells_pyramid_mips), level = 0;
     uint safe_steps = 0u;
@@ -66,7 +63,8 @@ TraceEnd cells_trace(TraceRay ray) {
             continue;
         }
         float t = closest_t(line, surface, here.t, t_out);
-        bool is_met = !cells_is_sky(surface) && !cells_is_behind_solid(nearer_of(depth_in, depth_out), surface);
+        bool is_met = !is_sky(surface, cells_sky_depth) &&
+                      !cells_is_behind_solid(nearer_of(depth_in, depth_out), surface);
         if (is_met && !(cells_leave_own_plane && is_own_plane_at(line, here.pixel, surface, t)))
             return cells_hit(line, ray, here.pixel, t);
         here = ahead;

@@ -52,8 +52,9 @@ TracerEntry dda_tracer() {
     return {.name = "dda",
             .title = "Perspective-correct DDA",
             .source = "McGuire & Mara 2014, Efficient GPU Screen-Space Ray Tracing, JCGT 3(4)",
-            .description = "Walks the ray's line on the screen pixel by pixel, or in strides, and passes behind what is "
-                           "thin.",
+            .description =
+                "Walks the ray's line on the screen pixel by pixel, or in strides, and passes behind what is "
+                "thin.",
             .shader = "tracers/dda/dda.glsl",
             .create = [](ParameterSet& params) { return std::make_unique<Dda>(params); }};
 }

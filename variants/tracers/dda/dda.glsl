@@ -29,7 +29,7 @@ DdaPoint dda_mix(DdaPoint a, DdaPoint b, float t) {
 
 // Far end of the ray: `max_distance` away, or where it meets the near plane, behind which nothing can be projected.
 vec3 dda_far_end(TraceRay ray) {
-    float reach = dda_max_distance > 0.0 ? dda_max_distance : 2.0 * camera.depth.y;
+    float reach = reach_of(dda_max_distance);
     float near_z = -camera.depth.x;
     if (ray.origin.z + ray.direction.z * reach > near_z) reach = max((near_z - ray.origin.z) / ray.direction.z, 0.0);
     return ray.origin + ray.direction * reach;
@@ -49,15 +49,12 @@ float dda_outside_share(vec2 a, vec2 b) {
     return share;
 }
 
-// Depth behind the visible surface that counts as solid (m).
-float dda_solid_depth(float scene_z) { return dda_thickness + dda_relative_thickness * -scene_z; }
-
 // Whether a ray that comes to these depths within a pixel is within what counts as solid of a surface there.
 // Deviation: where nothing was drawn there is nothing to hit. The paper compares with the far plane there.
 bool dda_meets(float device_depth, float z_min, float z_max) {
     if (is_background(device_depth)) return false;
     float scene_z = view_z(device_depth);
-    return z_min <= scene_z && z_max >= scene_z - dda_solid_depth(scene_z);
+    return z_min <= scene_z && z_max >= scene_z - solid_depth(scene_z, dda_thickness, dda_relative_thickness);
 }
 
 struct DdaLine {

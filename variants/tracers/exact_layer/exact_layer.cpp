@@ -23,8 +23,9 @@ TracerEntry exact_layer_tracer() {
     return {.name = "exact_layer",
             .title = "All that one layer of depth tells",
             .source = "ssrlab",
-            .description = "A yardstick: looks at every pixel that the line crosses, takes each for the plane that it shows, "
-                           "and knows how thick things are.",
+            .description =
+                "A yardstick: looks at every pixel that the line crosses, takes each for the plane that it shows, "
+                "and knows how thick things are.",
             .shader = "tracers/exact_layer/exact_layer.glsl",
             .create = [](ParameterSet& params) { return std::make_unique<ExactLayer>(params); }};
 }

@@ -1,3 +1,4 @@
+#include "variants/tracers/engine_march.h"
 #include "variants/tracers/tracer.h"
 
 namespace {
@@ -7,7 +8,8 @@ struct FixedStride final : Tracer {
 
     TracerNeeds needs() const override { return {.random = jitter > 0}; }
 
-    // "The document": an engine's documentation of its screen-space reflections, of 2026-01-14.
+    EngineMarchParameters march{params, "fixed_stride"};  // "the document" is explained there
+
     // clang-format off
     Param<float> stride{params, "fixed_stride.stride", 1.0f, {0.125f, 64.0f},
         {"pixels", "length of a step on the screen",
@@ -23,15 +25,6 @@ struct FixedStride final : Tracer {
         {"steps", "before a ray is given up: it reaches fixed_stride.max_steps * fixed_stride.stride pixels. The "
          "document's qualities Low to Ultra reach 64, 72, 64 and 48",
          "the document: 32, 48, 64 and 96; the default crosses any screen"}};
-    Param<float> max_distance{params, "fixed_stride.max_distance", 0.0f, {0.0f, 1e9f},
-        {"m", "length of a ray; 0: twice the distance of the far plane",
-         "the document: 50; the default leaves no ray short in scenes of any size"}};
-    Param<float> thickness{params, "fixed_stride.thickness", 0.1f, {0.0f, 1e6f},
-        {"m", "depth behind the visible surface that counts as solid",
-         "the document: 0.5, which hangs curtains below things in rooms; the default is dda's"}};
-    Param<float> relative_thickness{params, "fixed_stride.relative_thickness", 0.0f, {0.0f, 10.0f},
-        {"of the depth", "added to thickness; grows with the distance from the camera and so fits scenes of any "
-         "size", "ssrlab"}};
     Param<unsigned> binary_search_steps{params, "fixed_stride.binary_search_steps", 8, {0, 16},
         {"", "times that the step is halved on which a ray falls behind a surface, to find the place, at which "
          "thickness then counts; 0: hits are where the step ends",
@@ -40,9 +33,6 @@ struct FixedStride final : Tracer {
         {"", "of what the direction of steps is made. uv: of the ray's direction in texture coordinates, normalised, "
          "times the size of a texel, which on screens that are not square is another line",
          "uv: the document, as printed; pixels: ssrlab"}};
-    Switch clip_to_near_plane{params, "fixed_stride.clip_to_near_plane", true,
-        {"", "ends rays at the near plane. As printed their far end is projected even where it lies behind the "
-         "camera, and the line runs the opposite way", "ssrlab"}};
     Switch reject_towards_camera{params, "fixed_stride.reject_towards_camera", false,
         {"", "rays that come nearer to the camera plane miss, without a step. They do meet side walls and whatever "
          "leans", "the document, which takes them for rays that can hit nothing"}};
@@ -53,19 +43,6 @@ struct FixedStride final : Tracer {
     Switch front_faces_only{params, "fixed_stride.front_faces_only", true,
         {"", "a ray that meets a surface from behind counts as a miss: the screen shows the other side of it",
          "ssrlab"}};
-    Param<float> sky_depth{params, "fixed_stride.sky_depth", 0.0f, {0.0f, 1.0f},
-        {"device depth", "distance from the far plane's up to which nothing counts as drawn; 0: that plane's own "
-         "only", "the document: 1e-4, which with planes at 0.1 m and 100 m is all beyond 91 m"}};
-    Switch edge_fade{params, "fixed_stride.edge_fade", false,
-        {"", "hits lose confidence from `fixed_stride.fade_start` to `fixed_stride.fade_end`", "the document: on"}};
-    Param<float> fade_start{params, "fixed_stride.fade_start", 0.8f, {0.0f, 1.0f},
-        {"of half the screen", "distance from its middle from which hits fade out, on the axis where it is larger",
-         "the document; the linear fall is ssrlab's"}};
-    Param<float> fade_end{params, "fixed_stride.fade_end", 1.0f, {0.0f, 2.0f},
-        {"of half the screen", "distance from its middle at which nothing is left of them", "the document"}};
-    Switch distance_fade{params, "fixed_stride.distance_fade", false,
-        {"", "hits lose confidence in proportion to the ray's length, all of it at `fixed_stride.max_distance`",
-         "the document: on; the linear fall is ssrlab's"}};
     // clang-format on
 };
 

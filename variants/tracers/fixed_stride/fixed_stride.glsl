@@ -8,14 +8,6 @@
 
 const uint fixed_stride_step_uv = 1u;  // parameter `step`
 
-float fixed_stride_reach() {
-    return fixed_stride_max_distance > 0.0 ? fixed_stride_max_distance : 2.0 * camera.depth.y;
-}
-
-bool fixed_stride_is_sky(float device_depth) {
-    return abs(device_depth - camera.depth.z) <= fixed_stride_sky_depth;
-}
-
 // The step as printed is the direction in uv, normalised there, times the size of a texel: what was shares of the
 // screen becomes as many pixels, and on screens that are not square the line turns towards their shorter side. Depth
 // keeps pace with the way in uv (ours; the source does not say). t is pixels then.
@@ -40,7 +32,7 @@ FixedStrideSample fixed_stride_sample(ScreenLine line, float t) {
     FixedStrideSample result;
     result.pixel = pixel_at(line, t);
     result.surface = fetch_depth(result.pixel);
-    result.is_behind = !is_nearer(depth_at(line, t), result.surface) && !fixed_stride_is_sky(result.surface);
+    result.is_behind = !is_nearer(depth_at(line, t), result.surface) && !is_sky(result.surface, fixed_stride_sky_depth);
     if (fixed_stride_leave_own_surface && result.is_behind)
         // Where the ray passes the surface's depth: a step later it may be far above what it leaves.
         result.is_behind = result.pixel != line.pixel &&
@@ -63,7 +55,7 @@ float fixed_stride_refined(ScreenLine line, float t_front, float t_behind) {
 
 bool fixed_stride_is_thin(float ray_depth, float surface) {
     float scene_z = view_z(surface);
-    return scene_z - view_z(ray_depth) < fixed_stride_thickness + fixed_stride_relative_thickness * -scene_z;
+    return scene_z - view_z(ray_depth) < solid_depth(scene_z, fixed_stride_thickness, fixed_stride_relative_thickness);
 }
 
 TraceEnd fixed_stride_hit(ScreenLine line, TraceRay ray, ivec2 pixel, float t) {
@@ -75,7 +67,7 @@ TraceEnd fixed_stride_hit(ScreenLine line, TraceRay ray, ivec2 pixel, float t) {
     if (fixed_stride_edge_fade)
         end = faded(end, edge_fade(position, fixed_stride_fade_start, fixed_stride_fade_end), outcome_off_screen);
     if (fixed_stride_distance_fade)
-        end = faded(end, distance_fade(ray_length, fixed_stride_reach()), outcome_unfinished);
+        end = faded(end, distance_fade(ray_length, reach_of(fixed_stride_max_distance)), outcome_unfinished);
     return end;
 }
 
@@ -83,10 +75,10 @@ TraceEnd fixed_stride_trace(TraceRay ray) {
     if (fixed_stride_reject_towards_camera && ray.direction.z > 0.0)
         return missed(outcome_behind_camera, screen_from_pixel(ray.pixel), 0.0);
     ScreenLine line = screen_line(ray);
-    if (!fixed_stride_clip_to_near_plane) line = line_to_unclipped_end(line, fixed_stride_reach());
+    if (!fixed_stride_clip_to_near_plane) line = line_to_unclipped_end(line, reach_of(fixed_stride_max_distance));
     if (fixed_stride_step == fixed_stride_step_uv) line = fixed_stride_turned_line(line);
     float t_border = line.end;
-    shorten_line(line, fixed_stride_reach());
+    shorten_line(line, reach_of(fixed_stride_max_distance));
 
     // A ray along the view is a point on the screen, whose slope is none.
     float stride = stride_at(ray.origin.z, fixed_stride_stride, fixed_stride_stride_z_cutoff);

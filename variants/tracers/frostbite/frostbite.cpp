@@ -4,8 +4,9 @@
 
 namespace {
 
-const char* const slides = "Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections, SIGGRAPH course Advances in "
-                           "Real-Time Rendering, as quoted by others; what they leave open is ours";
+const char* const slides =
+    "Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections, SIGGRAPH course Advances in "
+    "Real-Time Rendering, as quoted by others; what they leave open is ours";
 
 struct Hierarchical final : Tracer {
     explicit Hierarchical(ParameterSet& params) : Tracer(params) {}
@@ -50,8 +51,9 @@ TracerEntry frostbite_hierarchical_tracer() {
     return {.name = "frostbite_hierarchical",
             .title = "Frostbite's hierarchical march",
             .source = slides,
-            .description = "Walks cells of pyramids of nearest and farthest depths, and passes behind what is thin: the "
-                           "result of looking at every pixel along the line.",
+            .description =
+                "Walks cells of pyramids of nearest and farthest depths, and passes behind what is thin: the "
+                "result of looking at every pixel along the line.",
             .shader = "tracers/frostbite/hierarchical.glsl",
             .part = "frostbite",
             .create = [](ParameterSet& params) { return std::make_unique<Hierarchical>(params); }};
@@ -61,8 +63,9 @@ TracerEntry frostbite_linear_tracer() {
     return {.name = "frostbite_linear",
             .title = "Frostbite's march of rough surfaces",
             .source = slides,
-            .description = "Equal steps on the screen from a random start, halved where they meet something. Parameters "
-                           "of what counts as met are those of frostbite_hierarchical.",
+            .description =
+                "Equal steps on the screen from a random start, halved where they meet something. Parameters "
+                "of what counts as met are those of frostbite_hierarchical.",
             .shader = "tracers/frostbite/linear.glsl",
             .part = "frostbite",
             .create = [](ParameterSet& params) { return std::make_unique<Linear>(params); }};

@@ -8,9 +8,10 @@ struct Hierarchy final : Tracer {
     TracerNeeds needs() const override { return {.nearest_mips = pyramid_mips}; }
 
     std::string not_repeatable() const override {
-        return min_traversal_occupancy == 0 ? ""
-                                            : "hierarchy.min_traversal_occupancy > 0: which rays share a subgroup depends "
-                                              "on the order in which threads ran";
+        return min_traversal_occupancy == 0
+                   ? ""
+                   : "hierarchy.min_traversal_occupancy > 0: which rays share a subgroup depends "
+                     "on the order in which threads ran";
     }
 
     // Names are the originals' where both have one. Techniques that are an original begin with its values; the defaults
@@ -82,8 +83,9 @@ TracerEntry hierarchy_tracer() {
     return {.name = "hierarchy",
             .title = "Walk through a pyramid of nearest depths, of FidelityFX SSSR and DiligentFX",
             .source = "FidelityFX SDK 1.1.4 (SSSR 1.5), MIT licence; DiligentFX (2026-07), Apache-2.0 licence",
-            .description = "Descends to the first surface that the ray falls behind, and judges by thickness whether it is "
-                           "what the ray met; it does not go on behind it.",
+            .description =
+                "Descends to the first surface that the ray falls behind, and judges by thickness whether it is "
+                "what the ray met; it does not go on behind it.",
             .shader = "tracers/hierarchy/hierarchy.glsl",
             .create = [](ParameterSet& params) { return std::make_unique<Hierarchy>(params); }};
 }

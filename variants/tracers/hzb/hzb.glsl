@@ -92,17 +92,11 @@ HzbEnd hzb_walk(HzbRay ray, int base, int coarsest) {
     return HzbEnd(position, level < base ? outcome_hit : outcome_unfinished);
 }
 
-bool hzb_is_own_surface(TraceRay ray, ivec2 pixel, float surface, float distance) {
-    vec3 from_origin = view_position_at(pixel, surface) - ray.origin;
-    return pixel == ray.pixel || is_own_plane(from_origin, ray.geometric_normal,
-                                              dot(ray.direction, ray.geometric_normal), distance);
-}
-
 // What the place where the walk ended is judged as.
 uint hzb_judged(TraceRay ray, vec3 position, ivec2 pixel, float distance) {
     float surface = hzb_surface_depth(pixel, 0);
     if (hzb_reject_background && is_background(surface)) return outcome_background;
-    if (hzb_reject_own_surface && hzb_is_own_surface(ray, pixel, surface, distance)) return outcome_own_surface;
+    if (hzb_reject_own_surface && is_own_surface(ray, pixel, surface, distance)) return outcome_own_surface;
     float scene_z = view_z(surface);
     bool is_close = abs(view_z(position.z) - scene_z) < hzb_relative_thickness * max(abs(scene_z), 1e-5);
     if (!is_close) return outcome_too_thick;

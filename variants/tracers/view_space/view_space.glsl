@@ -13,12 +13,6 @@ struct ViewSpaceSample {
     float behind;    // of the surface seen there, the ray's point, over what counts as solid: met from 0 to 1
 };
 
-bool view_space_is_own_surface(TraceRay ray, ivec2 pixel, float surface, float distance) {
-    vec3 from_origin = view_position_at(pixel, surface) - ray.origin;
-    return pixel == ray.pixel || is_own_plane(from_origin, ray.geometric_normal,
-                                              dot(ray.direction, ray.geometric_normal), distance);
-}
-
 ViewSpaceSample view_space_sample(TraceRay ray, float distance) {
     ViewSpaceSample found;
     vec3 point = ray.origin + distance * ray.direction;
@@ -32,9 +26,10 @@ ViewSpaceSample view_space_sample(TraceRay ray, float distance) {
     float surface = fetch_depth(found.pixel);
     if (is_background(surface)) return found;
     float scene_z = view_z(surface);
-    found.behind = (scene_z - point.z) / max(view_space_thickness + view_space_relative_thickness * -scene_z, 1e-20);
+    float solid = solid_depth(scene_z, view_space_thickness, view_space_relative_thickness);
+    found.behind = (scene_z - point.z) / max(solid, 1e-20);
     found.is_met = found.behind > 0.0 && found.behind < 1.0 &&
-                   !(view_space_leave_own_surface && view_space_is_own_surface(ray, found.pixel, surface, distance));
+                   !(view_space_leave_own_surface && is_own_surface(ray, found.pixel, surface, distance));
     return found;
 }
 
