@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-struct CameraData;
-
 /// A ray that a technique traced, and where its tracer says that it ended. The layout is that of
 /// variants/tracers/record.glsl.
 struct RayRecord {

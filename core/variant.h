@@ -2,9 +2,9 @@
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/gpu/pass_graph.h"
+#include "core/gpu/shader.h"
 #include "core/left_out.h"
 #include "core/parameters.h"
-#include "core/gpu/shader.h"
 #include "core/ray_probe.h"
 
 #include <string>
@@ -47,7 +47,8 @@ public:
     /// Whether render() reads GBuffer::second_depth or ::back_depth. Called after the parameters are set.
     virtual bool needs_depth_layers() const { return false; }
 
-    /// Whether render() asks ray_probe->exact_hits, so that its time means nothing. Called after the parameters are set.
+    /// Whether render() asks ray_probe->exact_hits, so that its time means nothing. Called after the parameters are
+    /// set.
     virtual bool asks_scene() const { return false; }
 
     RayProbe* ray_probe = nullptr;  ///< what experiments plug into its tracers

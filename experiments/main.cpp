@@ -205,7 +205,8 @@ int parse_and_run(int argc, char** argv) {
     DescribeOptions describe;
     CLI::App& describe_command_ =
         *app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
-    describe_command_.add_option("variant", describe.variant, "A variant or a tracer; default: all variants")->type_name("NAME");
+    describe_command_.add_option("variant", describe.variant, "A variant or a tracer; default: all variants")
+        ->type_name("NAME");
     describe_command_.add_flag("--schema", describe.as_schema,
                                "Print a JSON Schema for configs, so that editors complete them");
     describe_command_.callback([&] { describe_command(describe); });

@@ -53,7 +53,7 @@ struct Play {
         untold;  ///< masks, by temporal metric and reason
     size_t rendered = 0;
     std::map<unsigned, ExactRays> exact_rays = {};  ///< by frame
-    std::map<unsigned, JudgedHits> judged = {};  ///< by frame
+    std::map<unsigned, JudgedHits> judged = {};     ///< by frame
 
     const FrameStep& last_step() const { return shot.steps.back(); }
     ResultRow row(const std::string& frame, unsigned seed) const {
@@ -182,7 +182,7 @@ void judge_rays(Play& play, SeedRun& run, const FrameStep& step, const CameraDat
     for (const RecordedRays& recorded : run.probe->recorded) {
         const std::vector<ExactHit> truth = exact_rays(play, step, camera).hits(recorded, play.config.hits->every);
         play.judged[step.frame].add(run.seed, recorded, truth, play.shot.config.extent, play.config.hits->every,
-                                   {masks.begin(), masks.end()});
+                                    {masks.begin(), masks.end()});
         if (is_shown && play.config.hits->every == 1)
             play.cell.images.push_back(save_verdict_image(play.settings.out, row, play.settings.image_suffix,
                                                           recorded.stage,

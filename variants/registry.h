@@ -3,7 +3,8 @@
 
 #include <span>
 
-/// All techniques, the baseline first. Adding one takes a declaration and a line in registry.cpp, and an entry in its own folder.
+/// All techniques, the baseline first. Adding one takes a declaration and a line in registry.cpp, and an entry in its
+/// own folder.
 std::span<const VariantEntry> variant_table();
 
 /// Fails with a near miss if there is none of that name.

@@ -38,8 +38,8 @@ PassGraph::Pass& EnvironmentImages::bind_sharp(PassGraph::Pass& pass) const {
 }
 
 void EnvironmentImages::compile_in(PassGraph::Pass& pass, unsigned kind) {
-    pass.include("core/shaders/gbuffer/environment_kind.glsl", "const uint any_environment = 4u, environment_kind = " +
-                                                                   std::to_string(kind) + "u;\n");
+    pass.include("core/shaders/gbuffer/environment_kind.glsl",
+                 "const uint any_environment = 4u, environment_kind = " + std::to_string(kind) + "u;\n");
 }
 
 PassGraph::Pass& bind_environment(PassGraph::Pass& pass, const GBuffer& gbuffer) {

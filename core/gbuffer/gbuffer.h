@@ -5,7 +5,6 @@
 
 class EnvironmentImages;
 
-
 /// The first hit of every pixel, and the lit colour which SSR reads. World space, metres, linear radiance. Images of one
 /// extent; each is bound in shaders by its member's name.
 struct GBuffer {

@@ -11,16 +11,16 @@
 struct HostGBuffer {
     CameraData camera{};
     DepthFormat depth_format = DepthFormat::d32f;
-    HostImage depth;             ///< 1 channel
-    HostImage geometric_normal;  ///< 4
-    HostImage normal;            ///< 4
-    HostImage base_color;        ///< 4
-    HostImage emission;          ///< 4
-    HostImage motion;            ///< 2
-    HostImage material_id;       ///< 1: whole numbers up to 2^24
-    HostImage previous_depth;    ///< 1
-    HostImage previous_normal;   ///< 4
-    HostImage lit, fallback;     ///< 4; of zero extent where absent
+    HostImage depth;                     ///< 1 channel
+    HostImage geometric_normal;          ///< 4
+    HostImage normal;                    ///< 4
+    HostImage base_color;                ///< 4
+    HostImage emission;                  ///< 4
+    HostImage motion;                    ///< 2
+    HostImage material_id;               ///< 1: whole numbers up to 2^24
+    HostImage previous_depth;            ///< 1
+    HostImage previous_normal;           ///< 4
+    HostImage lit, fallback;             ///< 4; of zero extent where absent
     HostImage second_depth, back_depth;  ///< 1; of zero extent where absent; no file holds them
 
     glm::uvec2 extent() const { return depth.extent; }

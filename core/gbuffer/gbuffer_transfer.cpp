@@ -17,18 +17,18 @@ Image uploaded(PassGraph& graph, const std::string& name, Format format, const H
 
 HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& g, const CameraData& camera, DepthFormat depth_format) {
     HostGBuffer host{.camera = camera,
-            .depth_format = depth_format,
-            .depth = graph.download(g.depth),
-            .geometric_normal = graph.download(g.geometric_normal),
-            .normal = graph.download(g.normal),
-            .base_color = graph.download(g.base_color),
-            .emission = graph.download(g.emission),
-            .motion = graph.download(g.motion),
-            .material_id = graph.download(g.material_id),
-            .previous_depth = graph.download(g.previous_depth),
-            .previous_normal = graph.download(g.previous_normal),
-            .lit = graph.download(g.lit),
-            .fallback = graph.download(g.fallback)};
+                     .depth_format = depth_format,
+                     .depth = graph.download(g.depth),
+                     .geometric_normal = graph.download(g.geometric_normal),
+                     .normal = graph.download(g.normal),
+                     .base_color = graph.download(g.base_color),
+                     .emission = graph.download(g.emission),
+                     .motion = graph.download(g.motion),
+                     .material_id = graph.download(g.material_id),
+                     .previous_depth = graph.download(g.previous_depth),
+                     .previous_normal = graph.download(g.previous_normal),
+                     .lit = graph.download(g.lit),
+                     .fallback = graph.download(g.fallback)};
     if (g.second_depth.storage) host.second_depth = graph.download(g.second_depth);
     if (g.back_depth.storage) host.back_depth = graph.download(g.back_depth);
     return host;
@@ -39,17 +39,18 @@ GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& g) {
         fail("a G-buffer of ", g.extent().x, " x ", g.extent().y, " does not fit the pass graph of ", graph.extent().x,
              " x ", graph.extent().y);
     GBuffer gbuffer{.depth = uploaded(graph, "depth", Format::r32f, g.depth),
-            .geometric_normal = uploaded(graph, "geometric_normal", Format::rgba32f, g.geometric_normal),
-            .normal = uploaded(graph, "normal", Format::rgba32f, g.normal),
-            .base_color = uploaded(graph, "base_color", Format::rgba32f, g.base_color),
-            .emission = uploaded(graph, "emission", Format::rgba32f, g.emission),
-            .motion = uploaded(graph, "motion", Format::rg32f, g.motion),
-            .material_id = uploaded(graph, "material_id", Format::r32ui, g.material_id),
-            .previous_depth = uploaded(graph, "previous_depth", Format::r32f, g.previous_depth),
-            .previous_normal = uploaded(graph, "previous_normal", Format::rgba32f, g.previous_normal),
-            .lit = uploaded(graph, "lit", Format::rgba32f, g.lit),
-            .fallback = uploaded(graph, "fallback", Format::rgba32f, g.fallback)};
-    if (!g.second_depth.values.empty()) gbuffer.second_depth = uploaded(graph, "second_depth", Format::r32f, g.second_depth);
+                    .geometric_normal = uploaded(graph, "geometric_normal", Format::rgba32f, g.geometric_normal),
+                    .normal = uploaded(graph, "normal", Format::rgba32f, g.normal),
+                    .base_color = uploaded(graph, "base_color", Format::rgba32f, g.base_color),
+                    .emission = uploaded(graph, "emission", Format::rgba32f, g.emission),
+                    .motion = uploaded(graph, "motion", Format::rg32f, g.motion),
+                    .material_id = uploaded(graph, "material_id", Format::r32ui, g.material_id),
+                    .previous_depth = uploaded(graph, "previous_depth", Format::r32f, g.previous_depth),
+                    .previous_normal = uploaded(graph, "previous_normal", Format::rgba32f, g.previous_normal),
+                    .lit = uploaded(graph, "lit", Format::rgba32f, g.lit),
+                    .fallback = uploaded(graph, "fallback", Format::rgba32f, g.fallback)};
+    if (!g.second_depth.values.empty())
+        gbuffer.second_depth = uploaded(graph, "second_depth", Format::r32f, g.second_depth);
     if (!g.back_depth.values.empty()) gbuffer.back_depth = uploaded(graph, "back_depth", Format::r32f, g.back_depth);
     return gbuffer;
 }

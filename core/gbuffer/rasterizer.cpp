@@ -176,7 +176,8 @@ void Rasterizer::draw_depth_layers(GBuffer& g) {
          {DrawnScene::Kind::plain, DrawnScene::Kind::textured, DrawnScene::Kind::masked}) {
         if (drawn_.draws(kind).empty()) continue;
         const bool is_masked = kind == DrawnScene::Kind::masked;
-        graph_.draw("gbuffer/mesh.vert", is_masked ? "gbuffer/peel_masked.frag" : "gbuffer/peel.frag", drawn_.draws(kind))
+        graph_
+            .draw("gbuffer/mesh.vert", is_masked ? "gbuffer/peel_masked.frag" : "gbuffer/peel.frag", drawn_.draws(kind))
             .read(g.depth)
             .write(g.second_depth)
             .write(g.back_depth)

@@ -9,7 +9,7 @@ struct RasterizerOptions {
     glm::uvec2 extent{0, 0};
     DepthFormat depth_format = DepthFormat::d32f;
     bool has_depth_layers = false;  ///< also GBuffer::second_depth and ::back_depth
-    bool keep_all = false;  ///< run and compile also what left_out() names: the same images, slower
+    bool keep_all = false;          ///< run and compile also what left_out() names: the same images, slower
 };
 
 /// Draws the G-buffer of a scene. It has a pass graph of its own, so that its times are not those of a variant;

@@ -4,8 +4,7 @@
 
 float amd_alpha_of_8_bits(float alpha) { return std::floor(alpha * 255.0f + 0.5f) / 255.0f; }  // as lists.glsl
 
-AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories,
-                     const Image& confidence) {
+AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence) {
     const glm::uvec2 extent = graph.extent(), tiles = (extent + 7u) / 8u;
     const AmdWork work{.ray_list = graph.buffer("ray_list", size_t(extent.x) * extent.y * 4),
                        .tile_list = graph.buffer("tile_list", size_t(tiles.x) * tiles.y * 4),

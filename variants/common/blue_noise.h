@@ -35,12 +35,13 @@ private:
 
 /// The switch of techniques whose original moves both numbers by the golden ratio.
 inline Switch independent_noise_shifts_parameter(ParameterSet& params) {
-    return Switch(params, "independent_noise_shifts", false,
-                  {"",
-                   "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts "
-                   "both by the golden ratio, so that a pixel's samples stay on one diagonal of the unit square and "
-                   "never cover the lobe",
-                   "ssrlab; Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"});
+    return Switch(
+        params, "independent_noise_shifts", false,
+        {"",
+         "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts "
+         "both by the golden ratio, so that a pixel's samples stay on one diagonal of the unit square and "
+         "never cover the lobe",
+         "ssrlab; Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"});
 }
 
 /// The committed table: 128x128 pairs of codes v in 0..255, as v / 255 in two channels. See blue_noise_table.md.

@@ -35,7 +35,8 @@ void draw_level(PassGraph& graph, const Image& finer, unsigned finer_level, cons
         .run();
 }
 
-Image depth_hierarchy(PassGraph& graph, const Image& depth, unsigned max_mips, bool keeps_farthest, bool has_mip_views) {
+Image depth_hierarchy(PassGraph& graph, const Image& depth, unsigned max_mips, bool keeps_farthest,
+                      bool has_mip_views) {
     const glm::uvec2 extent = depth.extent;
     const unsigned mips = std::min(max_mips, unsigned(std::bit_width(std::max(extent.x, extent.y))));
     const std::string name = keeps_farthest ? "farthest_depth_pyramid" : "depth_pyramid";
@@ -63,8 +64,8 @@ Image depth_hierarchy(PassGraph& graph, const Image& depth, unsigned max_mips, b
 Tracers::Images diligent_depth_hierarchies(PassGraph& graph, const GBuffer& gbuffer,
                                            const DiligentTracingParameters& parameters) {
     const bool has_mip_views = parameters.hierarchy.is("mip_views");
-    return parameters.tracers.images(
-        graph, gbuffer.depth, [&](PassGraph&, const Image& depth, unsigned mips, bool keeps_farthest) {
-            return depth_hierarchy(graph, depth, mips, keeps_farthest, has_mip_views);
-        });
+    return parameters.tracers.images(graph, gbuffer.depth,
+                                     [&](PassGraph&, const Image& depth, unsigned mips, bool keeps_farthest) {
+                                         return depth_hierarchy(graph, depth, mips, keeps_farthest, has_mip_views);
+                                     });
 }

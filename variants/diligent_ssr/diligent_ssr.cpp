@@ -22,8 +22,7 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
     const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing_);
     const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_, filter_);
     const Image color = tracing_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
-    const DiligentRays rays =
-        diligent_trace(graph, gbuffer, hierarchies, noise, color, mask, tracing_, ray_probe);
+    const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchies, noise, color, mask, tracing_, ray_probe);
     const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter_);
     const DiligentHistories histories = diligent_histories(graph, filter_);
     diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter_);

@@ -18,9 +18,9 @@ struct FrostbiteTiles {
 /// Rays to trace, by tracer, and the indirect arguments that start both.
 struct FrostbiteWork {
     Buffer smooth_list, rough_list;  ///< index of the ray: (y * width + x) * max_rays + k, in traced pixels
-    Buffer counters;                        ///< lengths of both
-    Buffer indirect_arguments;              ///< groups of 64 rays: smooth (3 words), rough (at byte 12)
-    glm::uvec2 extent;                      ///< traced pixels: of the screen, or half of it, rounded up
+    Buffer counters;                 ///< lengths of both
+    Buffer indirect_arguments;       ///< groups of 64 rays: smooth (3 words), rough (at byte 12)
+    glm::uvec2 extent;               ///< traced pixels: of the screen, or half of it, rounded up
 };
 
 /// What the rays found, by index of the ray. In 32 bits: densities overflow halves below a roughness of 0.033.

@@ -9,9 +9,8 @@ FrostbiteRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, c
     const auto trace = [&](const char* shader, const char* slot, const Buffer& list, size_t arguments) {
         PassGraph::Pass pass = graph.compute(shader);
         pass.read(below_horizon).use(list).use(work.counters).use(traced.directions).use(traced.hits);
-        parameters.tracers.run(
-            graph, pass, {slot}, images, probe, parameters.max_rays,
-            [&](PassGraph::Pass& tracing) { tracing.dispatch(work.indirect_arguments, arguments); });
+        parameters.tracers.run(graph, pass, {slot}, images, probe, parameters.max_rays,
+                               [&](PassGraph::Pass& tracing) { tracing.dispatch(work.indirect_arguments, arguments); });
     };
     trace("frostbite_sssr/trace_smooth.comp", "tracer", work.smooth_list, 0);
     trace("frostbite_sssr/trace_rough.comp", "rough_tracer", work.rough_list, 12);

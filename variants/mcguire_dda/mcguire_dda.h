@@ -26,5 +26,6 @@ private:
         {"", "also traces mirror rays that shading normals turn below the geometric surface",
          "McGuire & Mara 2014 do not tell them apart"}};
     // clang-format on
-    Tracers tracers{params, {{"tracer", "trace", "dda", "the march that finds what a ray meets"}}, "McGuire & Mara 2014: dda"};
+    Tracers tracers{
+        params, {{"tracer", "trace", "dda", "the march that finds what a ray meets"}}, "McGuire & Mara 2014: dda"};
 };

@@ -13,7 +13,7 @@ uniform sampler2D environment;
 uniform sampler2D prefiltered_environment;
 
 // 0: constant, 1: gradient, 2: image, 3: per pixel, from a file. A pass that says which (environment_kind.glsl) has it
-// compiled in: the others cost AMD's intersection 14 % of its time though no ray takes them.
+// compiled in: the branches of the others cost time in every ray though none takes them.
 bool is_environment(uint type) { return environment_kind == any_environment ? environment_type == type : environment_kind == type; }
 
 vec3 environment_texel(int x, int y, ivec2 size) {
