@@ -62,23 +62,29 @@ void reduce_source(uint level, ivec2 tile_index) {
     barrier();
 }
 
-// Reduces `tile`, which holds a part of `level`, to one texel of the fifth level above.
-void reduce_tile(uint level, ivec2 tile_index) {
-    for (int width = 16; width > 0; width /= 2, ++level) {
-        ivec2 inside = ivec2(gl_LocalInvocationIndex % 16u, gl_LocalInvocationIndex / 16u);
-        ivec2 last = extent_of(level) - 1 - tile_index * 2 * width;  // in the tile
-        bool is_active = all(lessThan(inside, ivec2(width)));
-        float value = 0.0;
-        if (is_active) {
-            ivec2 a = 2 * inside, b = max(min(a + 1, last), a);
-            value = kept_of_four(tile[a.y * 32 + a.x], tile[a.y * 32 + b.x], tile[b.y * 32 + a.x],
-                                    tile[b.y * 32 + b.x]);
-            store(level + 1u, tile_index * width + inside, value);
-        }
-        barrier();
-        if (is_active) tile[inside.y * 32 + inside.x] = value;
-        barrier();
+// Reduces `tile`, which holds a part of `level`, to `width` x `width` texels of the level above.
+void halve_tile(int width, uint level, ivec2 tile_index) {
+    ivec2 inside = ivec2(gl_LocalInvocationIndex % 16u, gl_LocalInvocationIndex / 16u);
+    ivec2 last = extent_of(level) - 1 - tile_index * 2 * width;  // in the tile
+    bool is_active = all(lessThan(inside, ivec2(width)));
+    float value = 0.0;
+    if (is_active) {
+        ivec2 a = 2 * inside, b = max(min(a + 1, last), a);
+        value = kept_of_four(tile[a.y * 32 + a.x], tile[a.y * 32 + b.x], tile[b.y * 32 + a.x], tile[b.y * 32 + b.x]);
+        store(level + 1u, tile_index * width + inside, value);
     }
+    barrier();
+    if (is_active) tile[inside.y * 32 + inside.x] = value;
+    barrier();
+}
+
+// The same to one texel of the fifth level above. No loop: of a level that is a constant, store() is one instruction.
+void reduce_tile(uint level, ivec2 tile_index) {
+    halve_tile(16, level, tile_index);
+    halve_tile(8, level + 1u, tile_index);
+    halve_tile(4, level + 2u, tile_index);
+    halve_tile(2, level + 3u, tile_index);
+    halve_tile(1, level + 4u, tile_index);
 }
 
 void copy_first_level(ivec2 tile_index) {
