@@ -16,7 +16,7 @@
 #include "experiments/results.h"
 #include "experiments/rung_errors.h"
 #include "experiments/stale_files.h"
-#include "experiments/study.h"
+#include "experiments/study_run.h"
 #include "experiments/time_effects.h"
 #include "experiments/timing.h"
 #include "groundtruth/reference_cache.h"
@@ -32,7 +32,7 @@ constexpr double reference_guess = 20, frame_guess = 0.2, timing_guess = 5;
 constexpr size_t max_stored_bytes = size_t(1) << 30;
 
 /// Loads each shot once before any work starts, to refuse what could not be told apart in the results.
-void plan_work(Study& study) {
+void plan_work(StudyRun& study) {
     std::set<std::string> names;
     for (const ShotConfig& config : study.config.shots) {
         const std::string name = config.gbuffer.empty() ? load_shot(config, study.settings.search_path).name()
@@ -50,7 +50,7 @@ void plan_work(Study& study) {
 
 /// Renders the reference of one frame, or takes it from the cache. Targets are of the last frame, so that only its
 /// reference needs a truth ladder.
-Reference obtain_reference(Study& study, const Shot& shot, unsigned frame, bool is_of_last) {
+Reference obtain_reference(StudyRun& study, const Shot& shot, unsigned frame, bool is_of_last) {
     const ShotFrame now = shot_frame(shot, frame);
     ReferenceSettings settings = study.config.reference;
     settings.keep_all = study.settings.keep_all;
@@ -70,7 +70,7 @@ Reference obtain_reference(Study& study, const Shot& shot, unsigned frame, bool 
 }
 
 /// The shot's entry in the manifest, from the G-buffer of its last frame.
-void enter_shot(Study& study, ShotRun& run, const std::vector<std::string>& notes) {
+void enter_shot(StudyRun& study, ShotRun& run, const std::vector<std::string>& notes) {
     const FrameStep& last = run.shot.steps.back();
     const FrameStore::Frame frame = run.store.frame(last, run.truth.lit(last));
     const HostGBuffer host =
@@ -95,7 +95,7 @@ void enter_shot(Study& study, ShotRun& run, const std::vector<std::string>& note
 }
 
 /// What no metric can tell once techniques have read it. Frames that nothing asked for are not counted.
-void enter_non_finite(Study& study, const ShotRun& run) {
+void enter_non_finite(StudyRun& study, const ShotRun& run) {
     nlohmann::json& entry = study.manifest["shots"].back();
     entry["gbuffer_non_finite"] = run.store.non_finite();
     for (const auto& [layer, count] : run.store.non_finite()) {
@@ -107,7 +107,7 @@ void enter_non_finite(Study& study, const ShotRun& run) {
 }
 
 /// Keeps for the manifest what is worth knowing of a reference, and writes its images if it is that of the last frame.
-void note_reference(Study& study, ShotRun& run, const Reference& reference, unsigned frame, bool is_of_last) {
+void note_reference(StudyRun& study, ShotRun& run, const Reference& reference, unsigned frame, bool is_of_last) {
     nlohmann::json entry = reference_entry(reference, frame, study.config);
     for (const nlohmann::json& warning : entry["warnings"])
         study.progress.say("warning: " + run.shot.name() + ", frame " + std::to_string(frame) + ": " +
@@ -121,7 +121,7 @@ void note_reference(Study& study, ShotRun& run, const Reference& reference, unsi
         study.manifest["images"].push_back(std::move(image));
 }
 
-void run_scene_shot(Study& study, const ShotConfig& config) {
+void run_scene_shot(StudyRun& study, const ShotConfig& config) {
     const Shot shot = load_shot(config, study.settings.search_path);
     study.progress.say(shot.scene.name + ", camera " + shot.camera.name);
     const std::unique_ptr<FrameSource> source = scene_source(study.device, shot, study.config, study.settings.keep_all);
@@ -145,7 +145,7 @@ void run_scene_shot(Study& study, const ShotConfig& config) {
 }
 
 /// A capture: measured if it comes with a reference, else only rendered and timed.
-void run_gbuffer_shot(Study& study, const ShotConfig& config) {
+void run_gbuffer_shot(StudyRun& study, const ShotConfig& config) {
     LoadedGBuffer loaded = load_gbuffer(config.gbuffer);
     const Shot shot = gbuffer_shot(config, loaded.gbuffer);
     study.progress.say(shot.scene.name + ", from files");
@@ -173,7 +173,7 @@ void run_gbuffer_shot(Study& study, const ShotConfig& config) {
 }
 
 /// Lists what earlier versions of the study left in the folder, or removes it.
-void handle_stale_files(const Study& study, nlohmann::json& manifest) {
+void handle_stale_files(const StudyRun& study, nlohmann::json& manifest) {
     std::set<std::string> used;
     for (const Cell& cell : study.finished) used.insert(cell.name);
     const std::filesystem::path& out = study.settings.out;
@@ -184,7 +184,7 @@ void handle_stale_files(const Study& study, nlohmann::json& manifest) {
 }
 
 /// Writes what is finished so far, so that a long study can be read while it runs.
-void write_results(Study& study, bool is_last) {
+void write_results(StudyRun& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
     std::vector<ResultRow> rows;
     std::vector<SplitRow> splits;
@@ -239,18 +239,18 @@ void run_study(const Config& config, const RunSettings& settings) {
     Progress progress(1.0);
     const auto say = [&](const std::string& text) { progress.say(text); };
     const nlohmann::json maker = maker_of_cells(device);
-    Study study{.config = config,
-                .settings = settings,
-                .device = device,
-                .cells = CellStore(settings.out, say),
-                .progress = progress,
-                .work = {},
-                .code = maker["ssrlab"]["code"],
-                .maker = maker,
-                .manifest = study_entry(config),
-                .manifest_before = {},
-                .clock = {},
-                .finished = {}};
+    StudyRun study{.config = config,
+                   .settings = settings,
+                   .device = device,
+                   .cells = CellStore(settings.out, say),
+                   .progress = progress,
+                   .work = {},
+                   .code = maker["ssrlab"]["code"],
+                   .maker = maker,
+                   .manifest = study_entry(config),
+                   .manifest_before = {},
+                   .clock = {},
+                   .finished = {}};
     for (const auto& warning : study.manifest["warnings"]) study.progress.say("warning: " + warning.get<std::string>());
     plan_work(study);
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);

@@ -1,8 +1,8 @@
 #include "core/files.h"
 #include "experiments/host_info.h"
-#include "experiments/play.h"
+#include "experiments/point_run.h"
 #include "experiments/provenance.h"
-#include "experiments/study.h"
+#include "experiments/study_run.h"
 #include "experiments/timing.h"
 #include "experiments/timing_lock.h"
 #include "variants/registry.h"
@@ -13,8 +13,8 @@
 namespace {
 
 /// The name of a cell: the hash of all that its numbers depend on.
-std::string cell_hash(const Study& study, const ShotRun& run, const std::string& what, const nlohmann::json& parameters,
-                      const std::vector<unsigned>& seeds) {
+std::string cell_hash(const StudyRun& study, const ShotRun& run, const std::string& what,
+                      const nlohmann::json& parameters, const std::vector<unsigned>& seeds) {
     const Config& c = study.config;
     const ShotConfig& shot = run.shot.config;
     ContentHash hash;
@@ -53,7 +53,7 @@ struct CellTask {
 };
 
 /// A result while the study runs: one number that matters, over the seeds.
-void say_result(Study& study, const Cell& cell) {
+void say_result(StudyRun& study, const Cell& cell) {
     std::map<std::string, std::vector<double>> values;  // by frame
     for (const ResultRow& r : cell.rows)
         if (r.target == "specular" && r.metric == "relmse" && r.mask == "reflective" && r.value)
@@ -71,7 +71,7 @@ void say_result(Study& study, const Cell& cell) {
 
 /// Loads the cell if it was done before, else does it and keeps it. Nothing if another process is at it, unless
 /// `waits`.
-std::optional<Cell> do_cell(Study& study, const CellTask& task, bool waits) {
+std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, bool waits) {
     study.work.start(task.kind, task.units);
     study.report(0, task.what);
     std::optional<Cell> found = study.cells.load(task.hash);
@@ -100,7 +100,7 @@ std::optional<Cell> do_cell(Study& study, const CellTask& task, bool waits) {
 }
 
 /// All variant points of a shot.
-std::vector<CellTask> point_tasks(Study& study, ShotRun& run) {
+std::vector<CellTask> point_tasks(StudyRun& study, ShotRun& run) {
     std::vector<CellTask> tasks;
     for (const VariantConfig& variant : study.config.variants) {
         const nlohmann::json parameters =
@@ -110,11 +110,11 @@ std::vector<CellTask> point_tasks(Study& study, ShotRun& run) {
                       .kind = "frames",
                       .units = double(run.shot.steps.size() * variant.seeds.size())};
         task.make = [&study, &run, &variant, suffix = task.hash.substr(0, 8)](const auto& report) {
-            return play_point(study.device, run.shot, run.truth, run.store, study.config, variant,
-                              {.out = study.settings.out,
-                               .image_suffix = suffix,
-                               .keep_all = study.settings.keep_all,
-                               .report = report});
+            return run_point(study.device, run.shot, run.truth, run.store, study.config, variant,
+                             {.out = study.settings.out,
+                              .image_suffix = suffix,
+                              .keep_all = study.settings.keep_all,
+                              .report = report});
         };
         tasks.push_back(std::move(task));
     }
@@ -126,7 +126,7 @@ bool has_times(const Config& config) {
 }
 
 /// The proof of the clock, made once in a process.
-const ClockProof& proven_clock(Study& study) {
+const ClockProof& proven_clock(StudyRun& study) {
     if (study.clock) return *study.clock;
     study.clock = prove_clock(study.device);
     if (study.clock->verdict() == ClockVerdict::failed)
@@ -141,7 +141,7 @@ const ClockProof& proven_clock(Study& study) {
 }
 
 /// All times of a shot, while no other ssrlab takes any on this machine.
-Cell timing_cell(Study& study, ShotRun& run, const std::function<void(double)>& report) {
+Cell timing_cell(StudyRun& study, ShotRun& run, const std::function<void(double)>& report) {
     if (!has_times(study.config)) return {};
     const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
     const ClockProof& clock = proven_clock(study);
@@ -156,7 +156,7 @@ Cell timing_cell(Study& study, ShotRun& run, const std::function<void(double)>& 
 
 double disturbed_frames(const Cell& cell) { return cell.timing.at("load").at("disturbed_frames").get<double>(); }
 
-CellTask timing_task(Study& study, ShotRun& run) {
+CellTask timing_task(StudyRun& study, ShotRun& run) {
     const nlohmann::json what = timed_work(study.config, study.manifest["variants"], study.maker["host"]);
     std::vector<unsigned> seeds;
     for (const VariantConfig& variant : study.config.variants) seeds.push_back(variant.seeds.front());
@@ -175,7 +175,7 @@ CellTask timing_task(Study& study, ShotRun& run) {
 
 }  // namespace
 
-void run_cells(Study& study, ShotRun& run) {
+void run_cells(StudyRun& study, ShotRun& run) {
     std::vector<CellTask> tasks = point_tasks(study, run);
     tasks.push_back(timing_task(study, run));
     std::vector<std::optional<Cell>> cells(tasks.size());

@@ -1,7 +1,7 @@
 // What the noise of the path-traced light that techniques read adds to their errors.
 #include "experiments/lit_noise.h"
 #include "core/gpu/device.h"
-#include "experiments/play.h"
+#include "experiments/point_run.h"
 #include "groundtruth/reference_cache.h"
 #include "tests/experiments/study_fixture.h"
 
@@ -110,7 +110,7 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
         truth.poses[0] = std::make_shared<PoseTruth>(std::move(pose));
         std::vector<Result> all;
         for (const VariantConfig& variant : config.variants) {
-            const Cell cell = play_point(device, shot, truth, lit, config, variant,
+            const Cell cell = run_point(device, shot, truth, lit, config, variant,
                                          {.out = folder, .image_suffix = "x", .report = [](double) {}});
             Result& mean = all.emplace_back();
             for (const ResultRow& r : cell.rows) {

@@ -7,8 +7,8 @@
 #include "experiments/shot_truth.h"
 #include "experiments/workload.h"
 
-/// All that a study needs while it runs.
-struct Study {
+/// A study on its way: all that it needs.
+struct StudyRun {
     const Config& config;
     const RunSettings& settings;
     Device& device;
@@ -39,4 +39,4 @@ struct ShotRun {
 
 /// All variants, points and seeds of a shot, then their times, into study.finished. What was done before is loaded;
 /// what other processes are at is left to the end, and taken over from them.
-void run_cells(Study& study, ShotRun& run);
+void run_cells(StudyRun& study, ShotRun& run);
