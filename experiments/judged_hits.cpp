@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <numeric>
 
 namespace {
 
@@ -13,7 +14,33 @@ const std::array<const char*, outcome_count> outcome_names = {"hit",         "of
                                                               "unfinished",  "background",  "too_thick",
                                                               "from_behind", "own_surface", "hidden"};
 
-constexpr double unbounded = std::numeric_limits<double>::infinity();  // of what is no share
+// Of the intervals below `hit_coverage_study` tells how often they hold the truth.
+
+/// Student's interval takes the seeds for normal, and knows nothing of what none of them showed. Rays that change their
+/// verdict with the seed are often few: a count c over all seeds, told by their scatter, whose mean is known within
+/// z^2/2 + z sqrt(c + z^2/4), the upper end of Wilson's score interval of a Poisson mean. The wider of both on each
+/// side. `rays`: mean over the seeds. None with a single seed.
+std::optional<Estimate> share_estimate(const std::vector<double>& shares, double rays) {
+    if (shares.size() < 2) return {};
+    constexpr double z = 1.96;
+    const Estimate student = mean_estimate(shares);
+    const double n = double(shares.size());
+    double squares = 0;
+    for (const double share : shares) squares += (share - student.value) * (share - student.value);
+    const double changed = n / (n - 1) * squares * rays * rays;
+    const double margin = (z * z / 2 + z * std::sqrt(changed + z * z / 4)) / (n * rays);
+    return Estimate{student.value, std::max(std::min(student.low, student.value - margin), 0.0),
+                    std::min(std::max(student.high, student.value + margin), 1.0)};
+}
+
+/// Of medians, and of means of what is not bounded: a single ray may move a seed by much, so that Student's interval of
+/// fewer seeds or rays holds the truth too rarely (0.62 of the medians of less than 5 rays).
+std::optional<Estimate> other_estimate(const std::vector<double>& values, double bearing_rays) {
+    constexpr size_t fewest_seeds = 4;
+    constexpr double fewest_rays = 20;
+    if (values.size() < fewest_seeds || bearing_rays < fewest_rays) return {};
+    return mean_estimate(values);
+}
 
 bool is_nothing(const ExactHit& truth) {
     return truth.outcome == outcome_background || truth.outcome == outcome_own_surface;
@@ -74,59 +101,56 @@ void JudgedHits::add(unsigned seed, const RecordedRays& recorded, const std::vec
     }
 }
 
+std::optional<double> JudgedHits::median_distance_error(const Count& count) {
+    if (count.distance_errors.empty()) return {};
+    std::vector<float> errors = count.distance_errors;
+    const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
+    std::ranges::nth_element(errors, middle);
+    return double(*middle);
+}
+
 std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
+    using ValueOf = std::function<std::optional<double>(const Count&)>;
+    using RaysOf = std::function<double(const Count&)>;  // how many bear the value of what is no share
     std::vector<HitRow> rows;
     for (const auto& [key, seeds] : counts_) {
-        const auto add = [&](const std::string& quantity, const auto& value_of, double most = 1.0) {
+        const auto add = [&](const std::string& quantity, const ValueOf& value_of, const RaysOf& rays_of_other = {}) {
             std::vector<double> values;
-            double rays = 0;
+            double rays = 0, bearing = 0;
             for (const Count& count : seeds) {
                 if (count.rays == 0) continue;
                 const std::optional<double> value = value_of(count);
                 if (!value) continue;
                 values.push_back(*value);
                 rays += count.rays;
+                bearing += rays_of_other ? rays_of_other(count) : 0.0;
             }
             if (values.empty()) return;
+            const double n = double(values.size());
             HitRow row = shared;
             row.stage = key.stage, row.mask = key.mask, row.quantity = quantity, row.seeds = unsigned(values.size());
-            row.rays = rays / double(values.size());
-            double sum = 0;
-            for (const double value : values) sum += value;
-            row.value = sum / double(values.size());
-            if (values.size() >= 2) {
-                const Estimate estimate = mean_estimate(values);
-                row.low = std::max(estimate.low, 0.0), row.high = std::min(estimate.high, most);  // a share stays one
-            }
+            row.rays = rays / n;
+            row.value = std::accumulate(values.begin(), values.end(), 0.0) / n;
+            if (const auto estimate =
+                    rays_of_other ? other_estimate(values, bearing / n) : share_estimate(values, row.rays))
+                row.low = std::max(estimate->low, 0.0), row.high = estimate->high;
             rows.push_back(std::move(row));
         };
         for (size_t v = 0; v < ray_verdict_count; ++v)
-            add(ray_verdict_names()[v],
-                [&](const Count& c) -> std::optional<double> { return c.verdicts[v] / c.rays; });
-        add("correct", [](const Count& c) -> std::optional<double> {
+            add(ray_verdict_names()[v], [&](const Count& c) { return c.verdicts[v] / c.rays; });
+        add("correct", [](const Count& c) {
             return (c.verdicts[size_t(RayVerdict::right)] + c.verdicts[size_t(RayVerdict::unavoidable_miss)] +
                     c.verdicts[size_t(RayVerdict::empty)]) /
                    c.rays;
         });
         for (size_t outcome = 0; outcome < outcome_count; ++outcome) {
-            const auto share = [&](const Count& c) -> std::optional<double> {
-                return c.missed_by_outcome[outcome] / c.rays;
-            };
-            if (std::ranges::any_of(seeds, [&](const Count& c) { return c.rays > 0 && *share(c) > 0; }))
+            const auto share = [&](const Count& c) { return c.missed_by_outcome[outcome] / c.rays; };
+            if (std::ranges::any_of(seeds, [&](const Count& c) { return c.rays > 0 && share(c) > 0; }))
                 add(std::string("miss: ") + outcome_names[outcome], share);
         }
+        add("distance_error", median_distance_error, [](const Count& c) { return double(c.distance_errors.size()); });
         add(
-            "distance_error",
-            [](const Count& c) -> std::optional<double> {
-                if (c.distance_errors.empty()) return {};
-                std::vector<float> errors = c.distance_errors;
-                const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
-                std::ranges::nth_element(errors, middle);
-                return double(*middle);
-            },
-            unbounded);
-        add(
-            "fetches", [](const Count& c) -> std::optional<double> { return c.fetches / c.rays; }, unbounded);
+            "fetches", [](const Count& c) { return c.fetches / c.rays; }, [](const Count& c) { return c.rays; });
     }
     return rows;
 }

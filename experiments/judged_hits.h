@@ -33,8 +33,9 @@ public:
     void add(unsigned seed, const RecordedRays& recorded, const std::vector<ExactHit>& truth, glm::uvec2 extent,
              unsigned every, const std::vector<Mask>& masks);
 
-    /// `shared`: shot, frame, variant and point. Mean over the seeds with Student's interval; a quantity that a seed
-    /// lacks (no ray in the mask) is left to the others.
+    /// `shared`: shot, frame, variant and point. Means over the seeds with an interval: of shares that of counts, where
+    /// few rays change with the seed, else Student's; none with a single seed, nor of distances and fetches with fewer
+    /// than 4 seeds or 20 rays. A quantity that a seed lacks (no ray in the mask) is left to the others.
     std::vector<HitRow> rows(const HitRow& shared) const;
 
 private:
@@ -52,6 +53,7 @@ private:
     std::vector<unsigned> seeds_;
 
     Count& count(const Key& key, unsigned seed);
+    static std::optional<double> median_distance_error(const Count& count);  ///< none without right rays
 };
 
 /// The verdict of each pixel's first ray in one colour each (RGB), black where none was traced: right green, wrong

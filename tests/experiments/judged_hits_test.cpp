@@ -194,7 +194,7 @@ TEST(JudgedHits, MasksAndTheGridChoosePixels) {
     EXPECT_DOUBLE_EQ(of_grid("right", "row"), 2.0 / 4);
 }
 
-TEST(JudgedHits, SeedsGiveAMeanWithStudentsInterval) {
+TEST(JudgedHits, SeedsGiveAMeanWithTheIntervalOfCountsWhereFewRaysChange) {
     // 1, 2 and 2 of 4 rays are right; another pass has rays with one of the seeds only.
     JudgedHits hits;
     const std::array<unsigned, 3> right_of_seed = {1, 2, 2};
@@ -207,20 +207,78 @@ TEST(JudgedHits, SeedsGiveAMeanWithStudentsInterval) {
     }
     const HitRow shared{.shot = "shot", .frame = "7", .variant = "variant", .point = "point"};
     const std::vector<HitRow> rows = hits.rows(shared);
-    const Estimate expected = mean_estimate(std::vector<double>{0.25, 0.5, 0.5});
     const HitRow& first = rows.at(0);
     EXPECT_EQ(first.quantity, "right");
     EXPECT_EQ(first.stage + first.shot + first.frame + first.variant + first.point, "traceshot7variantpoint");
     EXPECT_EQ(first.seeds, 3u);
     EXPECT_DOUBLE_EQ(first.rays, 4);
-    EXPECT_DOUBLE_EQ(first.value, expected.value);
-    EXPECT_DOUBLE_EQ(first.low.value(), expected.low);
-    EXPECT_DOUBLE_EQ(first.high.value(), expected.high);
+    EXPECT_DOUBLE_EQ(first.value, 5.0 / 12);
+    // The scatter is that of one changed ray: 5 of 12 rays, give or take 1.9208 + 1.96 sqrt(1 + 0.9604) = 4.6651.
+    EXPECT_NEAR(first.low.value(), (5 - 4.6651) / 12, 1e-5);
+    EXPECT_NEAR(first.high.value(), (5 + 4.6651) / 12, 1e-5);
     const auto rough = std::ranges::find(rows, "rough", &HitRow::stage);
     ASSERT_NE(rough, rows.end());
     EXPECT_EQ(rough->seeds, 1u) << "seeds without a ray say nothing";
     EXPECT_DOUBLE_EQ(rough->rays, 1);
     EXPECT_FALSE(rough->low || rough->high);
+}
+
+/// Rays of `seeds` seeds, of which that many are right and all others avoidable misses.
+Quantities with_right(const std::vector<unsigned>& right, unsigned rays_per_seed) {
+    JudgedHits hits;
+    for (unsigned seed = 0; seed < right.size(); ++seed) {
+        std::vector<JudgedRay> rays;
+        for (unsigned i = 0; i < rays_per_seed; ++i)
+            rays.push_back({i < right[seed] ? hit_at({3, 3}, 1, 1 + 0.01f * float(seed)) : miss(), seen_at_3_3});
+        add(hits, seed, rays, {rays_per_seed, 1});
+    }
+    return {hits.rows({})};
+}
+
+TEST(JudgedHits, IntervalsAreStudentsWhereManyRaysChange) {
+    const HitRow row = with_right({100, 200, 300}, 400).row("right");
+    const Estimate student = mean_estimate(std::vector<double>{0.25, 0.5, 0.75});
+    EXPECT_DOUBLE_EQ(row.low.value(), std::max(student.low, 0.0));
+    EXPECT_DOUBLE_EQ(row.high.value(), std::min(student.high, 1.0));
+}
+
+TEST(JudgedHits, WhatNoSeedShowedIsNotExcluded) {
+    // Of a Poisson mean of which nothing was counted Wilson's interval ends at z^2 = 3.84 (the exact one at 3.69).
+    const HitRow row = with_right({0, 0, 0, 0}, 100).row("right");
+    EXPECT_EQ(row.low, 0.0);
+    EXPECT_NEAR(row.high.value(), 3.8416 / 400, 1e-9);
+}
+
+TEST(JudgedHits, IntervalsOfRareVerdictsHoldTheirShare) {
+    std::mt19937 random(1);
+    constexpr unsigned trials = 2000, rays = 100;
+    for (const double share : {0.001, 0.01, 0.1}) {
+        std::binomial_distribution<unsigned> right(rays, share);
+        unsigned covered = 0;
+        for (unsigned trial = 0; trial < trials; ++trial) {
+            const HitRow row =
+                with_right({right(random), right(random), right(random), right(random)}, rays).row("right");
+            covered += *row.low <= share && share <= *row.high;
+        }
+        // 95 % less four standard deviations of the count: one false alarm in 30000 if it covers just so. Student's
+        // covers 0.34, 0.98 and 0.95.
+        EXPECT_GE(covered, 0.95 * trials - 4 * std::sqrt(0.95 * 0.05 * trials)) << share;
+    }
+}
+
+TEST(JudgedHits, DistancesAndFetchesHaveNoIntervalOfFewSeedsOrRays) {
+    for (const auto& [seeds, rays, has_interval] :
+         {std::tuple(3u, 40u, false), {4u, 19u, false}, {4u, 20u, true}, {4u, 40u, true}}) {
+        const Quantities quantities = with_right(std::vector<unsigned>(seeds, rays), rays);
+        for (const char* quantity : {"distance_error", "fetches"})
+            EXPECT_EQ(quantities.row(quantity).low.has_value(), has_interval) << quantity << seeds << " " << rays;
+        EXPECT_TRUE(quantities.row("right").low.has_value());
+    }
+    const Quantities few_right = with_right({10, 10, 10, 10}, 40);
+    EXPECT_FALSE(few_right.row("distance_error").low) << "a median of 10 rays";
+    EXPECT_TRUE(few_right.row("fetches").low);
+    const HitRow row = with_right({40, 40, 40, 40}, 40).row("distance_error");
+    EXPECT_NEAR(row.high.value(), mean_estimate(std::vector<double>{0, 0.01, 0.02, 0.03}).high, 1e-6);
 }
 
 TEST(JudgedHits, MapsShowTheFirstRayOfEachPixel) {
