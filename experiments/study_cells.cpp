@@ -55,9 +55,10 @@ struct CellTask {
 /// A result while the study runs: one number that matters, over the seeds.
 void say_result(StudyRun& study, const Cell& cell) {
     std::map<std::string, std::vector<double>> values;  // by frame
+    size_t non_finite = 0;                              // pixels, of the worst seed
     for (const ResultRow& r : cell.rows)
         if (r.target == "specular" && r.metric == "relmse" && r.mask == "reflective" && r.value)
-            values[r.frame].push_back(*r.value);
+            values[r.frame].push_back(*r.value), non_finite = std::max(non_finite, size_t(r.non_finite));
     if (values.empty()) return;
     const auto& [frame, seeds] = *values.rbegin();  // "all" comes after every number
     double sum = 0;
@@ -66,7 +67,9 @@ void say_result(StudyRun& study, const Cell& cell) {
     std::snprintf(line, sizeof line, "  %-24s %-32s relmse of reflective pixels %.4g (frame %s, %zu seed%s)",
                   cell.rows.front().variant.c_str(), cell.rows.front().point.c_str(), sum / double(seeds.size()),
                   frame.c_str(), seeds.size(), seeds.size() == 1 ? "" : "s");
-    study.progress.say(line);
+    const std::string left_out =
+        non_finite > 0 ? ", without " + std::to_string(non_finite) + " that are not finite" : "";
+    study.progress.say(line + left_out);
 }
 
 /// Loads the cell if it was done before, else does it and keeps it. Nothing if another process is at it, unless

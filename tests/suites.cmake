@@ -20,6 +20,10 @@ function(add_suites program folder)
     # The largest suites start first, so that none of them runs on alone in the end.
     set_tests_properties(${test} PROPERTIES WORKING_DIRECTORY ${folder} TIMEOUT 600 COST ${count}
       ENVIRONMENT "SSRLAB_VALIDATE=1")
+    # What every technique and tracer must keep, over the tables of both: ctest -L contract.
+    if(test MATCHES "^(Registry|TracersTest|TracersInRoom|TracersInWebgl2|Webgl2Variant|SeedDependence|ExactTracers)$")
+      set_tests_properties(${test} PROPERTIES LABELS contract)
+    endif()
     if(test STREQUAL "Clock")  # what measures time runs alone
       set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
     endif()

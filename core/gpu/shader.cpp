@@ -34,15 +34,22 @@ const char* const webgl2_preamble =
 /// `asked_for_by`: ", which FILE:LINE includes", or nothing; for the message if there is no such file.
 std::string read_shader(const std::string& name, const std::string& asked_for_by = {}) {
     for (const auto& root : shader_roots())
-        if (std::ifstream in(root / name); in) return {std::istreambuf_iterator<char>(in), {}};
+        if (std::ifstream in(root / name); std::filesystem::is_regular_file(root / name) && in)
+            return {std::istreambuf_iterator<char>(in), {}};
     fail("no shader file ", name, asked_for_by,
          ", under variants/, core/shaders/, tests/shaders/ or the project's root");
 }
 
+struct SourceFile {
+    std::string name;
+    size_t includer = 0;  ///< index of the file that includes it
+    int line = 0;         ///< there; 0: nobody does
+};
+
 /// Replaces #include "x" by the text of x. Files guard themselves against double inclusion. Each file has a number, its
 /// index in `files`, which #line carries into the compiler's messages.
 std::string expand_includes(const std::string& text, size_t file, const ShaderIncludes& includes,
-                            std::vector<std::string>& files) {
+                            std::vector<SourceFile>& files) {
     std::istringstream in(text);
     std::ostringstream out;
     int number = 0;
@@ -53,10 +60,10 @@ std::string expand_includes(const std::string& text, size_t file, const ShaderIn
             continue;
         }
         const std::string name = line.substr(10, line.rfind('"') - 10);
-        files.push_back(name);
+        files.push_back({name, file, number});
         const size_t included = files.size() - 1;
-        if (files.size() > 200) fail(files[file], " includes itself");
-        const std::string place = files[file] + ":" + std::to_string(number);
+        if (files.size() > 200) fail(files[file].name, " includes itself");
+        const std::string place = files[file].name + ":" + std::to_string(number);
         const auto decided = includes.find(name);
         const std::string content =
             decided != includes.end() ? decided->second : read_shader(name, ", which " + place + " includes");
@@ -68,26 +75,39 @@ std::string expand_includes(const std::string& text, size_t file, const ShaderIn
 
 /// The shader `files[index]` behind the prelude, which is file 0, with its includes, which are added to `files`.
 std::string complete_source(const std::string& prelude, size_t index, const ShaderIncludes& includes,
-                            std::vector<std::string>& files) {
-    const std::string begin = files[index].ends_with(".comp") ? "#define COMPUTE_SHADER\n#line 1 0\n" : "";
+                            std::vector<SourceFile>& files) {
+    const std::string begin = files[index].name.ends_with(".comp") ? "#define COMPUTE_SHADER\n#line 1 0\n" : "";
     return begin + expand_includes(prelude, 0, includes, files) + "#line 1 " + std::to_string(index) + "\n" +
-           expand_includes(read_shader(files[index]), index, includes, files);
+           expand_includes(read_shader(files[index].name), index, includes, files);
 }
 
 std::string webgl2_fragment(const std::string& prelude, const ShaderIncludes& includes,
-                            std::vector<std::string>& files) {
+                            std::vector<SourceFile>& files) {
     return std::string(webgl2_version) + webgl2_preamble + "#line 1 0\n" + complete_source(prelude, 1, includes, files);
 }
 
-/// glslang writes "ERROR: 3:17: ..." for line 17 of file 3.
-std::string with_file_names(const std::string& log, const std::vector<std::string>& files) {
+/// " (included by FILE:LINE, FILE:LINE)", from the nearest to the shader itself; "" for that.
+std::string includers(size_t file, const std::vector<SourceFile>& files) {
+    std::string text;
+    for (; files[file].line > 0; file = files[file].includer)
+        text += (text.empty() ? " (included by " : ", ") + files[files[file].includer].name + ":" +
+                std::to_string(files[file].line);
+    return text.empty() ? "" : text + ")";
+}
+
+/// glslang writes "ERROR: 3:17: ..." for line 17 of file 3, and after the first error some about "", which say nothing.
+std::string with_file_names(const std::string& log, const std::vector<SourceFile>& files) {
     std::istringstream in(log);
     std::ostringstream out;
+    bool is_first = true;
     for (std::string line; std::getline(in, line);) {
         unsigned file = 0;
         int consumed = 0;
-        if (std::sscanf(line.c_str(), "ERROR: %u:%n", &file, &consumed) == 1 && consumed && file < files.size())
-            line = files[file] + ":" + line.substr(size_t(consumed));
+        if (std::sscanf(line.c_str(), "ERROR: %u:%n", &file, &consumed) == 1 && consumed && file < files.size()) {
+            if (!is_first && line.find(": '' :") != std::string::npos) continue;
+            line = files[file].name + ":" + line.substr(size_t(consumed)) + (is_first ? includers(file, files) : "");
+            is_first = false;
+        }
         if (!line.empty()) out << line << '\n';
     }
     return out.str();
@@ -148,9 +168,12 @@ std::string shader_prelude(const ParameterSet& params, ShaderLanguage language) 
 }
 
 Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude, const ShaderIncludes& includes) {
-    std::vector<std::string> files = {"prelude", file};
-    return {.vertex = webgl2_version + fullscreen_triangle("gl_VertexID"),
-            .fragment = webgl2_fragment(prelude, includes, files)};
+    std::vector<SourceFile> files = {{"prelude"}, {file}};
+    Webgl2Sources sources{.vertex = webgl2_version + fullscreen_triangle("gl_VertexID"),
+                          .fragment = webgl2_fragment(prelude, includes, files),
+                          .files = {}};
+    for (const SourceFile& f : files) sources.files.push_back(f.name);
+    return sources;
 }
 
 Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,
@@ -159,13 +182,13 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
     (void)initialised;
     const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
 
-    std::vector<std::string> files = {"prelude", file};
+    std::vector<SourceFile> files = {{"prelude"}, {file}};
     std::vector<std::pair<EShLanguage, std::string>> sources;
     if (!is_compute && !webgl2) {
         if (vertex_file.empty()) {
             sources.emplace_back(EShLangVertex, fullscreen_triangle("gl_VertexIndex"));
         } else {
-            files.push_back(vertex_file);
+            files.push_back({vertex_file});
             sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, includes, files));
         }
     }

@@ -273,7 +273,8 @@ TEST_F(ExactTracers, WhoCannotAskOrSeeIsToldSo) {
         Probed seeing(player, "mcguire_dda", parameters);
         EXPECT_TRUE(seeing.variant->needs_depth_layers());
         EXPECT_EQ(message_of([&] { seeing.render(); }),
-                  "the chosen tracer reads what lies behind the visible surfaces, which captures do not hold");
+                  "the chosen tracer reads what lies behind the visible surfaces: captures do not hold it, and scenes' "
+                  "frames only if the technique's needs_depth_layers() asks for it");
     }
     Probed by_parameter(player, "mcguire_dda",
                         {{"tracer", "exact_layer"}, {"exact_layer.thickness_from", "parameter"}});

@@ -21,6 +21,10 @@ std::string error_of(const std::string& file, ShaderLanguage language = ShaderLa
 TEST(Shader, ErrorsNameTheFileAndLineAsWritten) {
     EXPECT_NE(error_of("broken_include.comp").find("broken_part.glsl:3: 'undeclared'"), std::string::npos);
     EXPECT_NE(error_of("broken.comp").find("broken.comp:5: 'nor_this'"), std::string::npos) << error_of("broken.comp");
+    EXPECT_NE(error_of("broken_include.comp").find("(included by broken_include.comp:"), std::string::npos)
+        << error_of("broken_include.comp");
+    EXPECT_EQ(error_of("broken_include.comp").find(": '' :"), std::string::npos) << error_of("broken_include.comp");
+    EXPECT_NE(error_of("amd_sssr").find("no shader file amd_sssr, under"), std::string::npos) << "a folder";
     EXPECT_NE(error_of("no_such.comp").find("no shader file no_such.comp, under"), std::string::npos);
     EXPECT_NE(error_of("missing_include.comp")
                   .find("no shader file no_such_part.glsl, which missing_include.comp:2 includes, under"),

@@ -10,15 +10,36 @@ struct TracersTest : VariantTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = {67, 45}};
 
-    HostImage render(Variant& variant) {
+    struct Rendered {
+        HostImage radiance;
+        std::vector<float> confidence;
+    };
+    Rendered render(Variant& variant) {
         PassGraph graph(device(), view.extent);
         const CameraData camera = camera_data(pose, nullptr, view);
         const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, glossy_floor);
         graph.begin_frame(camera, variant.params, gbuffer.images());
         const LimitScope limits(graph, variant.ray_probe ? Limits::none : variant.limits);
-        return graph.download(variant.render(graph, gbuffer).radiance);
+        const Reflections reflections = variant.render(graph, gbuffer);
+        const HostImage confidence = graph.download(reflections.confidence);
+        Rendered rendered{.radiance = graph.download(reflections.radiance), .confidence = {}};
+        for (size_t i = 0; i < confidence.pixel_count(); ++i)
+            rendered.confidence.push_back(confidence.values[i * confidence.channels + reflections.confidence_channel]);
+        return rendered;
     }
 };
+
+/// What the composite takes for granted: it multiplies, so radiance must be finite where confidence is 0, too.
+void expect_valid(const auto& rendered) {
+    size_t bad_radiance = 0, bad_confidence = 0;
+    for (size_t i = 0; i < rendered.radiance.pixel_count(); ++i) {
+        const glm::vec3 radiance = rendered.radiance.rgb(i);
+        for (int c = 0; c < 3; ++c) bad_radiance += !(std::isfinite(radiance[c]) && radiance[c] >= 0);
+        bad_confidence += !(rendered.confidence[i] >= 0 && rendered.confidence[i] <= 1);
+    }
+    EXPECT_EQ(bad_radiance, 0u) << "channels that are not finite, or negative";
+    EXPECT_EQ(bad_confidence, 0u) << "pixels whose confidence is not within [0, 1]";
+}
 
 /// Parameters of a technique that choose among tracers, all set to one; and those that make runs repeat and short.
 nlohmann::json all_by(const TracerEntry& tracer, const VariantEntry& entry) {
@@ -44,7 +65,9 @@ TEST_F(TracersTest, TraceForEveryTechniqueAndChangeNothingWhenRecorded) {
             RayProbe probe;
             probe.is_recording = true;
             probed->ray_probe = &probe;
-            EXPECT_TRUE(render(*probed).values == render(*plain).values);
+            const Rendered result = render(*plain);
+            expect_valid(result);
+            EXPECT_TRUE(render(*probed).radiance.values == result.radiance.values);
             EXPECT_FALSE(probe.recorded.empty());
             size_t hits = 0, rays = 0;
             for (const RecordedRays& recorded : probe.recorded) {

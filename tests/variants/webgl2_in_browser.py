@@ -5,6 +5,7 @@ usage: webgl2_in_browser.py WEBGL2_SHADERS_PROGRAM
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -44,10 +45,16 @@ return {logs, lost: gl.isContextLost()};
 
 BROKEN = {  # what glslang takes for GLSL ES 3.00 and browsers do not
     "name": "a ternary of structures",
+    "files": ["prelude"],
     "vertex": "#version 300 es\nvoid main() { gl_Position = vec4(0.0); }\n",
     "fragment": "#version 300 es\nprecision highp float;\nstruct S { float x; };\nuniform bool b;\nout vec4 color;\n"
     "void main() { S s = b ? S(1.0) : S(2.0); color = vec4(s.x); }\n",
 }
+
+
+def with_file_names(log, files):
+    """ANGLE writes "ERROR: 3:17: ..." for line 17 of file 3."""
+    return re.sub(r"ERROR: (\d+):", lambda m: files[int(m[1])] + ":" if int(m[1]) < len(files) else m[0], log)
 
 
 def failures(browser, sources):
@@ -55,7 +62,7 @@ def failures(browser, sources):
     found = browser.execute_script(COMPILE, sources)
     if "error" in found or found["lost"]:
         sys.exit(f"webgl2_in_browser: {found.get('error', 'the browser lost its WebGL context')}")
-    return [f"{s['name']}: {log}" for s, log in zip(sources, found["logs"]) if log]
+    return [f"{s['name']}: {with_file_names(log, s['files'])}" for s, log in zip(sources, found["logs"]) if log]
 
 
 def main():

@@ -1,24 +1,23 @@
 #pragma once
-#include "core/variant.h"
 #include "variants/amd_sssr/denoiser_parameters.h"
 #include "variants/amd_sssr/tracing_parameters.h"
 #include "variants/common/blue_noise.h"
+#include "variants/tracers/tracing_variant.h"
 
 /// AMD FidelityFX Stochastic Screen-Space Reflections with its reflection denoiser, as the shaders of FidelityFX SDK
 /// 1.1.4 compute them (effects SSSR 1.5 and Denoiser 1.3, MIT licence). Defaults are those of AMD's sample.
 ///
 /// README.md explains the passes, lists the deviations, and names the parameter that mends each defect of the original.
-class AmdSssr final : public Variant {
+class AmdSssr final : public TracingVariant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override;
     std::string not_repeatable() const override;
-    ShaderIncludes shader_includes() const override { return tracing_.tracers.includes(); }
-    bool asks_scene() const override { return tracing_.tracers.needs().exact_hits; }
-    bool needs_depth_layers() const override { return tracing_.tracers.needs().depth_layers; }
 
 private:
+    const Tracers& chosen_tracers() const override { return tracing_.tracers; }
+
     AmdTracingParameters tracing_{params};
     AmdDenoiserParameters denoiser_{params};
     BlueNoise noise_;

@@ -1,24 +1,23 @@
 #pragma once
-#include "core/variant.h"
 #include "variants/common/blue_noise.h"
 #include "variants/common/lit_history.h"
 #include "variants/diligent_ssr/filter_parameters.h"
 #include "variants/diligent_ssr/tracing_parameters.h"
+#include "variants/tracers/tracing_variant.h"
 
 /// DiligentFX's screen-space reflection (Apache-2.0 licence), an adaptation of AMD FidelityFX SSSR to machines without
 /// compute shaders. Defaults are those of the effect as of July 2026.
 ///
 /// README.md explains the passes, lists the deviations, and names the parameter that mends each defect of the original.
-class DiligentSsr final : public Variant {
+class DiligentSsr final : public TracingVariant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override;
-    ShaderIncludes shader_includes() const override { return tracing_.tracers.includes(); }
-    bool asks_scene() const override { return tracing_.tracers.needs().exact_hits; }
-    bool needs_depth_layers() const override { return tracing_.tracers.needs().depth_layers; }
 
 private:
+    const Tracers& chosen_tracers() const override { return tracing_.tracers; }
+
     DiligentTracingParameters tracing_{params};
     DiligentFilterParameters filter_{params};
     BlueNoise noise_;

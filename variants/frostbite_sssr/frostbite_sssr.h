@@ -1,23 +1,22 @@
 #pragma once
 #include "core/gbuffer/split_sum_image.h"
-#include "core/variant.h"
 #include "variants/common/lit_history.h"
 #include "variants/frostbite_sssr/horizon_image.h"
 #include "variants/frostbite_sssr/ray_parameters.h"
 #include "variants/frostbite_sssr/resolve_parameters.h"
+#include "variants/tracers/tracing_variant.h"
 
 /// Stochastic screen-space reflections as Frostbite's authors presented them: Stachowiak and Uludag 2015, "Stochastic
 /// Screen-Space Reflections", SIGGRAPH course Advances in Real-Time Rendering. Much of it was never published;
 /// README.md says what is theirs and what is ours.
-class FrostbiteSssr final : public Variant {
+class FrostbiteSssr final : public TracingVariant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
-    ShaderIncludes shader_includes() const override { return ray_.tracers.includes(); }
-    bool asks_scene() const override { return ray_.tracers.needs().exact_hits; }
-    bool needs_depth_layers() const override { return ray_.tracers.needs().depth_layers; }
 
 private:
+    const Tracers& chosen_tracers() const override { return ray_.tracers; }
+
     FrostbiteRayParameters ray_{params};
     FrostbiteResolveParameters resolve_{params};
     LitHistory lit_;

@@ -9,7 +9,7 @@ Reflections McGuireDda::render(PassGraph& graph, const GBuffer& gbuffer) {
         return {radiance, confidence};
     }
     tracers.run(graph, graph.compute("mcguire_dda/trace.comp").write(hit), {"tracer"},
-                tracers.images(graph, gbuffer.depth), ray_probe, 1, [](PassGraph::Pass& pass) { pass.run(); });
+                tracers.images(graph, gbuffer.depth), ray_probe);
     graph.compute("mcguire_dda/shade.comp")
         .read(hit)
         .read(gbuffer.lit, {.is_linear = bilinear_color})

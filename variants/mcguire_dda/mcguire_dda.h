@@ -1,20 +1,18 @@
 #pragma once
-#include "core/variant.h"
-#include "variants/tracers/tracers.h"
+#include "variants/tracers/tracing_variant.h"
 
 /// One mirror ray per pixel, and the lit colour where it ends: the plainest technique. Its own tracer is McGuire & Mara
 /// 2014, "Efficient GPU Screen-Space Ray Tracing", Journal of Computer Graphics Techniques 3(4). The image `hit` of the
 /// graph (rgba32f) keeps where each ray ended: uv on the un-jittered screen, distance (m), confidence, 0 of misses.
-class McGuireDda final : public Variant {
+class McGuireDda final : public TracingVariant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override { return tracers.needs().random; }
-    ShaderIncludes shader_includes() const override { return tracers.includes(); }
-    bool asks_scene() const override { return tracers.needs().exact_hits; }
-    bool needs_depth_layers() const override { return tracers.needs().depth_layers; }
 
 private:
+    const Tracers& chosen_tracers() const override { return tracers; }
+
     bool is_left_out_ = false;
 
     // clang-format off

@@ -13,7 +13,7 @@ struct TraceRay {
     vec3 direction;         // view space, unit
     vec3 geometric_normal;  // of that surface: view space, unit
     float random;           // [0, 1)
-    bool is_mirror;         // of a perfect mirror: nothing blurs what it meets
+    bool is_mirror;         // nothing blurs what it meets: `hierarchy` takes more care of it
 };
 
 struct TraceEnd {

@@ -74,6 +74,18 @@ TracerNeeds both(const TracerNeeds& a, const TracerNeeds& b) {
             .exact_hits = a.exact_hits || b.exact_hits};
 }
 
+/// Fails if a parameter has the name of a technique's, so that it would be taken for one of that.
+std::unique_ptr<Tracer> created(const TracerEntry& entry, ParameterSet& params) {
+    const std::string part = entry.part.empty() ? entry.name : entry.part;
+    const auto before = std::distance(params.begin(), params.end());
+    std::unique_ptr<Tracer> tracer = entry.create(params);
+    for (auto p = params.begin() + before; p != params.end(); ++p)
+        if (p->part() != part)
+            fail("the tracer ", entry.name, " declares a parameter '", p->name, "', whose name must begin with '", part,
+                 ".'");
+    return tracer;
+}
+
 std::vector<RayRecord> download_records(PassGraph& graph, const Buffer& buffer) {
     const std::vector<std::byte> bytes = graph.download(buffer);
     std::vector<RayRecord> rays(bytes.size() / sizeof(RayRecord));
@@ -94,7 +106,7 @@ Tracers::Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std:
     : params_(params), slots_(std::move(slots)) {
     for (const TracerSlot& slot : slots_)
         Choice(params, slot.name, slot.initial, tracer_names(), {"", slot.doc, source});
-    for (const TracerEntry& entry : tracer_table()) tracers_.push_back(entry.create(params));
+    for (const TracerEntry& entry : tracer_table()) tracers_.push_back(created(entry, params));
     params.change_defaults(defaults);
 }
 
@@ -146,9 +158,9 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
     for (const std::string& slot : slots) needed = both(needed, needs(slot));
     if (needed.exact_hits && (!probe || !probe->exact_hits))
         fail("the tracer exact_scene asks the scene, which only ssrlab's commands plug in, and not for captures");
-
     if (needed.depth_layers && !graph.has_input("second_depth"))
-        fail("the chosen tracer reads what lies behind the visible surfaces, which captures do not hold");
+        fail("the chosen tracer reads what lies behind the visible surfaces: captures do not hold it, and scenes' frames "
+             "only if the technique's needs_depth_layers() asks for it");
     const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
     const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
     const auto run_as = [&](Including what) {

@@ -45,11 +45,13 @@ public:
     };
     Images images(PassGraph& graph, const Image& depth, const PyramidMaker& make = {}) const;
 
-    /// Runs `pass`, whose shader includes `slots`, once by `run`; with a probe that asks for it a second time before,
-    /// to get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different TraceRay::number. Fails if a
-    /// tracer needs exact hits and `probe` has none.
-    void run(PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots, const Images& images,
-             RayProbe* probe, unsigned rays_per_pixel, const std::function<void(PassGraph::Pass&)>& run) const;
+    /// Runs `pass`, whose shader includes `slots`, once by `run` (over all pixels); with a probe that asks for it a
+    /// second time before, to get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different
+    /// TraceRay::number. Fails if a tracer needs exact hits and `probe` has none.
+    void run(
+        PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots, const Images& images,
+        RayProbe* probe, unsigned rays_per_pixel = 1,
+        const std::function<void(PassGraph::Pass&)>& run = [](PassGraph::Pass& pass) { pass.run(); }) const;
 
     /// What the slots' names stand for in shaders, for whoever compiles them outside of run().
     ShaderIncludes includes() const;

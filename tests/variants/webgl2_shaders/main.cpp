@@ -62,7 +62,8 @@ struct Sources {
                 if (!seen.insert(file + '\n' + what_counts(sources.fragment)).second) continue;
                 list.push_back({{"name", file + " of " + entry.name + point},
                                 {"vertex", sources.vertex},
-                                {"fragment", sources.fragment}});
+                                {"fragment", sources.fragment},
+                                {"files", sources.files}});
             }
     }
 };
