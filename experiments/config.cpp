@@ -341,6 +341,10 @@ Config read_config(const std::filesystem::path& file) {
     if (!config.has_reference && !config.direct_lit)
         fail(file.string(), ": 'reference' = \"none\" leaves no path-traced light to read; add \"lit\": \"direct\"");
 
+    config.composite = object.choice("composite", {"split_sum", "additive_fresnel"}, "split_sum") == "split_sum"
+                           ? CompositeFormula::split_sum
+                           : CompositeFormula::additive_fresnel;
+
     const std::vector<std::string> formats = {"d32f", "d24", "d16"};
     const std::string format = object.choice("depth_format", formats, "d32f");
     config.depth_format = format == "d16" ? DepthFormat::d16 : format == "d24" ? DepthFormat::d24 : DepthFormat::d32f;
@@ -372,7 +376,17 @@ Config read_config(const std::filesystem::path& file) {
         } catch (const Error& e) {
             fail(file.string(), ": 'masks': ", e.what());
         }
-    config.targets = known_names(object, "targets", target_names(), {"specular", "image", "incident"});
+    config.targets = known_names(object, "targets", target_names(),
+                                 config.composite == CompositeFormula::split_sum
+                                     ? std::vector<std::string>{"specular", "image", "incident"}
+                                     : std::vector<std::string>{"specular", "image"});
+    if (config.composite != CompositeFormula::split_sum)
+        for (const std::string& target : config.targets)
+            if (target != "specular" && target != "image")
+                fail(file.string(),
+                     ": 'targets': with \"composite\": \"additive_fresnel\" there is no mean of incident radiance to "
+                     "compare with '",
+                     target, "'; allowed are specular and image");
     config.frame_metrics = known_names(object, "frame_metrics", metric_names(), {"mse", "relmse", "bias"}, true);
     config.frame_masks = known_names(object, "frame_masks", config.masks, default_frame_masks(config.masks));
     config.primary = read_primary(object, config);

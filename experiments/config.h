@@ -1,4 +1,5 @@
 #pragma once
+#include "core/gbuffer/composite.h"
 #include "core/scene/camera.h"
 #include "groundtruth/reference.h"
 
@@ -74,6 +75,7 @@ struct Config {
     ReferenceSettings reference;
     bool has_reference = true;  ///< else no error is measured: frames are timed and rays judged
     bool direct_lit = false;  ///< SSR reads rasterised direct light in place of the path-traced lit colour
+    CompositeFormula composite = CompositeFormula::split_sum;
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     TimingConfig timing;

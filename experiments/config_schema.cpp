@@ -120,6 +120,7 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"seeds", counts(100000)},
                 {"reference", {{"anyOf", {reference, {{"const", "none"}}}}}},
                 {"lit", {{"enum", {"path_traced", "direct"}}}},
+                {"composite", {{"enum", {"split_sum", "additive_fresnel"}}}},
                 {"depth_format", {{"enum", {"d32f", "d24", "d16"}}}},
                 {"depth_direction", {{"enum", {"standard", "reversed"}}}},
                 {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}})},

@@ -211,7 +211,10 @@ CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, cons
     CompositedImages images{
         .specular = channels_of(graph.download(composite.specular), 0, 3),
         .incident = HostImage(radiance.extent, 3),
-        .confidence = channels_of(graph.download(reflections.confidence), reflections.confidence_channel, 1)};
+        .confidence = channels_of(graph.download(reflections.confidence), reflections.confidence_channel, 1),
+        .radiance = HostImage(radiance.extent, 3)};
+    for (size_t i = 0; i < radiance.pixel_count(); ++i)
+        if (images.confidence.values[i] != 0.0f) images.radiance.set_rgb(i, radiance.rgb(i));
     for (size_t i = 0; i < images.incident.pixel_count(); ++i) {
         if (!reflectance.values.empty() && reflectance.rgb(i) == glm::vec3(0.0f)) continue;
         for (size_t c = 0; c < 3; ++c) {
@@ -270,6 +273,7 @@ std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out,
     save("result", "image", image, exposure_ev);
     save("result", "specular", images.specular, exposure_ev);
     save("result", "incident", images.incident, exposure_ev);
+    save("raw", "radiance", images.radiance, exposure_ev);
     save("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
     for (const auto& [target, reference] : truth.targets) {
         const HostImage error = relative_error(tested_image(target, images, image), reference.image);

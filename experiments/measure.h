@@ -12,9 +12,10 @@
 
 /// What a variant's output is compared as.
 struct CompositedImages {
-    HostImage specular;    ///< (F0 A + F90 B) mix(fallback, radiance, confidence)
+    HostImage specular;    ///< by Config::composite
     HostImage incident;    ///< mix(fallback, radiance, confidence)
     HostImage confidence;  ///< one channel
+    HostImage radiance;    ///< as the technique gave it; nothing where its confidence is 0
 };
 
 /// A rung of the truth ladder as an output: what is composited where `incident` is known only so far. The variances are

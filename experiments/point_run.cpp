@@ -77,7 +77,7 @@ SeedRun start(PointRun& point, unsigned seed) {
                 .graph = std::make_unique<PassGraph>(point.device, point.shot.config.extent)};
     run.variant->ray_probe = run.probe.get();
     if (!point.settings.keep_all) run.variant->leave_out(point.shot.facts);
-    run.compositor = std::make_unique<Compositor>(*run.graph);
+    run.compositor = std::make_unique<Compositor>(*run.graph, point.config.composite);
     return run;
 }
 

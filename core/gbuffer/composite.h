@@ -3,9 +3,16 @@
 #include "core/gbuffer/split_sum_image.h"
 #include "core/variant.h"
 
+/// How reflections are put together with the environment's.
+enum class CompositeFormula {
+    split_sum,         ///< (F0 A + F90 B) mix(fallback, radiance, confidence): ours, in which nothing counts twice
+    additive_fresnel,  ///< (F0 A + F90 B) fallback + additive_weight(confidence) radiance (core/shared/brdf.h): as an
+                       ///< engine adds them to an image that holds its environment's already
+};
+
 /// What a technique's result makes of the image.
 struct Composite {
-    Image specular;  ///< rgba32f: (F0 A + F90 B) mix(fallback, radiance, confidence); 0 in the background
+    Image specular;  ///< rgba32f: by the formula; 0 in the background
     Image image;     ///< rgba32f: lit + specular
 };
 
@@ -13,13 +20,16 @@ struct Composite {
 /// BRDF).
 class Compositor {
 public:
-    explicit Compositor(PassGraph& graph) : graph_(graph) {}  ///< `graph` must outlive it
+    /// `graph` must outlive it.
+    explicit Compositor(PassGraph& graph, CompositeFormula formula = CompositeFormula::split_sum)
+        : graph_(graph), formula_(formula) {}
 
     /// A pass of the graph's current frame.
     Composite render(const GBuffer& gbuffer, const Reflections& reflections);
 
 private:
     PassGraph& graph_;
+    CompositeFormula formula_;
     SplitSumImage split_sum_;
 };
 
@@ -30,4 +40,5 @@ HostImage specular_reflectance(const HostGBuffer& gbuffer);
 struct HostComposite {
     HostImage specular, image;
 };
-HostComposite composite(const HostGBuffer& gbuffer, const HostImage& radiance, const HostImage& confidence);
+HostComposite composite(const HostGBuffer& gbuffer, const HostImage& radiance, const HostImage& confidence,
+                        CompositeFormula formula = CompositeFormula::split_sum);

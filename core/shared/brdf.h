@@ -54,6 +54,15 @@ SHARED vec3 specular_f0(vec3 base_color, float metalness, float specular) {
 /// Reflectance at grazing incidence, the same for all colours.
 SHARED float specular_f90(float metalness, float specular) { return mix(specular, 1.0f, metalness); }
 
+/// What an engine's pass multiplies reflected radiance with before it adds it to an image (its documentation of
+/// 2026-01-14, "Composite Pass"): Schlick's Fresnel term at the surface's normal, mu_o its cosine to the viewer, times
+/// the weight, and up to half less on metals. The dielectric reflectance is 0.04, whatever the material says.
+SHARED vec3 additive_weight(vec3 base_color, float metalness, float mu_o, float weight) {
+    vec3 f0 = mix(vec3(0.04f), base_color, metalness);
+    vec3 fresnel = f0 + (vec3(1.0f) - f0) * schlick_weight(mu_o);
+    return fresnel * (weight * (1.0f - 0.5f * metalness * weight));
+}
+
 /// D V of the specular lobe, 0 unless both directions are above the horizon.
 SHARED float ggx_specular(vec3 o, vec3 i, float alpha) {
     if (o.z <= 0.0f || i.z <= 0.0f) return 0.0f;

@@ -53,6 +53,24 @@ TEST(Configs, LimitAReferenceByWhatTheySet) {
     EXPECT_EQ(limits(R"({"target_relative_error": 0.5})"), "s-n16777216-e0.5");
 }
 
+TEST(Configs, AdditiveCompositeHasNoIncidentRadiance) {
+    const auto read = [](const std::string& more) {
+        const fs::path file = fs::temp_directory_path() / "ssrlab_composite.json";
+        write_text(file,
+                   R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "variants": [{"variant": "none"}])" +
+                       more + "}");
+        const Config config = read_config(file);
+        fs::remove(file);
+        return config;
+    };
+    EXPECT_EQ(read("").composite, CompositeFormula::split_sum);
+    const Config additive = read(R"(, "composite": "additive_fresnel")");
+    EXPECT_EQ(additive.composite, CompositeFormula::additive_fresnel);
+    EXPECT_EQ(additive.targets, (std::vector<std::string>{"specular", "image"}));
+    EXPECT_THROW(read(R"(, "composite": "additive_fresnel", "targets": ["incident"])"), Error);
+    EXPECT_THROW(read(R"(, "composite": "additive")"), Error);
+}
+
 TEST(Configs, OfAmdMeasureEachCorrectionAlone) {
     const Config config = read_config(source / "experiments/configs/amd_sssr.json");
     std::set<std::string> scenes, points;

@@ -10,7 +10,8 @@ namespace {
 
 /// Confidence in an image of its own, or in the alpha channel of the radiance, whose other channels hold numbers that
 /// would do for a confidence.
-void expect_composite_of_the_cpu(Rasterizer& rasterizer, const GBuffer& gbuffer, bool is_in_alpha) {
+void expect_composite_of_the_cpu(Rasterizer& rasterizer, const GBuffer& gbuffer, bool is_in_alpha,
+                                 CompositeFormula formula) {
     PassGraph& graph = rasterizer.graph();
     HostImage radiance(graph.extent(), 4), confidence(graph.extent(), 1);
     for (size_t i = 0; i < radiance.pixel_count(); ++i) {
@@ -22,11 +23,11 @@ void expect_composite_of_the_cpu(Rasterizer& rasterizer, const GBuffer& gbuffer,
     graph.upload(reflections.radiance, radiance);
     graph.upload(reflections.confidence, confidence);
     if (is_in_alpha) reflections = {reflections.radiance, reflections.radiance, 3};
-    Compositor compositor(graph);
+    Compositor compositor(graph, formula);
     const Composite result = compositor.render(gbuffer, reflections);
     const HostImage specular = graph.download(result.specular), image = graph.download(result.image);
     const HostGBuffer g = download_gbuffer(graph, gbuffer, rasterizer.camera(), DepthFormat::d32f);
-    const HostComposite expected = composite(g, radiance, confidence);
+    const HostComposite expected = composite(g, radiance, confidence, formula);
     double largest = 0;
     for (size_t i = 0; i < specular.pixel_count(); ++i)
         for (int c = 0; c < 3; ++c) {
@@ -53,11 +54,52 @@ TEST(composite, on_the_gpu_is_the_formula_on_the_cpu) {
     for (const char* name : {"main", "orthographic"}) {
         const GBuffer gbuffer = rasterizer.render(scene.camera(name), view);
         rasterizer.light_directly(gbuffer);
-        for (const bool is_in_alpha : {false, true}) {
-            SCOPED_TRACE(testing::Message() << name << ", confidence in alpha " << is_in_alpha);
-            expect_composite_of_the_cpu(rasterizer, gbuffer, is_in_alpha);
-        }
+        for (const bool is_in_alpha : {false, true})
+            for (const CompositeFormula formula : {CompositeFormula::split_sum, CompositeFormula::additive_fresnel}) {
+                SCOPED_TRACE(testing::Message()
+                             << name << ", confidence in alpha " << is_in_alpha << ", formula " << int(formula));
+                expect_composite_of_the_cpu(rasterizer, gbuffer, is_in_alpha, formula);
+            }
     }
+}
+
+TEST(composite, additive_weight_has_the_printed_values) {
+    const glm::vec3 gold(1.0f, 0.7f, 0.3f);
+    const auto expect = [&](float metalness, float mu_o, float weight, glm::vec3 expected) {
+        const glm::vec3 found = additive_weight(gold, metalness, mu_o, weight);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[c], expected[c], 1e-6f) << metalness << " " << mu_o << " " << weight;
+    };
+    expect(0, 1, 1, glm::vec3(0.04f));
+    expect(0, 0, 1, glm::vec3(1));
+    expect(0, 0.5f, 1, glm::vec3(0.07f));  // 0.04 + 0.96 / 32
+    expect(1, 1, 1, 0.5f * gold);          // metals lose half
+    expect(1, 1, 0.5f, 0.375f * gold);     // 0.5 (1 - 0.25)
+    expect(0.5f, 1, 1, 0.75f * 0.5f * (gold + glm::vec3(0.04f)));
+    expect(1, 0.3f, 0, glm::vec3(0));
+}
+
+TEST(composite, added_reflections_leave_the_environment_in_place) {
+    // Two mirrors' worth of light: what a hit shows is added to the fallback that it should replace.
+    const Scene scene = varied_scene();
+    const glm::uvec2 extent(50, 40);
+    Rasterizer rasterizer(test_device(), scene, {.extent = extent});
+    const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view_of(extent));
+    rasterizer.light_directly(gbuffer);
+    const HostGBuffer g = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+    HostImage radiance(extent, 3), none(extent, 1), all(extent, 1, 1.0f);
+    for (size_t i = 0; i < radiance.pixel_count(); ++i) radiance.set_rgb(i, glm::vec3(2));
+    const auto by = [&](const HostImage& confidence) {
+        return composite(g, radiance, confidence, CompositeFormula::additive_fresnel).specular;
+    };
+    const HostImage without = by(none), with = by(all), replaced = composite(g, radiance, none).specular;
+    EXPECT_EQ(without.values, replaced.values) << "nothing found: both formulas agree";
+    size_t brighter = 0;
+    for (size_t i = 0; i < with.values.size(); ++i) {
+        ASSERT_GE(with.values[i], without.values[i]);
+        brighter += with.values[i] > without.values[i];
+    }
+    EXPECT_GT(brighter, 1000u);
 }
 
 TEST(composite, reflectance_is_the_split_sum_of_the_brdf) {

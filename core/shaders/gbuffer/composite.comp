@@ -1,4 +1,4 @@
-// specular = (F0 A + F90 B) mix(fallback, radiance, confidence); image = lit + specular. The same as composite() in
+// specular: by one of the formulas of core/gbuffer/composite.h; image = lit + specular. The same as composite() in
 // core/gbuffer/composite.cpp.
 #include "core/shaders/gbuffer/pixel.glsl"
 #include "core/shaders/gbuffer/split_sum.glsl"
@@ -13,7 +13,7 @@ uniform sampler2D lit;
 uniform sampler2D fallback;
 uniform sampler2D radiance;
 uniform sampler2D confidence;
-layout(push_constant) uniform Confidence { uint confidence_channel; };
+layout(push_constant) uniform Push { uint confidence_channel, adds_fresnel; };
 layout(rgba32f) uniform writeonly image2D specular;
 layout(rgba32f) uniform writeonly image2D image;
 
@@ -27,13 +27,22 @@ vec3 specular_reflectance(ivec2 pixel) {
     return specular_f0(color_metalness.rgb, color_metalness.w, specular_factor) * ab.x + specular_f90(color_metalness.w, specular_factor) * ab.y;
 }
 
+// What an engine adds to an image that holds its environment's reflections already.
+vec3 added_reflection(ivec2 pixel, vec3 radiance, float weight) {
+    vec4 color_metalness = texelFetch(base_color, pixel, 0);
+    float mu_o = dot(texelFetch(normal, pixel, 0).xyz, -ws_pixel_direction(pixel));
+    return radiance * additive_weight(color_metalness.rgb, color_metalness.w, mu_o, weight);
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(image)))) return;
     vec3 reflected = vec3(0.0);
     if (!is_background(texelFetch(depth, pixel, 0).r)) {
-        vec3 incident = mix(texelFetch(fallback, pixel, 0).rgb, texelFetch(radiance, pixel, 0).rgb, texelFetch(confidence, pixel, 0)[confidence_channel]);
-        reflected = specular_reflectance(pixel) * incident;
+        vec3 from_fallback = texelFetch(fallback, pixel, 0).rgb, found = texelFetch(radiance, pixel, 0).rgb;
+        float weight = texelFetch(confidence, pixel, 0)[confidence_channel];
+        reflected = specular_reflectance(pixel) * (adds_fresnel == 1u ? from_fallback : mix(from_fallback, found, weight));
+        if (adds_fresnel == 1u) reflected += added_reflection(pixel, found, weight);
     }
     imageStore(specular, pixel, vec4(reflected, 0.0));
     imageStore(image, pixel, vec4(texelFetch(lit, pixel, 0).rgb + reflected, 0.0));
