@@ -94,6 +94,35 @@ TEST_F(BlueNoisePass, MatchesTheFormulaExactly) {
             }
 }
 
+/// 16384 pairs of a frame: means, products of neighbours and of frames within five standard errors, one false alarm in
+/// 100 000 each. Blue noise fails: its neighbours differ.
+TEST_F(BlueNoisePass, WhiteNumbersAreIndependent) {
+    const auto correlation = [&](const HostImage& a, const HostImage& b, size_t shift) {
+        double sum = 0;
+        for (size_t i = 0; i < a.values.size(); ++i)
+            sum += (a.values[i] - 0.5) * (b.values[(i + shift) % b.values.size()] - 0.5);
+        return sum / (double(a.values.size()) / 12);  // variance of a uniform number
+    };
+    const double five_errors = 5 / std::sqrt(2.0 * 128 * 128);
+    for (const unsigned seed : {0u, 3u}) {
+        const HostImage now = numbers(5, seed, NoiseShift::white, NoisePrecision::float_32),
+                        next = numbers(6, seed, NoiseShift::white, NoisePrecision::float_32),
+                        other = numbers(5, seed + 1, NoiseShift::white, NoisePrecision::float_32);
+        double mean = 0;
+        for (const float v : now.values) mean += v / double(now.values.size());
+        EXPECT_NEAR(mean, 0.5, five_errors / std::sqrt(12.0));
+        EXPECT_NEAR(correlation(now, now, 0), 1, 5 * std::sqrt(0.8 / double(now.values.size())));
+        for (const size_t shift : {1, 2, 4, 256, 258})
+            EXPECT_NEAR(correlation(now, now, shift), 0, five_errors) << shift;
+        for (const size_t shift : {0, 1, 2}) {
+            EXPECT_NEAR(correlation(now, next, shift), 0, five_errors);
+            EXPECT_NEAR(correlation(now, other, shift), 0, five_errors);
+        }
+    }
+    const HostImage blue = numbers(5, 0, NoiseShift::r2, NoisePrecision::float_32);
+    EXPECT_GT(std::abs(correlation(blue, blue, 2)), five_errors);
+}
+
 TEST_F(BlueNoisePass, FloatNumbersLieBelowOneAndEightBitNumbersReachIt) {
     const HostImage fine = numbers(0, 0, NoiseShift::r2, NoisePrecision::float_32);
     const HostImage coarse = numbers(0, 0, NoiseShift::r2, NoisePrecision::bits_8);

@@ -92,6 +92,66 @@ TEST_F(DiligentCleanup, FiltersAsItsFormulaSays) {
     for (const double sigma : {0.9, 1.5, 4.0}) expect_formula(sigma);
 }
 
+/// What is a line in depth over a window stays as it is, the less the guide's epsilon counts; noise on it is averaged
+/// over windows of windows; nothing crosses an edge of depth that is steep beside epsilon.
+TEST_F(DiligentCleanup, GuidedFilterKeepsWhatDepthExplains) {
+    const Overrides guided = {
+        {"cleanup", "guided"}, {"bilateral_cleanup_spatial_sigma_factor", 1.0}, {"guided_epsilon", 1e-4}};
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 0; x < extent.x; ++x)
+            for (unsigned c = 0; c < 4; ++c)
+                inputs.accumulated.radiance.pixel(x, y)[c] = 0.1f * float(c + 1) * distance(x, y);
+    const HostImage line = run(guided);
+    for (unsigned y = 3; y + 3 < extent.y; ++y)
+        for (unsigned x = 3; x + 3 < extent.x; ++x)
+            for (unsigned c = 0; c < 3; ++c)
+                ASSERT_NEAR(line.pixel(x, y)[c], 0.1f * float(c + 1) * distance(x, y), 2e-4) << x << ", " << y;
+
+    // Steps of colour and of 1 m of depth at the same column.
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 0; x < extent.x; ++x) {
+            const glm::vec4 clip = inputs.camera.clip_from_view * glm::vec4(0, 0, x < 16 ? -5 : -6, 1);
+            *inputs.depth.pixel(x, y) = clip.z / clip.w;
+            for (unsigned c = 0; c < 4; ++c) inputs.accumulated.radiance.pixel(x, y)[c] = x < 16 ? 1 : 3;
+        }
+    const HostImage step = run(guided);
+    for (unsigned x = 0; x < extent.x; ++x) ASSERT_NEAR(step.pixel(x, 12)[0], x < 16 ? 1 : 3, 1e-4) << x;
+
+    // White noise on a plane that faces the camera: a window of windows of 5x5, weights (1 2 3 4 5 4 3 2 1) / 25 each
+    // way, whose squares add up to 0.0185; the standard error over 250 pixels that share neighbours is a third of it.
+    SetUp();
+    for (float& depth : inputs.depth.values) depth = inputs.depth.values[0];
+    const auto variance_of = [](const HostImage& image) {
+        double sum = 0, squares = 0, count = 0;
+        for (unsigned y = 5; y + 5 < extent.y; ++y)
+            for (unsigned x = 5; x + 5 < extent.x; ++x) {
+                const double v = image.pixel(x, y)[0];
+                sum += v, squares += v * v, ++count;
+            }
+        return squares / count - sum * sum / count / count;
+    };
+    EXPECT_NEAR(variance_of(run(guided)) / variance_of(inputs.accumulated.radiance), 0.0185, 0.012);
+    EXPECT_EQ(run({{"cleanup", "guided"}, {"bilateral_cleanup", false}}).values,
+              run({{"bilateral_cleanup", false}}).values);
+}
+
+/// A deviation d makes d / (d + 0.1) of the kernel's: 0.9 of it for 0.9, half of it for 0.1, nothing for 0.
+TEST_F(DiligentCleanup, SigmaFollowsTheVarianceIfAsked) {
+    for (const auto& [variance, share] : {std::pair(0.81f, 0.9), {0.01f, 0.5}}) {
+        inputs.accumulated.variance = HostImage(extent, 1, variance);
+        for (const double factor : {2.0, 4.0}) {
+            const HostImage found =
+                run({{"sigma_from_variance", true}, {"bilateral_cleanup_spatial_sigma_factor", factor}});
+            const HostImage expected = run({{"bilateral_cleanup_spatial_sigma_factor", share * factor}});
+            for (size_t i = 0; i < found.values.size(); ++i) ASSERT_NEAR(found.values[i], expected.values[i], 1e-5);
+        }
+    }
+    inputs.accumulated.variance = HostImage(extent, 1, 0.0f);
+    EXPECT_EQ(run({{"sigma_from_variance", true}}).values, run({{"bilateral_cleanup", false}}).values);
+    inputs.accumulated.variance = HostImage(extent, 1, 0.81f);
+    EXPECT_NE(run({{"sigma_from_variance", true}}).values, run({{"bilateral_cleanup", false}}).values);
+}
+
 /// Roughness in strips about 1/16 and 1/8, where the radius becomes 1 and 2, and above the threshold; variance on
 /// either side of its gate.
 TEST_F(DiligentCleanup, GatesByVarianceAndRoughness) {

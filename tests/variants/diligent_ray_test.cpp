@@ -118,6 +118,51 @@ TEST_F(DiligentRay, FillsTheCapThatTheBiasLeaves) {
             }
 }
 
+/// Visible normals by another map of the same random numbers: other rays of the same lobe. The disk's bias leaves no
+/// cap.
+TEST_F(DiligentRay, DiskFillsTheSameCap) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (float& number : noise.values) number = uniform(random);
+    for (const double incidence : {20.0, 85.0}) {
+        const nlohmann::json caps = {{"ggx_importance_sample_bias", 0.0}};
+        const nlohmann::json disk = {{"ggx_importance_sample_bias", 0.0}, {"half_vectors", "disk"}};
+        EXPECT_LT(chi_square(rays(incidence, disk), incidence, 0, false), 114);
+        EXPECT_NE(rays(incidence, disk).values, rays(incidence, caps).values);
+    }
+}
+
+/// All normals, tan^2 = alpha^2 u / (1 - u) (Walter et al. 2007): u and the azimuth are uniform, whatever the view. The
+/// limit is that of FillsTheCapThatTheBiasLeaves. A bias b leaves u < 1 - b.
+TEST_F(DiligentRay, NormalsAreThoseOfTheDistribution) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (float& number : noise.values) number = uniform(random);
+    for (const double incidence : {0.5, 50.0})
+        for (const double bias : {0.0, 0.3}) {
+            const HostImage found =
+                rays(incidence, {{"ggx_importance_sample_bias", bias}, {"half_vectors", "normals"}});
+            std::array<double, 64> counts{};
+            for (size_t i = 0; i < found.pixel_count(); ++i) {
+                const LocalRay ray = local_ray(found, i, incidence);
+                glm::dvec3 m = glm::normalize(ray.to_viewer + ray.direction);
+                if (m.z < 0) m = -m;
+                const double tan2 = (m.x * m.x + m.y * m.y) / (m.z * m.z);
+                const double share = tan2 / (alpha * alpha + tan2) / (1 - bias);
+                ASSERT_LT(share, 1.001);
+                const double turn = std::atan2(m.y, m.x) / (2 * glm::pi<double>()) + 0.5;
+                counts[std::min(size_t(8 * share), size_t(7)) * 8 + std::min(size_t(8 * turn), size_t(7))] += 1;
+                const double a2 = alpha * alpha, t = m.z * m.z * a2 + 1 - m.z * m.z;
+                const double density = a2 / (glm::pi<double>() * t * t) * m.z / (4 * std::abs(glm::dot(ray.to_viewer, m)));
+                ASSERT_NEAR(found.values[4 * i + 3], density, 1e-3 * density);
+            }
+            double sum = 0;
+            const double expected = double(found.pixel_count()) / 64;
+            for (const double count : counts) sum += (count - expected) * (count - expected) / expected;
+            EXPECT_LT(sum, 114) << incidence << " degrees, " << bias;
+        }
+}
+
 /// What a bias of 1 leaves of the lobe: in the original the half vector of v and the normal, which leans towards the
 /// viewer, by angles that are known in closed form.
 TEST_F(DiligentRay, BiasTowardsMirrorEndsInTheMirrorDirection) {

@@ -67,6 +67,48 @@ TEST_F(DiligentReconstruction, HasTheVarianceOfItsOwnWeights) {
     EXPECT_GT(spread, 0.2);
 }
 
+/// A wall that faces an orthographic camera has the same neighbours in both spaces but for the turn of its tangents.
+/// One that is seen at a grazing angle has them on a narrow ellipse: across it, where rays change by columns, less
+/// changes.
+TEST_F(DiligentReconstruction, WorldSpaceFollowsTheSurface) {
+    const auto columns = [](unsigned x, unsigned) { return TexelRay{.radiance = glm::vec3(float(x % 2))}; };
+    const auto spread = [&](ReconstructionInputs inputs, const char* space, float slant) {
+        for (size_t i = 0; i < inputs.normal.pixel_count(); ++i)
+            inputs.normal.set_rgb(i, {std::sin(slant), 0, std::cos(slant)});
+        const Reconstruction found = run(inputs, {{"reconstruction_space", space}});
+        double sum = 0;
+        for (const float variance : found.variance.values) sum += variance / double(found.variance.values.size());
+        return sum;
+    };
+    const ReconstructionInputs wall = reflecting_wall({.ray = columns});
+    EXPECT_NEAR(spread(wall, "world", 0), spread(wall, "screen", 0), 0.05);
+    EXPECT_GT(spread(wall, "screen", 1.5f), 0.15);
+    EXPECT_LT(spread(wall, "world", 1.5f), 0.02) << "0.07 of four pixels: the pixel's own column";
+}
+
+/// ceil(8 * 5 roughness) of the eight: a single ray has no variance, two of 0 and 1 have at most 1/4, and from a
+/// roughness of 0.2 on nothing changes.
+TEST_F(DiligentReconstruction, VariableSamplesAreAsManyAsTheDiskIsWide) {
+    const auto of_roughness = [&](float roughness, bool is_variable) {
+        return run(reflecting_wall({.is_orthographic = false, .roughness = roughness, .ray = white_or_black}),
+                   {{"variable_samples", is_variable}, {"spatial_reconstruction_radius", 32}});
+    };
+    const Reconstruction one = of_roughness(0.024f, true), all = of_roughness(0.024f, false);
+    double spread = 0;
+    for (size_t i = 0; i < one.variance.pixel_count(); ++i) {
+        const float value = one.radiance.values[4 * i];
+        EXPECT_TRUE(value < float_error || value > 1 - float_error) << value;
+        EXPECT_LT(one.variance.values[i], float_error);
+        spread = std::max(spread, double(all.variance.values[i]));
+    }
+    EXPECT_GT(spread, 0.2);
+    const Reconstruction two = of_roughness(0.04f, true);
+    EXPECT_NE(two.radiance.values, of_roughness(0.04f, false).radiance.values);
+    EXPECT_GT(std::ranges::max(two.variance.values), 0.1f) << "more than one";
+    EXPECT_EQ(of_roughness(0.2f, true).radiance.values, of_roughness(0.2f, false).radiance.values);
+    EXPECT_EQ(of_roughness(0.5f, true).variance.values, of_roughness(0.5f, false).variance.values);
+}
+
 /// A ray counts by one over its density, which densities below 1e-5 count as.
 TEST_F(DiligentReconstruction, DividesByTheDensity) {
     const auto share_of_left = [](float left_density, float right_density) {

@@ -65,6 +65,24 @@ struct DiligentVariant : DiligentSequence {
     }
 };
 
+TEST_F(DiligentVariant, RoughnessThatIsTakenForAlphaIsTheRootOfIt) {
+    const auto of_roughness = [&](float roughness, bool is_perceptual) {
+        const std::vector<HostGBuffer> hosts = frames(2, [=](unsigned) -> SyntheticScene {
+            return [=](const CameraRay& ray) {
+                SyntheticHit hit = glossy_floor(ray);
+                if (hit.metalness > 0) hit.roughness = roughness;
+                return hit;
+            };
+        });
+        return render(*make_variant("diligent_ssr", {{"roughness_perceptual", is_perceptual},
+                                                     {"float_roughness", true},
+                                                     {"roughness_threshold", 0.5}}),
+                      hosts);
+    };
+    EXPECT_TRUE(are_same(of_roughness(0.0625f, false), of_roughness(0.25f, true)));
+    EXPECT_FALSE(are_same(of_roughness(0.0625f, true), of_roughness(0.25f, true)));
+}
+
 TEST_F(DiligentVariant, RunsItsPassesInOrder) {
     const std::vector<HostGBuffer> hosts = lively_frames(3);
     for (const std::string preset : presets) {

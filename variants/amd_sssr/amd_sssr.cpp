@@ -11,9 +11,11 @@ Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
     }
     const Tracers::Images traced_images = tracing_.tracers.images(graph, gbuffer.depth);
     const AmdWork work = amd_classify(graph, gbuffer, histories, confidence);
-    const Image noise = tracing_.independent_noise_shifts
-                            ? noise_.render(graph, NoiseShift::r2, NoisePrecision::float_32)
-                            : noise_.render(graph, NoiseShift::golden_diagonal);
+    const bool is_white = tracing_.noise.is("white");
+    const Image noise =
+        is_white || tracing_.independent_noise_shifts
+            ? noise_.render(graph, is_white ? NoiseShift::white : NoiseShift::r2, NoisePrecision::float_32)
+            : noise_.render(graph, NoiseShift::golden_diagonal);
     amd_prepare_arguments(graph, work);
     amd_intersect(graph, gbuffer, traced_images, noise, work, histories, tracing_, ray_probe);
     if (denoiser_.denoise) amd_denoise(graph, gbuffer, work, histories, denoiser_);
@@ -40,8 +42,7 @@ std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
 
 /// Without the one no surface is smooth enough to start a ray, without the other every ray is the mirror's.
 bool AmdSssr::depends_on_seed() const {
-    return tracing_.roughness_threshold_alpha > 0 &&
-           (tracing_.draw_directions || tracing_.tracers.needs().random);
+    return tracing_.roughness_threshold_alpha > 0 && (tracing_.draw_directions || tracing_.tracers.needs().random);
 }
 
 std::string AmdSssr::not_repeatable() const {

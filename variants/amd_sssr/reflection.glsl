@@ -2,21 +2,10 @@
 #ifndef AMD_SSSR_REFLECTION_GLSL
 #define AMD_SSSR_REFLECTION_GLSL
 #include "common/halton.h"
+#include "common/visible_normal_disk.glsl"
 #include "core/shared/brdf.h"
 
-// A visible micro-normal about +z: Heitz 2018, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), for one
-// alpha. The original's own mapping of random numbers, kept so that its noise gives its rays.
-vec3 sample_visible_normal(vec3 o, float alpha, vec2 u) {
-    vec3 v = normalize(vec3(alpha * o.xy, o.z));
-    float across = dot(v.xy, v.xy);
-    vec3 t1 = across > 0.0 ? vec3(-v.y, v.x, 0.0) * inversesqrt(across) : vec3(1.0, 0.0, 0.0);
-    vec3 t2 = cross(v, t1);
-    float r = sqrt(u.x), phi = 2.0 * pi * u.y;
-    float p1 = r * cos(phi), s = 0.5 * (1.0 + v.z);
-    float p2 = mix(sqrt(1.0 - p1 * p1), r * sin(phi), s);
-    vec3 n = p1 * t1 + p2 * t2 + sqrt(max(0.0, 1.0 - p1 * p1 - p2 * p2)) * v;
-    return normalize(vec3(alpha * n.xy, max(0.0, n.z)));
-}
+const uint jitter_ray = 1u;  // parameter `jitter`
 
 // Columns: two tangents and the normal. The original's choice of tangents decides which ray a random number gives.
 mat3 basis_about(vec3 n) {
@@ -44,9 +33,16 @@ vec3 sample_above_horizon(vec3 o, float alpha, vec2 u, ivec2 pixel) {
     return i;
 }
 
+// About the mirror direction `axis`, as wide as the lobe of a view along the normal; the random numbers as above.
+vec3 jittered_about(vec3 axis, float alpha, vec2 u) {
+    vec3 m = sample_visible_normal(vec3(0.0, 0.0, 1.0), alpha, u);
+    return basis_about(axis) * reflect(vec3(0.0, 0.0, -1.0), m);
+}
+
 // `towards_surface`, `n` and the result: view space, unit. `u`: of the blue noise.
 vec3 sample_reflection(ivec2 pixel, vec3 towards_surface, vec3 n, float alpha, bool is_mirror, vec2 u) {
     if (!draw_directions || (guard_mirror_normal && is_mirror)) return reflect(towards_surface, n);
+    if (jitter == jitter_ray) return jittered_about(reflect(towards_surface, n), alpha, u);
     bool is_bounded = redraw_below_horizon && !is_mirror;
     mat3 basis = is_bounded ? basis_from_normal(n) : basis_about(n);
     vec3 o = -towards_surface * basis;

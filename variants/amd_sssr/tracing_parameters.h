@@ -26,6 +26,10 @@ struct AmdTracingParameters {
         {"", "multiplies the environment where a ray finds nothing", "SSSR 1.5, iblFactor"}};
     Switch draw_directions{params, "draw_directions", true,
         {"", "draws each ray's direction from the lobe; otherwise it is the mirror's", "ssrlab, to measure the stage"}};
+    Choice jitter{params, "jitter", "normal", {"normal", "ray"},
+        {"", "what is drawn at random. normal: one of the normals that the viewer sees, about which the view is mirrored; ray: a "
+         "direction about the mirror's, of the lobe that a view along the normal has", "AMD's slides show both; SSSR 1.5: normal"}};
+    Choice noise = noise_parameter(params);
     Choice misses{params, "misses", "fallback", {"weight", "fallback"},
         {"", "what a ray without a hit contributes, and the share that a hit's confidence leaves. weight: only less "
          "confidence, which here takes what the composite fills in for it, the pixel's own fallback, through the denoiser; "

@@ -16,6 +16,8 @@ glm::uvec2 shift_per_frame(NoiseShift shift) {
             return glm::uvec2(0.61803398875 * 0x1p32);
         case NoiseShift::r2:
             return {0.7548776662466928 * 0x1p32, 0.5698402909980533 * 0x1p32};
+        case NoiseShift::white:
+            return {0, 0};
     }
     fail("no shift for NoiseShift ", int(shift));
 }
@@ -51,6 +53,7 @@ Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision preci
         .set("shift_x", per_frame.x)
         .set("shift_y", per_frame.y)
         .set("is_8_bit", unsigned(is_8_bit))
+        .set("is_white", unsigned(shift == NoiseShift::white))
         .run();
     return noise;
 }

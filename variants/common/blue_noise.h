@@ -9,7 +9,8 @@
 /// which covers the square (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
 /// golden_diagonal_from_half: as golden_diagonal, 1/2 later (DiligentFX, whose pass fills a second image, too, with an
 /// R2 sequence along a Hilbert curve for other effects than reflections; it is left out).
-enum class NoiseShift { golden_diagonal, golden_diagonal_from_half, r2 };
+/// white: none; numbers are independent in every texel and frame, and the table is not looked at.
+enum class NoiseShift { golden_diagonal, golden_diagonal_from_half, r2, white };
 
 /// How they are stored: as k / 255, so that exact 0 and 1 occur (as SSSR 1.5), or in float32, in [0, 1).
 enum class NoisePrecision { bits_8, float_32 };
@@ -42,6 +43,15 @@ inline Switch independent_noise_shifts_parameter(ParameterSet& params) {
          "both by the golden ratio, so that a pixel's samples stay on one diagonal of the unit square and "
          "never cover the lobe",
          "ssrlab; Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"});
+}
+
+/// Whether a technique's random numbers are blue over the image plane.
+inline Choice noise_parameter(ParameterSet& params) {
+    return Choice(params, "noise", "blue", {"blue", "white"},
+                  {"",
+                   "how the random numbers of neighbours and frames belong together. blue: those of neighbours differ "
+                   "much, and a pixel's own move evenly; white: all are independent",
+                   "blue: AMD's slides and DiligentFX's document, which shows both"});
 }
 
 /// The committed table: 128x128 pairs of codes v in 0..255, as v / 255 in two channels. See blue_noise_table.md.

@@ -1,30 +1,10 @@
 // Last pass of DiligentFX's denoising: where the variance is high, an average over neighbours of the same surface,
 // with the edge-stopping functions of Schied et al. 2017 ("Spatiotemporal Variance-Guided Filtering", section 4.4).
-#include "core/shaders/view.glsl"
-#include "common/image_space.glsl"
-#include "core/shaders/view.glsl"
-#include "diligent_ssr/half.glsl"
+#include "diligent_ssr/cleanup.glsl"
 
 layout(location = 0) out vec4 reflections;
 
-uniform sampler2D depth, normal, roughness, accumulated_radiance, accumulated_variance;
-
-const float noisy_variance = 1e-3;
-const float widest_radius = 2.0;  // pixels
 const float normal_exponent = 128.0;
-
-float camera_depth_at(ivec2 pixel) { return camera_depth(texelFetch(depth, pixel, 0).r); }
-
-// Pixels; mirrors need none.
-int kernel_radius(ivec2 pixel) {
-    bool is_noisy = texelFetch(accumulated_variance, pixel, 0).r > noisy_variance;
-    float radius = is_noisy ? widest_radius * clamp(8.0 * texelFetch(roughness, pixel, 0).r, 0.0, 1.0) : 0.0;
-    return int(min(2.0 * bilateral_cleanup_spatial_sigma_factor, radius));
-}
-
-bool is_kept(ivec2 pixel) {
-    return texelFetch(roughness, pixel, 0).r <= roughness_threshold && !is_far_plane(texelFetch(depth, pixel, 0).r);
-}
 
 // `ws_normal`, `pixel_depth`: of the pixel. `depth_change`: of the camera depth over the offset, if the surface is flat (m).
 float edge_stop(vec3 ws_normal, float pixel_depth, ivec2 neighbor, float depth_change) {
@@ -33,9 +13,9 @@ float edge_stop(vec3 ws_normal, float pixel_depth, ivec2 neighbor, float depth_c
     return same_normal * exp(-difference / (abs(depth_change) + 1e-6));
 }
 
-vec4 filtered(ivec2 pixel, float pixel_depth, int radius, vec2 depth_gradient) {
+vec4 filtered(ivec2 pixel, float pixel_depth, int radius, float sigma, vec2 depth_gradient) {
     vec3 ws_normal = texelFetch(normal, pixel, 0).xyz;
-    float sigma = bilateral_cleanup_spatial_sigma_factor, weight_sum = 0.0;
+    float weight_sum = 0.0;
     vec4 sum = vec4(0.0);
     for (int y = -radius; y <= radius; ++y)
         for (int x = -radius; x <= radius; ++x) {
@@ -54,9 +34,8 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float pixel_depth = camera_depth_at(pixel);
     vec2 depth_gradient = vec2(dFdx(pixel_depth), dFdy(pixel_depth));
-    int radius = bilateral_cleanup ? kernel_radius(pixel) : 0;
-    vec4 radiance = radius > 0 ? filtered(pixel, pixel_depth, radius, depth_gradient) : texelFetch(accumulated_radiance, pixel, 0);
-    if (premultiply_confidence) radiance.rgb = radiance.a > 0.0 ? radiance.rgb / radiance.a : vec3(0.0);
-    reflections = vec4(radiance.rgb, radiance.a * alpha_interpolation);
-    if (!float_histories) reflections = as_halves(reflections);  // rgb / a may exceed what a half holds
+    float variance = texelFetch(accumulated_variance, pixel, 0).r, sigma = kernel_sigma(variance);
+    int radius = bilateral_cleanup ? kernel_radius(pixel, variance, sigma) : 0;
+    vec4 radiance = radius > 0 ? filtered(pixel, pixel_depth, radius, sigma, depth_gradient) : texelFetch(accumulated_radiance, pixel, 0);
+    reflections = finished(radiance);
 }

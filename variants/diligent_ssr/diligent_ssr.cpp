@@ -14,9 +14,11 @@ Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
         graph.clear(nothing, {});
         return {nothing, nothing, alpha};
     }
+    const bool is_white = tracing_.noise.is("white");
     const Image noise =
-        tracing_.independent_noise_shifts
-            ? noise_.render(graph, NoiseShift::r2, NoisePrecision::float_32, NoiseStage::fragment)
+        is_white || tracing_.independent_noise_shifts
+            ? noise_.render(graph, is_white ? NoiseShift::white : NoiseShift::r2, NoisePrecision::float_32,
+                            NoiseStage::fragment)
             : noise_.render(graph, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8, NoiseStage::fragment);
     const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
     const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing_);
@@ -45,13 +47,15 @@ std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
     if (!is_left_out_) return {};
     const std::string fact =
         facts.has_reflective ? "no reflective surface as smooth as roughness_threshold" : "nothing reflective";
+    const bool is_guided = filter_.bilateral_cleanup && filter_.cleanup.is("guided");
     std::vector<std::string> stages = {"common/blue_noise",
                                        "diligent_ssr/reprojected_depth",
                                        "diligent_ssr/mask",
                                        "diligent_ssr/intersection",
                                        "diligent_ssr/spatial_reconstruction",
                                        "diligent_ssr/temporal_accumulation",
-                                       "diligent_ssr/bilateral_cleanup"};
+                                       is_guided ? "diligent_ssr/guided_cleanup" : "diligent_ssr/bilateral_cleanup"};
+    if (is_guided) stages.push_back("diligent_ssr/guided_coefficients");
     if (tracing_.tracers.needs_pyramid()) stages.push_back("diligent_ssr/depth_hierarchy");
     if (tracing_.half_resolution) stages.push_back("diligent_ssr/half_resolution_mask");
     if (tracing_.previous_frame) stages.push_back("common/keep_lit");

@@ -29,6 +29,22 @@ struct DiligentFilterParameters {
         {"", "multiplies the confidence. The original fades reflections in with it while its pipelines compile",
          "DiligentFX, AlphaInterpolation"}};
 
+    // What the document says and the original's code does not do.
+    Choice cleanup{params, "cleanup", "bilateral", {"bilateral", "guided"},
+        {"", "the filter of what is still noisy. guided: lines in the distance from the camera plane that fit windows of the same size, "
+         "whose cost need not grow with the window (He et al. 2010)", "DiligentFX: bilateral; its document would try guided"}};
+    Param<float> guided_epsilon{params, "guided_epsilon", 0.01f, {1e-6f, 1.0f},
+        {"of the distance", "depth over a window, as a deviation, below which the guided filter averages rather than follows", "ssrlab"}};
+    Choice reconstruction_space{params, "reconstruction_space", "screen", {"screen", "world"},
+        {"", "where the disk of neighbours lies. world: on the plane of the surface, as wide as its radius of pixels is there, so that "
+         "grazing views take neighbours that are near each other", "DiligentFX: screen; its document would try world"}};
+    Switch variable_samples{params, "variable_samples", false,
+        {"", "takes as many of the eight neighbours, at least one, as their disk is wide by the roughness", "DiligentFX's document; the "
+         "proportion is ssrlab's"}};
+    Switch sigma_from_variance{params, "sigma_from_variance", false,
+        {"", "the standard deviation of the cleanup's kernel grows with that of the radiance d, as d / (d + 0.1), in place of a "
+         "threshold", "DiligentFX's document, without a formula"}};
+
     // What differs between 2024 and 2026.
     Choice spatial_kernel{params, "spatial_kernel", "gaussian", {"gaussian", "double_gaussian"},
         {"", "how a neighbour's ray counts by its distance. double_gaussian: a Gaussian of the Gaussian, by which far "

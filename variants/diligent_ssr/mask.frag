@@ -11,7 +11,8 @@ float buffered(float perceptual) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    roughness = buffered(texelFetch(normal, pixel, 0).w);
+    float stored = buffered(texelFetch(normal, pixel, 0).w);
+    roughness = roughness_perceptual ? stored : sqrt(stored);
     bool is_reflective = !is_far_plane(texelFetch(depth, pixel, 0).r) && has_specular(pixel);
     if (!is_reflective || roughness > roughness_threshold) discard;
     gl_FragDepth = 1.0;  // what is kept in a mask by depth

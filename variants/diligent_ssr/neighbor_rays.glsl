@@ -30,6 +30,12 @@ float disk_radius(float perceptual_roughness) {
     return spatial_reconstruction_radius * clamp(5.0 * perceptual_roughness, 0.0, 1.0) * pixels_per_unit;
 }
 
+// Of the eight, for a disk of that radius.
+int samples_of(float radius) {
+    float share = radius / max(disk_radius(1.0), 1e-6);
+    return variable_samples ? clamp(int(ceil(share * float(neighbor_count))), 1, neighbor_count) : neighbor_count;
+}
+
 ivec2 clamped_to_rays(ivec2 texel) { return clamp(texel, ivec2(0), textureSize(ray_radiance, 0) - 1); }
 
 // The ray `offset` pixels away.

@@ -1,7 +1,11 @@
 // The direction of a pixel's ray, drawn from the visible normals of its GGX lobe, and the density of such directions.
 #ifndef DILIGENT_SSR_RAY_GLSL
 #define DILIGENT_SSR_RAY_GLSL
+#include "common/ggx_lobe.h"
+#include "common/visible_normal_disk.glsl"
 #include "diligent_ssr/distribution.glsl"
+
+const uint half_vectors_disk = 1u, half_vectors_of_all = 2u;  // parameter `half_vectors`
 
 struct SampledRay {
     vec3 direction;  // unit, in the space of the normal
@@ -46,6 +50,8 @@ vec3 sample_normal_near_mirror(vec3 o, float alpha, vec2 u, float bias) {
 vec3 sample_micro_normal(vec3 o, float alpha, vec2 u) {
     if (alpha == 0.0) return vec3(0.0, 0.0, 1.0);
     float bias = ggx_importance_sample_bias;
+    if (half_vectors == half_vectors_of_all) return sample_truncated_normal(alpha, bias, u);
+    if (half_vectors == half_vectors_disk) return sample_visible_normal(o, alpha, vec2(u.x * (1.0 - bias), u.y));
     return bias_towards_mirror ? sample_normal_near_mirror(o, alpha, u, bias)
                                : sample_ggx_normal(o, alpha, vec2(u.x, u.y * (1.0 - bias)), 1.0);
 }
@@ -61,6 +67,9 @@ SampledRay sample_ray(vec3 towards_surface, vec3 n, float alpha, vec2 u) {
     mat3 basis = basis_about(n);
     vec3 o = -towards_surface * basis;
     vec3 m = sample_micro_normal(o, alpha, u);
-    return SampledRay(basis * reflect(-o, m), reflection_density(o.z, m.z, alpha));
+    float density = reflection_density(o.z, m.z, alpha);
+    if (half_vectors == half_vectors_of_all)
+        density = m.z * floored_distribution(m.z, alpha) / (4.0 * max(abs(dot(o, m)), 1e-7));
+    return SampledRay(basis * reflect(-o, m), density);
 }
 #endif

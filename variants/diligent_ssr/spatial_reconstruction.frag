@@ -30,12 +30,27 @@ void add(inout Reuse reuse, Ray ray, float weight) {
     if (weight > least_weight) reuse.hit_distance = max(reuse.hit_distance, length(ray.ws_direction));
 }
 
+// Where a point of the pixel's disk is seen: pixels from the pixel. `place`: of the disk, in pixels.
+vec2 offset_of(vec2 place, Receiver receiver, vec2 screen_position) {
+    const uint in_world = 1u;  // parameter `reconstruction_space`
+    if (reconstruction_space != in_world) return place;
+    // As wide as a pixel is where the plane faces the camera.
+    float pixel_width = 2.0 * (camera.frame.z == 1u ? 1.0 : dot(ws_eye() - receiver.ws_position, ws_backward())) /
+                        (camera.clip_from_view[0][0] * camera.extent.x);
+    mat3 about_normal = basis_from_normal(receiver.ws_normal);
+    vec3 ws_place = receiver.ws_position + pixel_width * (about_normal * vec3(place, 0.0));
+    vec4 clip = camera.clip_from_world * vec4(ws_place, 1.0);
+    if (!(clip.w > 0.0)) return place;  // behind the camera
+    return (clip.xy / clip.w * 0.5 + 0.5) * camera.extent.xy - screen_position;
+}
+
 Reuse reuse_neighbors(ivec2 pixel, Receiver receiver) {
     float radius = disk_radius(texelFetch(roughness, pixel, 0).r);
     mat2 rotation = disk_rotation(pixel);
+    vec2 screen_position = vec2(pixel) + 0.5 + camera.jitter.xy;
     Reuse reuse = Reuse(vec4(0.0), 0.0, 0.0, 0.0, 0.0);
-    for (int i = 0; i < neighbor_count; ++i) {
-        Ray ray = ray_at(neighbor_ray(pixel, rotation * disk[i].xy * radius));
+    for (int i = 0; i < samples_of(radius); ++i) {
+        Ray ray = ray_at(neighbor_ray(pixel, offset_of(rotation * disk[i].xy * radius, receiver, screen_position)));
         add(reuse, ray, reuse_weight(receiver, ray, disk[i].z));
     }
     if (own_ray) {

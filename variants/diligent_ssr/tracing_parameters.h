@@ -31,6 +31,16 @@ struct DiligentTracingParameters {
         {"of the lobe", "share of the sampled visible normals that is cut off, those furthest from the view direction",
          "DiligentFX, GGXImportanceSampleBias"}};
 
+    Switch roughness_perceptual{params, "roughness_perceptual", true,
+        {"", "takes the G-buffer's roughness for what it is. Off, it is taken for alpha, as where an application sets the flag "
+         "wrongly", "DiligentFX, IsRoughnessPerceptual"}};
+    Choice half_vectors{params, "half_vectors", "caps", {"caps", "disk", "normals"},
+        {"", "how normals are drawn, about which the view is mirrored. caps: visible ones, by spherical caps; disk: the same ones by a "
+         "disk, so that other random numbers give them; normals: of the distribution of all normals, many of which the "
+         "viewer does not see; of the latter two ggx_importance_sample_bias cuts the rim of the disk and the widest angles, and "
+         "bias_towards_mirror changes nothing", "DiligentFX: caps; its document names the disk (Heitz 2018) and what came before it"}};
+    Choice noise = noise_parameter(params);
+
     // Corrections.
     Switch bias_towards_mirror{params, "bias_towards_mirror", false,
         {"", "moves the part of the lobe that ggx_importance_sample_bias leaves towards the mirror direction, which a "
