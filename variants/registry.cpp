@@ -9,10 +9,13 @@ VariantEntry mcguire_dda_entry();
 VariantEntry amd_sssr_entry();
 VariantEntry diligent_ssr_entry();
 VariantEntry frostbite_sssr_entry();
+VariantEntry simple_ssr_entry();
+VariantEntry four_mode_ssr_entry();
 
 std::span<const VariantEntry> variant_table() {
-    static const std::vector<VariantEntry> table = {none_entry(), mcguire_dda_entry(), amd_sssr_entry(),
-                                                    diligent_ssr_entry(), frostbite_sssr_entry()};
+    static const std::vector<VariantEntry> table = {none_entry(),         mcguire_dda_entry(),    amd_sssr_entry(),
+                                                    diligent_ssr_entry(), frostbite_sssr_entry(), simple_ssr_entry(),
+                                                    four_mode_ssr_entry()};
     return table;
 }
 

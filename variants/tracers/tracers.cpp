@@ -142,9 +142,16 @@ std::string Tracers::not_repeatable() const {
     return {};
 }
 
-Tracers::Images Tracers::images(PassGraph& graph, const Image& depth, const PyramidMaker& make) const {
+TracerNeeds Tracers::needs(const std::vector<std::string>& slots) const {
+    TracerNeeds all;
+    for (const std::string& slot : slots) all = both(all, needs(slot));
+    return all;
+}
+
+Tracers::Images Tracers::images(PassGraph& graph, const Image& depth, const PyramidMaker& make,
+                                const std::vector<std::string>& slots) const {
     const PyramidMaker maker = make ? make : PyramidMaker(depth_pyramid);
-    const TracerNeeds all = needs();
+    const TracerNeeds all = slots.empty() ? needs() : needs(slots);
     Images images;
     if (all.nearest_mips > 0) images.nearest = maker(graph, depth, all.nearest_mips, false);
     if (all.farthest_mips > 0) images.farthest = maker(graph, depth, all.farthest_mips, true);
@@ -154,13 +161,14 @@ Tracers::Images Tracers::images(PassGraph& graph, const Image& depth, const Pyra
 void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots,
                   const Images& images, RayProbe* probe, unsigned rays_per_pixel,
                   const std::function<void(PassGraph::Pass&)>& run) const {
-    TracerNeeds needed;
-    for (const std::string& slot : slots) needed = both(needed, needs(slot));
+    const TracerNeeds needed = needs(slots);
     if (needed.exact_hits && (!probe || !probe->exact_hits))
         fail("the tracer exact_scene asks the scene, which only ssrlab's commands plug in, and not for captures");
     if (needed.depth_layers && !graph.has_input("second_depth"))
-        fail("the chosen tracer reads what lies behind the visible surfaces: captures do not hold it, and scenes' frames "
-             "only if the technique's needs_depth_layers() asks for it");
+        fail(
+            "the chosen tracer reads what lies behind the visible surfaces: captures do not hold it, and scenes' "
+            "frames "
+            "only if the technique's needs_depth_layers() asks for it");
     const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
     const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
     const auto run_as = [&](Including what) {

@@ -35,15 +35,18 @@ public:
     const TracerEntry& chosen(const std::string& slot) const;
     TracerNeeds needs(const std::string& slot) const;
     TracerNeeds needs() const;  ///< of all slots
+    TracerNeeds needs(const std::vector<std::string>& slots) const;
     bool needs_pyramid() const;
     bool fit_webgl2() const;             ///< all chosen ones
     std::string not_repeatable() const;  ///< of the first that says so
 
-    /// What all slots need, made for this frame.
+    /// What slots need, made for this frame.
     struct Images {
         Image nearest, farthest;  ///< pyramids; without storage where no tracer needs them
     };
-    Images images(PassGraph& graph, const Image& depth, const PyramidMaker& make = {}) const;
+    /// Of all slots, if none is named.
+    Images images(PassGraph& graph, const Image& depth, const PyramidMaker& make = {},
+                  const std::vector<std::string>& slots = {}) const;
 
     /// Runs `pass`, whose shader includes `slots`, once by `run` (over all pixels); with a probe that asks for it a
     /// second time before, to get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different

@@ -1,0 +1,75 @@
+// A pixel's rays, their colours and the fades of the composite that do not depend on them. Whoever includes this says
+// how rays march.
+#include "common/ggx_lobe.h"
+#include "common/halton.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D lit;
+uniform writeonly image2D traced;
+
+const uint mode_hiz = 1u;             // parameter `mode`; those above draw at random
+const uint weights_ratio = 1u;      // parameter `weights`
+const float least_confidence = 1e-4;  // that half floats tell from none, with room
+
+struct DrawnRay {
+    vec3 direction;  // in the frame of the shading normal
+    float weight;    // 0: below the horizon, not to be traced
+};
+
+// One ray of the mixture ("GGX Importance Sampling"; brdfBias).
+DrawnRay draw_ray(vec3 o, float alpha, ivec2 pixel, uint k) {
+    uvec4 key = uvec4(pixel, camera.frame.x, camera.frame.y << 5 | k << 2);
+    vec2 u = random_point(key);
+    bool is_of_lobe = random_point(key + uvec4(0u, 0u, 0u, 1u)).x < brdf_bias;
+    vec3 direction;
+    if (is_of_lobe) {
+        direction = sample_lobe(lobe_of_normals, o, alpha, 0.0, u).direction;
+    } else {
+        direction = vec3(sqrt(max(0.0, 1.0 - u.x * u.x)) * unit_circle(u.y), u.x);
+    }
+    if (!(direction.z > 0.0)) return DrawnRay(direction, 0.0);
+    if (weights != weights_ratio) return DrawnRay(direction, 1.0);
+    float uniform_density = 0.5 / pi;
+    float density = mix(uniform_density, lobe_density(lobe_of_normals, o, direction, alpha), brdf_bias);
+    return DrawnRay(direction, lobe_density(lobe_of_visible_normals, o, direction, alpha) / density);
+}
+
+vec4 trace_pixel(ivec2 pixel) {
+    vec3 origin = view_position(pixel), towards_surface = view_direction(origin);
+    vec3 n = view_normal(pixel), vs_geometric_normal = view_geometric_normal(pixel);
+    float alpha = ggx_alpha(texelFetch(normal, pixel, 0).w);
+    bool is_stochastic = mode > mode_hiz;
+    mat3 view_from_local = basis_from_normal(n);
+    vec3 o = -towards_surface * view_from_local;
+    vec4 sum = vec4(0.0);  // of weight * confidence: colour, 1
+    float weight_sum = 0.0;
+    for (uint k = 0u; k < (is_stochastic ? num_rays : 1u); ++k) {
+        DrawnRay drawn = DrawnRay(vec3(-o.xy, o.z), 1.0);
+        if (is_stochastic) drawn = draw_ray(o, alpha, pixel, k);
+        if (!(drawn.weight > 0.0)) continue;
+        float random = random_point(uvec4(pixel, camera.frame.x, camera.frame.y << 5 | k << 2 | 2u)).x;
+        TraceEnd end = march(TraceRay(pixel, k, origin, view_from_local * drawn.direction, vs_geometric_normal, random,
+                                      !is_stochastic));
+        weight_sum += drawn.weight;
+        if (end.outcome == outcome_hit)
+            sum += drawn.weight * end.confidence * vec4(texelFetch(lit, end.pixel, 0).rgb, 1.0);
+    }
+    return sum.a > 0.0 ? vec4(sum.rgb / sum.a, sum.a / weight_sum) : vec4(0.0);
+}
+
+// The composite's weight but for Fresnel ("Composite Pass").
+float fade_of_surface(ivec2 pixel) {
+    return (1.0 - clamp(texelFetch(normal, pixel, 0).w / roughness_fade, 0.0, 1.0)) * intensity;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (!is_on_screen(pixel)) return;
+    vec4 result = vec4(0.0);
+    float fade = 0.0;
+    if (reflects(pixel, roughness_fade) && dot(view_direction(view_position(pixel)), view_normal(pixel)) < 0.0)
+        fade = fade_of_surface(pixel);
+    if (fade > 0.0) result = trace_pixel(pixel) * vec4(1.0, 1.0, 1.0, fade);
+    const float largest_half = 65504.0;
+    imageStore(traced, pixel, result.a < least_confidence ? vec4(0.0) : min(result, vec4(largest_half)));
+}
