@@ -351,6 +351,9 @@ Config read_config(const std::filesystem::path& file) {
     const bool is_reversed = object.choice("depth_direction", {"standard", "reversed"}, "standard") == "reversed";
     config.depth_direction = is_reversed ? DepthDirection::reversed : DepthDirection::standard;
 
+    const std::string encoding = object.choice("normal_encoding", {"float", "octahedral_16", "octahedral_8"}, "float");
+    config.normal_bits = encoding == "octahedral_16" ? 16 : encoding == "octahedral_8" ? 8 : 0;
+
     if (object.has("timing")) {
         JsonObject timing = object.object("timing");
         config.timing.frames = unsigned(timing.integer("frames", 0, 100000, int(config.timing.frames)));

@@ -78,6 +78,7 @@ struct Config {
     CompositeFormula composite = CompositeFormula::split_sum;
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
+    unsigned normal_bits = 0;  ///< RasterizerOptions::normal_bits
     TimingConfig timing;
     std::optional<JudgedRays> hits;    ///< none: no ray is judged
     std::vector<std::string> metrics;  ///< names of metrics/metric.h

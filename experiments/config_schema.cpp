@@ -123,6 +123,7 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"composite", {{"enum", {"split_sum", "additive_fresnel"}}}},
                 {"depth_format", {{"enum", {"d32f", "d24", "d16"}}}},
                 {"depth_direction", {{"enum", {"standard", "reversed"}}}},
+                {"normal_encoding", {{"enum", {"float", "octahedral_16", "octahedral_8"}}}},
                 {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}})},
                 {"hits", object({{"every", integer(1, 64)}, {"seeds", integer(1, 1000000)}})},
                 {"metrics", list_of(metric_names())},

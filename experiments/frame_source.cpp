@@ -20,6 +20,7 @@ public:
           rasterizer_(device, shot.scene,
                       {.extent = shot.config.extent,
                        .depth_format = config.depth_format,
+                       .normal_bits = config.normal_bits,
                        .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
                        .keep_all = keep_all}) {}
 

@@ -34,7 +34,7 @@ std::string cell_hash(const StudyRun& study, const ShotRun& run, const std::stri
         for (const unsigned number : list) hash.add(number);
     }
     hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)),
-        hash.add(int(study.settings.keep_all)), hash.add(int(c.composite));
+        hash.add(int(study.settings.keep_all)), hash.add(int(c.composite)), hash.add(c.normal_bits);
     hash.add(c.hits ? int(c.hits->every) : 0), hash.add(c.hits ? int(c.hits->seeds) : 0);
     hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance), hash.add(run.shot.camera.exposure_ev);
     return hash.hex();

@@ -157,6 +157,7 @@ void Rasterizer::draw_kind(const GBuffer& g, const Image& depth_buffer, DrawnSce
         .depth({.compare = is_reversed ? DepthTest::Compare::greater : DepthTest::Compare::less,
                 .is_written = true,
                 .image = depth_buffer})
+        .set("normal_bits", options_.normal_bits)
         .label(std::string("gbuffer/draw_") + name)
         .run();
 }

@@ -8,6 +8,8 @@
 struct RasterizerOptions {
     glm::uvec2 extent{0, 0};
     DepthFormat depth_format = DepthFormat::d32f;
+    unsigned normal_bits = 0;       ///< of each of the two numbers that the shading normal is stored in
+                                    ///< (core/shaders/gbuffer/octahedral.glsl), 2 to 16; 0: floats
     bool has_depth_layers = false;  ///< also GBuffer::second_depth and ::back_depth
     bool keep_all = false;          ///< run and compile also what left_out() names: the same images, slower
 };

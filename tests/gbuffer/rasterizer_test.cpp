@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
+#include "core/scene/load_scene.h"
 #include "core/shared/brdf.h"
 #include "tests/gbuffer/test_scenes.h"
 
@@ -209,4 +210,36 @@ TEST(lit_direct, agrees_with_the_formula_under_a_directional_light) {
                 ASSERT_NEAR(g.lit.pixel(x, y)[k], expected[k], 1e-4f) << x << ", " << y;  // float32 sums
         }
     EXPECT_GT(lit, 500u);
+}
+
+/// The largest errors of oct16 and oct32 are those that Cigolle et al. 2014 measured over the sphere (table 2): 0.951
+/// and 0.00372 degrees.
+TEST(rasterizer, stores_normals_in_as_many_bits_as_asked) {
+    const Scene scene = load_scene("furnace_sphere", scene_search_path());
+    const glm::uvec2 extent(512, 512);
+    const auto normals = [&](unsigned bits) {
+        Rasterizer rasterizer(test_device(), scene, {.extent = extent, .normal_bits = bits});
+        const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view_of(extent));
+        return std::pair(rasterizer.graph().download(gbuffer.normal),
+                         rasterizer.graph().download(gbuffer.geometric_normal));
+    };
+    const auto [exact, exact_geometric] = normals(0);
+    for (const auto& [bits, largest] : {std::pair(8u, 0.951), {16u, 0.00372}}) {
+        const auto [stored, geometric] = normals(bits);
+        EXPECT_EQ(geometric.values, exact_geometric.values);
+        double worst = 0;
+        size_t drawn = 0;
+        for (size_t i = 0; i < stored.pixel_count(); ++i) {
+            const glm::dvec3 a(exact.rgb(i)), b(stored.rgb(i));
+            if (glm::length(a) == 0) continue;
+            ++drawn;
+            EXPECT_NEAR(glm::length(b), 1, 1e-6);
+            EXPECT_EQ(stored.values[4 * i + 3], exact.values[4 * i + 3]) << "roughness";
+            worst =
+                std::max(worst, glm::degrees(2 * std::asin(0.5 * glm::distance(glm::normalize(a), glm::normalize(b)))));
+        }
+        EXPECT_GT(drawn, 2000u);
+        EXPECT_LE(worst, largest + 1e-4) << "with the rounding of floats";
+        EXPECT_GT(worst, 0.7 * largest) << "of a sphere some are nearly as bad";
+    }
 }

@@ -1,6 +1,9 @@
 // The surface of one fragment, as glTF 2.0, Appendix B, describes it. HAS_TEXTURES and HAS_MASK compile in what the
 // materials of the draw need.
+#include "core/shaders/gbuffer/octahedral.glsl"
 #include "core/shared/drawn_scene.h"
+
+layout(push_constant) uniform Push { uint normal_bits; };
 
 layout(std430) readonly buffer Materials { DrawnMaterial materials[]; };
 
@@ -60,7 +63,9 @@ void main() {
     if (is_behind && m.flags.y == 0u) radiance = vec3(0.0);  // single-sided emitters shine forward only
 
     geometric_normal = vec4(side * ws_front_normal, 0.0);
-    normal = vec4(side * n, m.factors.y * metalness_roughness.g);
+    n *= side;
+    if (normal_bits > 0u) n = octahedral(n, normal_bits);
+    normal = vec4(n, m.factors.y * metalness_roughness.g);
     base_color = is_unlit ? vec4(0.0) : vec4(coloured.rgb, m.factors.x * metalness_roughness.b);
     emission = vec4(radiance, is_unlit ? 0.0 : m.emission.w);
     motion = 0.5 * (clip_now.xy / clip_now.w - clip_before.xy / clip_before.w);
