@@ -38,7 +38,7 @@ VariantEntry simple_ssr_entry() {
               {{"previous_frame", true}, {"draw", "jittered_ray"}, {"weights", "none"}}},
              {"cosine",
               "directions by the cosine, which know nothing of the lobe: what importance sampling is for",
-              {{"draw", "cosine"}, {"rays", 4}}},
+              {{"draw", "cosine"}, {"rays", 4}, {"tracer", "cells"}}},
              {"blog", "the article as printed: mirror rays through a hierarchical depth buffer", article_march},
              {"blog_importance", "the article as printed, with its other choice: a direction by importance",
               changed(article_march, {{"draw", "normals"}, {"weights", "none"}})},
