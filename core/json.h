@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,14 @@ public:
     std::string text(const std::string& key);
     std::string text(const std::string& key, const std::string& fallback);
     std::string choice(const std::string& key, const std::vector<std::string>& choices, const std::string& fallback);
+    /// The value that stands beside the name; the first of them if the key is absent.
+    template <class T>
+    T value_of(const std::string& key, const std::vector<std::pair<std::string, T>>& choices) {
+        std::vector<std::string> names;
+        for (const auto& [name, value] : choices) names.push_back(name);
+        const std::string chosen = choice(key, names, names.front());
+        return choices[size_t(std::ranges::find(names, chosen) - names.begin())].second;
+    }
     glm::vec3 vector(const std::string& key);
     glm::vec3 vector(const std::string& key, glm::vec3 fallback);
     const nlohmann::json& any(const std::string& key);           ///< required, of any type

@@ -341,19 +341,15 @@ Config read_config(const std::filesystem::path& file) {
     if (!config.has_reference && !config.direct_lit)
         fail(file.string(), ": 'reference' = \"none\" leaves no path-traced light to read; add \"lit\": \"direct\"");
 
-    config.composite = object.choice("composite", {"split_sum", "additive_fresnel"}, "split_sum") == "split_sum"
-                           ? CompositeFormula::split_sum
-                           : CompositeFormula::additive_fresnel;
-
-    const std::vector<std::string> formats = {"d32f", "d24", "d16"};
-    const std::string format = object.choice("depth_format", formats, "d32f");
-    config.depth_format = format == "d16" ? DepthFormat::d16 : format == "d24" ? DepthFormat::d24 : DepthFormat::d32f;
-    const bool is_reversed = object.choice("depth_direction", {"standard", "reversed"}, "standard") == "reversed";
-    config.depth_direction = is_reversed ? DepthDirection::reversed : DepthDirection::standard;
-
-    const std::string encoding = object.choice("normal_encoding", {"float", "octahedral_16", "octahedral_8"}, "float");
-    config.normal_bits = encoding == "octahedral_16" ? 16 : encoding == "octahedral_8" ? 8 : 0;
-
+    config.composite = object.value_of<CompositeFormula>(
+        "composite",
+        {{"split_sum", CompositeFormula::split_sum}, {"additive_fresnel", CompositeFormula::additive_fresnel}});
+    config.depth_format = object.value_of<DepthFormat>(
+        "depth_format", {{"d32f", DepthFormat::d32f}, {"d24", DepthFormat::d24}, {"d16", DepthFormat::d16}});
+    config.depth_direction = object.value_of<DepthDirection>(
+        "depth_direction", {{"standard", DepthDirection::standard}, {"reversed", DepthDirection::reversed}});
+    config.normal_bits =
+        object.value_of<unsigned>("normal_encoding", {{"float", 0}, {"octahedral_16", 16}, {"octahedral_8", 8}});
     if (object.has("timing")) {
         JsonObject timing = object.object("timing");
         config.timing.frames = unsigned(timing.integer("frames", 0, 100000, int(config.timing.frames)));
@@ -379,17 +375,12 @@ Config read_config(const std::filesystem::path& file) {
         } catch (const Error& e) {
             fail(file.string(), ": 'masks': ", e.what());
         }
-    config.targets = known_names(object, "targets", target_names(),
-                                 config.composite == CompositeFormula::split_sum
-                                     ? std::vector<std::string>{"specular", "image", "incident"}
-                                     : std::vector<std::string>{"specular", "image"});
-    if (config.composite != CompositeFormula::split_sum)
-        for (const std::string& target : config.targets)
-            if (target != "specular" && target != "image")
-                fail(file.string(),
-                     ": 'targets': with \"composite\": \"additive_fresnel\" there is no mean of incident radiance to "
-                     "compare with '",
-                     target, "'; allowed are specular and image");
+    // Added reflections are no mean of incident radiance.
+    const bool has_incident = config.composite == CompositeFormula::split_sum;
+    const std::vector<std::string> shown_targets = {"specular", "image"};
+    config.targets =
+        known_names(object, "targets", has_incident ? target_names() : shown_targets,
+                    has_incident ? std::vector<std::string>{"specular", "image", "incident"} : shown_targets);
     config.frame_metrics = known_names(object, "frame_metrics", metric_names(), {"mse", "relmse", "bias"}, true);
     config.frame_masks = known_names(object, "frame_masks", config.masks, default_frame_masks(config.masks));
     config.primary = read_primary(object, config);

@@ -136,6 +136,14 @@ nlohmann::json study_entry(const Config& config) {
     if (config.direct_lit)
         warnings.push_back(
             "SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
+    if (config.composite == CompositeFormula::additive_fresnel)
+        warnings.push_back(
+            "reflections were added to an image that holds the environment's already, as an engine's document prints "
+            "it: "
+            "where both are found, both count");
+    if (config.normal_bits > 0)
+        warnings.push_back("techniques and composite read normals of 2 x " + std::to_string(config.normal_bits) +
+                           " bits; the truth has its own");
     return {{"study", {{"name", config.file.stem().string()}, {"config", shown_path(config.file)}}},
             {"title", config.title},
             {"config", config.source},

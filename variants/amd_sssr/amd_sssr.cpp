@@ -28,16 +28,12 @@ std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
     const float smoothest_alpha = is_rounded ? amd_alpha_of_8_bits(exact_alpha) : exact_alpha;
     is_left_out_ = !facts.has_reflective || smoothest_alpha >= tracing_.roughness_threshold_alpha;
     if (!is_left_out_) return {};
-    const std::string fact =
-        facts.has_reflective ? "no reflective surface below roughness_threshold_alpha" : "nothing reflective";
     std::vector<std::string> stages = {"amd_sssr/classify", "common/blue_noise", "amd_sssr/prepare_arguments",
                                        "amd_sssr/intersect"};
     if (tracing_.tracers.needs_pyramid()) stages.insert(stages.begin(), "common/depth_pyramid");
     if (denoiser_.denoise)
         stages.insert(stages.end(), {"amd_sssr/reproject", "amd_sssr/prefilter", "amd_sssr/resolve_temporal"});
-    std::vector<LeftOut> left_out;
-    for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
-    return left_out;
+    return left_out_without_rays(facts, "below roughness_threshold_alpha", stages);
 }
 
 /// Without the one no surface is smooth enough to start a ray, without the other every ray is the mirror's.

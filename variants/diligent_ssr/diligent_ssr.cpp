@@ -45,8 +45,6 @@ std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
         tracing_.float_roughness ? facts.min_roughness : diligent_roughness_of_8_bits(facts.min_roughness);
     is_left_out_ = !facts.has_reflective || min_roughness > tracing_.roughness_threshold;
     if (!is_left_out_) return {};
-    const std::string fact =
-        facts.has_reflective ? "no reflective surface as smooth as roughness_threshold" : "nothing reflective";
     const bool is_guided = filter_.bilateral_cleanup && filter_.cleanup.is("guided");
     std::vector<std::string> stages = {"common/blue_noise",
                                        "diligent_ssr/reprojected_depth",
@@ -59,7 +57,5 @@ std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
     if (tracing_.tracers.needs_pyramid()) stages.push_back("diligent_ssr/depth_hierarchy");
     if (tracing_.half_resolution) stages.push_back("diligent_ssr/half_resolution_mask");
     if (tracing_.previous_frame) stages.push_back("common/keep_lit");
-    std::vector<LeftOut> left_out;
-    for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
-    return left_out;
+    return left_out_without_rays(facts, "as smooth as roughness_threshold", stages);
 }

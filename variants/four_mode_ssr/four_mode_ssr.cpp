@@ -57,12 +57,8 @@ bool FourModeSsr::depends_on_seed() const { return is_stochastic() || tracers.ne
 std::vector<LeftOut> FourModeSsr::leave_out(const SceneFacts& facts) {
     is_left_out_ = !facts.has_reflective || facts.min_roughness >= roughness_fade;
     if (!is_left_out_) return {};
-    const std::string fact =
-        facts.has_reflective ? "no reflective surface smoother than roughness_fade" : "nothing reflective";
     std::vector<std::string> stages = {mode.is("simple_linear") ? "four_mode_ssr/trace_linear" : "four_mode_ssr/trace"};
     if (tracers.needs(slot()).nearest_mips > 0) stages.insert(stages.begin(), "common/depth_pyramid");
     if (mode.is("temporal")) stages.push_back("four_mode_ssr/blend");
-    std::vector<LeftOut> left_out;
-    for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
-    return left_out;
+    return left_out_without_rays(facts, "smoother than roughness_fade", stages);
 }

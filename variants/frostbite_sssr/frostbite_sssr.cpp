@@ -27,8 +27,6 @@ Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
 std::vector<LeftOut> FrostbiteSssr::leave_out(const SceneFacts& facts) {
     is_left_out_ = !facts.has_reflective || facts.min_roughness > ray_.max_roughness;
     if (!is_left_out_) return {};
-    const std::string fact =
-        facts.has_reflective ? "no reflective surface as smooth as max_roughness" : "nothing reflective";
     std::vector<std::string> stages = {"frostbite_sssr/allocate", "frostbite_sssr/trace_smooth",
                                        "frostbite_sssr/trace_rough", "frostbite_sssr/resolve"};
     if (ray_.tracers.needs_pyramid()) stages.insert(stages.begin(), "common/depth_pyramid");
@@ -36,7 +34,5 @@ std::vector<LeftOut> FrostbiteSssr::leave_out(const SceneFacts& facts) {
     if (resolve_.filtered_sampling) stages.push_back("frostbite_sssr/color_pyramid");
     if (ray_.classification) stages.push_back("frostbite_sssr/classify");
     if (resolve_.temporal_filter || !resolve_.reflectance_after_filter) stages.push_back("frostbite_sssr/accumulate");
-    std::vector<LeftOut> left_out;
-    for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
-    return left_out;
+    return left_out_without_rays(facts, "as smooth as max_roughness", stages);
 }

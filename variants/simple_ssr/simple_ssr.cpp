@@ -30,13 +30,9 @@ bool SimpleSsr::depends_on_seed() const { return !draw.is("mirror") || tracers.n
 std::vector<LeftOut> SimpleSsr::leave_out(const SceneFacts& facts) {
     is_left_out_ = !facts.has_reflective || facts.min_roughness > max_roughness;
     if (!is_left_out_) return {};
-    const std::string fact =
-        facts.has_reflective ? "no reflective surface as smooth as max_roughness" : "nothing reflective";
     std::vector<std::string> stages = {"simple_ssr/trace"};
     if (tracers.needs_pyramid()) stages.insert(stages.begin(), "common/depth_pyramid");
     if (previous_frame) stages.insert(stages.begin(), "common/keep_lit");
     if (blurs()) stages.insert(stages.end(), {"simple_ssr/blur_rows", "simple_ssr/blur_columns"});
-    std::vector<LeftOut> left_out;
-    for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
-    return left_out;
+    return left_out_without_rays(facts, "as smooth as max_roughness", stages);
 }

@@ -167,8 +167,8 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
     if (needed.depth_layers && !graph.has_input("second_depth"))
         fail(
             "the chosen tracer reads what lies behind the visible surfaces: captures do not hold it, and scenes' "
-            "frames "
-            "only if the technique's needs_depth_layers() asks for it");
+            "frames only "
+            "if the technique's needs_depth_layers() asks for it");
     const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
     const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
     const auto run_as = [&](Including what) {
