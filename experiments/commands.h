@@ -69,6 +69,15 @@ void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& 
 
 void needs_command(const ShotOptions& options, const CommonOptions& common);
 
+struct StabilityOptions {
+    std::vector<std::string> variants, cases;  ///< empty: all
+    bool has_all_stages = false;
+    std::filesystem::path table, out, figure;  ///< table "": ssrlab's own; figure "": none
+};
+int stability_command(const StabilityOptions& options, const CommonOptions& common);  ///< the exit code: 0, 2 or 3
+/// The figure of a stability.csv: PDF, PNG or SVG by its name. The exit code: 0, 2 or 3.
+int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure);
+
 struct DescribeOptions {
     std::string variant;  ///< "": all
     bool as_schema = false;

@@ -202,6 +202,32 @@ int parse_and_run(int argc, char** argv) {
     add_scene_path(needs_command_, common);
     needs_command_.callback([&] { needs_command(needs, common); });
 
+    StabilityOptions stability;
+    CLI::App& stability_command_ = *app.add_subcommand(
+        "stability", "Run techniques through stiff and extreme cases: what is not finite, and what is amplified");
+    stability_command_
+        .add_option("--variants", stability.variants,
+                    "Techniques, or single presets as NAME:PRESET; default: all presets of all, and all tracers")
+        ->delimiter(',')
+        ->type_name("NAME");
+    stability_command_.add_option("--cases", stability.cases, "Cases or groups of the table; default: all")
+        ->delimiter(',')
+        ->type_name("NAME");
+    stability_command_
+        .add_option("--table", stability.table,
+                    "A table of cases (experiments/stability/README.md); default: ssrlab's own")
+        ->check(CLI::ExistingFile)
+        ->type_name("FILE.json");
+    stability_command_.add_option("--out", stability.out, "Folder of stability.csv")
+        ->default_val("results/stability")
+        ->type_name("DIR");
+    stability_command_.add_flag("--all-stages", stability.has_all_stages,
+                                "Tell of each stage in stability_stages.csv, also of those that are finite");
+    stability_command_.add_option("--figure", stability.figure, "Also write the figure: .pdf, .png or .svg")
+        ->type_name("FILE");
+    add_device(stability_command_, common), add_scene_path(stability_command_, common);
+    stability_command_.callback([&] { status = stability_command(stability, common); });
+
     DescribeOptions describe;
     CLI::App& describe_command_ =
         *app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");

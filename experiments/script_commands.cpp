@@ -31,6 +31,10 @@ int figures_command(const FiguresOptions& options) {
     return run_script("figures.py", {"--out=" + out.string(), "--", options.results.string()});
 }
 
+int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure) {
+    return run_script("stability_figure.py", {"--out=" + figure.string(), "--", csv.string()});
+}
+
 int tables_command(const TablesOptions& options) {
     if (options.checks) return run_script("tables.py", {"--check=" + std::to_string(estimator_version)});
     if (options.results.empty()) {

@@ -5,6 +5,7 @@
 #include "experiments/capture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 std::vector<FrameStep> timeline(const ShotConfig& config) {
@@ -60,9 +61,12 @@ Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer) {
     shot.scene.content_hash = hash.hex();
     SceneFacts& facts = shot.facts;
     facts.camera_moves = facts.objects_move = true;  // unknown, so nothing is left out for lack of it
+    facts.has_faulty_inputs = !count_non_finite(gbuffer).empty();
     for (size_t i = 0; i < gbuffer.depth.values.size(); ++i) {
         if (gbuffer.depth.values[i] == gbuffer.camera.depth.z) continue;
         facts.has_geometry = true;
+        const glm::vec3 normal = gbuffer.normal.rgb(i);
+        facts.has_faulty_inputs |= std::abs(glm::dot(normal, normal) - 1.0f) > 0.002f;  // as repair_image.frag
         const float roughness = gbuffer.normal.values[i * 4 + 3];
         if (gbuffer.base_color.values[i * 4 + 3] <= 0.0f && gbuffer.emission.values[i * 4 + 3] <= 0.0f) continue;
         facts.has_reflective = true;

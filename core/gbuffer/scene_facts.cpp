@@ -137,6 +137,8 @@ std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
         {"camera_moves", yes(f.camera_moves), "camera poses of successive frames of the shot"},
         {"objects_move", yes(f.objects_move), "transforms of drawn nodes in successive frames of the shot"},
         {"lights_move", yes(f.lights_move), "transforms of lights in successive frames of the shot"},
+        {"has_faulty_inputs", yes(f.has_faulty_inputs),
+         "values of a G-buffer from files that are not finite, or normals that are not unit"},
         {"has_environment", yes(f.has_environment),
          f.has_environment ? "the environment is not black" : "the environment is black"},
         {"has_punctual_lights", yes(f.has_punctual_lights), std::to_string(scene.lights.size()) + " punctual lights"},

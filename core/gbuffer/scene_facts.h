@@ -17,6 +17,8 @@ struct SceneFacts {
     bool camera_moves = false, objects_move = false, lights_move = false;
     bool has_environment = false, has_punctual_lights = false, has_emitters = false;
     bool has_textures = false, has_alpha_masks = false, has_normal_maps = false, has_vertex_colors = false;
+    bool has_faulty_inputs = false;  ///< a G-buffer of files with values that are not finite, or normals that are not unit; what
+                                     ///< is rasterised has none
     bool has_unlit = false, has_single_sided = false, has_double_sided = false;
 };
 

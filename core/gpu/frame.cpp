@@ -43,10 +43,14 @@ void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params
     impl_->frame_milliseconds = 0;
     impl_->parity = 1 - impl_->parity;
     impl_->params = &params;
-    impl_->inputs.clear();
-    for (const Image& image : inputs) impl_->inputs[image.name] = image;
+    set_inputs(inputs);
     std::memcpy(impl_->uniforms.data, &camera, sizeof camera);
     impl_->write_params();
+}
+
+void PassGraph::set_inputs(std::span<const Image> inputs) {
+    impl_->inputs.clear();
+    for (const Image& image : inputs) impl_->inputs[image.name] = image;
 }
 
 void PassGraph::Impl::write_params() {

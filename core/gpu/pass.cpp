@@ -156,4 +156,5 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
     for (const Image& image : pass.writes_) image.storage->is_written = true;
     for (const Image* image : {&pass.depth_.image, &pass.stencil_.image})
         if (image->storage) image->storage->is_written = true;
+    if (observer) observer(pass.label_, pass.writes_);
 }

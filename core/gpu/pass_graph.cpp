@@ -9,6 +9,7 @@ PassGraph::PassGraph(Device& device, glm::uvec2 extent, Clock clock)
 PassGraph::~PassGraph() = default;
 
 Clock PassGraph::clock() const { return impl_->clock; }
+void PassGraph::observe(PassObserver observer) { impl_->observer = std::move(observer); }
 bool PassGraph::has_input(const std::string& name) const { return impl_->inputs.contains(name); }
 glm::uvec2 PassGraph::extent() const { return impl_->extent; }
 Device& PassGraph::device() { return impl_->device; }
@@ -28,6 +29,7 @@ Image PassGraph::image_of(const std::string& name, Format format, glm::uvec2 ext
                  .extent = extent,
                  .mips = mips,
                  .storage = create_image(impl_->gpu, format, extent, mips)};
+        if (impl_->observer) clear(image, glm::vec4(0.0f));
     }
     return image;
 }

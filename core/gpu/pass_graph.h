@@ -64,6 +64,10 @@ struct Draw {
     std::vector<Buffer> buffers;
 };
 
+/// Told of each pass that has been added: its stage, and the images that it writes, in which its work is found by
+/// PassGraph::download().
+using PassObserver = std::function<void(const std::string& stage, std::span<const Image> written)>;
+
 /// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by
 /// name; the graph creates the images, compiles the shaders, binds, separates the passes by barriers and times each of
 /// them.
@@ -107,7 +111,13 @@ public:
     /// and `inputs` by name. `params` must outlive the frame.
     void begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs);
 
-    /// Whether begin_frame() was given an image of that name.
+    /// From now on `observer` is told of each pass ({}: nobody is), and images begin as zeros, so that it never sees what
+    /// nobody wrote.
+    void observe(PassObserver observer);
+
+    /// In place of those that begin_frame() was given, for the passes that follow.
+    void set_inputs(std::span<const Image> inputs);
+    /// Whether there is an input of that name.
     bool has_input(const std::string& name) const;
 
     void clear(const Image& image,

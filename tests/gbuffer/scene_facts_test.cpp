@@ -15,7 +15,7 @@ TEST(scene_facts, of_a_scene_that_has_everything) {
     EXPECT_FALSE(f.lights_move);
     EXPECT_FALSE(f.has_vertex_colors);
     EXPECT_EQ(f.max_roughness, 1.0f);
-    EXPECT_EQ(list_facts(scene, f).size(), 19u);
+    EXPECT_EQ(list_facts(scene, f).size(), 20u);
 }
 
 TEST(scene_facts, only_what_is_drawn_counts) {

@@ -38,4 +38,17 @@ TEST_F(LitHistories, KeepTheFormatOfTheLitImage) {
         EXPECT_EQ(history.previous(graph, begin(frame, Format::rgba16f)).format, Format::rgba16f);
 }
 
+// After a change of size there is a new graph, whose history holds nothing: the first frame shows its own colour again.
+TEST_F(LitHistories, BeginAnewInAnotherGraph) {
+    LitHistory history;
+    history.previous(graph, begin(0, Format::rgba32f));
+    PassGraph larger(device(), {7, 5});
+    const Image lit = larger.image("lit", Format::rgba32f);
+    larger.upload(lit, HostImage({7, 5}, 4, 3.0f));
+    CameraData camera{};
+    camera.frame = {1, 0, 0, 1};
+    larger.begin_frame(camera, no_parameters, std::array{lit});
+    EXPECT_EQ(larger.download(history.previous(larger, lit)).values[0], 3.0f);
+}
+
 }  // namespace

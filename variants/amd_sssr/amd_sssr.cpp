@@ -2,7 +2,7 @@
 
 #include "variants/amd_sssr/passes.h"
 
-Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
+Reflections AmdSssr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     const Image confidence = graph.image("confidence", Format::r8);
     const AmdHistories histories = amd_histories(graph, denoiser_.float_histories, tracing_.float_roughness);
     if (is_left_out_) {
@@ -22,7 +22,7 @@ Reflections AmdSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
     return {histories.radiance.current, confidence};
 }
 
-std::vector<LeftOut> AmdSssr::leave_out(const SceneFacts& facts) {
+std::vector<LeftOut> AmdSssr::leave_out_passes(const SceneFacts& facts) {
     const float exact_alpha = facts.min_roughness * facts.min_roughness;
     const bool is_rounded = tracing_.rate_stored_roughness && !tracing_.float_roughness;
     const float smoothest_alpha = is_rounded ? amd_alpha_of_8_bits(exact_alpha) : exact_alpha;

@@ -10,12 +10,12 @@
 /// README.md explains the passes, lists the deviations, and names the parameter that mends each defect of the original.
 class AmdSssr final : public TracingVariant {
 public:
-    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override;
     std::string not_repeatable() const override;
 
 private:
+    Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
+    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return tracing_.tracers; }
 
     AmdTracingParameters tracing_{params};

@@ -30,9 +30,9 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
                    const AmdDenoiserParameters& parameters) {
     const Image reprojected = reprojected_image(graph, histories);
     if (parameters.fresh_neighborhood)
-        for (const Image& image :
-             {histories.variance.current, histories.sample_count.current, histories.average_radiance.current})
-            graph.clear(image, {});
+        for (const Image& image : {histories.variance.current, histories.sample_count.current}) graph.clear(image, {});
+    constexpr float unlisted_average = 64512;  // as in denoiser_tile.glsl
+    if (parameters.fresh_neighborhood) graph.clear(histories.average_radiance.current, glm::vec4(unlisted_average));
     const bool is_fast = parameters.denoiser_form.is("fast");
     PassGraph::Pass pass = denoiser_pass(graph, "reproject", is_fast);
     pass.read(histories.radiance.current.as("radiance"))

@@ -13,7 +13,7 @@ vec2 covered_extent() {
     return vec2(remainder == ivec2(0) ? extent : extent + 8);
 }
 
-// Tiles that were not listed hold 0, and listed ones no 0: see reproject.comp.
+// In the first frame those of the frame before (stale_average) have never been made.
 vec3 average_of_listed(vec2 uv) {
     vec2 position = uv * vec2(textureSize(average_radiance, 0)) - 0.5;
     ivec2 first = ivec2(floor(position)), last = textureSize(average_radiance, 0) - 1;
@@ -23,7 +23,8 @@ vec3 average_of_listed(vec2 uv) {
         ivec2 corner = ivec2(i & 1, i >> 1);
         vec3 average = texelFetch(average_radiance, clamp(first + corner, ivec2(0), last), 0).rgb;
         vec2 weights = mix(1.0 - share, share, vec2(corner));
-        if (average != vec3(0.0)) sum += vec4(average, 1.0) * weights.x * weights.y;
+        bool is_listed = average.r < unlisted_average && (!stale_average || camera.frame.w == 1u);
+        if (is_listed) sum += vec4(average, 1.0) * weights.x * weights.y;
     }
     return sum.rgb / max(sum.w, 1e-6);
 }

@@ -35,8 +35,7 @@ vec3 store_history(ivec2 pixel, float alpha, vec3 color, History history) {
 
 void store_average(ivec2 tile, vec4 weighted_sum) {
     vec3 average = average_of(weighted_sum);
-    // With fresh_neighborhood 0 marks tiles that were not listed; this is the least normal r11g11b10f.
-    if (fresh_neighborhood) average = max(average, vec3(6.104e-5));
+    if (fresh_neighborhood) average = min(average, vec3(brightest_average));
     imageStore(average_radiance, tile, vec4(average, 0.0));
 }
 #endif

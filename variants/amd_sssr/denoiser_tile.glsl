@@ -10,6 +10,10 @@ buffer tile_list { uint listed_tile[]; };
 const int reach = 4;  // pixels around the tile that its filters see
 const float largest_half = 65504.0;
 
+// With fresh_neighborhood averages of tiles that were not listed are the first of these two numbers, and no other is: the
+// largest that all channels of r11g11b10f hold, and the next one.
+const float unlisted_average = 64512.0, brightest_average = 62464.0;
+
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
 // First pixel of a listed tile; behind the end of the list a place outside of the image, where nothing is stored.

@@ -66,6 +66,7 @@ struct AmdTracingParameters {
                      {"hierarchy.thickness_at_hit_mip", false},
                      {"hierarchy.accept_contact_hits", false},
                      {"hierarchy.reject_unfinished", false},
+                     {"hierarchy.finite_length", false},
                      {"hierarchy.stop_outside_screen", false},
                      {"hierarchy.max_traversal_intersections", 128},
                      {"hierarchy.min_traversal_occupancy", 4},

@@ -8,5 +8,5 @@ public:
     Image previous(PassGraph& graph, const Image& lit);
 
 private:
-    bool is_kept_ = false;
+    Image last_;  ///< where the frame before was kept
 };

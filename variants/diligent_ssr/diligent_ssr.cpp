@@ -8,7 +8,7 @@ constexpr unsigned alpha = 3;  // channel of `reflections` that holds the confid
 
 }  // namespace
 
-Reflections DiligentSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
+Reflections DiligentSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     if (is_left_out_) {
         const Image nothing = graph.image("reflections", Format::rgba16f);
         graph.clear(nothing, {});
@@ -40,7 +40,7 @@ bool DiligentSsr::depends_on_seed() const {
     return has_lobes && (!has_mirror_rays_only || tracing_.tracers.needs().random);
 }
 
-std::vector<LeftOut> DiligentSsr::leave_out(const SceneFacts& facts) {
+std::vector<LeftOut> DiligentSsr::leave_out_passes(const SceneFacts& facts) {
     const float min_roughness =
         tracing_.float_roughness ? facts.min_roughness : diligent_roughness_of_8_bits(facts.min_roughness);
     is_left_out_ = !facts.has_reflective || min_roughness > tracing_.roughness_threshold;

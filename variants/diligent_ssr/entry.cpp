@@ -12,6 +12,8 @@ const nlohmann::json diligent_corrected = {{"temporal_radiance_stability_factor"
                                            {"inward_rays", "missed"},
                                            {"hierarchy.stop_outside_screen", true},
                                            {"hierarchy.reject_unfinished", true},
+                                           {"hierarchy.finite_length", true},
+                                           {"repair_inputs", true},
                                            {"independent_noise_shifts", true},
                                            {"float_rays", true},
                                            {"premultiply_confidence", true},

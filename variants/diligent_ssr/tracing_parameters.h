@@ -63,6 +63,7 @@ struct DiligentTracingParameters {
                     "DiligentFX: hierarchy",
                     {{"hierarchy.accept_contact_hits", false},
                      {"hierarchy.reject_unfinished", false},
+                     {"hierarchy.finite_length", false},
                      {"hierarchy.stop_outside_screen", false},
                      {"hierarchy.max_traversal_intersections", 128},
                      {"hierarchy.clip_ray_to_near_plane", false},

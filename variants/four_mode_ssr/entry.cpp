@@ -24,7 +24,8 @@ nlohmann::json corrections() {
                                  {"brdf_bias", 1},
                                  {"history_place", "motion_vectors"},
                                  {"reject_other_surfaces", true},
-                                 {"weigh_by_confidence", true}};
+                                 {"weigh_by_confidence", true},
+                                 {"repair_inputs", true}};
     for (const std::string march : {"fixed_stride", "cells"})
         parameters.update({{march + ".max_steps", 16384},
                            {march + ".max_distance", 0},

@@ -30,7 +30,7 @@ FourModeSsr::FourModeSsr()
                {"linear_tracer", "linear_trace", "fixed_stride", "the march of the mode simple_linear"}},
               "the document: through a depth pyramid, and with a fixed stride", printed_marches()) {}
 
-Reflections FourModeSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
+Reflections FourModeSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     const bool is_temporal = mode.is("temporal");
     const Image traced = graph.image("traced", Format::rgba16f);
     if (is_left_out_) {
@@ -54,7 +54,7 @@ Reflections FourModeSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
 
 bool FourModeSsr::depends_on_seed() const { return is_stochastic() || tracers.needs(slot()).random; }
 
-std::vector<LeftOut> FourModeSsr::leave_out(const SceneFacts& facts) {
+std::vector<LeftOut> FourModeSsr::leave_out_passes(const SceneFacts& facts) {
     is_left_out_ = !facts.has_reflective || facts.min_roughness >= roughness_fade;
     if (!is_left_out_) return {};
     std::vector<std::string> stages = {mode.is("simple_linear") ? "four_mode_ssr/trace_linear" : "four_mode_ssr/trace"};

@@ -35,7 +35,8 @@ VariantEntry frostbite_sssr_entry() {
                {"hidden_hits", "miss"},
                {"cone_scale", 0.5},
                {"pattern", "interleaved"},
-               {"clamp_scale", 1.0}}}},
+               {"clamp_scale", 1.0},
+               {"repair_inputs", true}}}},
         .create = [] { return std::make_unique<FrostbiteSssr>(); },
     };
 }

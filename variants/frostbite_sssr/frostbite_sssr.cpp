@@ -3,7 +3,7 @@
 #include "variants/common/lit_history.h"
 #include "variants/frostbite_sssr/passes.h"
 
-Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
+Reflections FrostbiteSssr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     constexpr unsigned alpha = 3;
     if (is_left_out_) {
         const Image nothing = graph.image("reflections", Format::rgba32f);
@@ -24,7 +24,7 @@ Reflections FrostbiteSssr::render(PassGraph& graph, const GBuffer& gbuffer) {
     return {reflections, reflections, alpha};
 }
 
-std::vector<LeftOut> FrostbiteSssr::leave_out(const SceneFacts& facts) {
+std::vector<LeftOut> FrostbiteSssr::leave_out_passes(const SceneFacts& facts) {
     is_left_out_ = !facts.has_reflective || facts.min_roughness > ray_.max_roughness;
     if (!is_left_out_) return {};
     std::vector<std::string> stages = {"frostbite_sssr/allocate", "frostbite_sssr/trace_smooth",

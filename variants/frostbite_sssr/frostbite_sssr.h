@@ -11,10 +11,10 @@
 /// README.md says what is theirs and what is ours.
 class FrostbiteSssr final : public TracingVariant {
 public:
-    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
 
 private:
+    Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
+    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return ray_.tracers; }
 
     FrostbiteRayParameters ray_{params};

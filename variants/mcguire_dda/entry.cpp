@@ -21,7 +21,10 @@ VariantEntry mcguire_dda_entry() {
                      {{"dda.thickness", 0.0}, {"dda.relative_thickness", 0.02}}},
                     {"best",
                      "the least error that experiments/configs/search_mcguire_dda.json found",
-                     {{"bilinear_color", true}, {"dda.clip_to_viewport", false}, {"max_roughness", 0.2}}}},
+                     {{"bilinear_color", true},
+                      {"dda.clip_to_viewport", false},
+                      {"max_roughness", 0.2},
+                      {"repair_inputs", true}}}},
         .create = [] { return std::make_unique<McGuireDda>(); },
     };
 }

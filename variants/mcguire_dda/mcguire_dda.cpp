@@ -1,6 +1,6 @@
 #include "variants/mcguire_dda/mcguire_dda.h"
 
-Reflections McGuireDda::render(PassGraph& graph, const GBuffer& gbuffer) {
+Reflections McGuireDda::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     const Image hit = graph.image("hit", Format::rgba32f);
     const Image radiance = graph.image("radiance", Format::rgba32f);
     const Image confidence = graph.image("confidence", Format::r8);
@@ -19,7 +19,7 @@ Reflections McGuireDda::render(PassGraph& graph, const GBuffer& gbuffer) {
     return {radiance, confidence};
 }
 
-std::vector<LeftOut> McGuireDda::leave_out(const SceneFacts& facts) {
+std::vector<LeftOut> McGuireDda::leave_out_passes(const SceneFacts& facts) {
     is_left_out_ = !facts.has_reflective || facts.min_roughness > max_roughness;
     if (!is_left_out_) return {};
     const std::string fact =

@@ -6,11 +6,11 @@
 /// graph (rgba32f) keeps where each ray ended: uv on the un-jittered screen, distance (m), confidence, 0 of misses.
 class McGuireDda final : public TracingVariant {
 public:
-    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override { return tracers.needs().random; }
 
 private:
+    Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
+    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return tracers; }
 
     bool is_left_out_ = false;

@@ -44,7 +44,7 @@ VariantEntry simple_ssr_entry() {
               changed(article_march, {{"draw", "normals"}, {"weights", "none"}})},
              {"blog_corrected",
               "the article's march without the defects that README.md lists, for a mirror",
-              {{"tracer", "hzb"}, {"previous_frame", true}}},
+              {{"tracer", "hzb"}, {"previous_frame", true}, {"repair_inputs", true}}},
              {"corrected",
               "what these parts do best without a filter: four rays of visible normals, through cells of a pyramid, in "
               "this frame's colour",
@@ -52,7 +52,8 @@ VariantEntry simple_ssr_entry() {
                {"rays", 4},
                {"tracer", "cells"},
                {"cells.relative_thickness", 0.01},
-               {"cells.thickness", 0.0}}}},
+               {"cells.thickness", 0.0},
+               {"repair_inputs", true}}}},
         .create = [] { return std::make_unique<SimpleSsr>(); },
     };
 }

@@ -1,6 +1,6 @@
 #include "variants/simple_ssr/simple_ssr.h"
 
-Reflections SimpleSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
+Reflections SimpleSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     const Image traced = graph.image("traced", Format::rgba32f);
     if (is_left_out_) {
         graph.clear(traced, {});
@@ -27,7 +27,7 @@ Reflections SimpleSsr::render(PassGraph& graph, const GBuffer& gbuffer) {
 
 bool SimpleSsr::depends_on_seed() const { return !draw.is("mirror") || tracers.needs().random; }
 
-std::vector<LeftOut> SimpleSsr::leave_out(const SceneFacts& facts) {
+std::vector<LeftOut> SimpleSsr::leave_out_passes(const SceneFacts& facts) {
     is_left_out_ = !facts.has_reflective || facts.min_roughness > max_roughness;
     if (!is_left_out_) return {};
     std::vector<std::string> stages = {"simple_ssr/trace"};

@@ -8,11 +8,11 @@
 /// of a blog ("the article": "Screen Space Ray Reflection", 2023). README.md says what each leaves open.
 class SimpleSsr final : public TracingVariant {
 public:
-    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
     bool depends_on_seed() const override;
 
 private:
+    Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
+    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return tracers; }
     bool blurs() const { return blur_width > 0; }
 

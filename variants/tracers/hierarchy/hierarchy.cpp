@@ -40,6 +40,9 @@ struct Hierarchy final : Tracer {
          "stood", "ssrlab"}};
     Switch stop_outside_screen{params, "hierarchy.stop_outside_screen", true,
         {"", "ends a ray where it leaves the screen", "ssrlab; AMD's hybrid reflections sample does"}};
+    Switch finite_length{params, "hierarchy.finite_length", true,
+        {"", "a ray that ended where positions have no end, at the far plane and beyond, is as long as four times that plane's "
+         "distance. The originals store infinity and what comes of it", "ssrlab"}};
     Param<unsigned> max_traversal_intersections{params, "hierarchy.max_traversal_intersections", 4096, {0, 4096},
         {"steps", "texels of the depth pyramid that one ray may visit",
          "SSSR 1.5, maxTraversalIntersections; DiligentFX, MaxTraversalIntersections; both 128"}};

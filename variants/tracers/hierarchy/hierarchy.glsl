@@ -131,6 +131,13 @@ HierarchyJudgement hierarchy_judged_by_diligent(vec3 origin, vec3 hit, vec3 dire
     return hierarchy_faded(miss, hierarchy_relative_depth_buffer_thickness, hit.xy);
 }
 
+// Beyond the far plane positions have no end, and float32 finds some before it. No two points that a camera sees are
+// as far apart as four times its far plane's distance, but for views wider than 100 degrees.
+float hierarchy_ray_length(vec3 vs_ray) {
+    float ray_length = length(vs_ray), most = 4.0 * camera.depth.y;
+    return hierarchy_finite_length && !(ray_length <= most) ? most : ray_length;
+}
+
 TraceEnd hierarchy_trace(TraceRay ray) {
     int finest = 0;
     if (hierarchy_most_detailed_mip > 0u && !ray.is_mirror)
@@ -147,7 +154,7 @@ TraceEnd hierarchy_trace(TraceRay ray) {
     HierarchyEnd end = hierarchy_walk(hierarchy_screen_ray(origin, vs_origin, ray.direction), finest, ray.is_mirror);
     vec3 vs_ray = hierarchy_view_from_image(end.position) - vs_origin;
     vec2 position = screen_from_image(end.position.xy);
-    float ray_length = length(vs_ray);
+    float ray_length = hierarchy_ray_length(vs_ray);
     if (end.is_unfinished && (hierarchy_reject_unfinished || hierarchy_march == hierarchy_march_none))
         return missed(is_outside(end.position.xy) ? outcome_off_screen : outcome_unfinished, position, ray_length);
     HierarchyJudgement judged;  // WebGL 2 has no ?: of structures

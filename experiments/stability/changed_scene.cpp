@@ -1,0 +1,102 @@
+#include "experiments/stability/changed_scene.h"
+
+#include "core/error.h"
+#include "core/scene/camera_reader.h"
+#include "core/scene/content_hash.h"
+#include "core/scene/load_scene.h"
+#include "core/scene/material_override.h"
+
+namespace {
+
+/// A node above all others, by which everything that hangs on nodes is scaled.
+void scale_nodes(Scene& scene, glm::vec3 scale) {
+    for (Node& node : scene.nodes) ++node.parent;  // of roots: from -1 to the new node
+    Node root{.name = "scale"};
+    root.scale = scale;
+    root.parent_from_node = glm::mat4(1.0f);
+    for (int axis = 0; axis < 3; ++axis) root.parent_from_node[axis][axis] = scale[axis];
+    scene.nodes.insert(scene.nodes.begin(), root);
+    for (Instance& instance : scene.instances) ++instance.node;
+    for (AnimationChannel& channel : scene.animation) ++channel.node;
+    for (PunctualLight& light : scene.lights) light.node += light.node >= 0;
+    for (SceneCamera& camera : scene.cameras) camera.node += camera.node >= 0;
+}
+
+/// Irradiances stay what they are: intensities grow by the square.
+void scale_lights(Scene& scene, float scale) {
+    for (PunctualLight& light : scene.lights) {
+        if (light.type != LightType::directional) light.intensity *= scale * scale;
+        light.range *= scale, light.position *= scale;
+    }
+}
+
+void scale_camera(SceneCamera& camera, float scale) {
+    camera.near *= scale, camera.far *= scale, camera.orthographic_height *= scale;
+    for (CameraKey& key : camera.keys) key.position *= scale, key.target *= scale;
+}
+
+void brighten(Scene& scene, float factor) {
+    for (Material& material : scene.materials) material.emission *= factor;
+    for (PunctualLight& light : scene.lights) light.intensity *= factor;
+    scene.environment.color *= factor, scene.environment.slope *= factor;
+    for (float& value : scene.environment.latlong.values) value *= factor;
+}
+
+/// {"corners": three or four points, counter-clockwise seen from the front, and the material's "roughness",
+/// "metalness", "base_color", "emission"}.
+void add_quad(Scene& scene, JsonObject quad) {
+    const nlohmann::json& json = quad.any("corners");
+    if (!json.is_array() || json.size() < 3 || json.size() > 4) fail(quad.where(), ": 'corners' must be 3 or 4 points");
+    std::vector<glm::vec3> corners;
+    for (const nlohmann::json& corner : json) {
+        const auto point = corner.get<std::array<float, 3>>();
+        corners.emplace_back(point[0], point[1], point[2]);
+    }
+    // In double precision, which holds the product of the edges of the smallest triangles.
+    const glm::dvec3 across = glm::cross(glm::dvec3(corners[1] - corners[0]), glm::dvec3(corners[2] - corners[0]));
+    const double length = glm::length(across);
+    const glm::vec3 normal = length > 0 ? glm::vec3(across / length) : glm::vec3(0, 1, 0);
+    Material material{.name = "quad"};
+    material.roughness = quad.number("roughness", 0.0f, 1.0f, 0.0f);
+    material.metalness = quad.number("metalness", 0.0f, 1.0f, 1.0f);
+    material.base_color = quad.vector("base_color", glm::vec3(0.95f));
+    material.emission = quad.vector("emission", glm::vec3(0.0f));
+    material.is_double_sided = quad.boolean("double_sided", true);
+    quad.finish();
+    Mesh mesh{.name = "quad", .indices = {0, 1, 2}, .material = unsigned(scene.materials.size())};
+    if (corners.size() == 4) mesh.indices.insert(mesh.indices.end(), {0, 2, 3});
+    for (const glm::vec3 corner : corners)
+        mesh.vertices.push_back(
+            {.position = corner, .normal = normal, .tangent = {1, 0, 0, 1}, .uv = {}, .color = glm::vec4(1)});
+    scene.instances.push_back({.mesh = unsigned(scene.meshes.size()), .node = unsigned(scene.nodes.size())});
+    scene.materials.push_back(material), scene.meshes.push_back(mesh), scene.nodes.push_back({.name = "quad"});
+}
+
+}  // namespace
+
+ChangedScene changed_scene(const CaseScene& wanted, const std::vector<std::filesystem::path>& search_path) {
+    ChangedScene result{.scene = load_scene(wanted.scene, search_path), .camera = {}};
+    Scene& scene = result.scene;
+    if (!wanted.quads.is_null()) {
+        const nlohmann::json list = {{"quads", wanted.quads}};
+        for (JsonObject& quad : JsonObject(list, "a case").objects("quads")) add_quad(scene, std::move(quad));
+    }
+    if (wanted.roughness) {
+        const nlohmann::json entry = {{"material", ".*"}, {"roughness", *wanted.roughness}};
+        JsonObject object(entry, "a case's 'roughness'");
+        apply_override(object, scene);
+    }
+    if (wanted.radiance != 1.0f) brighten(scene, wanted.radiance);
+    result.camera = wanted.view.is_null() ? scene.camera(wanted.camera)
+                                          : read_camera(JsonObject(wanted.view, "a case's 'view'"), scene);
+    if (result.camera.far == 0.0f) result.camera.far = 1000.0f;
+    if (wanted.near) result.camera.near = *wanted.near;
+    if (wanted.far) result.camera.far = *wanted.far;
+    if (wanted.scale != glm::vec3(1.0f)) {
+        scale_nodes(scene, wanted.scale);
+        result.camera.node += result.camera.node >= 0;
+        if (wanted.scales_all) scale_lights(scene, wanted.scale.x), scale_camera(result.camera, wanted.scale.x);
+    }
+    scene.content_hash = content_hash(scene);
+    return result;
+}

@@ -1,0 +1,216 @@
+#include "experiments/stability/stability.h"
+
+#include "core/error.h"
+#include "core/near_miss.h"
+#include "metrics/metric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace {
+
+template <class T, class Name>
+std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::string>& wanted, const char* what,
+                      const Name& names_of) {
+    if (wanted.empty()) return all;
+    std::vector<std::string> known;
+    for (const T& one : all)
+        for (const std::string& name : names_of(one))
+            if (!std::ranges::count(known, name)) known.push_back(name);
+    for (const std::string& name : wanted)
+        if (!std::ranges::count(known, name)) fail("unknown ", what, " '", name, "'", suggestion(name, known));
+    std::vector<T> result;
+    std::ranges::copy_if(all, std::back_inserter(result), [&](const T& one) {
+        const std::vector<std::string> names = names_of(one);
+        return std::ranges::any_of(wanted, [&](const auto& name) { return std::ranges::count(names, name) > 0; });
+    });
+    return result;
+}
+
+std::vector<std::string> names_of_case(const StabilityCase& c) { return {c.name, c.family, c.group}; }
+std::vector<std::string> names_of_point(const StabilityPoint& p) {
+    const std::string point =
+        p.preset.empty() ? p.name().substr(std::min(p.name().size(), p.variant.size() + 1)) : p.preset;
+    return {p.variant, p.variant + ":" + (point.empty() ? "default" : point)};
+}
+
+/// Means of four blocks of the last three quarters of a long sequence: the first two against the last two.
+void measure_drift(StabilityRow& row) {
+    const std::vector<double>& means = row.run.means;
+    constexpr size_t blocks = 8, least = 8;
+    const size_t length = means.size() * 3 / 4 / blocks;
+    if (length < least) return;
+    double block[blocks];
+    for (size_t b = 0; b < blocks; ++b) {
+        const auto from = means.end() - ptrdiff_t((blocks - b) * length);
+        block[b] = std::accumulate(from, from + ptrdiff_t(length), 0.0) / double(length);
+    }
+    const auto mean_of = [&](size_t from) {
+        return (block[from] + block[from + 1] + block[from + 2] + block[from + 3]) / 4;
+    };
+    const double early = mean_of(0), late = mean_of(4);
+    double squares = 0;
+    for (size_t b = 0; b < blocks; ++b) squares += std::pow(block[b] - (b < 4 ? early : late), 2);
+    row.drift = early > 0 ? late / early - 1 : 0;
+    row.drift_noise = early > 0 ? std::sqrt(squares / 6 / 2) / early : 0;  // of a difference of two means of four
+}
+
+/// Of a geometric series each change is the one before times the gain.
+void measure_gain(StabilityRow& row) {
+    const std::vector<double>& means = row.run.means;
+    if (means.size() < 3) return;
+    const double before = means[means.size() - 2] - means[means.size() - 3],
+                 last = means.back() - means[means.size() - 2];
+    if (std::abs(before) > 1e-6 * std::abs(means.back())) row.gain = last / before;
+}
+
+HostImage ramp(glm::uvec2 size, glm::vec2 ends) {
+    HostImage image(size, 3);
+    for (size_t i = 0; i < image.pixel_count(); ++i) {
+        const double share = size.x > 1 ? double(i % size.x) / double(size.x - 1) : 0.0;
+        image.set_rgb(i, glm::vec3(float((1 - share) * double(ends.x) + share * double(ends.y))));
+    }
+    return image;
+}
+
+/// The value as the error of a row whose benign error is not known; what is no number is refused.
+StabilityRow metric_row(const StabilityCase& what, const Metric& metric) {
+    StabilityRow row{.case_name = what.name, .group = what.group, .variant = "metrics", .point = metric.name};
+    try {
+        const MetricImages& images = *what.images;
+        const ImagePair pair = image_pair(ramp(images.size, images.reference), ramp(images.size, images.test),
+                                          {.flip_exposures = FlipExposures{.start = 0, .stop = 0, .count = 1}});
+        const double value = measure(metric, pair);
+        if (std::isfinite(value))
+            row.error = value;
+        else
+            row.run.refusal = "its value is no number: " + std::to_string(value);
+    } catch (const Error& error) {
+        row.run.refusal = error.what();
+    }
+    row.verdict = verdict_of(row);
+    return row;
+}
+
+struct BenignRun {
+    std::optional<double> error;
+    double milliseconds = 0;
+};
+
+/// One case on its way through the techniques.
+class CaseJudge {
+public:
+    CaseJudge(Device& device, CaseDrawer& drawer, const StabilityCase& what, const CaseFrames& benign,
+              std::map<std::string, BenignRun>& benign_runs)
+        : device_(device),
+          what_(what),
+          benign_(benign),
+          benign_runs_(benign_runs),
+          frames_(drawer.draw(what.scene, what.faults)) {
+        if (what.size_before) {
+            CaseScene smaller = what.scene;
+            smaller.size = *what.size_before;
+            before_ = drawer.draw(smaller);
+        }
+        if (!what.is_perturbed) return;
+        for (const Perturbation& p : perturbations())
+            perturbed_.emplace_back(p, drawer.draw(what.scene, what.faults, p.apply));
+    }
+
+    StabilityRow row(const StabilityPoint& point) {
+        StabilityRow row{.case_name = what_.name,
+                         .group = what_.group,
+                         .variant = point.variant,
+                         .point = names_of_point(point)[1].substr(point.variant.size() + 1)};
+        row.run = run_case(device_, point, what_, frames_, true, before_ ? &*before_ : nullptr);
+        if (row.run.refusal.empty()) {
+            if (what_.has_truth()) row.error = relative_error(frames_, row.run.specular);
+            const BenignRun& benign = benign_run(point);
+            row.benign_error = benign.error;
+            if (benign.milliseconds > 0) row.time_ratio = row.run.milliseconds / benign.milliseconds;
+            measure_drift(row);
+            if (what_.feeds_back) measure_gain(row);
+            for (const auto& [perturbation, frames] : perturbed_)
+                row.amplifications.push_back(
+                    amplification(perturbation, frames_, row.run, run_case(device_, point, what_, frames, false)));
+        }
+        row.verdict = verdict_of(row);
+        return row;
+    }
+
+    /// What the path tracer made of it. Where it must give the benign case's picture, that one is its truth.
+    StabilityRow path_tracer_row() const {
+        StabilityRow row{.case_name = what_.name, .group = what_.group, .variant = "path_tracer", .point = "default"};
+        row.run.non_finite = frames_.reference->non_finite_samples;
+        if (row.run.non_finite) row.run.first_non_finite = "samples";
+        for (size_t i = 0; i < frames_.truth.pixel_count(); ++i) {
+            const glm::vec3 c = frames_.truth.rgb(i);
+            row.run.spread_pixels += !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));
+            row.run.negative += std::min({c.x, c.y, c.z}) < 0;
+        }
+        if (what_.scales_truth) {
+            row.error = relative_error(benign_, frames_.truth);
+            row.benign_error = 0.0;
+        }
+        if (frames_.reference->seconds > 0 && benign_.reference->seconds > 0)
+            row.time_ratio = frames_.reference->seconds / benign_.reference->seconds;
+        row.verdict = verdict_of(row);
+        return row;
+    }
+
+private:
+    const BenignRun& benign_run(const StabilityPoint& point) {
+        const auto [entry, is_new] = benign_runs_.try_emplace(what_.benign_key + point.name());
+        if (is_new) {
+            const StabilityCase plain{.scene = what_.benign};
+            const CaseRun run = run_case(device_, point, plain, benign_, false);
+            if (run.refusal.empty()) entry->second = {relative_error(benign_, run.specular), run.milliseconds};
+        }
+        return entry->second;
+    }
+
+    Device& device_;
+    const StabilityCase& what_;
+    const CaseFrames& benign_;
+    std::map<std::string, BenignRun>& benign_runs_;
+    CaseFrames frames_;
+    std::optional<CaseFrames> before_;
+    std::vector<std::pair<Perturbation, CaseFrames>> perturbed_;
+};
+
+}  // namespace
+
+std::vector<StabilityRow> run_stability(Device& device, const std::filesystem::path& table,
+                                        const StabilitySelection& selection,
+                                        const std::vector<std::filesystem::path>& search_path,
+                                        const std::function<void(const StabilityRow&, double)>& done) {
+    const std::vector<StabilityCase> cases =
+        chosen(read_stability_cases(table), selection.cases, "case", names_of_case);
+    const std::vector<StabilityPoint> points =
+        chosen(stability_points(), selection.variants, "technique", names_of_point);
+    CaseDrawer drawer(device, search_path);
+    std::map<std::string, CaseFrames> benign_frames;
+    std::map<std::string, BenignRun> benign_runs;
+    std::vector<StabilityRow> rows;
+    for (size_t i = 0; i < cases.size(); ++i) {
+        const StabilityCase& what = cases[i];
+        const auto add = [&](StabilityRow row, size_t point) {
+            rows.push_back(std::move(row));
+            rows.back().run.specular = {}, rows.back().run.confidence = {};
+            done(rows.back(), (double(i) + double(point + 1) / double(points.size() + 1)) / double(cases.size()));
+        };
+        if (what.images) {
+            for (const Metric& metric : all_metrics()) add(metric_row(what, metric), points.size());
+            continue;
+        }
+        auto benign = benign_frames.find(what.benign_key);
+        if (benign == benign_frames.end())
+            benign = benign_frames.emplace(what.benign_key, drawer.draw(what.benign)).first;
+        CaseJudge judge(device, drawer, what, benign->second, benign_runs);
+        add(judge.path_tracer_row(), 0);
+        for (size_t p = 0; p < points.size(); ++p)
+            if (what.only.empty() || std::ranges::count(what.only, points[p].variant)) add(judge.row(points[p]), p + 1);
+    }
+    return rows;
+}

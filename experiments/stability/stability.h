@@ -1,0 +1,15 @@
+#pragma once
+#include "experiments/stability/stability_rows.h"
+
+/// Which cases and techniques: names, or groups of cases; empty: all. A technique's name may have a preset behind a
+/// colon.
+struct StabilitySelection {
+    std::vector<std::string> cases, variants;
+};
+
+/// Runs every chosen technique through every chosen case, and the path tracer with them. `done`: gets each row as it
+/// comes, with the share of the work that is behind it. Fails with Error on unknown names.
+std::vector<StabilityRow> run_stability(Device& device, const std::filesystem::path& table,
+                                        const StabilitySelection& selection,
+                                        const std::vector<std::filesystem::path>& search_path,
+                                        const std::function<void(const StabilityRow& row, double share)>& done);

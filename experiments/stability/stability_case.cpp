@@ -1,0 +1,194 @@
+#include "experiments/stability/stability_case.h"
+
+#include "core/error.h"
+#include "experiments/config.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace {
+
+const std::vector<std::pair<std::string, DepthFormat>> depth_formats = {
+    {"d32f", DepthFormat::d32f}, {"d24", DepthFormat::d24}, {"d16", DepthFormat::d16}};
+
+glm::uvec2 read_size(JsonObject& object, const std::string& key, glm::uvec2 fallback) {
+    if (!object.has(key)) return fallback;
+    const nlohmann::json& size = object.any(key);
+    const auto is_side = [](const nlohmann::json& side) {
+        return side.is_number_unsigned() && side >= 1u && side <= 16384u;
+    };
+    if (!size.is_array() || size.size() != 2 || !is_side(size[0]) || !is_side(size[1]))
+        fail(object.where(), ": '", key, "' must be [width, height] in pixels from 1 to 16384, not ", shown(size));
+    return {size[0].get<unsigned>(), size[1].get<unsigned>()};
+}
+
+std::vector<unsigned> read_poses(JsonObject& object) {
+    if (!object.has("poses")) return std::vector<unsigned>(size_t(object.integer("frames", 1, 100000, 3)), 0u);
+    const nlohmann::json& poses = object.any("poses");
+    const bool is_list = poses.is_array() && !poses.empty() &&
+                         std::ranges::all_of(poses, [](const auto& pose) { return pose.is_number_unsigned(); });
+    if (!is_list) fail(object.where(), ": 'poses' must be an array of frame numbers, not ", shown(poses));
+    return poses.get<std::vector<unsigned>>();
+}
+
+void read_scale(JsonObject& object, CaseScene& scene) {
+    if (!object.has("scale")) return;
+    scene.scales_all = object.any("scale").is_number();
+    scene.scale = scene.scales_all ? glm::vec3(object.number("scale", 1e-9f, 1e9f)) : object.vector("scale");
+}
+
+CaseScene read_scene(JsonObject& object) {
+    CaseScene scene;
+    scene.scene = object.text("scene");
+    scene.camera = object.text("camera", "");
+    scene.size = read_size(object, "size", scene.size);
+    scene.poses = read_poses(object);
+    if (object.has("near")) scene.near = object.number("near", 1e-6f, 1e9f);
+    if (object.has("far")) scene.far = object.number("far", 1e-6f, 1e12f);
+    scene.depth_format = object.value_of("depth_format", depth_formats);
+    if (object.boolean("reversed_depth", false)) scene.depth_direction = DepthDirection::reversed;
+    read_scale(object, scene);
+    if (object.has("roughness")) scene.roughness = object.number("roughness", 0.0f, 1.0f);
+    scene.radiance = object.number("radiance", 0.0f, 1e12f, 1.0f);
+    if (object.has("view")) scene.view = object.any("view");
+    if (object.has("quads")) scene.quads = object.any("quads");
+    return scene;
+}
+
+/// JSON has no name for what is no number.
+float read_value(const nlohmann::json& value, const std::string& where) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    if (value.is_number()) return value.get<float>();
+    if (value == "nan") return std::numeric_limits<float>::quiet_NaN();
+    if (value == "inf") return infinity;
+    if (value == "-inf") return -infinity;
+    if (value == "denormal") return std::numeric_limits<float>::denorm_min();
+    fail(where, ": a value is a number, \"nan\", \"inf\", \"-inf\" or \"denormal\", not ", shown(value));
+}
+
+InputFault read_fault(JsonObject object) {
+    InputFault fault;
+    fault.image = object.text("image");
+    const char* key = object.has("times") ? "times" : "value";
+    fault.is_factor = object.has("times");
+    const nlohmann::json& value = object.any(key);
+    if (value.is_array())
+        for (const nlohmann::json& channel : value) fault.value.push_back(read_value(channel, object.where()));
+    else
+        fault.value = {read_value(value, object.where())};
+    fault.where = object.choice("where", {"pixel", "all", "every_other"}, "pixel");
+    if (object.has("step")) fault.step = unsigned(object.integer("step", 0, 100000));
+    object.finish();
+    return fault;
+}
+
+glm::vec2 read_ramp(JsonObject& object, const std::string& key) {
+    const nlohmann::json& ramp = object.any(key);
+    if (!ramp.is_array()) return glm::vec2(read_value(ramp, object.where()));
+    if (ramp.size() != 2) fail(object.where(), ": '", key, "' must be one value or [left, right], not ", shown(ramp));
+    return {read_value(ramp[0], object.where()), read_value(ramp[1], object.where())};
+}
+
+MetricImages read_images(JsonObject object) {
+    MetricImages images;
+    images.size = read_size(object, "size", images.size);
+    images.reference = read_ramp(object, "reference"), images.test = read_ramp(object, "test");
+    object.finish();
+    return images;
+}
+
+/// The keys of a case that say what is drawn, and stay in what it is compared with.
+bool stays_in_benign(const std::string& key) {
+    return key == "scene" || key == "camera" || key == "size" || key == "poses" || key == "frames" || key == "view" ||
+           key == "quads";
+}
+
+StabilityCase read_case(const nlohmann::json& json, const std::string& where) {
+    JsonObject object(json, where);
+    StabilityCase result;
+    result.name = object.text("case"), result.family = object.text("family", result.name);
+    result.group = object.text("group"), result.why = object.text("why");
+    if (object.has("images")) {
+        result.images = read_images(object.object("images"));
+        object.finish();
+        return result;
+    }
+    result.scene = read_scene(object);
+    for (JsonObject& fault : object.objects("faults")) result.faults.push_back(read_fault(std::move(fault)));
+    if (object.has("size_before")) result.size_before = read_size(object, "size_before", {});
+    result.feeds_back = object.boolean("feeds_back", false);
+    result.is_perturbed = object.boolean("perturbed", false);
+    result.scales_truth = object.boolean("same_truth", false);
+    if (object.has("only")) result.only = object.any("only").get<std::vector<std::string>>();
+
+    nlohmann::json benign = nlohmann::json::object();
+    for (const auto& [key, value] : json.items())
+        if (stays_in_benign(key)) benign[key] = value;
+    if (object.has("benign")) benign.merge_patch(object.any("benign"));
+    object.finish();
+    result.benign_key = benign.dump();
+    JsonObject benign_object(benign, where + ": 'benign'");
+    result.benign = read_scene(benign_object);
+    benign_object.finish();
+    return result;
+}
+
+/// A value of `each` as the case's name has it.
+std::string label_of_value(const std::string& key, const nlohmann::json& value) {
+    if (value.is_object() && value.contains("name")) return value["name"].get<std::string>();
+    if (key != "faults") return label_of({{key, value}});
+    std::string label;
+    for (const nlohmann::json& fault : value) {
+        const nlohmann::json& number = fault.at(fault.contains("times") ? "times" : "value");
+        label += (label.empty() ? "" : ", ") + fault.at("image").get<std::string>() + " " +
+                 (number.is_string() ? number.get<std::string>() : number.dump());
+    }
+    return label;
+}
+
+/// Every combination of the values of `each`.
+std::vector<nlohmann::json> expanded(nlohmann::json json) {
+    if (!json.contains("each")) return {json};
+    const nlohmann::json each = json["each"];
+    json.erase("each");
+    std::vector<std::pair<nlohmann::json, std::string>> cases = {{json, json.value("case", std::string())}};
+    for (const auto& [key, values] : each.items()) {
+        std::vector<std::pair<nlohmann::json, std::string>> more;
+        for (const auto& [base, name] : cases)
+            for (const nlohmann::json& value : values) {
+                nlohmann::json next = base;
+                next[key] = value;
+                more.emplace_back(next, name + " " + label_of_value(key, value));
+            }
+        cases = std::move(more);
+    }
+    std::vector<nlohmann::json> result;
+    for (auto& [base, name] : cases) {
+        base["family"] = base["case"], base["case"] = name;
+        result.push_back(std::move(base));
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<StabilityCase> read_stability_cases(const std::filesystem::path& file) {
+    const nlohmann::json table = read_json(file);
+    JsonObject object(table, file.string());
+    const nlohmann::json& entries = object.any("cases");
+    object.finish();
+    if (!entries.is_array()) fail(file.string(), ": 'cases' must be an array");
+    std::vector<StabilityCase> cases;
+    for (size_t i = 0; i < entries.size(); ++i)
+        for (const nlohmann::json& entry : expanded(entries[i]))
+            cases.push_back(read_case(entry, file.string() + ": cases[" + std::to_string(i) + "]"));
+    return cases;
+}
+
+bool StabilityCase::has_truth() const {
+    return std::ranges::all_of(faults, [](const InputFault& f) { return f.where == "pixel" || f.is_factor; });
+}
+
+std::filesystem::path stability_case_table() {
+    return std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/stability/cases.json";
+}

@@ -1,0 +1,32 @@
+#pragma once
+#include "experiments/stability/amplification.h"
+
+/// From the best to the worst.
+enum class Verdict { ok, worse, out_of_range, inside, spreads, refused };
+
+/// What a verdict is called in tables, and what it says.
+struct VerdictName {
+    std::string name, meaning;
+};
+const std::vector<VerdictName>& verdict_names();  ///< by Verdict
+
+/// One technique in one case.
+struct StabilityRow {
+    std::string case_name, group, variant, point;
+    Verdict verdict = Verdict::ok;
+    std::optional<double> error, benign_error;
+    std::optional<double> time_ratio;
+    double drift = 0;        ///< relative change of the mean from the second quarter of the frames to the last quarter
+    double drift_noise = 0;  ///< standard error of it, from the means of blocks of frames
+    std::optional<double> gain;  ///< of a fed back image: the last change of the mean over the one before
+    std::vector<Amplification> amplifications;
+    CaseRun run;
+
+    std::optional<double> error_ratio() const;
+};
+
+Verdict verdict_of(const StabilityRow& row);
+
+/// One line for each case and technique, and one for each of their stages that holds a non-finite value, or for all.
+std::string stability_csv(const std::vector<StabilityRow>& rows);
+std::string stability_stages_csv(const std::vector<StabilityRow>& rows, bool has_all);

@@ -1,0 +1,140 @@
+#include "experiments/stability/stability.h"
+#include "core/files.h"
+#include "core/scene/load_scene.h"
+#include "tests/variants/variant_fixture.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace {
+
+const std::filesystem::path scenes = std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes";
+
+struct StabilityTest : VariantTest {
+    std::filesystem::path table =
+        std::filesystem::temp_directory_path() /
+        ("ssrlab_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
+    void TearDown() override {
+        std::filesystem::remove(table);
+        VariantTest::TearDown();
+    }
+
+    /// `cases`: what stands between the brackets.
+    std::vector<StabilityRow> run(const std::string& cases, const std::vector<std::string>& variants) {
+        write_text(table, R"({"cases": [)" + cases + "]}");
+        return run_stability(device(), table, {{}, variants}, {scenes}, [](const StabilityRow&, double) {});
+    }
+};
+
+const std::string small = R"("group": "g", "why": "w", "size": [24, 14], "scene": "roughness_gradient", )";
+
+const std::vector<std::string> mended = {"mcguire_dda:best",    "amd_sssr:corrected",   "diligent_ssr:corrected",
+                                         "frostbite_sssr:best", "simple_ssr:corrected", "four_mode_ssr:corrected"};
+
+TEST_F(StabilityTest, TheTableNamesEachCaseOnceAndScenesThatExist) {
+    std::set<std::string> names;
+    const std::vector<std::string> known = list_scenes({scenes});
+    for (const StabilityCase& c : read_stability_cases(stability_case_table())) {
+        EXPECT_TRUE(names.insert(c.name).second) << c.name;
+        EXPECT_TRUE(c.images || std::ranges::count(known, c.scene.scene)) << c.name;
+        EXPECT_GT(c.why.size(), 10u) << c.name;
+    }
+    EXPECT_GT(names.size(), 90u);
+}
+
+TEST_F(StabilityTest, UnknownKeysAndNamesAreErrors) {
+    EXPECT_THROW(run(R"({"case": "a", "nearr": 1, )" + small + R"("frames": 1})", {"none"}), Error);
+    EXPECT_THROW(run(R"({"case": "a", )" + small + R"("faults": [{"image": "lid", "value": 1}]})", {"none"}), Error);
+    EXPECT_THROW(run(R"({"case": "a", )" + small + R"("frames": 1})", {"amd_ssr"}), Error);
+}
+
+/// The promise of README.md, over what breaks the originals: no stage of a mended preset holds a value that is not
+/// finite, and a fault reaches no other pixel.
+TEST_F(StabilityTest, MendedPresetsAreFiniteInEveryStage) {
+    std::string cases;
+    for (const char* fault : {R"("depth", "value": "nan")", R"("depth", "value": "-inf")",
+                              R"("normal", "value": "nan")", R"("normal", "value": 0)", R"("lit", "value": "inf")",
+                              R"("motion", "value": "nan")", R"("fallback", "value": "nan")"})
+        cases += R"({"case": ")" + std::string(1, char('a' + cases.size() % 26)) + std::to_string(cases.size()) +
+                 "\", " + small + R"("frames": 3, "faults": [{"step": 1, "image": )" + fault + "}]},";
+    cases +=
+        R"({"case": "planes", "group": "g", "why": "w", "size": [48, 27], "scene": "mirror_pillars", "near": 1e-3, "far": 1e6},
+                {"case": "orthographic", "group": "g", "why": "w", "size": [24, 24], "scene": "axis_parallel", "camera": "orthographic"},
+                {"case": "black", )" +
+        small + R"("radiance": 0})";
+    for (const StabilityRow& row : run(cases, mended)) {
+        EXPECT_EQ(row.run.refusal, "") << row.case_name << row.variant;
+        EXPECT_EQ(row.run.non_finite, 0u)
+            << row.case_name << " " << row.variant << " " << row.point << ": " << row.run.first_non_finite;
+        EXPECT_EQ(row.run.spread_pixels, 0u) << row.case_name << " " << row.variant << " " << row.point;
+        EXPECT_EQ(row.run.out_of_range(), 0u) << row.case_name << " " << row.variant << " " << row.point;
+    }
+}
+
+/// What the scan is for: the originals fail, each where its sheet says.
+TEST_F(StabilityTest, OriginalsShowWhereTheyFail) {
+    const std::vector<StabilityRow> rows =
+        run(R"({"case": "lit", )" + small + R"("frames": 6, "faults": [{"step": 1, "image": "lit", "value": "nan"}]},
+           {"case": "planes", "group": "g", "why": "w", "size": [48, 27], "scene": "mirror_pillars", "near": 1e-3, "far": 1e6})",
+            {"amd_sssr:repeatable", "none"});
+    ASSERT_EQ(rows.size(), 6u);
+    EXPECT_EQ(rows[1].variant, "none");
+    EXPECT_EQ(rows[1].verdict, Verdict::ok);
+    EXPECT_EQ(rows[5].variant, "amd_sssr");
+    EXPECT_EQ(rows[5].run.first_non_finite, "amd_sssr/intersect: radiance");
+    EXPECT_GE(rows[5].verdict, Verdict::inside);
+}
+
+/// The output of one mirror ray is a colour of the lit image: a step of 2^-11 of it is a step of 2^-11 there, or of its
+/// bilinear mean; without reflections none.
+TEST_F(StabilityTest, AmplificationOfTheLitColourIsThatOfAMean) {
+    const std::vector<StabilityRow> rows = run(
+        R"({"case": "a", "group": "g", "why": "w", "size": [48, 27], "scene": "mirror_pillars", "perturbed": true})",
+        {"none", "mcguire_dda:published"});
+    const auto lit = [&](size_t row) {
+        return *std::ranges::find(rows[row].amplifications, "lit", &Amplification::input);
+    };
+    EXPECT_EQ(lit(1).p999, 0.0);
+    EXPECT_GT(lit(2).median, 0.05);
+    EXPECT_LT(lit(2).p999, 10.0);  // of the brightest pixel, over the mean
+}
+
+TEST_F(StabilityTest, ErrorsAndDriftAreWhatTheyMustBe) {
+    const std::vector<StabilityRow> rows =
+        run(R"({"case": "rest", )" + small + R"("frames": 120}, {"case": "scaled", )" + small +
+                R"("scale": 1000, "same_truth": true})",
+            {"none"});
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_EQ(rows[1].drift, 0.0);
+    EXPECT_EQ(rows[1].error_ratio(), 1.0);
+    EXPECT_LT(*rows[2].error, 0.01) << "the path tracer's picture depends on the unit of length";
+    EXPECT_NEAR(*rows[3].error_ratio(), 1.0, 0.05);
+}
+
+/// Between facing mirrors of reflectance 0.95 or less a frame adds at most that much of what the one before added.
+TEST_F(StabilityTest, MirrorsInMirrorsFadeAway) {
+    for (const StabilityRow& row :
+         run(R"({"case": "a", "group": "g", "why": "w", "size": [48, 27], "scene": "facing_mirrors",
+                                           "frames": 8, "feeds_back": true})",
+             {"mcguire_dda:best", "amd_sssr:corrected"}))
+        if (row.variant != "path_tracer") {
+            ASSERT_TRUE(row.gain) << row.variant;
+            EXPECT_LT(*row.gain, 1.0) << row.variant;
+        }
+}
+
+TEST_F(StabilityTest, MetricsOfExtremePicturesAreNumbersOrRefused) {
+    for (const StabilityRow& row :
+         run(R"({"case": "a", "group": "g", "why": "w", "images": {"reference": 1e30, "test": [1e30, 3e30]}})",
+             {"none"})) {
+        if (row.run.refusal.empty()) {
+            EXPECT_TRUE(std::isfinite(*row.error)) << row.point;
+        }
+        if (row.point == "relmse") {  // the mean of (2 i / 31)^2 over 32 columns
+            EXPECT_NEAR(*row.error, 4.0 / 961 * (31.0 * 63 / 6), 1e-5);
+        }
+    }
+}
+
+}  // namespace

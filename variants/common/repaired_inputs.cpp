@@ -1,0 +1,47 @@
+#include "variants/common/repaired_inputs.h"
+
+namespace {
+
+// As repair_image.frag has them.
+enum class Kind : unsigned { value, depth, direction };
+
+struct RepairedImage {
+    Image GBuffer::*member;
+    Kind kind;
+};
+
+/// All but the material's index, which is no number.
+constexpr RepairedImage images[] = {{&GBuffer::depth, Kind::depth},
+                                    {&GBuffer::previous_depth, Kind::depth},
+                                    {&GBuffer::second_depth, Kind::depth},
+                                    {&GBuffer::back_depth, Kind::depth},
+                                    {&GBuffer::normal, Kind::direction},
+                                    {&GBuffer::previous_normal, Kind::direction},
+                                    {&GBuffer::geometric_normal, Kind::direction},
+                                    {&GBuffer::base_color, Kind::value},
+                                    {&GBuffer::emission, Kind::value},
+                                    {&GBuffer::motion, Kind::value},
+                                    {&GBuffer::lit, Kind::value},
+                                    {&GBuffer::fallback, Kind::value}};
+
+}  // namespace
+
+RepairedInputs::RepairedInputs(PassGraph& graph, const GBuffer& gbuffer, bool is_wanted)
+    : graph_(graph), given_(gbuffer), repaired_(gbuffer) {
+    if (!is_wanted) return;
+    for (const auto& [member, kind] : images) {
+        const Image& given = gbuffer.*member;
+        if (!given.storage) continue;
+        const Image repaired = graph.image("repaired_" + given.name, given.format);
+        graph.fragment("common/repair_image.frag")
+            .read(given.as("given"))
+            .write(repaired.as("repaired"))
+            .set("kind", unsigned(kind))
+            .label(stage)
+            .run();
+        repaired_.*member = repaired.as(given.name);
+    }
+    graph.set_inputs(repaired_.images());
+}
+
+RepairedInputs::~RepairedInputs() { graph_.set_inputs(given_.images()); }

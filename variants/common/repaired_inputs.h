@@ -1,0 +1,24 @@
+#pragma once
+#include "core/gbuffer/gbuffer.h"
+#include "core/gpu/pass_graph.h"
+
+/// A G-buffer without the values that no technique can bear, in place of the graph's inputs as long as this lives: each
+/// shader that names `depth` reads the repaired one. A fault stays in its pixel, which becomes background (depth), black
+/// (colours), still (motion) or faces the viewer (normals); normals that are not unit become so. What was sound keeps its
+/// bits. repair_image.frag has the rules.
+class RepairedInputs {
+public:
+    /// `is_wanted` false: all stays as it is, and nothing runs.
+    RepairedInputs(PassGraph& graph, const GBuffer& gbuffer, bool is_wanted);
+    ~RepairedInputs();
+    RepairedInputs(const RepairedInputs&) = delete;
+    RepairedInputs& operator=(const RepairedInputs&) = delete;
+
+    const GBuffer& gbuffer() const { return repaired_; }
+
+    static constexpr const char* stage = "common/repair_inputs";
+
+private:
+    PassGraph& graph_;
+    GBuffer given_, repaired_;
+};
