@@ -56,13 +56,17 @@ void measure_drift(StabilityRow& row) {
     row.drift_noise = early > 0 ? std::sqrt(squares / 6 / 2) / early : 0;  // of a difference of two means of four
 }
 
-/// Of a geometric series each change is the one before times the gain.
+/// Of a geometric series the changes of the second half are those of the first times the gain to the power of their
+/// number. Single changes are lost in noise once the series has converged.
 void measure_gain(StabilityRow& row) {
     const std::vector<double>& means = row.run.means;
-    if (means.size() < 3) return;
-    const double before = means[means.size() - 2] - means[means.size() - 3],
-                 last = means.back() - means[means.size() - 2];
-    if (std::abs(before) > 1e-6 * std::abs(means.back())) row.gain = last / before;
+    const size_t half = (means.size() - 1) / 2;
+    double early = 0, late = 0;
+    for (size_t i = 0; i < half; ++i) {
+        early += std::abs(means[i + 1] - means[i]);
+        late += std::abs(means[half + i + 1] - means[half + i]);
+    }
+    if (early > 0) row.gain = std::pow(late / early, 1.0 / double(half));
 }
 
 HostImage ramp(glm::uvec2 size, glm::vec2 ends) {

@@ -18,7 +18,8 @@ struct StabilityRow {
     std::optional<double> time_ratio;
     double drift = 0;        ///< relative change of the mean from the second quarter of the frames to the last quarter
     double drift_noise = 0;  ///< standard error of it, from the means of blocks of frames
-    std::optional<double> gain;  ///< of a fed back image: the last change of the mean over the one before
+    std::optional<double>
+        gain;  ///< of a fed back image: by how much each change of the mean is smaller than the one before
     std::vector<Amplification> amplifications;
     CaseRun run;
 

@@ -151,16 +151,12 @@ TEST_F(FourModeTest, RoughnessAndIntensityFadeTheConfidence) {
 }
 
 TEST_F(FourModeTest, AnyMixtureHasTheMeanOfTheLobeIfWeighed) {
-    // In a wide lobe both kinds of rays weigh alike, so that a wrong density of either shows.
-    const std::pair<float, double> cases[] = {{0.35f, 0.0}, {0.35f, 0.1}, {0.35f, 1.0}, {0.8f, 0.4}};
-    for (const auto& [roughness, bias] : cases)
+    const RoughFloor floor{.roughness = 0.35f, .pose = pose, .extent = extent};
+    const double fade = 1 - 0.35;  // with roughness_fade 1
+    const double of_lobe = floor.of_lobe().shown;
+    for (const double bias : {0.0, 0.1, 1.0})
         for (const char* weights : {"ratio", "none"}) {
-            SCOPED_TRACE(std::to_string(roughness) + " " + std::to_string(bias) + weights);
-            if (roughness > 0.5f && std::string(weights) == "none")
-                continue;  // there uniform rays are nearly the lobe's
-            const RoughFloor floor{.roughness = roughness, .pose = pose, .extent = extent};
-            const double fade = 1 - roughness;  // with roughness_fade 1
-            const double of_lobe = floor.of_lobe().shown;
+            SCOPED_TRACE(std::to_string(bias) + weights);
             const auto variant = make_variant("four_mode_ssr", changed(RoughFloor::march(), {{"mode", "stochastic"},
                                                                                              {"num_rays", 8},
                                                                                              {"brdf_bias", bias},
