@@ -42,6 +42,7 @@ struct RepairedInputsTest : VariantTest {
 
 TEST_F(RepairedInputsTest, SoundValuesKeepTheirBits) {
     HostGBuffer given = plain();
+    given.depth.values[2] = 1.0f, given.normal.set_rgb(2, glm::vec3(0));  // background
     given.lit.values[0] = 1e6f, given.lit.values[1] = 1e-40f, given.motion.values[0] = -2.0f;
     const HostGBuffer result = repaired(given);
     EXPECT_EQ(result.depth.values, given.depth.values);
@@ -53,7 +54,7 @@ TEST_F(RepairedInputsTest, SoundValuesKeepTheirBits) {
 
 TEST_F(RepairedInputsTest, FaultsBecomeWhatNoTechniqueMinds) {
     HostGBuffer given = plain();
-    given.depth.values = {nan, inf, -0.1f, 0.5f};
+    given.depth.values = {nan, 0.2f, inf, -0.1f};
     given.normal.set_rgb(0, {nan, 0, 1});
     given.normal.set_rgb(1, {0, 0, 0});
     given.normal.set_rgb(2, {0, 0, 2});
@@ -61,7 +62,7 @@ TEST_F(RepairedInputsTest, FaultsBecomeWhatNoTechniqueMinds) {
     given.lit.values[5] = inf;
     given.motion.values[1] = nan;
     const HostGBuffer result = repaired(given);
-    EXPECT_EQ(result.depth.values, (std::vector<float>{1, 1, 1, 0.5f}));
+    EXPECT_EQ(result.depth.values, (std::vector<float>{1, 0.2f, 1, 1}));
     EXPECT_EQ(result.normal.rgb(0), glm::vec3(0, 0, 1)) << "towards the viewer";
     EXPECT_EQ(result.normal.rgb(1), glm::vec3(0, 0, 1));
     EXPECT_EQ(result.normal.rgb(2), glm::vec3(0, 0, 1)) << "of unit length";

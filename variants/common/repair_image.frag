@@ -1,7 +1,7 @@
 // One image of the G-buffer without values that are not finite, depths outside of [0, 1] and directions that are not unit.
 #include "core/shaders/view.glsl"
 
-uniform sampler2D given;
+uniform sampler2D given, surface_depth;
 layout(push_constant) uniform Push { uint kind; };
 layout(location = 0) out vec4 repaired;
 
@@ -15,8 +15,10 @@ vec3 towards_viewer() { return camera.world_from_view[2].xyz; }
 // Where `length` is not 1, though a product of halves and of bytes says so.
 const float unit_tolerance = 0.002;
 
-// xyz a direction, w perceptual roughness: of what is no roughness a surface without reflection.
-vec4 repaired_direction(vec4 value) {
+// xyz a direction, w perceptual roughness: of what is no roughness a surface without reflection. The background has no
+// direction, which is 0.
+vec4 repaired_direction(vec4 value, bool is_surface) {
+    if (!is_surface) return is_sound(value) ? value : vec4(0.0);
     float squared = dot(value.xyz, value.xyz);
     if (!is_sound(squared) || squared < 1e-12)
         value.xyz = towards_viewer();
@@ -31,7 +33,7 @@ void main() {
     if (kind == kind_depth)
         repaired = value.r >= 0.0 && value.r <= 1.0 ? value : camera.depth.zzzz;
     else if (kind == kind_direction)
-        repaired = repaired_direction(value);
+        repaired = repaired_direction(value, !is_background(texelFetch(surface_depth, ivec2(gl_FragCoord.xy), 0).r));
     else
         repaired = is_sound(value) ? value : vec4(0.0);
 }

@@ -27,7 +27,7 @@ constexpr RepairedImage images[] = {{&GBuffer::depth, Kind::depth},
 }  // namespace
 
 RepairedInputs::RepairedInputs(PassGraph& graph, const GBuffer& gbuffer, bool is_wanted)
-    : graph_(graph), given_(gbuffer), repaired_(gbuffer) {
+    : graph_(graph), is_wanted_(is_wanted), given_(gbuffer), repaired_(gbuffer) {
     if (!is_wanted) return;
     for (const auto& [member, kind] : images) {
         const Image& given = gbuffer.*member;
@@ -35,6 +35,7 @@ RepairedInputs::RepairedInputs(PassGraph& graph, const GBuffer& gbuffer, bool is
         const Image repaired = graph.image("repaired_" + given.name, given.format);
         graph.fragment("common/repair_image.frag")
             .read(given.as("given"))
+            .read((member == &GBuffer::previous_normal ? gbuffer.previous_depth : gbuffer.depth).as("surface_depth"))
             .write(repaired.as("repaired"))
             .set("kind", unsigned(kind))
             .label(stage)
@@ -44,4 +45,6 @@ RepairedInputs::RepairedInputs(PassGraph& graph, const GBuffer& gbuffer, bool is
     graph.set_inputs(repaired_.images());
 }
 
-RepairedInputs::~RepairedInputs() { graph_.set_inputs(given_.images()); }
+RepairedInputs::~RepairedInputs() {
+    if (is_wanted_) graph_.set_inputs(given_.images());
+}

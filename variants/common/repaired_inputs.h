@@ -4,8 +4,8 @@
 
 /// A G-buffer without the values that no technique can bear, in place of the graph's inputs as long as this lives: each
 /// shader that names `depth` reads the repaired one. A fault stays in its pixel, which becomes background (depth), black
-/// (colours), still (motion) or faces the viewer (normals); normals that are not unit become so. What was sound keeps its
-/// bits. repair_image.frag has the rules.
+/// (colours), still (motion) or faces the viewer (normals of surfaces); normals that are not unit become so. What was sound
+/// keeps its bits. repair_image.frag has the rules.
 class RepairedInputs {
 public:
     /// `is_wanted` false: all stays as it is, and nothing runs.
@@ -20,5 +20,6 @@ public:
 
 private:
     PassGraph& graph_;
+    bool is_wanted_;
     GBuffer given_, repaired_;
 };
