@@ -54,6 +54,9 @@ void print_verdicts(const std::vector<StabilityRow>& rows) {
 }  // namespace
 
 int stability_command(const StabilityOptions& options, const CommonOptions& common) {
+    const std::string kind = options.figure.extension().string();
+    if (!options.figure.empty() && kind != ".pdf" && kind != ".png" && kind != ".svg")
+        fail("--figure ", options.figure.string(), ": its name must end with .pdf, .png or .svg");
     Device device(common.device);
     const std::filesystem::path table = options.table.empty() ? stability_case_table() : options.table;
     std::filesystem::create_directories(options.out);
