@@ -61,14 +61,19 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
     const std::filesystem::path table = options.table.empty() ? stability_case_table() : options.table;
     std::filesystem::create_directories(options.out);
     Progress progress(1.0);
-    const auto done = [&](const StabilityRow& row, double share) {
+    const auto write = [&](const std::vector<StabilityRow>& rows) {
+        write_text(options.out / "stability.csv", stability_csv(rows));
+        write_text(options.out / "stability_stages.csv", stability_stages_csv(rows, options.has_all_stages));
+    };
+    const auto done = [&](const std::vector<StabilityRow>& rows, double share) {
+        const StabilityRow& row = rows.back();
+        if (row.variant == "path_tracer") write(rows);  // the first of each case
         progress.update(share, row.case_name + ": " + name_of(row));
         if (const std::string line = complaint(row); !line.empty()) progress.say(line);
     };
     const std::vector<StabilityRow> rows =
         run_stability(device, table, {options.cases, options.variants}, scene_search_path(common.scene_path), done);
-    write_text(options.out / "stability.csv", stability_csv(rows));
-    write_text(options.out / "stability_stages.csv", stability_stages_csv(rows, options.has_all_stages));
+    write(rows);
     print_verdicts(rows);
     std::printf("\nTables: %s, and by stage stability_stages.csv\n", (options.out / "stability.csv").string().c_str());
     if (options.figure.empty()) return 0;

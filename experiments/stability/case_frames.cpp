@@ -38,7 +38,7 @@ HostImage& image_of(HostGBuffer& g, const std::string& name) {
 bool is_hit(const InputFault& fault, glm::uvec2 pixel, glm::uvec2 extent) {
     if (fault.where == "all") return true;
     if (fault.where == "every_other") return (pixel.x + pixel.y) % 2 == 1;
-    return pixel == glm::uvec2(extent.x / 2, extent.y * 3 / 4);  // where most scenes have their floor
+    return pixel == min(glm::uvec2(fault.at * glm::vec2(extent)), extent - 1u);
 }
 
 void apply(const InputFault& fault, HostGBuffer& gbuffer) {

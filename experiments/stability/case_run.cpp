@@ -17,7 +17,7 @@ constexpr unsigned seed = 1;
 constexpr float brighter_than_all = 1.04f;
 
 struct FrameImages {
-    HostImage specular, image, radiance, confidence;
+    HostImage specular, radiance, confidence;
 };
 
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -61,7 +61,6 @@ FrameImages render(PassGraph& graph, Variant& variant, Compositor& compositor, c
     if (scan) scan->pause();  // what the compositor makes of a bad pixel is no stage of the technique
     const Composite composite = compositor.render(frame.gbuffer, reflections);
     return {.specular = channels_of(graph.download(composite.specular), 0, 3),
-            .image = channels_of(graph.download(composite.image), 0, 3),
             .radiance = channels_of(graph.download(reflections.radiance), 0, 3),
             .confidence = channels_of(graph.download(reflections.confidence), reflections.confidence_channel, 1)};
 }
@@ -109,7 +108,7 @@ void render_all(CaseRun& run, Device& device, Variant& variant, const CaseFrames
             for (size_t i = 0; i < fed_back.pixel_count(); ++i)
                 fed_back.set_rgb(i, frames.steps[step].host->lit.rgb(i) + images.specular.rgb(i));
         }
-        run.specular = std::move(images.specular), run.confidence = std::move(images.confidence);
+        run.specular = std::move(images.specular);
     }
     if (!scan) return;
     run.stages = scan->findings();
@@ -118,11 +117,9 @@ void render_all(CaseRun& run, Device& device, Variant& variant, const CaseFrames
 
 }  // namespace
 
-std::string StabilityPoint::name() const {
-    std::string name = variant;
-    if (!preset.empty()) name += " " + preset;
-    if (!parameters.empty()) name += " " + label_of(parameters);
-    return name;
+std::string StabilityPoint::label() const {
+    if (!preset.empty()) return preset;
+    return parameters.empty() ? "default" : label_of(parameters);
 }
 
 std::vector<StabilityPoint> stability_points() {

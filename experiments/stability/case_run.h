@@ -6,8 +6,7 @@
 struct StabilityPoint {
     std::string variant, preset;  ///< preset "": the defaults
     nlohmann::json parameters = nlohmann::json::object();
-    std::string name() const;  ///< "amd_sssr corrected", "mcguire_dda tracer=cells"
-    bool is_mended() const { return preset == "corrected" || preset == "best"; }
+    std::string label() const;  ///< "corrected", "tracer=cells", "default"
 };
 
 /// Presets of all techniques, and all tracers but exact_scene, which no screen can have, in the plainest technique.
@@ -15,7 +14,7 @@ std::vector<StabilityPoint> stability_points();
 
 /// What one point made of one case.
 struct CaseRun {
-    HostImage specular, confidence;  ///< of the last frame
+    HostImage specular;  ///< of the last frame
     std::vector<StageFinding> stages;
     size_t non_finite = 0;         ///< values of all stages
     std::string first_non_finite;  ///< "stage: image"

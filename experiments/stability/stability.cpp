@@ -29,13 +29,9 @@ std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::string>&
 }
 
 std::vector<std::string> names_of_case(const StabilityCase& c) { return {c.name, c.family, c.group}; }
-std::vector<std::string> names_of_point(const StabilityPoint& p) {
-    const std::string point =
-        p.preset.empty() ? p.name().substr(std::min(p.name().size(), p.variant.size() + 1)) : p.preset;
-    return {p.variant, p.variant + ":" + (point.empty() ? "default" : point)};
-}
+std::vector<std::string> names_of_point(const StabilityPoint& p) { return {p.variant, p.variant + ":" + p.label()}; }
 
-/// Means of four blocks of the last three quarters of a long sequence: the first two against the last two.
+/// Means of eight blocks of the last three quarters of a long sequence: the last four against the first four.
 void measure_drift(StabilityRow& row) {
     const std::vector<double>& means = row.run.means;
     constexpr size_t blocks = 8, least = 8;
@@ -52,8 +48,9 @@ void measure_drift(StabilityRow& row) {
     const double early = mean_of(0), late = mean_of(4);
     double squares = 0;
     for (size_t b = 0; b < blocks; ++b) squares += std::pow(block[b] - (b < 4 ? early : late), 2);
-    row.drift = early > 0 ? late / early - 1 : 0;
-    row.drift_noise = early > 0 ? std::sqrt(squares / 6 / 2) / early : 0;  // of a difference of two means of four
+    if (early <= 0) return;
+    row.drift = late / early - 1;
+    row.drift_noise = std::sqrt(squares / 6 / 2) / early;  // of a difference of two means of four
 }
 
 /// Of a geometric series the changes of the second half are those of the first times the gain to the power of their
@@ -123,10 +120,8 @@ public:
     }
 
     StabilityRow row(const StabilityPoint& point) {
-        StabilityRow row{.case_name = what_.name,
-                         .group = what_.group,
-                         .variant = point.variant,
-                         .point = names_of_point(point)[1].substr(point.variant.size() + 1)};
+        StabilityRow row{
+            .case_name = what_.name, .group = what_.group, .variant = point.variant, .point = point.label()};
         row.run = run_case(device_, point, what_, frames_, true, before_ ? &*before_ : nullptr);
         if (row.run.refusal.empty()) {
             if (what_.has_truth()) row.error = relative_error(frames_, row.run.specular);
@@ -153,7 +148,7 @@ public:
             row.run.spread_pixels += !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));
             row.run.negative += std::min({c.x, c.y, c.z}) < 0;
         }
-        if (what_.scales_truth) {
+        if (what_.is_truth_same) {
             row.error = relative_error(benign_, frames_.truth);
             row.benign_error = 0.0;
         }
@@ -165,7 +160,7 @@ public:
 
 private:
     const BenignRun& benign_run(const StabilityPoint& point) {
-        const auto [entry, is_new] = benign_runs_.try_emplace(what_.benign_key + point.name());
+        const auto [entry, is_new] = benign_runs_.try_emplace(what_.benign_key + point.variant + ":" + point.label());
         if (is_new) {
             const StabilityCase plain{.scene = what_.benign};
             const CaseRun run = run_case(device_, point, plain, benign_, false);
@@ -188,7 +183,7 @@ private:
 std::vector<StabilityRow> run_stability(Device& device, const std::filesystem::path& table,
                                         const StabilitySelection& selection,
                                         const std::vector<std::filesystem::path>& search_path,
-                                        const std::function<void(const StabilityRow&, double)>& done) {
+                                        const std::function<void(const std::vector<StabilityRow>&, double)>& done) {
     const std::vector<StabilityCase> cases =
         chosen(read_stability_cases(table), selection.cases, "case", names_of_case);
     const std::vector<StabilityPoint> points =
@@ -201,8 +196,8 @@ std::vector<StabilityRow> run_stability(Device& device, const std::filesystem::p
         const StabilityCase& what = cases[i];
         const auto add = [&](StabilityRow row, size_t point) {
             rows.push_back(std::move(row));
-            rows.back().run.specular = {}, rows.back().run.confidence = {};
-            done(rows.back(), (double(i) + double(point + 1) / double(points.size() + 1)) / double(cases.size()));
+            rows.back().run.specular = {};
+            done(rows, (double(i) + double(point + 1) / double(points.size() + 1)) / double(cases.size()));
         };
         if (what.images) {
             for (const Metric& metric : all_metrics()) add(metric_row(what, metric), points.size());

@@ -7,9 +7,9 @@ struct StabilitySelection {
     std::vector<std::string> cases, variants;
 };
 
-/// Runs every chosen technique through every chosen case, and the path tracer with them. `done`: gets each row as it
-/// comes, with the share of the work that is behind it. Fails with Error on unknown names.
-std::vector<StabilityRow> run_stability(Device& device, const std::filesystem::path& table,
-                                        const StabilitySelection& selection,
-                                        const std::vector<std::filesystem::path>& search_path,
-                                        const std::function<void(const StabilityRow& row, double share)>& done);
+/// Runs every chosen technique through every chosen case, and the path tracer with them. `done` gets the rows so far
+/// whenever there is one more, with the share of the work that is behind it. Fails with Error on unknown names.
+std::vector<StabilityRow> run_stability(
+    Device& device, const std::filesystem::path& table, const StabilitySelection& selection,
+    const std::vector<std::filesystem::path>& search_path,
+    const std::function<void(const std::vector<StabilityRow>& rows, double share)>& done);

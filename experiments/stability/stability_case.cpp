@@ -66,6 +66,14 @@ float read_value(const nlohmann::json& value, const std::string& where) {
     fail(where, ": a value is a number, \"nan\", \"inf\", \"-inf\" or \"denormal\", not ", shown(value));
 }
 
+/// One number for both, or two.
+glm::vec2 read_pair(JsonObject& object, const std::string& key) {
+    const nlohmann::json& pair = object.any(key);
+    if (!pair.is_array()) return glm::vec2(read_value(pair, object.where()));
+    if (pair.size() != 2) fail(object.where(), ": '", key, "' must be one value or two, not ", shown(pair));
+    return {read_value(pair[0], object.where()), read_value(pair[1], object.where())};
+}
+
 InputFault read_fault(JsonObject object) {
     InputFault fault;
     fault.image = object.text("image");
@@ -77,22 +85,16 @@ InputFault read_fault(JsonObject object) {
     else
         fault.value = {read_value(value, object.where())};
     fault.where = object.choice("where", {"pixel", "all", "every_other"}, "pixel");
+    if (object.has("at")) fault.at = read_pair(object, "at");
     if (object.has("step")) fault.step = unsigned(object.integer("step", 0, 100000));
     object.finish();
     return fault;
 }
 
-glm::vec2 read_ramp(JsonObject& object, const std::string& key) {
-    const nlohmann::json& ramp = object.any(key);
-    if (!ramp.is_array()) return glm::vec2(read_value(ramp, object.where()));
-    if (ramp.size() != 2) fail(object.where(), ": '", key, "' must be one value or [left, right], not ", shown(ramp));
-    return {read_value(ramp[0], object.where()), read_value(ramp[1], object.where())};
-}
-
 MetricImages read_images(JsonObject object) {
     MetricImages images;
     images.size = read_size(object, "size", images.size);
-    images.reference = read_ramp(object, "reference"), images.test = read_ramp(object, "test");
+    images.reference = read_pair(object, "reference"), images.test = read_pair(object, "test");
     object.finish();
     return images;
 }
@@ -118,7 +120,7 @@ StabilityCase read_case(const nlohmann::json& json, const std::string& where) {
     if (object.has("size_before")) result.size_before = read_size(object, "size_before", {});
     result.feeds_back = object.boolean("feeds_back", false);
     result.is_perturbed = object.boolean("perturbed", false);
-    result.scales_truth = object.boolean("same_truth", false);
+    result.is_truth_same = object.boolean("same_truth", false);
     if (object.has("only")) result.only = object.any("only").get<std::vector<std::string>>();
 
     nlohmann::json benign = nlohmann::json::object();
@@ -141,7 +143,8 @@ std::string label_of_value(const std::string& key, const nlohmann::json& value) 
     for (const nlohmann::json& fault : value) {
         const nlohmann::json& number = fault.at(fault.contains("times") ? "times" : "value");
         label += (label.empty() ? "" : ", ") + fault.at("image").get<std::string>() + " " +
-                 (number.is_string() ? number.get<std::string>() : number.dump());
+                 (number.is_string() ? number.get<std::string>() : number.dump()) +
+                 (fault.contains("at") ? " at " + fault["at"].dump() : "");
     }
     return label;
 }

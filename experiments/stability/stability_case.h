@@ -25,10 +25,11 @@ struct CaseScene {
 
 /// A change of the G-buffer's values, as a capture of another engine may hold them.
 struct InputFault {
-    std::string image;             ///< member of GBuffer
-    std::vector<float> value;      ///< one for all channels, or one for each
-    bool is_factor = false;        ///< `value` multiplies what is there
-    std::string where;             ///< "pixel": the one in the middle; "all"; "every_other": of rows and columns
+    std::string image;          ///< member of GBuffer
+    std::vector<float> value;   ///< one for all channels, or one for each
+    bool is_factor = false;     ///< `value` multiplies what is there
+    std::string where;          ///< "pixel": the one at `at`; "all"; "every_other": of rows and columns
+    glm::vec2 at{0.5f, 0.75f};  ///< share of the picture, from the upper left: by default a place on most scenes' floor
     std::optional<unsigned> step;  ///< the only one of the rendered frames that has it; none: all
 };
 
@@ -49,7 +50,7 @@ struct StabilityCase {
     bool feeds_back =
         false;  ///< each frame's lit colour is the composited image of the frame before: mirrors in mirrors
     bool is_perturbed = false;           ///< amplification is measured
-    bool scales_truth = false;           ///< the path tracer must give the benign case's image
+    bool is_truth_same = false;          ///< the path tracer must give the benign case's image
     std::vector<std::string> only;       ///< techniques; empty: all
     std::optional<MetricImages> images;  ///< then the metrics alone are looked at, and `scene` says nothing
 

@@ -16,8 +16,9 @@ struct StabilityRow {
     Verdict verdict = Verdict::ok;
     std::optional<double> error, benign_error;
     std::optional<double> time_ratio;
-    double drift = 0;        ///< relative change of the mean from the second quarter of the frames to the last quarter
-    double drift_noise = 0;  ///< standard error of it, from the means of blocks of frames
+    std::optional<double> drift;  ///< of long sequences: relative change of the mean from the second quarter of the
+                                  ///< frames to the last quarter
+    std::optional<double> drift_noise;  ///< standard error of it, from the means of blocks of frames
     std::optional<double>
         gain;  ///< of a fed back image: by how much each change of the mean is smaller than the one before
     std::vector<Amplification> amplifications;
