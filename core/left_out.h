@@ -1,9 +1,16 @@
 #pragma once
 #include <string>
 
-/// A feature, shader or pass that a scene does not need, so that it costs nothing: no image changes with it.
+/// A feature, shader or pass that a scene does not need, so that it costs nothing.
 struct LeftOut {
-    std::string what;  ///< "alpha tests"
-    std::string fact;  ///< of the scene: "no alpha masks"
-    std::string why;   ///< one sentence
+    std::string what;        ///< "alpha tests"; of a technique the stage that is not run, or a part of `stage`
+    std::string fact;        ///< of the scene: "no alpha masks"
+    std::string why;         ///< one sentence
+    std::string stage = {};  ///< that is shorter without it; empty where `what` is all there is to name
+    bool keeps_bits = true;  ///< false: images are the same up to the rounding of float32 arithmetic
 };
+
+/// "amd_sssr/reproject: motion vectors".
+inline std::string full_name(const LeftOut& part) {
+    return part.stage.empty() ? part.what : part.stage + ": " + part.what;
+}

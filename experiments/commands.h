@@ -67,7 +67,16 @@ struct GBufferCommandOptions {
 };
 void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common);
 
-void needs_command(const ShotOptions& options, const CommonOptions& common);
+struct NeedsOptions {
+    ShotOptions shot;
+    unsigned frames = 1;                ///< of the shot, from shot.frame on
+    std::vector<std::string> variants;  ///< empty: all
+    bool is_measured = false;
+    unsigned timed_frames = 15;
+    std::filesystem::path csv;  ///< "": none
+};
+/// The exit code: 0, or 1 if something that was left out changed an image by more than it says.
+int needs_command(const NeedsOptions& options, const CommonOptions& common);
 
 struct StabilityOptions {
     std::vector<std::string> variants, cases;  ///< empty: all

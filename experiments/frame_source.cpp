@@ -22,6 +22,7 @@ public:
                        .depth_format = config.depth_format,
                        .normal_bits = config.normal_bits,
                        .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
+                       .is_still = shot.facts.is_still(),
                        .keep_all = keep_all}) {}
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
@@ -39,7 +40,6 @@ public:
     }
     const CameraData& camera() const override { return rasterizer_.camera(); }
     PassGraph& graph() override { return rasterizer_.graph(); }
-    const std::vector<LeftOut>& left_out() const override { return rasterizer_.left_out(); }
 
 private:
     const Shot& shot_;
@@ -71,14 +71,12 @@ public:
     }
     const CameraData& camera() const override { return camera_; }
     PassGraph& graph() override { return graph_; }
-    const std::vector<LeftOut>& left_out() const override { return nothing_; }
 
 private:
     CameraData camera_;
     bool has_lit_;
     PassGraph graph_;
     GBuffer gbuffer_;
-    std::vector<LeftOut> nothing_;
 };
 
 }  // namespace

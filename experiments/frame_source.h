@@ -18,7 +18,6 @@ public:
     virtual GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) = 0;
     virtual const CameraData& camera() const = 0;
     virtual PassGraph& graph() = 0;
-    virtual const std::vector<LeftOut>& left_out() const = 0;
 };
 
 /// Rasterises shot.scene. With config.direct_lit its lit colour is rasterised direct light, and `lit` is not looked at.

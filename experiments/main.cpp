@@ -195,12 +195,28 @@ int parse_and_run(int argc, char** argv) {
     add_device(gbuffer_command_, common), add_scene_path(gbuffer_command_, common);
     gbuffer_command_.callback([&] { gbuffer_command(gbuffer, common); });
 
-    ShotOptions needs;
-    CLI::App& needs_command_ =
-        *app.add_subcommand("needs", "Say what a scene needs, and what the path tracer leaves out");
-    add_shot(needs_command_, needs);
-    add_scene_path(needs_command_, common);
-    needs_command_.callback([&] { needs_command(needs, common); });
+    NeedsOptions needs;
+    CLI::App& needs_command_ = *app.add_subcommand(
+        "needs", "Say what a scene holds, what rasteriser, path tracer and techniques leave out, and what that saves");
+    add_shot(needs_command_, needs.shot);
+    needs_command_
+        .add_option("--frames", needs.frames, "How many frames the shot has; default: 1, so that nothing moves")
+        ->check(CLI::Range(1, 10000))
+        ->type_name("N");
+    needs_command_
+        .add_option("--variants", needs.variants,
+                    "Techniques, or single presets as NAME:PRESET; default: all presets of all, and all tracers")
+        ->delimiter(',')
+        ->type_name("NAME");
+    needs_command_.add_flag("--measure", needs.is_measured,
+                            "Render with and without what is left out: the time saved, and whether images are the same "
+                            "(exit code 1 if not)");
+    needs_command_.add_option("--timed-frames", needs.timed_frames, "Measured frames of each; default: 15")
+        ->check(CLI::Range(1, 10000))
+        ->type_name("N");
+    needs_command_.add_option("--csv", needs.csv, "Also write what was measured")->type_name("FILE.csv");
+    add_device(needs_command_, common), add_scene_path(needs_command_, common);
+    needs_command_.callback([&] { status = needs_command(needs, common); });
 
     StabilityOptions stability;
     CLI::App& stability_command_ = *app.add_subcommand(

@@ -4,7 +4,7 @@
 #include "core/png.h"
 #include "experiments/cell_store.h"
 #include "experiments/file_name.h"
-#include "groundtruth/path_tracer.h"
+#include "experiments/needs.h"
 #include "groundtruth/reference_audit.h"
 #include "groundtruth/reference_error.h"
 #include "metrics/color_map.h"
@@ -96,26 +96,23 @@ nlohmann::json fact_entry(const SceneFact& fact) {
 }
 
 nlohmann::json left_out_entry(const LeftOut& part) {
-    return {{"what", part.what}, {"fact", part.fact}, {"why", part.why}, {"saved_ms", nullptr}};
+    return {{"what", full_name(part)},
+            {"stage", part.stage.empty() ? part.what : part.stage},
+            {"fact", part.fact},
+            {"why", part.why},
+            {"keeps_bits", part.keeps_bits},
+            {"saved_ms", nullptr}};
 }
 
 /// What path tracer, rasteriser and variants leave out, each once.
-nlohmann::json left_out_entries(const Shot& shot, const std::vector<LeftOut>& rasterizer, const Config& config) {
+nlohmann::json left_out_entries(const Shot& shot, const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
-    const auto add = [&](const LeftOut& part, const std::string& whose) {
+    for (const auto& [who, part] : left_out_of(shot, config.variants)) {
         nlohmann::json entry = left_out_entry(part);
-        entry["what"] = whose + part.what;
+        const bool says_whose = part.what.find('/') != std::string::npos || !part.stage.empty();
+        if (!says_whose) entry["what"] = who + ": " + part.what;
         if (std::ranges::find(entries, entry) == entries.end()) entries.push_back(entry);
-    };
-    if (shot.config.gbuffer.empty()) {
-        const ShotFrame now = shot_frame(shot, shot.config.frames.back());
-        const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
-        for (const LeftOut& part : tracer.left_out()) add(part, "path tracer: ");
     }
-    for (const VariantConfig& v : config.variants)
-        for (const LeftOut& part : make_variant(v.variant, v.parameters, v.preset)->leave_out(shot.facts))
-            add(part, "");  // a stage, whose name says whose it is
-    for (const LeftOut& part : rasterizer) add(part, "rasteriser: ");
     return entries;
 }
 
@@ -157,8 +154,7 @@ nlohmann::json study_entry(const Config& config) {
             {"images", nlohmann::json::array()}};
 }
 
-nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const std::vector<LeftOut>& left_out,
-                          const Config& config, bool keep_all) {
+nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const Config& config, bool keep_all) {
     nlohmann::json needs = nlohmann::json::array();
     if (shot.config.gbuffer.empty())
         for (const SceneFact& fact : list_facts(shot.scene, shot.facts)) needs.push_back(fact_entry(fact));
@@ -179,7 +175,7 @@ nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const std:
         {"lit", config.direct_lit ? "direct" : "path_traced"},
         {"warnings", shot.scene.warnings},
         {"needs", needs},
-        {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, left_out, config)}};
+        {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, config)}};
     if (shot.config.change) entry["change"] = *shot.config.change;
     return entry;
 }

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer.h"
-#include "core/left_out.h"
 #include "core/variant.h"
 #include "experiments/measure.h"
 #include "experiments/shot.h"
@@ -13,10 +12,8 @@
 /// What holds for the whole study, before any cell is done.
 nlohmann::json study_entry(const Config& config);
 
-/// All that can be said of a shot before it is measured. `pixels` are those of its last frame, `left_out` what its
-/// rasteriser left out.
-nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const std::vector<LeftOut>& left_out,
-                          const Config& config, bool keep_all);
+/// All that can be said of a shot before it is measured. `pixels` are those of its last frame.
+nlohmann::json shot_entry(const Shot& shot, const PixelFacts& pixels, const Config& config, bool keep_all);
 nlohmann::json reference_entry(const Reference& reference, unsigned frame, const Config& config);
 
 /// The variant's output on the CPU. `incident` mixes fallback and radiance as the compositor does, and is

@@ -75,8 +75,7 @@ void enter_shot(StudyRun& study, ShotRun& run, const std::vector<std::string>& n
     const FrameStore::Frame frame = run.store.frame(last, run.truth.lit(last));
     const HostGBuffer host =
         download_gbuffer(run.source.graph(), frame.gbuffer, frame.camera, study.config.depth_format);
-    nlohmann::json entry =
-        shot_entry(run.shot, pixel_facts(host), run.source.left_out(), study.config, study.settings.keep_all);
+    nlohmann::json entry = shot_entry(run.shot, pixel_facts(host), study.config, study.settings.keep_all);
     entry.update(run.reference_entries);
     if (run.truth.is_measured()) {
         const FlipExposures& flip = run.truth.pose(last).flip_exposures;

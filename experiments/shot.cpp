@@ -60,7 +60,8 @@ Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer) {
     hash.add(std::as_bytes(std::span(&gbuffer.camera, 1)));
     shot.scene.content_hash = hash.hex();
     SceneFacts& facts = shot.facts;
-    facts.camera_moves = facts.objects_move = true;  // unknown, so nothing is left out for lack of it
+    // Unknown, so that nothing is left out for lack of them.
+    facts.camera_moves = facts.objects_move = facts.has_environment = true;
     facts.has_faulty_inputs = !count_non_finite(gbuffer).empty();
     for (size_t i = 0; i < gbuffer.depth.values.size(); ++i) {
         if (gbuffer.depth.values[i] == gbuffer.camera.depth.z) continue;

@@ -149,18 +149,42 @@ std::vector<TimedCopy> make_copies(const Config& config, PassGraph& like, bool k
     return copies;
 }
 
+/// The copy that gives the rows of the same point as a complete one.
+const TimedCopy& recorded_like(const TimedCopy& complete, const std::vector<TimedCopy>& copies) {
+    return *std::ranges::find_if(copies, [&](const TimedCopy& copy) {
+        return copy.purpose == TimedCopy::Purpose::recorded && &copy.config == &complete.config;
+    });
+}
+
 std::vector<SavedTime> saved_times(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
-    std::map<std::string, double> longest;
+    std::map<std::string, double> largest;
     for (const TimedCopy& copy : copies)
         for (const LeftOut& part : copy.kept_parts) {
-            const std::optional<double> median = copy.median_of(part.what, rounds);
-            if (!median) continue;
-            double& time = longest[part.what];
-            time = std::max(time, *median);
+            const std::string& stage = part.stage.empty() ? part.what : part.stage;
+            const std::optional<double> complete = copy.median_of(stage, rounds);
+            if (!complete) continue;
+            const double saved = *complete - recorded_like(copy, copies).median_of(stage, rounds).value_or(0.0);
+            const auto [entry, is_new] = largest.try_emplace(stage, saved);
+            entry->second = std::max(entry->second, saved);
         }
     std::vector<SavedTime> saved;
-    for (const auto& [stage, milliseconds] : longest) saved.push_back({stage, milliseconds});
+    for (const auto& [stage, milliseconds] : largest) saved.push_back({stage, milliseconds});
     return saved;
+}
+
+std::vector<Saving> savings_of(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
+    std::vector<Saving> savings;
+    for (const TimedCopy& copy : copies) {
+        if (copy.purpose != TimedCopy::Purpose::complete) continue;
+        const TimedCopy& lean = recorded_like(copy, copies);
+        std::vector<double> shares;
+        for (const size_t round : rounds) shares.push_back(1 - lean.frames[round].total / copy.frames[round].total);
+        savings.push_back({.variant = copy.config.variant,
+                           .point = copy.config.point,
+                           .complete_ms = copy.median_total(rounds),
+                           .share = median_interval(shares)});
+    }
+    return savings;
 }
 
 std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
@@ -273,6 +297,7 @@ ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& con
     }
     result.pairs = pairs_of(copies, chosen);
     result.saved = saved_times(copies, chosen);
+    result.savings = savings_of(copies, chosen);
     result.load = load_of(rounds, chosen);
     return result;
 }
@@ -295,9 +320,19 @@ nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, con
                          {"second_ms", p.second_ms},
                          {"floor", p.floor()}});
     for (const SavedTime& s : times.saved) saved[s.stage] = s.milliseconds;
+    nlohmann::json savings = nlohmann::json::array();
+    for (const Saving& s : times.savings)
+        savings.push_back({{"shot", shot},
+                           {"variant", s.variant},
+                           {"point", s.point},
+                           {"complete_ms", s.complete_ms},
+                           {"share", s.share.median},
+                           {"low", s.share.low},
+                           {"high", s.share.high}});
     return {{"shot", shot},
             {"aa_pairs", pairs},
             {"saved_ms", saved},
+            {"savings", savings},
             {"load",
              {{"disturbed_frames", times.load.disturbed},
               {"left_out_frames", times.load.left_out},
@@ -316,6 +351,8 @@ void add_timing(nlohmann::json& manifest, const nlohmann::json& entry) {
     load["shot"] = entry["shot"];
     clock["load"].push_back(load);
     for (const nlohmann::json& pair : entry["aa_pairs"]) clock["aa_pairs"].push_back(pair);
+    for (const nlohmann::json& saving : entry.value("savings", nlohmann::json::array()))
+        clock["savings"].push_back(saving);
     double empty_submit_ms = 0;
     for (const nlohmann::json& proof : clock["proofs"])
         empty_submit_ms = std::max(empty_submit_ms, proof["empty_submit_ms"].get<double>());
@@ -331,6 +368,6 @@ void add_timing(nlohmann::json& manifest, const nlohmann::json& entry) {
 
     for (nlohmann::json& shot : manifest["shots"])
         for (nlohmann::json& part : shot["left_out"])
-            if (shot["shot"] == entry["shot"] && entry["saved_ms"].contains(part["what"]))
-                part["saved_ms"] = entry["saved_ms"][part["what"].get<std::string>()];
+            if (shot["shot"] == entry["shot"] && entry["saved_ms"].contains(part["stage"]))
+                part["saved_ms"] = entry["saved_ms"][part["stage"].get<std::string>()];
 }

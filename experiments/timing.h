@@ -4,6 +4,7 @@
 #include "experiments/cell.h"
 #include "experiments/config.h"
 #include "experiments/frame_source.h"
+#include "experiments/results.h"
 #include "experiments/shot.h"
 
 #include <functional>
@@ -16,11 +17,18 @@ struct AaPair {
     double floor() const;  ///< relative to the mean of the two
 };
 
-/// Median time of a stage that leave_out() names, in a third copy of the variant which keeps it; the largest of all
-/// timed points. None under --keep-all.
+/// How much longer a stage, of which leave_out() names all or a part, takes in a third copy of the variant which leaves
+/// nothing out: the difference of the medians, the largest of all timed points. None under --keep-all.
 struct SavedTime {
     std::string stage;
     double milliseconds = 0;
+};
+
+/// What leaving out saves a variant point of its total.
+struct Saving {
+    std::string variant, point;
+    double complete_ms = 0;  ///< median total of the copy that leaves nothing out
+    MedianInterval share;    ///< of that, over the rounds: 1 - total / complete total
 };
 
 /// How quiet the machine was while times were taken.
@@ -34,6 +42,7 @@ struct ShotTimes {
     std::vector<TimeRow> rows;
     std::vector<AaPair> pairs;  ///< one for each variant point that is timed
     std::vector<SavedTime> saved;
+    std::vector<Saving> savings;  ///< of the points that leave anything out
     TimingLoad load;
 };
 
@@ -63,8 +72,8 @@ std::vector<FrameStep> timed_steps(const std::vector<unsigned>& frames, unsigned
 /// For each round an order of 0 .. count - 1, drawn at random, the same for each run.
 std::vector<std::vector<size_t>> timed_turns(size_t count, unsigned rounds);
 
-/// What the times of a shot depend on besides the shot itself, for the name of their cell: what is timed, and the machine
-/// that they are those of. `variants` as in manifest.json, `host` as host_info() gives it.
+/// What the times of a shot depend on besides the shot itself, for the name of their cell: what is timed, and the
+/// machine that they are those of. `variants` as in manifest.json, `host` as host_info() gives it.
 nlohmann::json timed_work(const Config& config, const nlohmann::json& variants, const nlohmann::json& host);
 
 /// ShotTimes without its rows, to be kept in Cell::timing, with the proof of the clock that took them.
@@ -73,6 +82,6 @@ nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, con
 /// Whether another timing of the same shot might be less disturbed.
 bool is_disturbed(const nlohmann::json& timing_entry);
 
-/// Puts what timing_entry() gave into the manifest: clock.proofs, clock.load, clock.aa_pairs, clock.aa_floor, and
-/// saved_ms of the shot's left_out.
+/// Puts what timing_entry() gave into the manifest: clock.proofs, clock.load, clock.aa_pairs, clock.aa_floor,
+/// clock.savings, and saved_ms of the shot's left_out.
 void add_timing(nlohmann::json& manifest, const nlohmann::json& entry);

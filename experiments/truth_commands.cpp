@@ -1,4 +1,4 @@
-// The commands that need no Vulkan device: reference, compare, needs.
+// The commands that need no Vulkan device: reference, compare.
 #include "core/error.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/scene/load_scene.h"
@@ -109,17 +109,4 @@ void compare_images_command(const CompareCommandOptions& options) {
         std::cout << to_json(result).dump(2) << '\n';
     else
         print(result, std::cout, std::cerr);
-}
-
-void needs_command(const ShotOptions& options, const CommonOptions& common) {
-    const Shot shot = load_single_shot(options, common);
-    std::printf("%s, camera %s\n\n", shot.scene.name.c_str(), shot.camera.name.c_str());
-    for (const SceneFact& fact : list_facts(shot.scene, shot.facts))
-        std::printf("  %-22s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
-    std::printf("\nLeft out, since nothing here needs it:\n");
-    const ShotFrame frame = shot_frame(shot, options.frame);
-    const PathTracer tracer(shot.scene, frame.scene, frame.camera, shot.config.extent, {});
-    for (const LeftOut& part : tracer.left_out())
-        std::printf("  path tracer: %s (%s): %s\n", part.what.c_str(), part.fact.c_str(), part.why.c_str());
-    for (const std::string& warning : shot.scene.warnings) std::printf("warning: %s\n", warning.c_str());
 }

@@ -52,7 +52,7 @@ std::vector<LeftOut> left_out_features(const TracedScene& traced) {
     };
     if (!traced.geometry.has_alpha_tests())
         features.push_back({"alpha tests", "no alpha masks",
-                            "Embree calls no intersection filter, so that every ray stays in its own code."});
+                            "Embree calls no intersection filter, so that every ray stays in its own code.", "", false});
     if (!traced.materials.any_varies())
         features.push_back({"texture lookups", "no textures", "Each material is one set of constants."});
     if (traced.lights.empty())

@@ -33,29 +33,39 @@ Buffer upload_lights(PassGraph& graph, const std::vector<PunctualLight>& lights)
 
 }  // namespace
 
+std::vector<LeftOut> left_out_of_rasterizer(const SceneFacts& facts) {
+    if (!facts.has_geometry)
+        return {{"drawing", "no geometry", "There is no triangle to draw."},
+                {"prefiltered environment", "no geometry", "No surface reflects the environment."}};
+    std::vector<LeftOut> parts;
+    if (!facts.has_textures) parts.push_back({"texture reads", "no textures", "All materials are constant."});
+    if (facts.has_textures && !facts.has_normal_maps)
+        parts.push_back({"normal maps", "no normal maps", "All normals are the geometry's."});
+    if (!facts.has_vertex_colors) parts.push_back({"vertex colours", "no vertex colours", "All are white."});
+    if (!facts.has_alpha_masks) parts.push_back({"alpha tests", "no alpha masks", "No fragment is discarded."});
+    if (facts.is_still()) parts.push_back({"motion vectors", "nothing moves", "All are 0."});
+    if (!facts.has_reflective)
+        parts.push_back({"fallback", "nothing reflective", "Its weight in the composite is 0."});
+    else if (!facts.has_environment)
+        parts.push_back({"fallback", "black environment", "It is black."});
+    if (!facts.has_environment) parts.push_back({"prefiltered environment", "black environment", "It is black."});
+    return parts;
+}
+
 Rasterizer::Rasterizer(Device& device, const Scene& scene, const RasterizerOptions& options)
     : scene_(scene),
       options_(options),
       facts_(material_facts(scene)),
       graph_(device, options.extent),
       drawn_(graph_, scene, options.keep_all),
-      environment_(graph_, scene.environment, options.keep_all || facts_.has_geometry) {
+      environment_(graph_, scene.environment, options.keep_all || (facts_.has_geometry && facts_.has_environment)) {
     if (!device.supports(format_of(options.depth_format)))
         fail_machine("the device ", device.info().name, " has no depth format ", name_of(options.depth_format),
                      "; choose d32f or d16");
-    if (!options.keep_all) list_left_out();
 }
 
-void Rasterizer::list_left_out() {
-    if (!facts_.has_geometry) {
-        left_out_.push_back({"drawing", "no geometry", "There is no triangle to draw."});
-        left_out_.push_back({"prefiltered environment", "no geometry", "No surface reflects the environment."});
-        return;
-    }
-    if (!facts_.has_textures) left_out_.push_back({"texture reads", "no textures", "All materials are constant."});
-    if (!facts_.has_alpha_masks) left_out_.push_back({"alpha tests", "no alpha masks", "No fragment is discarded."});
-    if (!facts_.has_reflective)
-        left_out_.push_back({"fallback", "nothing reflective", "Its weight in the composite is 0."});
+bool Rasterizer::needs_fallback() const {
+    return options_.keep_all || (facts_.has_geometry && facts_.has_reflective && facts_.has_environment);
 }
 
 Rasterizer::Frame Rasterizer::pose(const SceneCamera& camera, const FrameView& view) const {
@@ -101,6 +111,11 @@ GBuffer Rasterizer::draw(const Frame& frame) {
     camera_ = frame.camera;
     scene_pose_ = frame.scene;
     graph_.begin_frame(camera_, no_params_, {});
+    if (!options_.keep_all)
+        graph_.set_constants({{"scene_is_still", options_.is_still},
+                              {"scene_has_environment", facts_.has_environment},
+                              {"scene_has_normal_maps", facts_.has_normal_maps},
+                              {"scene_has_vertex_colors", facts_.has_vertex_colors}});
     drawn_.pose(frame.scene, frame.previous_scene);
     const PassGraph::History depth = graph_.history("depth", Format::r32f),
                              normal = graph_.history("normal", Format::rgba32f);
@@ -134,7 +149,7 @@ GBuffer Rasterizer::draw(const Frame& frame) {
 
     if (options_.has_depth_layers) draw_depth_layers(g);
 
-    if (options_.keep_all || (facts_.has_geometry && facts_.has_reflective)) {
+    if (needs_fallback()) {
         auto pass = graph_.compute("gbuffer/fallback.comp");
         environment_.bind(pass).read(g.depth).read(g.normal).write(g.fallback).run();
     } else {

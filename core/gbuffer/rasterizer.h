@@ -11,8 +11,12 @@ struct RasterizerOptions {
     unsigned normal_bits = 0;       ///< of each of the two numbers that the shading normal is stored in
                                     ///< (core/shaders/gbuffer/octahedral.glsl), 2 to 16; 0: floats
     bool has_depth_layers = false;  ///< also GBuffer::second_depth and ::back_depth
+    bool is_still = false;          ///< in all frames that will be asked for neither camera nor scene moves
     bool keep_all = false;          ///< run and compile also what left_out() names: the same images, slower
 };
+
+/// What a rasteriser leaves out of frames with these facts.
+std::vector<LeftOut> left_out_of_rasterizer(const SceneFacts& facts);
 
 /// Draws the G-buffer of a scene. It has a pass graph of its own, so that its times are not those of a variant;
 /// variants read its images through theirs, after render() has waited for the device.
@@ -39,17 +43,15 @@ public:
     const CameraData& camera() const { return camera_; }  ///< of the last frame
     const Scene& scene() const { return scene_; }
     const PrefilteredEnvironment& prefiltered_environment() const { return environment_.prefiltered(); }
-    const std::vector<LeftOut>& left_out() const { return left_out_; }
     PassGraph& graph() { return graph_; }
 
 private:
+    bool needs_fallback() const;
     struct Frame;
     Frame pose(const SceneCamera& camera, const FrameView& view) const;
     GBuffer draw(const Frame& frame);
     void draw_kind(const GBuffer& gbuffer, const Image& depth_buffer, DrawnScene::Kind kind, const char* name);
     void draw_depth_layers(GBuffer& gbuffer);
-    void list_left_out();
-
     const Scene& scene_;
     RasterizerOptions options_;
     SceneFacts facts_;  ///< of the materials and lights; motion is looked at frame by frame
@@ -61,5 +63,4 @@ private:
     ScenePose scene_pose_;
     const SceneCamera* last_camera_ = nullptr;
     FrameView last_view_;
-    std::vector<LeftOut> left_out_;
 };

@@ -47,14 +47,9 @@ void add_material(SceneFacts& facts, const Scene& scene, const Material& materia
     facts.has_textures |= has_texture(material);
     facts.has_alpha_masks |= material.alpha_mode == AlphaMode::mask;
     facts.has_normal_maps |= material.normal_texture.texture >= 0;
-    facts.has_emitters |= !material.is_unlit && material.emission != glm::vec3(0);
-    facts.has_unlit |= material.is_unlit;
-    (material.is_double_sided ? facts.has_double_sided : facts.has_single_sided) = true;
     if (!is_reflective(scene, material)) return;
     const glm::vec2 roughness = material.roughness * channel_range(scene, material.metalness_roughness_texture, 1);
     facts.has_reflective = true;
-    facts.has_mirrors |= roughness.x * roughness.x <= min_ggx_alpha;
-    facts.has_rough_reflectors |= roughness.y * roughness.y > min_ggx_alpha;
     facts.min_roughness = std::min(facts.min_roughness, roughness.x);
     facts.max_roughness = std::max(facts.max_roughness, roughness.y);
 }
@@ -66,10 +61,6 @@ bool has_vertex_colors(const Scene& scene) {
     });
 }
 
-bool lights_differ(const PunctualLight& a, const PunctualLight& b) {
-    return a.position != b.position || a.direction != b.direction;
-}
-
 void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera, std::span<const unsigned> frames) {
     ScenePose before = pose_scene(scene, float(frames.front()));
     glm::mat4 view_before = pose_camera(camera, before, float(frames.front())).world_from_view;
@@ -78,7 +69,6 @@ void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera
         const glm::mat4 view_now = pose_camera(camera, now, float(frame)).world_from_view;
         facts.camera_moves |= view_now != view_before;
         facts.objects_move |= now.world_from_instance != before.world_from_instance;
-        facts.lights_move |= !std::ranges::equal(now.lights, before.lights, std::not_fn(lights_differ));
         before = now;
         view_before = view_now;
     }
@@ -110,8 +100,6 @@ SceneFacts material_facts(const Scene& scene) {
     for (unsigned material : materials) add_material(facts, scene, scene.materials[material]);
     facts.has_vertex_colors = has_vertex_colors(scene);
     facts.has_environment = !scene.environment.is_black();
-    facts.has_punctual_lights =
-        std::ranges::any_of(scene.lights, [](const PunctualLight& light) { return light.intensity != glm::vec3(0); });
     return facts;
 }
 
@@ -126,34 +114,22 @@ std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
     const std::string roughness = f.has_reflective ? "perceptual roughness of reflective surfaces is " +
                                                          decimal(f.min_roughness) + " to " + decimal(f.max_roughness)
                                                    : "no drawn surface reflects specularly";
-    const std::string mirror = " than " + decimal(std::sqrt(min_ggx_alpha)) + ", the roughness of a mirror";
     return {
         {"has_geometry", yes(f.has_geometry), std::to_string(scene.triangle_count()) + " triangles"},
         {"has_reflective", yes(f.has_reflective), roughness},
-        {"has_mirrors", yes(f.has_mirrors), "a reflective surface that is not rougher" + mirror},
-        {"has_rough_reflectors", yes(f.has_rough_reflectors), "a reflective surface that is rougher" + mirror},
         {"min_roughness", decimal(f.min_roughness), roughness},
         {"max_roughness", decimal(f.max_roughness), roughness},
         {"camera_moves", yes(f.camera_moves), "camera poses of successive frames of the shot"},
         {"objects_move", yes(f.objects_move), "transforms of drawn nodes in successive frames of the shot"},
-        {"lights_move", yes(f.lights_move), "transforms of lights in successive frames of the shot"},
         {"has_faulty_inputs", yes(f.has_faulty_inputs),
          "values of a G-buffer from files that are not finite, or normals that are not unit"},
         {"has_environment", yes(f.has_environment),
          f.has_environment ? "the environment is not black" : "the environment is black"},
-        {"has_punctual_lights", yes(f.has_punctual_lights), std::to_string(scene.lights.size()) + " punctual lights"},
-        {"has_emitters", yes(f.has_emitters),
-         names_of(scene, [](const Material& m) { return !m.is_unlit && m.emission != glm::vec3(0); })},
         {"has_textures", yes(f.has_textures), names_of(scene, has_texture)},
         {"has_alpha_masks", yes(f.has_alpha_masks),
          names_of(scene, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
         {"has_normal_maps", yes(f.has_normal_maps),
          names_of(scene, [](const Material& m) { return m.normal_texture.texture >= 0; })},
         {"has_vertex_colors", yes(f.has_vertex_colors), "vertex colours other than white"},
-        {"has_unlit", yes(f.has_unlit), names_of(scene, [](const Material& m) { return m.is_unlit; })},
-        {"has_single_sided", yes(f.has_single_sided),
-         names_of(scene, [](const Material& m) { return !m.is_double_sided; })},
-        {"has_double_sided", yes(f.has_double_sided),
-         names_of(scene, [](const Material& m) { return m.is_double_sided; })},
     };
 }

@@ -10,16 +10,16 @@
 struct SceneFacts {
     bool has_geometry = false;
     bool has_reflective = false;  ///< a surface whose specular reflectance is not zero
-    bool has_mirrors = false;     ///< ... and which both renderers treat as perfectly smooth (brdf.h, min_ggx_alpha)
-    bool has_rough_reflectors = false;  ///< ... and which is rougher than that
     float min_roughness = 1.0f,
           max_roughness = 0.0f;  ///< perceptual, over reflective surfaces and all texels of their textures
-    bool camera_moves = false, objects_move = false, lights_move = false;
-    bool has_environment = false, has_punctual_lights = false, has_emitters = false;
+    bool camera_moves = false,   ///< also by jitter
+        objects_move = false;
+    bool has_environment = false;  ///< that is not black
     bool has_textures = false, has_alpha_masks = false, has_normal_maps = false, has_vertex_colors = false;
     bool has_faulty_inputs = false;  ///< a G-buffer of files with values that are not finite, or normals that are not unit; what
                                      ///< is rasterised has none
-    bool has_unlit = false, has_single_sided = false, has_double_sided = false;
+
+    bool is_still() const { return !camera_moves && !objects_move; }
 };
 
 /// The facts of these frames of one camera, rendered in this order; the first of them has no predecessor, so nothing

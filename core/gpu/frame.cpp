@@ -43,10 +43,13 @@ void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params
     impl_->frame_milliseconds = 0;
     impl_->parity = 1 - impl_->parity;
     impl_->params = &params;
+    impl_->constants.clear();
     set_inputs(inputs);
     std::memcpy(impl_->uniforms.data, &camera, sizeof camera);
     impl_->write_params();
 }
+
+void PassGraph::set_constants(Constants constants) { impl_->constants = std::move(constants); }
 
 void PassGraph::set_inputs(std::span<const Image> inputs) {
     impl_->inputs.clear();

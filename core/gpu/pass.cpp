@@ -133,7 +133,7 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         for (const Image& image : attachments) state.attachments.push_back(image.format);
     }
     check_limits(pass, shader, attachments);
-    const Pipeline& pipeline = pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, pass.includes_, state);
+    const Pipeline& pipeline = pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, pass.includes_, constants, state);
     execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
         commands.bindPipeline(pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics,
                               *pipeline.pipeline);

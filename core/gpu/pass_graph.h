@@ -64,6 +64,9 @@ struct Draw {
     std::vector<Buffer> buffers;
 };
 
+/// Values of specialization constants by their names in GLSL.
+using Constants = std::map<std::string, uint32_t>;
+
 /// Told of each pass that has been added: its stage, and the images that it writes, in which its work is found by
 /// PassGraph::download().
 using PassObserver = std::function<void(const std::string& stage, std::span<const Image> written)>;
@@ -111,8 +114,13 @@ public:
     /// and `inputs` by name. `params` must outlive the frame.
     void begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs);
 
-    /// From now on `observer` is told of each pass ({}: nobody is), and images begin as zeros, so that it never sees what
-    /// nobody wrote.
+    /// From now to the end of the frame these specialization constants (parameters with Use::constant, or
+    /// scene_constants()) have these values, whatever the parameters say: the work that they switch off is not compiled
+    /// into the passes that follow. Replaces those of the last call.
+    void set_constants(Constants constants);
+
+    /// From now on `observer` is told of each pass ({}: nobody is), and images begin as zeros, so that it never sees
+    /// what nobody wrote.
     void observe(PassObserver observer);
 
     /// In place of those that begin_frame() was given, for the passes that follow.

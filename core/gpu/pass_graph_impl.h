@@ -29,6 +29,7 @@ struct PassGraph::Impl {
     const ParameterSet* params = &no_parameters;
     std::map<std::array<int, 3>, vk::raii::Sampler> samplers;
     Limits limits = Limits::none;
+    Constants constants;
     PassObserver observer;
 
     std::vector<PassTime> times;

@@ -138,7 +138,8 @@ void PipelineCache::require_webgl2(const Shader& shader, const std::string& file
 }
 
 Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
-                                  const ShaderIncludes& includes, const PipelineState& state) {
+                                  const ShaderIncludes& includes, const Constants& constants,
+                                  const PipelineState& state) {
     const Shader& shader = this->shader(file, vertex_file, params, includes);
 
     // Only the constants that this shader uses take part in the key: a new value of another one costs it no new
@@ -147,13 +148,17 @@ Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& ve
     std::vector<vk::SpecializationMapEntry> entries;
     std::string key = file + '\n' + vertex_file + '\n' + key_of(includes) + params.glsl() + '\n' +
                       std::to_string(int(state.stencil)) + ' ' + std::to_string(state.stencil_value);
-    uint32_t id = 0;
-    for (const Parameter& p : params) {
-        if (p.use != Use::constant || !shader.interface.constants.contains(id++)) continue;
-        entries.push_back({.constantID = id - 1, .offset = uint32_t(values.size() * 4), .size = 4});
-        values.push_back(p.bits());
+    const auto specialize = [&](uint32_t id, const std::string& name, uint32_t initial) {
+        if (!shader.interface.constants.contains(id)) return;
+        const auto set = constants.find(name);
+        entries.push_back({.constantID = id, .offset = uint32_t(values.size() * 4), .size = 4});
+        values.push_back(set != constants.end() ? set->second : initial);
         key += ' ' + std::to_string(values.back());
-    }
+    };
+    uint32_t id = 0;
+    for (const Parameter& p : params)
+        if (p.use == Use::constant) specialize(id++, p.glsl_name(), p.bits());
+    for (const SceneConstant& constant : scene_constants()) specialize(constant.id, constant.name, constant.initial);
     key += '\n';
     for (const Format format : state.attachments) key += ' ' + std::to_string(int(format));
     if (state.has_depth)
@@ -189,11 +194,11 @@ Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& ve
                                                           .pushConstantRangeCount = p.interface.push_size ? 1u : 0u,
                                                           .pPushConstantRanges = &push}};
 
-    const vk::SpecializationInfo constants{.mapEntryCount = uint32_t(entries.size()),
-                                           .pMapEntries = entries.data(),
-                                           .dataSize = values.size() * 4,
-                                           .pData = values.data()};
-    const Stages stages = make_stages(gpu_, shader, p.is_compute, constants);
+    const vk::SpecializationInfo specialization{.mapEntryCount = uint32_t(entries.size()),
+                                                .pMapEntries = entries.data(),
+                                                .dataSize = values.size() * 4,
+                                                .pData = values.data()};
+    const Stages stages = make_stages(gpu_, shader, p.is_compute, specialization);
     p.pipeline = p.is_compute
                      ? vk::raii::Pipeline(gpu_.device, nullptr,
                                           vk::ComputePipelineCreateInfo{.stage = stages.infos[0], .layout = *p.layout})

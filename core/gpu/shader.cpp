@@ -162,9 +162,24 @@ const std::vector<std::filesystem::path>& shader_roots() {
     return roots;
 }
 
+const std::vector<SceneConstant>& scene_constants() {
+    static const std::vector<SceneConstant> constants = {
+        {"scene_is_still", 1000, false},          // motion vectors are 0
+        {"scene_has_environment", 1003, true},    // it is not black
+        {"scene_has_normal_maps", 1001, true},    // some material bends its shading normal
+        {"scene_has_vertex_colors", 1002, true},  // some vertex is not white
+    };
+    return constants;
+}
+
 std::string shader_prelude(const ParameterSet& params, ShaderLanguage language) {
-    return "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n" +
-           params.glsl(language == ShaderLanguage::webgl2);
+    const bool is_webgl2 = language == ShaderLanguage::webgl2;
+    std::string constants;
+    for (const SceneConstant& c : scene_constants())
+        constants += (is_webgl2 ? "" : "layout(constant_id = " + std::to_string(c.id) + ") ") + "const bool " + c.name +
+                     (c.initial ? " = true;\n" : " = false;\n");
+    return "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n" + constants +
+           params.glsl(is_webgl2);
 }
 
 Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude, const ShaderIncludes& includes) {

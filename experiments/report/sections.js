@@ -99,7 +99,23 @@ function showReferences() {
 
 const manifestShots = () => list(report.manifest.shots);
 
+/// What leaving out saves each timed point in each shot.
+function savingsTable(savings) {
+    const shots = unique(savings.map(s => s.shot)), points = unique(savings.map(pointLabel));
+    const cell = (shot, point) => {
+        const saved = savings.find(s => s.shot === shot && pointLabel(s) === point);
+        return saved ? `${percent(saved.share)} [${percent(saved.low)}, ${percent(saved.high)}] of ${number(saved.complete_ms, 3)} ms` : "–";
+    };
+    return h(
+        "div", {}, h("p", {}, "Share of a technique's time that is saved by what the scene does not need: median and interval over the frames."),
+        h("div", {class: "scroll"},
+          table([{name: "Technique"}, ...shots.map(name => ({name, number: true}))],
+                points.map(point => [point, ...shots.map(shot => cell(shot, point))]))));
+}
+
 function showNeeds() {
+    const savings = list(report.manifest.clock?.savings);
+    if (savings.length) at("needs").append(savingsTable(savings));
     for (const shot of manifestShots()) {
         const needs = list(shot.needs), leftOut = list(shot.left_out);
         if (!needs.length && !leftOut.length) continue;

@@ -146,7 +146,10 @@ def all_rough_mirror_tile():
     add_rough_boxes(model)
     pixel = 2 * 3 * 0.46630766 / 1080  # of 2 * 3 m * tan(50 / 2 degrees), the height of the view there
     model.add("tile", rectangle((0, 1.6, 1), (16 * pixel, 0, 0), (0, 16 * pixel, 0)), model.mirror("tile"))
-    return model, scene_json([ALL_ROUGH_CAMERA], **ALL_ROUGH)
+    # Of which it covers 1, 10 and 56 % of an image of 16 : 9: what work shrinks with the reflective part.
+    near = [camera(name, (0, 1.6, 4), (0, 1.6, 1), vfov)
+            for name, vfov in (("share1", 11.9), ("share10", 3.77), ("share56", 1.583))]
+    return model, scene_json([ALL_ROUGH_CAMERA, *near], **ALL_ROUGH)
 
 
 def sky_only():

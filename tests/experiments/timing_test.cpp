@@ -27,7 +27,6 @@ public:
     }
     const CameraData& camera() const override { return source_->camera(); }
     PassGraph& graph() override { return source_->graph(); }
-    const std::vector<LeftOut>& left_out() const override { return source_->left_out(); }
 
     std::vector<FrameStep> steps;
 
@@ -225,6 +224,13 @@ TEST_F(Timing, MeasuresWhatLeavingOutSaved) {
     EXPECT_EQ(lean.saved[1].stage, "mcguire_dda/trace");
     for (const SavedTime& saved : lean.saved) EXPECT_GT(saved.milliseconds, 0.0);
     EXPECT_TRUE(all.saved.empty());
+    ASSERT_EQ(lean.savings.size(), 1u);
+    const Saving& saving = lean.savings.front();
+    EXPECT_EQ(saving.variant, "mcguire_dda");
+    EXPECT_GT(saving.complete_ms, 0.0);
+    EXPECT_LE(saving.share.low, saving.share.median);
+    EXPECT_LT(saving.share.high, 1.0);
+    EXPECT_TRUE(all.savings.empty());
 
     const Shot mirrors = shot("fence", {0});
     WatchedSource mirror_source(device, mirrors, config);
@@ -251,15 +257,17 @@ TEST(TimingEntry, GoesIntoTheManifest) {
         {"shots",
          {{{"shot", "a"},
            {"left_out",
-            {{{"what", "v/trace"}, {"saved_ms", nullptr}}, {{"what", "alpha tests"}, {"saved_ms", nullptr}}}}},
-          {{"shot", "b"}, {"left_out", {{{"what", "v/trace"}, {"saved_ms", nullptr}}}}}}}};
+            {{{"what", "v/trace"}, {"stage", "v/trace"}, {"saved_ms", nullptr}}, {{"what", "alpha tests"}, {"stage", "alpha tests"}, {"saved_ms", nullptr}}}}},
+          {{"shot", "b"}, {"left_out", {{{"what", "v/trace"}, {"stage", "v/trace"}, {"saved_ms", nullptr}}}}}}}};
     ShotTimes times;
     times.pairs = {{"none", "default", 0.2, 0.3}, {"v", "default", 9.5, 10.5}};
     times.saved = {{"v/trace", 2.5}};
+    times.savings = {{"v", "default", 20.0, {0.25, 0.2, 0.3}}};
     add_timing(manifest, timing_entry(times, "a", clock));
     // The pair of `none` differs by 40 %, but takes only two and three times what an empty submission does.
     EXPECT_DOUBLE_EQ(manifest["clock"]["aa_floor"].get<double>(), 0.1);
     EXPECT_EQ(manifest["clock"]["aa_pairs"].size(), 2u);
+    EXPECT_EQ(manifest["clock"]["savings"][0]["share"], 0.25);
     EXPECT_EQ(manifest["shots"][0]["left_out"][0]["saved_ms"], 2.5);
     EXPECT_TRUE(manifest["shots"][0]["left_out"][1]["saved_ms"].is_null());
     EXPECT_TRUE(manifest["shots"][1]["left_out"][0]["saved_ms"].is_null()) << "another shot";

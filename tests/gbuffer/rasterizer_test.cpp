@@ -127,12 +127,30 @@ TEST(rasterizer, leaving_out_changes_no_bit) {
                              render(scene, camera, view_of({99, 55}, 2), {.keep_all = true}, true)),
               0u);
 
-    scene.instances.resize(1);  // the floor: no textures, no masks
-    Rasterizer rasterizer(test_device(), scene, {.extent = {99, 55}});
-    EXPECT_EQ(rasterizer.left_out().size(), 2u);
-    EXPECT_EQ(differing_bits(render(scene, camera, view_of({99, 55})),
-                             render(scene, camera, view_of({99, 55}), {.keep_all = true})),
-              0u);
+    // Frame 2 twice: nothing moves. Lit, since the environment is black.
+    FrameView still = view_of({99, 55}, 2);
+    still.previous_frame = 2;
+    const auto names = [&] {
+        std::set<std::string> names;
+        for (const LeftOut& part : left_out_of_rasterizer(derive_facts(scene, camera, std::array{2u, 2u})))
+            names.insert(part.what);
+        return names;
+    };
+    const auto expect_same_bits = [&](const std::string& what) {
+        EXPECT_EQ(differing_bits(render(scene, camera, still, {.is_still = true}, true),
+                                 render(scene, camera, still, {.keep_all = true}, true)),
+                  0u)
+            << what;
+    };
+    scene.environment = {};
+    EXPECT_EQ(names(), (std::set<std::string>{"vertex colours", "motion vectors", "fallback", "prefiltered environment"}));
+    expect_same_bits("a still scene, a black environment");
+    scene.instances.resize(2);  // the floor and what has textures, but no normal maps and no masks
+    EXPECT_EQ(names(), (std::set<std::string>{"vertex colours", "motion vectors", "fallback", "prefiltered environment",
+                                              "normal maps", "alpha tests"}));
+    expect_same_bits("without normal maps");
+    scene.instances.resize(1);
+    expect_same_bits("without textures");
 }
 
 TEST(rasterizer, a_scene_without_geometry_is_all_sky) {

@@ -8,26 +8,25 @@
 TEST(scene_facts, of_a_scene_that_has_everything) {
     const Scene scene = varied_scene();
     const SceneFacts f = derive_facts(scene, scene.camera("main"), std::array{0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u});
-    for (const bool fact : {f.has_geometry, f.has_reflective, f.has_mirrors, f.has_rough_reflectors, f.camera_moves,
-                            f.objects_move, f.has_environment, f.has_punctual_lights, f.has_emitters, f.has_textures,
-                            f.has_alpha_masks, f.has_normal_maps, f.has_unlit, f.has_single_sided, f.has_double_sided})
+    for (const bool fact : {f.has_geometry, f.has_reflective, f.camera_moves, f.objects_move, f.has_environment,
+                            f.has_textures, f.has_alpha_masks, f.has_normal_maps})
         EXPECT_TRUE(fact);
-    EXPECT_FALSE(f.lights_move);
+    EXPECT_FALSE(f.is_still());
     EXPECT_FALSE(f.has_vertex_colors);
     EXPECT_EQ(f.max_roughness, 1.0f);
-    EXPECT_EQ(list_facts(scene, f).size(), 20u);
+    EXPECT_EQ(list_facts(scene, f).size(), 12u);
 }
 
 TEST(scene_facts, only_what_is_drawn_counts) {
     Scene scene = varied_scene();
     scene.instances.resize(1);  // the floor, of roughness 0.2
     const SceneFacts f = derive_facts(scene, scene.camera("main"), std::array{0u});
-    EXPECT_TRUE(f.has_rough_reflectors);
     EXPECT_FLOAT_EQ(f.min_roughness, 0.2f);
     EXPECT_FLOAT_EQ(f.max_roughness, 0.2f);
-    for (const bool fact : {f.has_mirrors, f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.has_emitters,
-                            f.has_unlit, f.camera_moves, f.objects_move})
+    for (const bool fact :
+         {f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.camera_moves, f.objects_move})
         EXPECT_FALSE(fact);
+    EXPECT_TRUE(f.is_still());
 }
 
 TEST(scene_facts, ranges_come_from_the_texels) {

@@ -1,5 +1,6 @@
 #include "variants/amd_sssr/amd_sssr.h"
 
+#include "variants/amd_sssr/mirror.h"
 #include "variants/amd_sssr/passes.h"
 
 Reflections AmdSssr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
@@ -11,29 +12,50 @@ Reflections AmdSssr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     }
     const Tracers::Images traced_images = tracing_.tracers.images(graph, gbuffer.depth);
     const AmdWork work = amd_classify(graph, gbuffer, histories, confidence);
-    const bool is_white = tracing_.noise.is("white");
-    const Image noise =
-        is_white || tracing_.independent_noise_shifts
-            ? noise_.render(graph, is_white ? NoiseShift::white : NoiseShift::r2, NoisePrecision::float_32)
-            : noise_.render(graph, NoiseShift::golden_diagonal);
+    const Image noise = draws_nothing_ ? noise_.table(graph) : this->noise(graph);
     amd_prepare_arguments(graph, work);
     amd_intersect(graph, gbuffer, traced_images, noise, work, histories, tracing_, ray_probe);
     if (denoiser_.denoise) amd_denoise(graph, gbuffer, work, histories, denoiser_);
     return {histories.radiance.current, confidence};
 }
 
-std::vector<LeftOut> AmdSssr::leave_out_passes(const SceneFacts& facts) {
-    const float exact_alpha = facts.min_roughness * facts.min_roughness;
-    const bool is_rounded = tracing_.rate_stored_roughness && !tracing_.float_roughness;
-    const float smoothest_alpha = is_rounded ? amd_alpha_of_8_bits(exact_alpha) : exact_alpha;
-    is_left_out_ = !facts.has_reflective || smoothest_alpha >= tracing_.roughness_threshold_alpha;
-    if (!is_left_out_) return {};
-    std::vector<std::string> stages = {"amd_sssr/classify", "common/blue_noise", "amd_sssr/prepare_arguments",
-                                       "amd_sssr/intersect"};
-    if (tracing_.tracers.needs_pyramid()) stages.insert(stages.begin(), "common/depth_pyramid");
+Image AmdSssr::noise(PassGraph& graph) {
+    const bool is_white = tracing_.noise.is("white");
+    if (is_white || tracing_.independent_noise_shifts)
+        return noise_.render(graph, is_white ? NoiseShift::white : NoiseShift::r2, NoisePrecision::float_32);
+    return noise_.render(graph, NoiseShift::golden_diagonal);
+}
+
+TracingVariant::Needless AmdSssr::find_needless(const SceneFacts& facts) {
+    const auto stored = [&](float roughness) {
+        const float alpha = roughness * roughness;
+        return tracing_.float_roughness ? alpha : amd_alpha_of_8_bits(alpha);
+    };
+    const float smoothest =
+        tracing_.rate_stored_roughness ? stored(facts.min_roughness) : facts.min_roughness * facts.min_roughness;
+    Needless needless{
+        .such_a_surface = "below roughness_threshold_alpha",
+        .stages = {"amd_sssr/classify", "common/blue_noise", "amd_sssr/prepare_arguments", "amd_sssr/intersect"}};
+    needless.rays = is_left_out_ = !facts.has_reflective || smoothest >= tracing_.roughness_threshold_alpha;
+    if (tracing_.tracers.needs_pyramid()) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
     if (denoiser_.denoise)
-        stages.insert(stages.end(), {"amd_sssr/reproject", "amd_sssr/prefilter", "amd_sssr/resolve_temporal"});
-    return left_out_without_rays(facts, "below roughness_threshold_alpha", stages);
+        needless.stages.insert(needless.stages.end(),
+                               {"amd_sssr/reproject", "amd_sssr/prefilter", "amd_sssr/resolve_temporal"});
+
+    const bool has_mirrors_only = stored(facts.max_roughness) < amd_mirror_alpha;
+    const std::string fact = "all that reflects is a mirror";
+    draws_nothing_ = has_mirrors_only && tracing_.guard_mirror_normal;
+    if (draws_nothing_) {
+        needless.parts.push_back({"common/blue_noise", fact, "rays of mirrors are not drawn at random"});
+        needless.constants["draw_directions"] = false;
+    }
+    if (has_mirrors_only && denoiser_.denoise && denoiser_.prefilter) {
+        needless.parts.push_back({"neighbours", fact, "mirrors are not filtered in space", "amd_sssr/prefilter"});
+        needless.constants["prefilter"] = false;
+    }
+    if (denoiser_.denoise) needless.motion_readers = {"amd_sssr/reproject"};
+    if (tracing_.misses.is("fallback")) needless.environment_readers = {"amd_sssr/intersect"};
+    return needless;
 }
 
 /// Without the one no surface is smooth enough to start a ray, without the other every ray is the mirror's.

@@ -15,11 +15,12 @@ public:
 
 private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
+    Needless find_needless(const SceneFacts& facts) override;
+    Image noise(PassGraph& graph);
     const Tracers& chosen_tracers() const override { return tracing_.tracers; }
 
     AmdTracingParameters tracing_{params};
     AmdDenoiserParameters denoiser_{params};
     BlueNoise noise_;
-    bool is_left_out_ = false;
+    bool is_left_out_ = false, draws_nothing_ = false;
 };

@@ -3,8 +3,9 @@
 #define AMD_SSSR_DENOISER_HISTORY_GLSL
 #include "amd_sssr/denoiser_moments.glsl"
 #include "amd_sssr/denoiser_tile.glsl"
+#include "common/motion.glsl"
 
-uniform sampler2D depth, motion, normal, roughness;
+uniform sampler2D depth, normal, roughness;
 uniform sampler2D previous_radiance, previous_variance, previous_sample_count;
 uniform sampler2D previous_depth, previous_normal, previous_roughness;
 
@@ -41,7 +42,7 @@ Surface surface_of(ivec2 pixel, float alpha, float length_of_ray) {
     vec4 clip = previous_clip_of_reflected_point(vs_position, length_of_ray);
     return Surface(unit_or_zero(texel(normal, pixel).xyz), alpha,
                    abs(reproject_history_depth ? depth_before : vs_position.z),
-                   uv - texel(motion, pixel).xy - jitter_before,
+                   uv - motion_at(pixel) - jitter_before,
                    clip.xy / clip.w * 0.5 + 0.5 - jitter_before, !guard_previous_clip || clip.w > 0.0);
 }
 

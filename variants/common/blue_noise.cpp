@@ -35,12 +35,17 @@ HostImage blue_noise_table() {
     return table;
 }
 
-Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision precision, NoiseStage stage) {
+Image BlueNoise::uploaded(PassGraph& graph) {
     const Image table = graph.image_of("blue_noise_table", Format::rg8, table_extent);
     if (uploaded_table_.lock() != table.storage) {
         graph.upload(table, blue_noise_table());
         uploaded_table_ = table.storage;
     }
+    return table;
+}
+
+Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision precision, NoiseStage stage) {
+    const Image table = uploaded(graph);
     const bool is_8_bit = precision == NoisePrecision::bits_8;
     const Image noise = graph.image_of("blue_noise", is_8_bit ? Format::rg8 : Format::rg32f, table_extent);
     const glm::uvec2 per_frame = shift_per_frame(shift);

@@ -30,7 +30,11 @@ public:
     Image render(PassGraph& graph, NoiseShift shift, NoisePrecision precision = NoisePrecision::bits_8,
                  NoiseStage stage = NoiseStage::compute);
 
+    /// The table under the name `blue_noise`, for passes whose shaders name it and never look at it.
+    Image table(PassGraph& graph) { return uploaded(graph).as("blue_noise"); }
+
 private:
+    Image uploaded(PassGraph& graph);
     std::weak_ptr<ImageStorage> uploaded_table_;
 };
 

@@ -14,12 +14,7 @@ Reflections DiligentSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
         graph.clear(nothing, {});
         return {nothing, nothing, alpha};
     }
-    const bool is_white = tracing_.noise.is("white");
-    const Image noise =
-        is_white || tracing_.independent_noise_shifts
-            ? noise_.render(graph, is_white ? NoiseShift::white : NoiseShift::r2, NoisePrecision::float_32,
-                            NoiseStage::fragment)
-            : noise_.render(graph, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8, NoiseStage::fragment);
+    const Image noise = has_mirrors_only_ ? noise_.table(graph) : this->noise(graph);
     const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
     const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing_);
     const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_, filter_);
@@ -40,22 +35,42 @@ bool DiligentSsr::depends_on_seed() const {
     return has_lobes && (!has_mirror_rays_only || tracing_.tracers.needs().random);
 }
 
-std::vector<LeftOut> DiligentSsr::leave_out_passes(const SceneFacts& facts) {
-    const float min_roughness =
-        tracing_.float_roughness ? facts.min_roughness : diligent_roughness_of_8_bits(facts.min_roughness);
-    is_left_out_ = !facts.has_reflective || min_roughness > tracing_.roughness_threshold;
-    if (!is_left_out_) return {};
+Image DiligentSsr::noise(PassGraph& graph) {
+    const bool is_white = tracing_.noise.is("white");
+    if (is_white || tracing_.independent_noise_shifts)
+        return noise_.render(graph, is_white ? NoiseShift::white : NoiseShift::r2, NoisePrecision::float_32,
+                             NoiseStage::fragment);
+    return noise_.render(graph, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8, NoiseStage::fragment);
+}
+
+TracingVariant::Needless DiligentSsr::find_needless(const SceneFacts& facts) {
+    const auto stored = [&](float roughness) {
+        return tracing_.float_roughness ? roughness : diligent_roughness_of_8_bits(roughness);
+    };
     const bool is_guided = filter_.bilateral_cleanup && filter_.cleanup.is("guided");
-    std::vector<std::string> stages = {"common/blue_noise",
-                                       "diligent_ssr/reprojected_depth",
-                                       "diligent_ssr/mask",
-                                       "diligent_ssr/intersection",
-                                       "diligent_ssr/spatial_reconstruction",
-                                       "diligent_ssr/temporal_accumulation",
-                                       is_guided ? "diligent_ssr/guided_cleanup" : "diligent_ssr/bilateral_cleanup"};
-    if (is_guided) stages.push_back("diligent_ssr/guided_coefficients");
-    if (tracing_.tracers.needs_pyramid()) stages.push_back("diligent_ssr/depth_hierarchy");
-    if (tracing_.half_resolution) stages.push_back("diligent_ssr/half_resolution_mask");
-    if (tracing_.previous_frame) stages.push_back("common/keep_lit");
-    return left_out_without_rays(facts, "as smooth as roughness_threshold", stages);
+    Needless needless{.such_a_surface = "as smooth as roughness_threshold",
+                      .stages = {"common/blue_noise", "diligent_ssr/reprojected_depth", "diligent_ssr/mask",
+                                 "diligent_ssr/intersection", "diligent_ssr/spatial_reconstruction",
+                                 "diligent_ssr/temporal_accumulation",
+                                 is_guided ? "diligent_ssr/guided_cleanup" : "diligent_ssr/bilateral_cleanup"}};
+    needless.rays = is_left_out_ = !facts.has_reflective || stored(facts.min_roughness) > tracing_.roughness_threshold;
+    if (is_guided) needless.stages.push_back("diligent_ssr/guided_coefficients");
+    if (tracing_.tracers.needs_pyramid()) needless.stages.push_back("diligent_ssr/depth_hierarchy");
+    if (tracing_.half_resolution) needless.stages.push_back("diligent_ssr/half_resolution_mask");
+    if (tracing_.previous_frame) needless.stages.push_back("common/keep_lit");
+
+    has_mirrors_only_ = stored(facts.max_roughness) == 0.0f;
+    if (has_mirrors_only_) {
+        const std::string fact = "all that reflects is a mirror";
+        needless.parts.push_back({"common/blue_noise", fact, "rays of mirrors are not drawn at random"});
+        if (filter_.bilateral_cleanup && !is_guided) {
+            needless.parts.push_back(
+                {"neighbours", fact, "mirrors are not filtered", "diligent_ssr/bilateral_cleanup"});
+            needless.constants["bilateral_cleanup"] = false;
+        }
+    }
+    if (filter_.temporal_accumulation) needless.motion_readers = {"diligent_ssr/temporal_accumulation"};
+    if (tracing_.previous_frame) needless.motion_readers.push_back("diligent_ssr/intersection");
+    if (tracing_.misses.is("fallback")) needless.environment_readers = {"diligent_ssr/intersection"};
+    return needless;
 }

@@ -15,12 +15,13 @@ public:
 
 private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
+    Needless find_needless(const SceneFacts& facts) override;
+    Image noise(PassGraph& graph);
     const Tracers& chosen_tracers() const override { return tracing_.tracers; }
 
     DiligentTracingParameters tracing_{params};
     DiligentFilterParameters filter_{params};
     BlueNoise noise_;
     LitHistory lit_;
-    bool is_left_out_ = false;
+    bool is_left_out_ = false, has_mirrors_only_ = false;
 };

@@ -4,9 +4,10 @@
 #include "core/shaders/gbuffer/environment.glsl"
 #include "diligent_ssr/half.glsl"
 #include "common/halton.h"
+#include "common/motion.glsl"
 #include "diligent_ssr/ray.glsl"
 
-uniform sampler2D roughness, blue_noise, hit_color, motion;
+uniform sampler2D roughness, blue_noise, hit_color;
 layout(location = 0) out vec4 ray_radiance;
 layout(location = 1) out vec4 ray_direction;
 
@@ -31,7 +32,7 @@ vec3 origin_of(ivec2 pixel) {
 }
 
 // Where the previous frame showed what this one shows at `uv`, a place on the image.
-vec2 previous_uv(vec2 uv) { return uv - texelFetch(motion, ivec2(camera.extent.xy * uv), 0).xy; }
+vec2 previous_uv(vec2 uv) { return uv - motion_at(ivec2(camera.extent.xy * uv)); }
 
 vec2 image_uv(TraceEnd end) { return (end.position - camera.jitter.xy) * camera.extent.zw; }
 ivec2 previous_pixel(TraceEnd end) { return ivec2(camera.extent.xy * previous_uv(image_uv(end))); }

@@ -2,12 +2,13 @@
 // mirror image was.
 #include "diligent_ssr/history_search.glsl"
 #include "common/luminance.glsl"
+#include "common/motion.glsl"
 #include "diligent_ssr/unknown_variance.glsl"
 
 layout(location = 0) out vec4 accumulated_radiance;
 layout(location = 1) out float accumulated_variance;
 
-uniform sampler2D motion, reprojected_depth, resolved_radiance, resolved_variance, hit_depth;
+uniform sampler2D reprojected_depth, resolved_radiance, resolved_variance, hit_depth;
 
 const float box_deviations = 2.5;  // half the extent of the box that history is clamped to
 
@@ -31,7 +32,7 @@ Neighborhood neighborhood_of(ivec2 pixel) {
 // Pixels of the previous frame, as all that follows. Both take the pixels for unjittered, now and then: what was seen
 // through the pixel's centre is looked for, not the sample beside it.
 vec2 surface_before(ivec2 pixel) {
-    return vec2(pixel) + 0.5 - texelFetch(motion, pixel, 0).rg * camera.extent.xy;
+    return vec2(pixel) + 0.5 - motion_at(pixel) * camera.extent.xy;
 }
 
 // World space, homogeneous.

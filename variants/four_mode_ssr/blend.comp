@@ -1,8 +1,9 @@
 // Blends each pixel with what it showed in the frame before ("Temporal Accumulation").
 #include "common/mirror_ray.glsl"
+#include "common/motion.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D traced, previous_blended, previous_depth, motion;
+uniform sampler2D traced, previous_blended, previous_depth;
 uniform writeonly image2D blended;
 
 const uint place_by_camera = 0u;  // parameter `history_place`
@@ -38,7 +39,7 @@ Before surface_before(ivec2 pixel, float device_depth) {
     vec4 world = vec4(world_from_screen(uv, device_depth), 1.0);
     vec4 clip = camera.previous_clip_from_world * world;
     vec2 by_camera = clip.xy / clip.w * 0.5 + 0.5;
-    vec2 found = history_place == place_by_camera ? by_camera : uv - texelFetch(motion, pixel, 0).xy;
+    vec2 found = history_place == place_by_camera ? by_camera : uv - motion_at(pixel);
     return Before(found, -(camera.previous_view_from_world * world).z, clip.w > 0.0);
 }
 

@@ -54,11 +54,14 @@ Reflections FourModeSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
 
 bool FourModeSsr::depends_on_seed() const { return is_stochastic() || tracers.needs(slot()).random; }
 
-std::vector<LeftOut> FourModeSsr::leave_out_passes(const SceneFacts& facts) {
-    is_left_out_ = !facts.has_reflective || facts.min_roughness >= roughness_fade;
-    if (!is_left_out_) return {};
-    std::vector<std::string> stages = {mode.is("simple_linear") ? "four_mode_ssr/trace_linear" : "four_mode_ssr/trace"};
-    if (tracers.needs(slot()).nearest_mips > 0) stages.insert(stages.begin(), "common/depth_pyramid");
-    if (mode.is("temporal")) stages.push_back("four_mode_ssr/blend");
-    return left_out_without_rays(facts, "smoother than roughness_fade", stages);
+TracingVariant::Needless FourModeSsr::find_needless(const SceneFacts& facts) {
+    Needless needless{.such_a_surface = "smoother than roughness_fade",
+                      .stages = {mode.is("simple_linear") ? "four_mode_ssr/trace_linear" : "four_mode_ssr/trace"}};
+    needless.rays = is_left_out_ = !facts.has_reflective || facts.min_roughness >= roughness_fade;
+    if (tracers.needs(slot()).nearest_mips > 0) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
+    if (mode.is("temporal")) {
+        needless.stages.push_back("four_mode_ssr/blend");
+        if (history_place.is("motion_vectors")) needless.motion_readers = {"four_mode_ssr/blend"};
+    }
+    return needless;
 }

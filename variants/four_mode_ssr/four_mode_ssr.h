@@ -11,7 +11,7 @@ public:
 
 private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
+    Needless find_needless(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return tracers; }
     std::string slot() const { return mode.is("simple_linear") ? "linear_tracer" : "tracer"; }
     bool is_stochastic() const { return mode.is("stochastic") || mode.is("temporal"); }

@@ -10,11 +10,9 @@
 /// Screen-Space Reflections", SIGGRAPH course Advances in Real-Time Rendering. Much of it was never published;
 /// README.md says what is theirs and what is ours.
 class FrostbiteSssr final : public TracingVariant {
-public:
-
 private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
+    Needless find_needless(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return ray_.tracers; }
 
     FrostbiteRayParameters ray_{params};
@@ -23,4 +21,5 @@ private:
     SplitSumImage split_sum_;
     FrostbiteHorizonImage horizon_;
     bool is_left_out_ = false;
+    bool has_smooth_rays_ = true, has_rough_rays_ = true, filters_color_ = true;  // as far as is known
 };

@@ -1,10 +1,11 @@
 // What was reflected at a pixel in the frame before.
 #ifndef FROSTBITE_SSSR_HISTORY_GLSL
 #define FROSTBITE_SSSR_HISTORY_GLSL
+#include "common/motion.glsl"
 #include "frostbite_sssr/previous_view.glsl"
 
 // Texels of previous_accumulated: colour times confidence, confidence; the latter negative where nothing reflected.
-uniform sampler2D previous_accumulated, previous_normal, motion;
+uniform sampler2D previous_accumulated, previous_normal;
 
 const vec4 no_reflection = vec4(0.0, 0.0, 0.0, -1.0);
 
@@ -12,7 +13,7 @@ const vec4 no_reflection = vec4(0.0, 0.0, 0.0, -1.0);
 vec2 image_position(vec2 uv) { return uv * camera.extent.xy - camera.jitter.zw; }
 
 vec2 surface_before(ivec2 pixel) {
-    return image_position(screen_from_pixel(pixel) * camera.extent.zw - texelFetch(motion, pixel, 0).xy);
+    return image_position(screen_from_pixel(pixel) * camera.extent.zw - motion_at(pixel));
 }
 
 struct Place {

@@ -20,6 +20,7 @@ struct FrostbiteWork {
     Buffer smooth_list, rough_list;  ///< index of the ray: (y * width + x) * max_rays + k, in traced pixels
     Buffer counters;                 ///< lengths of both
     Buffer indirect_arguments;       ///< groups of 64 rays: smooth (3 words), rough (at byte 12)
+    bool has_smooth = true, has_rough = true;  ///< whether the lists may hold rays at all
     glm::uvec2 extent;               ///< traced pixels: of the screen, or half of it, rounded up
 };
 

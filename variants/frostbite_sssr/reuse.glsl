@@ -1,11 +1,10 @@
 // A traced ray as the pixels see it that resolve it.
 #ifndef FROSTBITE_SSSR_REUSE_GLSL
 #define FROSTBITE_SSSR_REUSE_GLSL
+#include "common/motion.glsl"
 #include "frostbite_sssr/previous_view.glsl"
 #include "frostbite_sssr/ray.glsl"
 #include "frostbite_sssr/surface.glsl"
-
-uniform sampler2D motion;
 
 // All of a ray that does not depend on who resolves it. View space.
 struct ReusedRay {
@@ -19,7 +18,7 @@ struct ReusedRay {
 vec2 color_uv_of(ivec2 pixel) {
     vec2 uv = (vec2(pixel) + 0.5) * camera.extent.zw;
     if (!previous_frame) return uv;
-    vec2 moved = texelFetch(motion, pixel, 0).xy - (camera.jitter.xy - camera.jitter.zw) * camera.extent.zw;
+    vec2 moved = motion_at(pixel) - (camera.jitter.xy - camera.jitter.zw) * camera.extent.zw;
     // No branch on whether there is a previous frame: for such a branch lavapipe 22.3 compiles the shader anew at every
     // dispatch, and never frees it.
     return uv - float(camera.frame.w) * moved;

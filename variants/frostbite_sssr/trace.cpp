@@ -12,7 +12,7 @@ FrostbiteRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, c
         parameters.tracers.run(graph, pass, {slot}, images, probe, parameters.max_rays,
                                [&](PassGraph::Pass& tracing) { tracing.dispatch(work.indirect_arguments, arguments); });
     };
-    trace("frostbite_sssr/trace_smooth.comp", "tracer", work.smooth_list, 0);
-    trace("frostbite_sssr/trace_rough.comp", "rough_tracer", work.rough_list, 12);
+    if (work.has_smooth) trace("frostbite_sssr/trace_smooth.comp", "tracer", work.smooth_list, 0);
+    if (work.has_rough) trace("frostbite_sssr/trace_rough.comp", "rough_tracer", work.rough_list, 12);
     return traced;
 }

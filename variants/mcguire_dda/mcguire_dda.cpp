@@ -19,10 +19,10 @@ Reflections McGuireDda::render_passes(PassGraph& graph, const GBuffer& gbuffer) 
     return {radiance, confidence};
 }
 
-std::vector<LeftOut> McGuireDda::leave_out_passes(const SceneFacts& facts) {
-    is_left_out_ = !facts.has_reflective || facts.min_roughness > max_roughness;
-    if (!is_left_out_) return {};
-    const std::string fact =
-        facts.has_reflective ? "no reflective surface as smooth as max_roughness" : "nothing reflective";
-    return {{"mcguire_dda/trace", fact, "no pixel would start a ray"}, {"mcguire_dda/shade", fact, "no ray would hit"}};
+TracingVariant::Needless McGuireDda::find_needless(const SceneFacts& facts) {
+    Needless needless{.such_a_surface = "as smooth as max_roughness",
+                      .stages = {"mcguire_dda/trace", "mcguire_dda/shade"}};
+    needless.rays = is_left_out_ = !facts.has_reflective || facts.min_roughness > max_roughness;
+    if (tracers.needs_pyramid()) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
+    return needless;
 }

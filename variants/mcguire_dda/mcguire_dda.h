@@ -10,7 +10,7 @@ public:
 
 private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
+    Needless find_needless(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return tracers; }
 
     bool is_left_out_ = false;

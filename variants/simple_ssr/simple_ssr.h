@@ -12,7 +12,7 @@ public:
 
 private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
-    std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) override;
+    Needless find_needless(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return tracers; }
     bool blurs() const { return blur_width > 0; }
 
@@ -48,5 +48,5 @@ private:
                     "slides: equal steps in view space; the article: hzb"};
 
     LitHistory lit_;
-    bool is_left_out_ = false;
+    bool is_left_out_ = false, is_sharp_ = false;
 };

@@ -1,9 +1,10 @@
 // traced: the mean of what each pixel's rays hit, and the share of them that hit something, by their weights.
 #include "tracer"
+#include "common/motion.glsl"
 #include "simple_ssr/draw.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D shown_lit, motion;
+uniform sampler2D shown_lit;
 uniform writeonly image2D traced;
 
 // At the pixel that was met, or where its surface was in the frame before.
@@ -12,7 +13,7 @@ vec3 lit_at(TraceEnd end) {
     bool lies_in_pixel = pixel_from_screen(end.position) == end.pixel;
     if (!previous_frame) return texelFetch(shown_lit, end.pixel, 0).rgb;
     if (!lies_in_pixel) uv = screen_from_pixel(end.pixel) * camera.extent.zw;
-    vec2 uv_before = uv - texelFetch(motion, end.pixel, 0).xy;
+    vec2 uv_before = uv - motion_at(end.pixel);
     ivec2 texel = ivec2(floor(uv_before * camera.extent.xy - camera.jitter.zw));
     return texelFetch(shown_lit, clamp(texel, ivec2(0), ivec2(camera.extent.xy) - 1), 0).rgb;
 }

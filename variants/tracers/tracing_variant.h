@@ -7,35 +7,34 @@
 class TracingVariant : public Variant {
 public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) final {
+        graph.set_constants(constants_);
         const RepairedInputs inputs(graph, gbuffer, repair_inputs_ && !is_sound_);
         return render_passes(graph, inputs.gbuffer());
     }
-    std::vector<LeftOut> leave_out(const SceneFacts& facts) final {
-        std::vector<LeftOut> left_out = leave_out_passes(facts);
-        is_sound_ = !facts.has_faulty_inputs;
-        if (repair_inputs_ && is_sound_)
-            left_out.push_back({RepairedInputs::stage, "no faulty inputs", "every pixel would keep its bits"});
-        return left_out;
-    }
+    std::vector<LeftOut> leave_out(const SceneFacts& facts) final;
+
     ShaderIncludes shader_includes() const override { return chosen_tracers().includes(); }
     bool asks_scene() const override { return chosen_tracers().needs().exact_hits; }
     bool needs_depth_layers() const override { return chosen_tracers().needs().depth_layers; }
 
 protected:
-    /// `stages`, because no pixel would start a ray: nothing reflects, or no such surface does ("as smooth as
-    /// max_roughness").
-    static std::vector<LeftOut> left_out_without_rays(const SceneFacts& facts, const std::string& such_surface,
-                                                      const std::vector<std::string>& stages) {
-        const std::string fact =
-            facts.has_reflective ? "no reflective surface " + such_surface : std::string("nothing reflective");
-        std::vector<LeftOut> left_out;
-        for (const std::string& stage : stages) left_out.push_back({stage, fact, "no pixel would start a ray"});
-        return left_out;
-    }
+    /// What a technique need not do in a scene with these facts.
+    struct Needless {
+        bool rays = false;           ///< no pixel would start one: all `stages` are left out
+        std::string such_a_surface;  ///< "as smooth as max_roughness": that would start some
+        std::vector<std::string> stages;
+
+        // Of those that are run:
+        std::vector<LeftOut> parts;
+        Constants constants;                      ///< that switch `parts` off
+        std::vector<std::string> motion_readers;  ///< stages
+        std::vector<std::string> environment_readers;
+    };
 
     virtual const Tracers& chosen_tracers() const = 0;
     virtual Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) = 0;  ///< Variant::render()
-    virtual std::vector<LeftOut> leave_out_passes(const SceneFacts& facts) = 0;       ///< Variant::leave_out()
+    /// Of Variant::leave_out(). render_passes() skips the stages from then on; `constants` are set for it.
+    virtual Needless find_needless(const SceneFacts& facts) = 0;
 
 private:
     Switch repair_inputs_{
@@ -48,4 +47,5 @@ private:
          "are known to be sound",
          "ssrlab"}};
     bool is_sound_ = false;
+    Constants constants_;
 };

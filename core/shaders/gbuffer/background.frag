@@ -10,7 +10,7 @@ layout(location = 5) out uint material_id;
 
 // uv now - uv before of a point infinitely far away. All rays of an orthographic camera meet the same one: it has no place.
 vec2 sky_motion() {
-    if (camera.frame.z == 1u || camera.previous_clip_from_world == camera.clip_from_world) return vec2(0.0);
+    if (scene_is_still || camera.frame.z == 1u || camera.previous_clip_from_world == camera.clip_from_world) return vec2(0.0);
     vec2 uv = (gl_FragCoord.xy + camera.jitter.xy) * camera.extent.zw;
     vec4 vs_far = camera.view_from_clip * vec4(uv * 2.0 - 1.0, 0.5, 1.0);
     vec3 ws_direction = mat3(camera.world_from_view) * (vs_far.xyz / vs_far.w);

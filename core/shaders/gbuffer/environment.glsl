@@ -36,6 +36,7 @@ vec3 environment_radiance(vec3 direction) {
 
 // Radiance that a ray of the pixel sees if it meets nothing; `direction`: world space, unit.
 vec3 environment_along_ray(ivec2 pixel, vec3 direction) {
+    if (!scene_has_environment) return vec3(0.0);
     return is_environment(3u) ? texelFetch(environment, pixel, 0).rgb : environment_radiance(direction);
 }
 

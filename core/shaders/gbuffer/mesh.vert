@@ -33,7 +33,7 @@ void main() {
     ws_normal = mat3(instance.normal_matrix) * attribute3(3u);
     ws_tangent = mat3(instance.world_from_object) * tangent.xyz;
     uvs = attribute4(10u);
-    color = attribute4(14u);
+    color = scene_has_vertex_colors ? attribute4(14u) : vec4(1.0);
     vec3 front = mat3(instance.normal_matrix) * attribute3(18u);
     float front_length = length(front);  // 0: a triangle without area, of which no fragment is drawn
     ws_front_normal = front_length > 0.0 ? front / front_length : vec3(0.0);
@@ -41,7 +41,9 @@ void main() {
     handedness = instance.ids.y == 1u ? -tangent.w : tangent.w;
 
     clip_now = camera.clip_from_world * world;
-    clip_before = camera.previous_clip_from_world * (instance.previous_world_from_object * os_position);
+    clip_before = clip_now;
+    if (!scene_is_still)
+        clip_before = camera.previous_clip_from_world * (instance.previous_world_from_object * os_position);
     gl_Position = clip_now;
     // A sample lies at pixel centre + jitter, so the image moves the other way.
     gl_Position.xy -= 2.0 * camera.jitter.xy * camera.extent.zw * clip_now.w;

@@ -55,7 +55,7 @@ void main() {
     float normal_length = length(ws_normal);
     vec3 n = normal_length > 0.0 ? ws_normal / normal_length : ws_front_normal;
 #ifdef HAS_TEXTURES
-    if ((m.sampling[slot_normal] & sampling_has_texture) != 0u) n = mapped_normal(m, n);
+    if (scene_has_normal_maps && (m.sampling[slot_normal] & sampling_has_texture) != 0u) n = mapped_normal(m, n);
 #endif
     vec3 to_camera = camera.frame.z == 1u ? camera.world_from_view[2].xyz : camera.world_from_view[3].xyz - ws_position;
     bool is_behind = dot(ws_front_normal, to_camera) < 0.0;
@@ -68,6 +68,6 @@ void main() {
     normal = vec4(n, m.factors.y * metalness_roughness.g);
     base_color = is_unlit ? vec4(0.0) : vec4(coloured.rgb, m.factors.x * metalness_roughness.b);
     emission = vec4(radiance, is_unlit ? 0.0 : m.emission.w);
-    motion = 0.5 * (clip_now.xy / clip_now.w - clip_before.xy / clip_before.w);
+    motion = scene_is_still ? vec2(0.0) : 0.5 * (clip_now.xy / clip_now.w - clip_before.xy / clip_before.w);
     material_id = material + 1u;
 }
