@@ -192,7 +192,12 @@ SyntheticHit rough_floor(const CameraRay& ray) {
 }
 
 TEST_F(AmdSssrVariant, LeavesEverythingOutWhereNothingIsGlossy) {
-    SceneFacts facts{.has_geometry = true, .has_reflective = true, .min_roughness = 0.6f, .max_roughness = 0.6f};
+    SceneFacts facts{.has_geometry = true,
+                     .has_reflective = true,
+                     .min_roughness = 0.6f,
+                     .max_roughness = 0.6f,
+                     .camera_moves = true,
+                     .has_environment = true};
     const auto whole = make_variant("amd_sssr"), less = make_variant("amd_sssr");
     const std::vector<LeftOut> left_out = less->leave_out(facts);
     const Frame all = render(*whole, rough_floor, 2, 0.5f);

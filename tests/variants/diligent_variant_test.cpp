@@ -285,11 +285,14 @@ TEST_F(DiligentVariant, LeavesOutWhatChangesNoPixelOfTheComposite) {
 
 TEST_F(DiligentVariant, LeavesNothingOutWhereSomethingIsSmooth) {
     for (const std::string preset : presets)
-        EXPECT_TRUE(
-            make_variant("diligent_ssr", nlohmann::json::object(), preset)
-                ->leave_out(
-                    {.has_reflective = true, .min_roughness = 0.15f, .max_roughness = 0.9f, .has_faulty_inputs = true})
-                .empty());
+        EXPECT_TRUE(make_variant("diligent_ssr", nlohmann::json::object(), preset)
+                        ->leave_out({.has_reflective = true,
+                                     .min_roughness = 0.15f,
+                                     .max_roughness = 0.9f,
+                                     .camera_moves = true,
+                                     .has_environment = true,
+                                     .has_faulty_inputs = true})
+                        .empty());
 }
 
 /// Histories included.

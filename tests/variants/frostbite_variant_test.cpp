@@ -119,7 +119,12 @@ SyntheticHit rough_floor(const CameraRay& ray) {
 }
 
 TEST_F(FrostbiteVariantTest, LeavesEverythingOutWhereNothingIsSmoothEnough) {
-    SceneFacts facts{.has_geometry = true, .has_reflective = true, .min_roughness = 0.7f, .max_roughness = 0.7f};
+    SceneFacts facts{.has_geometry = true,
+                     .has_reflective = true,
+                     .min_roughness = 0.7f,
+                     .max_roughness = 0.7f,
+                     .camera_moves = true,
+                     .has_environment = true};
     const nlohmann::json all = nlohmann::json::object();
     const nlohmann::json few = {
         {"previous_frame", false}, {"filtered_sampling", false}, {"classification", false}, {"temporal_filter", false}};
@@ -140,6 +145,10 @@ TEST_F(FrostbiteVariantTest, LeavesEverythingOutWhereNothingIsSmoothEnough) {
         EXPECT_EQ(none_run.values, all_run.values);
     }
     facts.min_roughness = 0.6f;
+    const std::vector<LeftOut> rough_only = make_variant("frostbite_sssr")->leave_out(facts);
+    ASSERT_EQ(rough_only.size(), 1u);
+    EXPECT_EQ(rough_only.front().what, "frostbite_sssr/trace_smooth");
+    facts.min_roughness = 0.1f;
     EXPECT_TRUE(make_variant("frostbite_sssr")->leave_out(facts).empty());
     facts.has_reflective = false;
     EXPECT_FALSE(make_variant("frostbite_sssr")->leave_out(facts).empty());
