@@ -49,7 +49,8 @@ struct Needs : VariantTest {
     }
 };
 
-const std::set<std::string> of_stillness = {"amd_sssr/reproject: motion vectors",
+const std::set<std::string> of_stillness = {"diligent_ssr/reprojected_depth",
+                                            "amd_sssr/reproject: motion vectors",
                                             "diligent_ssr/intersection: motion vectors",
                                             "diligent_ssr/temporal_accumulation: motion vectors",
                                             "frostbite_sssr/accumulate: motion vectors",

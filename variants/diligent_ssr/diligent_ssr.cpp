@@ -15,7 +15,8 @@ Reflections DiligentSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
         return {nothing, nothing, alpha};
     }
     const Image noise = has_mirrors_only_ ? noise_.table(graph) : this->noise(graph);
-    const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
+    const Image reprojected_depth =
+        is_still_ ? gbuffer.depth.as("reprojected_depth") : diligent_reprojected_depth(graph, gbuffer);
     const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing_);
     const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_, filter_);
     const Image color = tracing_.previous_frame ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit;
@@ -59,6 +60,10 @@ TracingVariant::Needless DiligentSsr::find_needless(const SceneFacts& facts) {
     if (tracing_.half_resolution) needless.stages.push_back("diligent_ssr/half_resolution_mask");
     if (tracing_.previous_frame) needless.stages.push_back("common/keep_lit");
 
+    is_still_ = facts.is_still();
+    if (is_still_)
+        needless.parts.push_back(
+            {"diligent_ssr/reprojected_depth", "nothing moves", "it is the depth itself", "", false});
     has_mirrors_only_ = stored(facts.max_roughness) == 0.0f;
     if (has_mirrors_only_) {
         const std::string fact = "all that reflects is a mirror";

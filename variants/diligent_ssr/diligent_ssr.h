@@ -23,5 +23,5 @@ private:
     DiligentFilterParameters filter_{params};
     BlueNoise noise_;
     LitHistory lit_;
-    bool is_left_out_ = false, has_mirrors_only_ = false;
+    bool is_left_out_ = false, has_mirrors_only_ = false, is_still_ = false;
 };
