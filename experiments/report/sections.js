@@ -121,9 +121,7 @@ function showNeeds() {
         if (!needs.length && !leftOut.length) continue;
         at("needs").append(
             h("details", {},
-              h("summary", {},
-                `${shot.shot}: ${
-                    leftOut.length ? "left out " + leftOut.map(l => l.what).join(", ") : "nothing left out"}`),
+              h("summary", {}, `${shot.shot}: ${leftOut.length ? leftOut.length + " parts left out" : "nothing left out"}`),
               table(
                   [{name: "Fact"}, {name: "Value"}, {name: "Why"}],
                   needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
