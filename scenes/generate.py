@@ -14,9 +14,10 @@ from generator.description import to_text
 SCENES = [
     mirrors.mirror_pillars, mirrors.grazing, mirrors.fence, mirrors.floating_holes, mirrors.offscreen_mirror,
     mirrors.curved_mirror, mirrors.facing_mirrors, mirrors.axis_parallel, mirrors.depth_range,
-    glossy.roughness_gradient, glossy.firefly, glossy.firefly_moving, glossy.contact_hardening, glossy.glossy_stretch, glossy.metal_corner,
-    glossy.normal_mapped, glossy.all_rough, glossy.all_rough_mirror_tile, glossy.sky_only, glossy.furnace,
-    glossy.furnace_sphere,
+    mirrors.hidden_faces, mirrors.corridor, mirrors.dark_room,
+    glossy.roughness_gradient, glossy.firefly, glossy.firefly_moving, glossy.contact_hardening, glossy.glossy_stretch,
+    glossy.metal_corner, glossy.normal_mapped, glossy.curved_metal, glossy.roughness_steps, glossy.rails,
+    glossy.all_rough, glossy.all_rough_mirror_tile, glossy.sky_only, glossy.furnace, glossy.furnace_sphere,
     motion.disocclusion, motion.disocclusion_moving_column, motion.moving_objects, motion.border_crossing,
     motion.passing_pillars, motion.moving_emitter, motion.stepping_emitter, motion.thin_pole,
     motion.rotating_mirror,

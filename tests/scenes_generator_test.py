@@ -30,6 +30,12 @@ COUNTS = {
     "glossy_stretch": (4 * 2 + 8 * 2 * 48 * 23 + 24 * 4 * 2, 7, 13),
     "metal_corner": (8 * 2 + 7 * 12 + 24 * 4 * 2, 4 + 4 + 7 + 2, 8 + 7 + 1),
     "normal_mapped": (3 * 2 + 7 * 12 + 20 * 6 * 2, 12, 11),
+    "hidden_faces": (2 + 6 * 12 + 2 * 48 * 23 + 8 * 5 * 2 + 2 * 2 + 4 * 32 * 1 + 2 * 32 + 5 * 2 + 2, 13, 21),
+    "corridor": (2 + 2 * 32 * 3 * 2 + 6 * 6 * 2 + 8 * (2 * 16 + 14), 13, 12),
+    "dark_room": (3 * 2 + 8 * 2 + 4 * 12, 8, 15),
+    "curved_metal": (24 * 20 * 2 + 3 * (2 * 48 + 46) + 3 * 2 * 48 + 2 * 12 * 7 + 7 * 12 + 12 * 4 * 2, 15, 16),
+    "roughness_steps": (5 * 2 + 6 * 24 * 2 + 60 * 64 * 2 + 2 + 24 * 2 + 21 * 12 + 16 * 4 * 2, 39, 54),
+    "rails": (2 + 10 * 12 + 2 + 34 * (2 * 8 + 6) + 6 * 12 + 24 * 8 * 2, 6, 53),
     "all_rough": (2 + 12 * 12, 13, 13),
     "all_rough_mirror_tile": (2 + 12 * 12 + 2, 14, 14),
     "sky_only": (0, 0, 0),
@@ -76,6 +82,13 @@ CAMERAS = {
     "stepping_emitter/main": ((0, 1.4, 2.5), (0, 0.2, -4), 45),
     "thin_pole/main": ((0, 1.4, 2.5), (0, 0.2, -3), 45),
     "rotating_mirror/main": ((0, 2.2, 3.6), (0, 1, -1.6), 45),
+    "hidden_faces/main": ((0, 2.6, 3), (0, 0.5, -3), 48),
+    "corridor/main": ((0, 1.4, 2), (0, 0.8, -6), 45),
+    "corridor/wide": ((0, 0.2, 0), (0, -0.9, -1.2), 100),
+    "dark_room/main": ((0, 1.6, 2.5), (0, 0.5, -4), 50),
+    "curved_metal/main": ((0, 1.7, 3.4), (-0.3, 0.7, -2.5), 48),
+    "roughness_steps/main": ((0, 1.5, 4), (0, 0.3, -3), 50),
+    "rails/main": ((0, 1.3, 2.5), (0, 0.3, -2.5), 45),
     "all_rough/main": ((0, 1.6, 4), (0, 0.8, -5), 50),
     "furnace/main": ((0, 1.7, 3), (0, 1.3, -5), 50),
 }
@@ -257,15 +270,23 @@ class Structure(unittest.TestCase):
             self.assertEqual({p for p in on_floor if p[0] == 2}, {p for p in on_wall if p[1] == 0})
             self.assertGreater(abs(floor_roughness - wall_roughness), 0.2)
 
-    def test_the_normal_map_holds_unit_vectors(self):
-        glb = Glb(SCENES / "normal_mapped/scene.glb")
-        view = glb.gltf["bufferViews"][glb.gltf["images"][0]["bufferView"]]
-        png = glb.binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
-        width, height, texels = decode_png(png)
-        self.assertEqual((width, height), (360, 560))
-        for i in range(0, len(texels), 3):
-            # 8 bits: each component is off by at most 1 / 255.
-            self.assertLess(abs(math.hypot(*(c / 127.5 - 1 for c in texels[i:i + 3])) - 1), math.sqrt(3) / 255)
+    def test_normal_maps_hold_unit_vectors(self):
+        for scene, size in (("normal_mapped", (360, 560)), ("rails", (128, 128))):
+            glb = Glb(SCENES / scene / "scene.glb")
+            view = glb.gltf["bufferViews"][glb.gltf["images"][0]["bufferView"]]
+            png = glb.binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+            width, height, texels = decode_png(png)
+            self.assertEqual((width, height), size)
+            for i in range(0, len(texels), 3):
+                # 8 bits: each component is off by at most 1 / 255.
+                self.assertLess(abs(math.hypot(*(c / 127.5 - 1 for c in texels[i:i + 3])) - 1), math.sqrt(3) / 255)
+
+    def test_roughness_steps_crosses_the_cut_offs_in_small_steps(self):
+        materials = Glb(SCENES / "roughness_steps/scene.glb").gltf["materials"]
+        ramp = [m["pbrMetallicRoughness"]["roughnessFactor"] for m in materials if m["name"].startswith("ramp_")]
+        self.assertEqual(ramp, sorted(ramp))
+        self.assertTrue(ramp[0] < 0.6 and ramp[-1] > 0.7)
+        self.assertLess(max(b - a for a, b in zip(ramp, ramp[1:])), 0.021)
 
 
 def decode_png(png):
@@ -301,7 +322,9 @@ class Cameras(unittest.TestCase):
         for scene, name, frames, offset in (("mirror_pillars", "dolly", 120, (0, 0, -4)),
                                             ("fence", "lateral", 60, (0.2, 0, 0)),
                                             ("disocclusion", "lateral", 60, (2, 0, 0)),
-                                            ("passing_pillars", "lateral", 60, (2.4, 0, 0))):
+                                            ("passing_pillars", "lateral", 60, (2.4, 0, 0)),
+                                            ("corridor", "dolly", 60, (0, 0, -8)),
+                                            ("curved_metal", "lateral", 60, (2.4, 0, 0))):
             found, keys = self.path(scene, name)
             self.assertEqual(found, frames)
             self.assertEqual(minus(keys[-1]["position"], keys[0]["position"]), [*offset])
@@ -325,6 +348,23 @@ class Cameras(unittest.TestCase):
         self.assertAlmostEqual(max(pitches) - pitches[0], 10, places=4)
         self.assertAlmostEqual(min(pitches) - pitches[0], -10, places=4)
         self.assertAlmostEqual(pitches[-1], pitches[0], places=4)
+
+    def test_sub_pixel_turns_of_rails_spread_over_a_pixel(self):
+        frames, keys = self.path("rails", "sub_pixel")
+        self.assertEqual((frames, [key["frame"] for key in keys]), (8, [*range(8)]))
+        main = description("rails")["cameras"][0]
+        forward = minus(main["target"], main["position"])
+        right, up = (1, 0, 0), (0, -forward[2], forward[1])
+        pixels_per_radian = 90 / math.tan(math.radians(main["vfov_deg"] / 2))  # of an image 180 high
+        places = []
+        for key in keys:
+            self.assertEqual(key["position"], main["position"])
+            way = minus(key["target"], key["position"])
+            depth = dot(way, forward) / math.hypot(*forward)
+            places.append([pixels_per_radian * dot(way, axis) / math.hypot(*axis) / depth for axis in (right, up)])
+        for axis in range(2):
+            values = sorted(place[axis] for place in places)
+            self.assertTrue(-0.5 < values[0] < -0.3 and 0.3 < values[-1] < 0.5, values)
 
     def test_yaw_of_passing_pillars(self):
         frames, keys = self.path("passing_pillars", "yaw")

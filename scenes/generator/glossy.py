@@ -1,9 +1,10 @@
-"""Rough reflectors and none at all: roughness_gradient to furnace."""
-from .description import camera, scene_json, shifted
+"""Rough reflectors and none at all: roughness_gradient to furnace_sphere."""
+from .description import camera, moving, scene_json, shifted
 from .gltf import Model
-from .normal_texture import normal_texture
-from .parts import BOX, add_box, add_checker_wall, hue
-from .shapes import floor, rectangle, unit_sphere
+from .normal_texture import bumps_texture, normal_texture
+from .parts import BOX, add_box, add_checker_wall, hue, reflector
+from .shapes import (along, checker, floor, minus, normalized, random_cells, rectangle, unit_arc, unit_pole,
+                     unit_sphere)
 
 SILVER = (0.9, 0.9, 0.9)
 DIM_LIGHT, DIM_DARK = (0.05, 0.05, 0.05), (0.02, 0.02, 0.02)
@@ -119,6 +120,87 @@ def normal_mapped():
     add_checker_wall(model, 20, 6, z=-11, cell=1, light=(1.6, 1.6, 1.6), dark=(0.1, 0.1, 0.15))
     main = camera("main", (0, 1.4, 5), (0, 0.6, -5), 45)
     return model, scene_json([main, shifted(main, "dolly", (0, 0, -4), frames=120)])
+
+
+def curved_metal():
+    """Half-pipes (concave) behind columns (convex) of the same roughness, and a mirror ball of few facets."""
+    model = Model()
+    ground = checker((-6, 0, 3), (0.5, 0, 0), (0, 0, -0.5), 24, 20)
+    light, dark = model.flat("ground_light", (0.5, 0.5, 0.5)), model.flat("ground_dark", (0.1, 0.1, 0.12))
+    model.add("ground", ground, light, dark)
+    column, pipe = unit_pole(48), unit_arc(160, 48, inward=True)
+    for i, roughness in enumerate((0.05, 0.15, 0.3)):
+        metal = reflector(model, roughness)
+        x = -1.3 + 1.8 * i
+        model.add(f"column{i}", column, metal, at=(x, 0, -1.5), scale=(0.3, 1, 0.3))
+        # An arc's middle is towards +z, and its hollow side there towards -z: it is turned about.
+        model.add(f"pipe{i}", pipe, metal, at=(x, 0, -3), scale=(0.8, 1.8, 0.8), rotation=(0, 1, 0, 0))
+    model.add("coarse_ball", unit_sphere(8, 12), model.mirror(), at=(-2.9, 0.8, -2.2), scale=(0.8, 0.8, 0.8))
+    for i in range(7):
+        place = (-3.5 + 1.2 * i, 0.35, -0.6 + 0.4 * (i % 2))
+        add_box(model, f"post{i}", hue(i / 7, value=1.5), place, (0.06, 0.35, 0.06))
+    add_checker_wall(model, 12, 4, z=-7, cell=1, light=(0.6, 0.6, 0.6), dark=DIM_DARK)
+    main = camera("main", (0, 1.7, 3.4), (-0.3, 0.7, -2.5), 48)
+    start = camera("start", (-1.2, 1.7, 3.4), (-1.5, 0.7, -2.5), 48)
+    return model, scene_json([main, shifted(start, "lateral", (2.4, 0, 0), frames=60)], environment=(0.1, 0.15, 0.25))
+
+
+def roughness_steps():
+    """From left to right: almost mirrors; a checker and random cells of two roughnesses; a ramp across the cut-offs."""
+    model = Model()
+    for i, roughness in enumerate((0, 0.01, 0.02, 0.04, 0.08)):
+        model.add(f"near_mirror{i}", floor(-4 + 0.5 * i, -3.5 + 0.5 * i, -4, 2),
+                  model.surface(f"metal_r{round(100 * roughness):02}", SILVER, 1.0, roughness))
+    smooth, rough = model.surface("checker_r05", SILVER, 1.0, 0.05), model.surface("checker_r50", SILVER, 1.0, 0.5)
+    model.add("checker", checker((-1.5, 0, 2), (0.25, 0, 0), (0, 0, -0.25), 6, 24), smooth, rough)
+    # 1 to 2 pixels across and below 1 high where the image is 320 x 180.
+    model.add("noise", random_cells((0, 0, -0.8), (0.025, 0, 0), (0, 0, -0.05), 60, 64, 2), smooth, rough)
+    model.add("below_noise", floor(0, 1.5, -0.8, 2), rough)
+    for i in range(24):
+        roughness = 0.4 + 0.02 * i
+        model.add(f"ramp{i:02}", floor(1.5 + 0.1 * i, 1.6 + 0.1 * i, -4, 2),
+                  model.surface(f"ramp_r{round(100 * roughness)}", SILVER, 1.0, roughness))
+    bars = [model.flat(f"bar{i}", hue(i / 6, value=1.5)) for i in range(6)]
+    for i in range(21):
+        model.add(f"bar{i:02}", BOX, bars[i % 6], at=(-4 + 0.4 * i, 0.9, -4.3), scale=(0.06, 0.9, 0.06))
+    add_checker_wall(model, 16, 4, z=-6, cell=1, light=(0.3, 0.3, 0.3), dark=DIM_DARK)
+    return model, scene_json([camera("main", (0, 1.5, 4), (0, 0.3, -3), 50)])
+
+
+# Halton (2, 3) less 1/2: where temporal anti-aliasing samples a pixel, in pixels.
+SUB_PIXEL_PLACES = [(0, -1 / 6), (-1 / 4, 1 / 6), (1 / 4, -7 / 18), (-3 / 8, -1 / 18), (1 / 8, 5 / 18),
+                    (-1 / 8, -5 / 18), (3 / 8, 1 / 18), (-7 / 16, 7 / 18)]
+
+
+def rails():
+    """Chrome rails over rough ground, and a wire fence behind a bumpy plate. Camera `sub_pixel` stands still but for
+    turns of less than a pixel of a 320 x 180 image."""
+    model = Model()
+    model.add("ground", floor(-5, 5, -6, 2), model.surface("ground", (0.3, 0.25, 0.2), 0.0, 0.9))
+    chrome = model.surface("chrome", SILVER, 1.0, 0.05)
+    for i in range(6):
+        model.add(f"rail{i}", BOX, chrome, at=(-3 + 0.45 * i, 0.1, -1), scale=(0.02, 0.02, 2.5))
+    for i in range(4):
+        model.add(f"cross_rail{i}", BOX, chrome, at=(-1.9, 0.2, -2.6 + i), scale=(1.4, 0.02, 0.02))
+    plate = model.surface("plate", (0.9, 0.9, 0.9), 1.0, 0.02)
+    model.normal_map(plate, bumps_texture(128, 0.04), 1)
+    bumpy = floor(0.2, 3.4, -3.2, 0, y=0.02)
+    bumpy.uvs = [((x - 0.2) / 3.2, (z + 3.2) / 3.2) for x, _, z in bumpy.positions]
+    bumpy.tangents = [(1.0, 0.0, 0.0, 1.0)] * 4  # the bitangent cross(normal, tangent) runs along -z
+    model.add("plate", bumpy, plate)
+    pole, wire = unit_pole(8), model.flat("wire", (3, 2.4, 1))
+    for i in range(34):
+        model.add(f"wire{i:02}", pole, wire, at=(0.1 + 0.1 * i, 0, -3.4), scale=(0.004, 1.2, 0.004))
+    for i in range(6):
+        model.add(f"cross_wire{i}", BOX, wire, at=(1.8, 0.2 + 0.2 * i, -3.4), scale=(1.7, 0.004, 0.004))
+    add_checker_wall(model, 12, 4, z=-6, cell=0.5, light=(0.8, 0.8, 0.8), dark=(0.05, 0.05, 0.08))
+    main = camera("main", (0, 1.3, 2.5), (0, 0.3, -2.5), 45)
+    forward = normalized(minus(main["target"], main["position"]))
+    right, up = (1, 0, 0), (0, -forward[2], forward[1])
+    pixel = 2 * 0.41421356 / 180  # of tan(45 / 2 degrees)
+    keys = [(main["position"], along(main["position"], (10, forward), (10 * x * pixel, right), (10 * y * pixel, up)))
+            for x, y in SUB_PIXEL_PLACES]
+    return model, scene_json([main, moving(main, "sub_pixel", keys, frames=len(keys))], environment=(0.3, 0.35, 0.45))
 
 
 SUN = {"type": "directional", "direction": [-0.4, -1, -0.3], "irradiance": 3}

@@ -1,8 +1,9 @@
-"""Perfect mirrors, to find out where rays end: mirror_pillars to facing_mirrors."""
+"""Perfect mirrors, to find out where rays end: mirror_pillars to dark_room."""
 from .description import camera, orbiting, scene_json, shifted
 from .gltf import Model
-from .parts import add_box, add_checker_wall, add_mirror_floor, hue
-from .shapes import checker, cosine, floor, rectangle, sine, unit_box, unit_pole, unit_sphere
+from .parts import BOX, add_box, add_checker_wall, add_mirror_floor, hue, reflector
+from .shapes import (checker, checker_wall, cosine, floor, rectangle, sine, unit_arc, unit_box, unit_disc, unit_pole,
+                     unit_sphere)
 
 
 def mirror_pillars():
@@ -120,3 +121,84 @@ def depth_range():
         add_box(model, f"box{k}", hue(k / 6), (x, -0.13 * d, -1.1 * d), (0.05 * d, 0.12 * d, 0.01 * d))
     main = camera("main", (0, 0, 0), (0, -0.2, -1), 40, near=1e-3, far=1e6)
     return model, scene_json([main], environment=(0.05, 0.05, 0.08))
+
+
+def hidden_faces():
+    """Left a mirror floor below a table and a ball; right a wall mirror behind things that face away from it."""
+    model = Model()
+    model.add("floor", floor(-4, 0, -5, 2), model.mirror())
+    add_box(model, "table_top", (0.7, 0.7, 0.6), (-1.5, 0.77, -2.6), (0.8, 0.02, 0.5))
+    add_box(model, "table_underside", (0.9, 0.3, 0.05), (-1.5, 0.74, -2.6), (0.8, 0.01, 0.5))
+    leg = model.flat("leg", (0.1, 0.3, 0.8))
+    for i, (x, z) in enumerate(((-2.2, -3), (-0.8, -3), (-2.2, -2.2), (-0.8, -2.2))):
+        model.add(f"leg{i}", BOX, leg, at=(x, 0.365, z), scale=(0.03, 0.365, 0.03))
+    ball = model.flat("ball", (0.1, 0.7, 0.2))
+    model.add("ball", unit_sphere(24, 48), ball, at=(-2.4, 0.35, -1), scale=(0.35, 0.35, 0.35))
+    wall = checker((-4, 0, -5), (0.5, 0, 0), (0, 0.5, 0), 8, 5)
+    model.add("wall", wall, model.flat("wall_light", (0.8, 0.8, 0.8)), model.flat("wall_dark", (0.08, 0.08, 0.1)))
+
+    model.add("ground", floor(0, 4, -5, 2), model.flat("ground", (0.15, 0.13, 0.1)))
+    model.add("wall_mirror", rectangle((2, 1.25, -4.5), (2, 0, 0), (0, 1.25, 0)), model.mirror())
+    # A cup that lies with its opening towards the wall mirror: the camera sees its bottom, the mirror its inside.
+    lying = (sine(-45), 0, 0, cosine(-45))
+    outside, inside = model.flat("cup_outside", (0.1, 0.3, 0.9)), model.flat("cup_inside", (0.9, 0.6, 0.05))
+    for name, shape, material, radius in (("outside", unit_arc(360, 32, inward=False), outside, 0.4),
+                                          ("inside", unit_arc(360, 32, inward=True), inside, 0.37),
+                                          ("bottom_outside", unit_disc(32, up=False), outside, 0.4),
+                                          ("bottom_inside", unit_disc(32, up=True), inside, 0.37)):
+        z = -2.42 if name == "bottom_inside" else -2.4
+        model.add(f"cup_{name}", shape, material, at=(0.8, 0.45, z), scale=(radius, 0.8, radius), rotation=lying)
+    # A box without its near side, which faces inwards alone: black from without, and so in the mirror.
+    lit = model.flat("inside_out", (0.8, 0.1, 0.6))
+    for name, center, half_u, half_v in (("back", (2, 0.5, -2.9), (0.4, 0, 0), (0, 0.4, 0)),
+                                         ("left", (1.6, 0.5, -2.5), (0, 0, -0.4), (0, 0.4, 0)),
+                                         ("right", (2.4, 0.5, -2.5), (0, 0, 0.4), (0, 0.4, 0)),
+                                         ("bottom", (2, 0.1, -2.5), (0, 0, 0.4), (0.4, 0, 0)),
+                                         ("top", (2, 0.9, -2.5), (0.4, 0, 0), (0, 0, 0.4))):
+        model.add(f"inside_out_{name}", rectangle(center, half_u, half_v), lit)
+    # Shines towards the camera alone.
+    model.add("panel", rectangle((3.2, 0.7, -2.6), (0.35, 0, 0), (0, 0.5, 0)), model.flat("panel", (2, 2, 1.6)))
+    return model, scene_json([camera("main", (0, 2.6, 3), (0, 0.5, -3), 48)])
+
+
+def corridor():
+    """`wide` has the floor 0.2 m below it, and passes it to behind the camera at the lower border."""
+    model = Model()
+    model.add("floor", floor(-1.5, 1.5, -24, 8), model.mirror())
+    light, dark = model.flat("wall_light", (0.5, 0.45, 0.4)), model.flat("wall_dark", (0.06, 0.06, 0.08))
+    model.add("left", checker((-1.5, 0, 8), (0, 0, -1), (0, 1, 0), 32, 3), light, dark)
+    model.add("right", checker((1.5, 0, -24), (0, 0, 1), (0, 1, 0), 32, 3), light, dark)
+    end_light, end_dark = model.flat("end_light", (2, 1.6, 0.4)), model.flat("end_dark", (0.1, 0.2, 0.6))
+    model.add("end", checker_wall(3, 3, -24, 0.5), end_light, end_dark)
+    pole = unit_pole()
+    for i in range(8):
+        lean = 50 if i % 2 else -50  # degrees to either side
+        material = model.flat(f"pole{i}", hue(i / 8, value=1.5))
+        # Their feet end 2 cm below the floor, whose mirror image would show a gap.
+        model.add(f"pole{i}", pole, material, at=(1.2 if i % 2 else -1.2, -0.02, -3 - 1.5 * i),
+                  scale=(0.015, 2.8, 0.015), rotation=(0, 0, sine(lean / 2), cosine(lean / 2)))
+    main = camera("main", (0, 1.4, 2), (0, 0.8, -6), 45)
+    wide = camera("wide", (0, 0.2, 0), (0, -0.9, -1.2), 100, near=0.02)
+    return model, scene_json([main, shifted(main, "dolly", (0, 0, -8), frames=60), wide])
+
+
+def dark_room():
+    """Closed but for a window, through which the sky is seen that the fallback shows everywhere."""
+    model = Model()
+    for i, roughness in enumerate((0, 0.1, 0.3)):
+        material = reflector(model, roughness)
+        model.add(f"floor{i}", floor(-3 + 2 * i, -1 + 2 * i, -7, 3), material)
+    paint = model.flat("paint", (0.02, 0.018, 0.015))
+    for name, center, half_u, half_v in (("left", (-3, 1.5, -2), (0, 0, -5), (0, 1.5, 0)),
+                                         ("right", (3, 1.5, -2), (0, 0, 5), (0, 1.5, 0)),
+                                         ("behind", (0, 1.5, 3), (-3, 0, 0), (0, 1.5, 0)),
+                                         ("ceiling", (0, 3, -2), (3, 0, 0), (0, 0, 5)),
+                                         ("end_left", (-2, 1.5, -7), (1, 0, 0), (0, 1.5, 0)),
+                                         ("end_right", (2, 1.5, -7), (1, 0, 0), (0, 1.5, 0)),
+                                         ("end_below", (0, 0.4, -7), (1, 0, 0), (0, 0.4, 0)),
+                                         ("end_above", (0, 2.6, -7), (1, 0, 0), (0, 0.4, 0))):
+        model.add(name, rectangle(center, half_u, half_v), paint)
+    for i, (x, z) in enumerate(((-2.2, -4), (-0.5, -4.6), (1, -3.6), (2.3, -4.4))):
+        add_box(model, f"box{i}", hue(i / 4, value=0.3), (x, 0.4, z), (0.25, 0.4, 0.25))
+    main = camera("main", (0, 1.6, 2.5), (0, 0.5, -4), 50, exposure_ev=1)
+    return model, scene_json([main], environment=(2, 2.4, 3))

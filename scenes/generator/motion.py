@@ -1,10 +1,8 @@
 """Things that move, and a camera that turns: what temporal reuse gets wrong."""
-import random
-
 from .description import camera, pitching, scene_json, shifted, yawing
 from .gltf import Model
 from .parts import BOX, add_box, add_checker_wall, add_mirror_floor, hue, reflector
-from .shapes import Shape, cosine, floor, rectangle, sine, tilted_disc, unit_sphere
+from .shapes import cosine, floor, random_cells, rectangle, sine, tilted_disc, unit_sphere
 
 
 def add_disocclusion(model):
@@ -12,16 +10,7 @@ def add_disocclusion(model):
     add_mirror_floor(model)
     column = model.add("column", BOX, model.flat("column", (0.9, 0.9, 0.9)), at=(0, 1.5, -2.5), scale=(0.3, 1.5, 0.3))
     hues = [model.flat(f"cell{i:02}", hue(i / 12, value=0.8)) for i in range(12)]
-    columns, rows = 40, 10
-    wall = Shape([(-10 + 0.5 * i, 0.5 * j, -7.0) for j in range(rows + 1) for i in range(columns + 1)],
-                 [(0.0, 0.0, 1.0)] * ((columns + 1) * (rows + 1)), [[] for _ in hues])
-    # Only random.random() is the same in all versions of Python.
-    dice = random.Random(7)
-    for j in range(rows):
-        for i in range(columns):
-            a = j * (columns + 1) + i
-            d = a + columns + 1
-            wall.parts[int(12 * dice.random())] += [a, a + 1, d + 1, a, d + 1, d]
+    wall = random_cells((-10, 0, -7), (0.5, 0, 0), (0, 0.5, 0), 40, 10, len(hues))
     model.add("wall", wall, *hues)
     return column
 

@@ -1,5 +1,6 @@
-"""The ripples of normal_mapped as a normal map in PNG."""
+"""Normal maps in PNG: the ripples of normal_mapped, the bumps of rails."""
 import math
+import random
 import struct
 import zlib
 
@@ -23,9 +24,25 @@ def normal_texture(steepness):
         rows.append(0)  # PNG: this row is not filtered
         for i in range(width):
             a, b = slopes(-4.5 + (i + 0.5) * TEXEL, -10 + (j + 0.5) * TEXEL, steepness)
-            # Rounding to 1e-9 first keeps the last bits of the machine's sine out of the rounding to 8 bits.
-            rows += bytes(math.floor(round(127.5 + 127.5 * c, 9) + 0.5) for c in normalized((-b, a, 1.0)))
+            rows += texel((-b, a, 1.0))
     return png(width, height, bytes(rows))
+
+
+def bumps_texture(size, steepness):
+    """`size` x `size` texels, each with slopes of its own of up to `steepness`; the same each time."""
+    dice = random.Random(7)  # only random.random() is the same in all versions of Python
+    rows = bytearray()
+    for _ in range(size):
+        rows.append(0)
+        for _ in range(size):
+            rows += texel((steepness * (2 * dice.random() - 1), steepness * (2 * dice.random() - 1), 1.0))
+    return png(size, size, bytes(rows))
+
+
+def texel(direction):
+    """Its unit vector in 8 bits."""
+    # Rounding to 1e-9 first keeps the last bits of the machine's sine out of the rounding to 8 bits.
+    return bytes(math.floor(round(127.5 + 127.5 * c, 9) + 0.5) for c in normalized(direction))
 
 
 def png(width, height, rows):

@@ -4,6 +4,7 @@ Front faces run counter-clockwise, as glTF wants. Sines and cosines are rounded 
 which the math libraries of two machines differ; all else is +, -, *, / and sqrt, which IEEE 754 fixes.
 """
 import math
+import random
 from dataclasses import dataclass, field
 
 
@@ -33,6 +34,10 @@ def normalized(v):
     return (v[0] / length, v[1] / length, v[2] / length)
 
 
+def minus(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
 def along(origin, *steps):
     """origin plus the sum of factor * vector over `steps`."""
     return tuple(origin[i] + sum(factor * vector[i] for factor, vector in steps) for i in range(3))
@@ -60,6 +65,18 @@ def checker(corner, step_u, step_v, columns, rows):
             d = a + columns + 1
             parts[(i + j) % 2] += [a, a + 1, d + 1, a, d + 1, d]
     return Shape(positions, [normalized(cross(step_u, step_v))] * len(positions), parts)
+
+
+def random_cells(corner, step_u, step_v, columns, rows, kinds):
+    """Cells as those of checker(), each of a material drawn from so many `kinds`; the same draw each time."""
+    shape = checker(corner, step_u, step_v, columns, rows)
+    cells = sorted((part[i:i + 6] for part in shape.parts for i in range(0, len(part), 6)), key=lambda cell: cell[0])
+    # Only random.random() is the same in all versions of Python.
+    dice = random.Random(7)
+    shape.parts = [[] for _ in range(kinds)]
+    for cell in cells:
+        shape.parts[int(kinds * dice.random())] += cell
+    return shape
 
 
 def checker_wall(width, height, z, cell, y=0.0):
@@ -102,6 +119,28 @@ def unit_pole(sides=16):
     for i in range(1, sides - 1):
         indices += [2 * sides, 2 * sides + i + 1, 2 * sides + i]
     return Shape(positions + [(x, 1.0, z) for x, z in ring], normals + [(0.0, 1.0, 0.0)] * sides, [indices])
+
+
+def unit_arc(degrees, sides, inward):
+    """A wall along an arc of radius 1 about +y, its middle towards +z, from y = 0 to 1; it faces the axis where
+    `inward`, else away from it."""
+    angles = [degrees * (i / sides - 0.5) for i in range(sides + 1)]
+    rim = [(sine(angle), cosine(angle)) for angle in angles]
+    sign = -1.0 if inward else 1.0
+    indices = []
+    for a in range(sides):
+        b, c, d = a + 1, a + sides + 2, a + sides + 1
+        indices += [a, c, b, a, d, c] if inward else [a, b, c, a, c, d]
+    positions = [(x, y, z) for y in (0.0, 1.0) for x, z in rim]
+    return Shape(positions, [(sign * x, 0.0, sign * z) for x, z in rim] * 2, [indices])
+
+
+def unit_disc(sides, up):
+    """Radius 1 in the plane y = 0, facing +y where `up`, else -y."""
+    rim = [(cosine(360 * i / sides), 0.0, -sine(360 * i / sides)) for i in range(sides)]
+    turn = 1 if up else -1
+    indices = [k for i in range(sides) for k in (0, *(1 + i, 1 + (i + 1) % sides)[::turn])]
+    return Shape([(0.0, 0.0, 0.0)] + rim, [(0.0, float(turn), 0.0)] * (sides + 1), [indices])
 
 
 def unit_sphere(rings, segments):
