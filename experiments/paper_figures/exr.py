@@ -9,6 +9,7 @@ import zlib
 import numpy as np
 
 ROWS_PER_BLOCK = {0: 1, 2: 1, 3: 16}  # no compression, ZIPS, ZIP
+LONG_NAMES = 0x400  # of layers and attributes: changes nothing of the layout
 TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 
 
@@ -16,11 +17,11 @@ class ExrError(Exception):
     """The file is missing or not what is read here: one sentence."""
 
 
-def read_exr_rgb(path):
-    """The channels R, G, B as float32 of shape (height, width, 3)."""
+def read_exr_rgb(path, layer=""):
+    """The channels R, G, B, of `layer` if one is named, as float32 of shape (height, width, 3)."""
     try:
         with open(path, "rb") as file:
-            return _decode(file.read())
+            return _decode(file.read(), [f"{layer}.{c}" if layer else c for c in "RGB"])
     except OSError as e:
         raise ExrError(f"cannot read {path}: {e.strerror}") from e
     except (struct.error, zlib.error, KeyError, IndexError, ValueError) as e:
@@ -34,7 +35,7 @@ def _text(data, at):
 
 def _header(data):
     magic, version = struct.unpack_from("<II", data, 0)
-    if magic != 20000630 or version & ~0xFF:
+    if magic != 20000630 or version & ~(0xFF | LONG_NAMES):
         raise ValueError("not a single-part scan-line file")
     attributes, at = {}, 8
     while data[at] != 0:
@@ -69,7 +70,7 @@ def _unpacked(block, size):
     return out.tobytes()
 
 
-def _decode(data):
+def _decode(data, wanted):
     attributes, at = _header(data)
     channels = _channels(attributes["channels"])
     rows_per_block = ROWS_PER_BLOCK[attributes["compression"][0]]
@@ -86,4 +87,4 @@ def _decode(data):
             for name, kind in channels:
                 planes[name][y] = np.frombuffer(raw, kind, width, position)
                 position += width * kind.itemsize
-    return np.stack([planes[c] for c in "RGB"], axis=-1)
+    return np.stack([planes[channel] for channel in wanted], axis=-1)
