@@ -40,6 +40,10 @@ struct RayProbe {
     bool is_recording = false;
     std::vector<RecordedRays> recorded;  ///< by pass in their order; whoever reads them clears them
 
+    /// Traced in place of those that the technique draws, by the passes of their stages: origin and direction; a pixel
+    /// without a ray here misses. Empty: nothing is replaced.
+    std::vector<RecordedRays> replayed;
+
     /// What the rays truly meet, for the tracer exact_scene; in the order of the rays.
     std::function<std::vector<ExactHit>(const RecordedRays&)> exact_hits;
 };

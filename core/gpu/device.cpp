@@ -205,11 +205,13 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         // Reads beyond an image give zeros, as the Direct3D originals of several techniques expect.
         vk::PhysicalDeviceVulkan13Features v13{
             .robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+        d.has_doubles = d.gpu.getFeatures().shaderFloat64;
         const vk::PhysicalDeviceFeatures v10{.robustBufferAccess = true,
                                              .independentBlend = true,
                                              .fragmentStoresAndAtomics = true,
                                              .shaderStorageImageExtendedFormats = true,
-                                             .shaderStorageImageWriteWithoutFormat = true};
+                                             .shaderStorageImageWriteWithoutFormat = true,
+                                             .shaderFloat64 = d.has_doubles};
         d.device = {d.gpu, vk::DeviceCreateInfo{.pNext = &v13,
                                                 .queueCreateInfoCount = 1,
                                                 .pQueueCreateInfos = &queue,
@@ -236,6 +238,8 @@ std::vector<std::string> Device::validation_messages() const {
     const std::lock_guard lock(impl_->log.mutex);
     return impl_->log.messages;
 }
+
+bool Device::has_doubles() const { return impl_->has_doubles; }
 
 bool Device::supports(Format format) const {
     const auto features = impl_->gpu.getFormatProperties(vulkan_format(format)).optimalTilingFeatures;

@@ -26,6 +26,7 @@ struct Device::Impl {
     DeviceInfo info;
     uint32_t queue_family = 0;
     float nanoseconds_per_tick = 1;  ///< of time stamps
+    bool has_doubles = false;        ///< in shaders
     uint32_t timestamp_bits = 0;     ///< 0: the queue cannot write time stamps
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};

@@ -60,7 +60,9 @@ void PassGraph::Pass::run() {
 }
 
 void PassGraph::Pass::run(glm::uvec2 extent) {
-    const auto local = graph_.pipelines.shader(shader_, vertex_shader_, *graph_.params, includes_).interface.local_size;
+    const Shader& shader =
+        graph_.pipelines.shader(shader_, vertex_shader_, *graph_.params, includes_, graph_.precision_of(*this));
+    const auto local = shader.interface.local_size;
     dispatch_groups({(extent.x + local[0] - 1) / local[0], (extent.y + local[1] - 1) / local[1], 1});
 }
 
@@ -112,9 +114,25 @@ void PassGraph::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& 
     commands.endRendering();
 }
 
+/// Says only what differs from the shader as it is, which is not made a second time then.
+ShaderPrecision PassGraph::Impl::precision_of(const Pass& pass) const {
+    ShaderPrecision result;
+    if (precision.is_double && precision.is_double(pass.label_)) {
+        if (!gpu.has_doubles) fail_machine("the Vulkan device '", gpu.info.name, "' has no doubles in shaders");
+        result.is_double = true;
+    }
+    if (!precision.format_of) return result;
+    const ShaderInterface& as_it_is =
+        pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_).interface;
+    for (const Image& image : pass.writes_)
+        if (as_it_is.formatted_images.contains(image.name)) result.image_formats[image.name] = image.format;
+    return result;
+}
+
 void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments,
                           size_t arguments_offset) {
-    const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_);
+    const ShaderPrecision changed = precision_of(pass);
+    const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, changed);
     check(pass, shader.interface);
     PipelineState state{.attachments = {},
                         .stencil = pass.stencil_.mode,
@@ -133,7 +151,8 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         for (const Image& image : attachments) state.attachments.push_back(image.format);
     }
     check_limits(pass, shader, attachments);
-    const Pipeline& pipeline = pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, pass.includes_, constants, state);
+    const Pipeline& pipeline =
+        pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, pass.includes_, constants, state, changed);
     execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
         commands.bindPipeline(pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics,
                               *pipeline.pipeline);

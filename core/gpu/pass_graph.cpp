@@ -2,6 +2,13 @@
 #include "core/gpu/pass_graph_impl.h"
 #include "core/gpu/resources.h"
 
+namespace {
+
+/// Both sides of a history are one image to those who ask for it.
+std::string without_side(const std::string& name) { return name.substr(0, name.find('#')); }
+
+}  // namespace
+
 PassGraph::PassGraph(Device& device, glm::uvec2 extent)
     : PassGraph(device, extent, device.info().is_cpu() ? Clock::host_fence : Clock::gpu_timestamp) {}
 PassGraph::PassGraph(Device& device, glm::uvec2 extent, Clock clock)
@@ -10,6 +17,12 @@ PassGraph::~PassGraph() = default;
 
 Clock PassGraph::clock() const { return impl_->clock; }
 void PassGraph::observe(PassObserver observer) { impl_->observer = std::move(observer); }
+void PassGraph::set_precision(Precision precision) { impl_->precision = std::move(precision); }
+std::string PassGraph::asked_name(const Image& image) const {
+    for (const auto& [name, known] : impl_->images)
+        if (known.storage == image.storage) return without_side(name);
+    return {};
+}
 bool PassGraph::has_input(const std::string& name) const { return impl_->inputs.contains(name); }
 glm::uvec2 PassGraph::extent() const { return impl_->extent; }
 Device& PassGraph::device() { return impl_->device; }
@@ -18,7 +31,9 @@ Image PassGraph::image(const std::string& name, Format format, unsigned mips, un
     return image_of(name, format, max(impl_->extent / divisor, 1u), mips);
 }
 
-Image PassGraph::image_of(const std::string& name, Format format, glm::uvec2 extent, unsigned mips) {
+Image PassGraph::image_of(const std::string& name, Format asked, glm::uvec2 extent, unsigned mips) {
+    const auto& format_of = impl_->precision.format_of;
+    const Format format = format_of ? format_of(without_side(name), asked) : asked;
     if (extent.x == 0 || extent.y == 0) fail("image '", name, "' has zero size");
     const auto [entry, is_new] = impl_->images.try_emplace(name);
     Image& image = entry->second;

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/gpu/image.h"
 #include "core/gpu/limits.h"
+#include "core/gpu/precision.h"
 #include "core/host_image.h"
 #include "core/parameters.h"
 #include "core/shared/camera.h"
@@ -122,6 +123,11 @@ public:
     /// From now on `observer` is told of each pass ({}: nobody is), and images begin as zeros, so that it never sees
     /// what nobody wrote.
     void observe(PassObserver observer);
+
+    /// Of the passes and images that are asked for from now on.
+    void set_precision(Precision precision);
+    /// The name that `image` was asked for by, whatever variable it is bound to; "" of another graph's.
+    std::string asked_name(const Image& image) const;
 
     /// In place of those that begin_frame() was given, for the passes that follow.
     void set_inputs(std::span<const Image> inputs);

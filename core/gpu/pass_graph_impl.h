@@ -31,6 +31,7 @@ struct PassGraph::Impl {
     Limits limits = Limits::none;
     Constants constants;
     PassObserver observer;
+    Precision precision;
 
     std::vector<PassTime> times;
     double frame_milliseconds = 0;
@@ -47,6 +48,7 @@ struct PassGraph::Impl {
     void flush();
     void add_time(const std::string& stage, double milliseconds);
 
+    ShaderPrecision precision_of(const Pass& pass) const;
     const vk::raii::Sampler& sampler(const Sampling& sampling);
     void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
     void check(const Pass& pass, const ShaderInterface& interface);

@@ -1,6 +1,7 @@
 #include "core/gpu/shader.h"
 
 #include "core/error.h"
+#include "core/gpu/double_shader.h"
 #include "core/parameters.h"
 
 #include <SPIRV/GlslangToSpv.h>
@@ -81,6 +82,12 @@ std::string complete_source(const std::string& prelude, size_t index, const Shad
            expand_includes(read_shader(files[index].name), index, includes, files);
 }
 
+std::string with_precision(const std::string& source, const ShaderPrecision& precision) {
+    const std::string formatted =
+        precision.image_formats.empty() ? source : with_image_formats(source, precision.image_formats);
+    return precision.is_double ? in_double(formatted, read_shader("precision/double_functions.glsl")) : formatted;
+}
+
 std::string webgl2_fragment(const std::string& prelude, const ShaderIncludes& includes,
                             std::vector<SourceFile>& files) {
     return std::string(webgl2_version) + webgl2_preamble + "#line 1 0\n" + complete_source(prelude, 1, includes, files);
@@ -144,6 +151,7 @@ void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& 
             found.resources.push_back({u.name, unsigned(u.getBinding()),
                                        u.getType()->getSampler().isCombined() ? Kind::sampler : Kind::image,
                                        is_vertex});
+            if (u.getType()->getQualifier().hasFormat()) found.formatted_images.insert(u.name);
         }
     }
     if (is_vertex) return;
@@ -192,7 +200,7 @@ Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude
 }
 
 Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,
-               const ShaderIncludes& includes, ShaderLanguage language) {
+               const ShaderIncludes& includes, ShaderLanguage language, const ShaderPrecision& precision) {
     static const bool initialised = glslang::InitializeProcess();
     (void)initialised;
     const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
@@ -207,9 +215,9 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
             sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, includes, files));
         }
     }
-    sources.emplace_back(
-        is_compute ? EShLangCompute : EShLangFragment,
-        webgl2 ? webgl2_fragment(prelude, includes, files) : complete_source(prelude, 1, includes, files));
+    sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment,
+                         webgl2 ? webgl2_fragment(prelude, includes, files)
+                                : with_precision(complete_source(prelude, 1, includes, files), precision));
 
     Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);

@@ -97,18 +97,20 @@ struct McGuireMarch : VariantTest {
         return rays;
     }
 
-    void expect_agreement(const std::vector<TestRay>& rays, const MarchSettings& settings, double least_hits) {
+    /// `relative`, `absolute`: by how much distances may differ (1, m). By default: float carries 1/w, a difference of
+    /// two projections, to about 1e-5 of the distance over a hundred pixels.
+    void expect_agreement(const std::vector<TestRay>& rays, const MarchSettings& settings, double least_hits,
+                          double relative = 1e-3, double absolute = 1e-4) {
         const std::vector<Found> found = march(rays);
         size_t hits = 0, close_calls = 0;
         for (size_t i = 0; i < rays.size(); ++i) {
             const MarchResult truth = brute_force_march(depth, camera, rays[i].origin, rays[i].direction, settings);
             hits += truth.is_hit;
             const glm::vec2 cell = floor(found[i].position - glm::vec2(camera.jitter));
-            // Float carries 1/w, a difference of two projections, to about 1e-5 of the distance over a hundred pixels.
             const bool agrees =
                 found[i].is_hit == truth.is_hit &&
-                (!truth.is_hit || (glm::ivec2(cell) == truth.pixel &&
-                                   std::abs(found[i].distance - truth.distance) < 1e-3 * truth.distance + 1e-4));
+                (!truth.is_hit || (glm::ivec2(cell) == truth.pixel && std::abs(found[i].distance - truth.distance) <
+                                                                          relative * truth.distance + absolute));
             if (agrees) continue;
             ++close_calls;
             EXPECT_TRUE(truth.is_close_call)
@@ -169,6 +171,14 @@ TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThicknessWithReversedDepthA
     expect_agreement(random_rays(4000),
                      {.stride = 3, .jitter = 1.25, .thickness = 0.02, .relative_thickness = 0.1, .max_distance = 50},
                      0.1);
+}
+
+/// The shader's own text, calculated in double, is the exact march but for the rounding of the distance to the float
+/// that it is written as (6e-8), and the length of directions, which float makes unit to 1.8e-7.
+TEST_F(McGuireMarch, InDoubleItIsExact) {
+    make_depth();
+    graph.set_precision({.format_of = {}, .is_double = [](const std::string&) { return true; }});
+    expect_agreement(random_rays(4000), {.max_distance = 50}, 0.1, 2.4e-7, 0.0);
 }
 
 TEST_F(McGuireMarch, IsTheSameAtEveryScale) {

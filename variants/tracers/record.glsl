@@ -23,6 +23,18 @@ uint record_index(TraceRay ray) {
     return pixel * recorded_rays_per_pixel + ray.number;
 }
 
+#ifdef REPLAYED_RAYS
+layout(std430) readonly buffer replayed_rays { RayRecord replayed_ray[]; };
+
+// The ray as it was recorded, for RayProbe::replayed. False where there was none.
+bool replay(inout TraceRay ray) {
+    uint index = record_index(ray);
+    ray.origin = replayed_ray[index].origin;
+    ray.direction = replayed_ray[index].direction;
+    return replayed_ray[index].is_traced > 0.0;
+}
+#endif
+
 void record(TraceRay ray, TraceEnd end) {
     record_of_ray[record_index(ray)] = RayRecord(ray.origin, 1.0, ray.direction, end.confidence, end.position,
                                                  end.distance, end.outcome, uvec2(end.pixel), depth_fetches, 0u);

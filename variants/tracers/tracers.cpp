@@ -45,25 +45,29 @@ std::vector<std::string> tracer_names() {
 /// What an include does besides tracing.
 enum class Including { trace, record, rays_only };
 
-/// The GLSL that stands for the slot. `needs`: of all slots that the shader includes.
+/// The GLSL that stands for the slot. `needs`: of all slots that the shader includes; `replays`: RayProbe::replayed.
 std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const TracerNeeds& needs, Including what,
-                    unsigned rays_per_pixel) {
+                    unsigned rays_per_pixel, bool replays = false) {
     const std::string head = "TraceEnd " + slot.function + "(TraceRay ray) ", call = tracer.name + "_trace(ray)";
     const std::string file = "#include \"" + tracer.shader + "\"\n";
     const std::string constants =
         "#ifndef RECORDED_RAYS_PER_PIXEL\n#define RECORDED_RAYS_PER_PIXEL\nconst uint "
         "recorded_rays_per_pixel = " +
         std::to_string(rays_per_pixel) + "u;\n#endif\n";
-    const std::string recorder = constants + "#include \"tracers/record.glsl\"\n";
+    const std::string recorder = constants + (replays ? "#ifndef REPLAYED_RAYS\n#define REPLAYED_RAYS\n#endif\n" : "") +
+                                 "#include \"tracers/record.glsl\"\n";
+    const std::string replay =
+        replays ? "    if (!replay(ray)) return missed(outcome_unfinished, vec2(0.0), 0.0);\n" : std::string();
     if (what == Including::rays_only)
         return recorder + head +
                "{\n    TraceEnd end = missed(outcome_unfinished, vec2(0.0), 0.0);\n    record(ray, end);\n    return "
                "end;\n}\n";
     std::string text = needs.depth_layers ? "#define TRACER_HAS_DEPTH_LAYERS\n" : "";
-    if (needs.exact_hits) text += recorder;
-    if (what == Including::trace) return text + file + head + "{ return " + call + "; }\n";
+    if (needs.exact_hits || replays) text += recorder;
+    if (what == Including::trace) return text + file + head + "{\n" + replay + "    return " + call + ";\n}\n";
     return "#ifndef COUNT_DEPTH_FETCHES\n#define COUNT_DEPTH_FETCHES\n#endif\n" + text + file + recorder + head +
-           "{\n    depth_fetches = 0u;\n    TraceEnd end = " + call + ";\n    record(ray, end);\n    return end;\n}\n";
+           "{\n" + replay + "    depth_fetches = 0u;\n    TraceEnd end = " + call +
+           ";\n    record(ray, end);\n    return end;\n}\n";
 }
 
 TracerNeeds both(const TracerNeeds& a, const TracerNeeds& b) {
@@ -171,15 +175,24 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
             "if the technique's needs_depth_layers() asks for it");
     const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
     const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
+    const RecordedRays* replayed = nullptr;
+    if (probe)
+        for (const RecordedRays& recorded : probe->replayed)
+            if (recorded.stage == pass.stage() && recorded.rays.size() == rays) replayed = &recorded;
     const auto run_as = [&](Including what) {
         PassGraph::Pass tracing = pass;
         for (const TracerSlot& slot : slots_)
             if (std::ranges::count(slots, slot.name))
-                tracing.include(slot.name, glsl_of(slot, chosen(slot.name), needed, what, rays_per_pixel));
+                tracing.include(slot.name, glsl_of(slot, chosen(slot.name), needed, what, rays_per_pixel, replayed));
         const bool traces = what != Including::rays_only;
         if (traces && needed.nearest_mips > 0) tracing.read(images.nearest);
         if (traces && needed.farthest_mips > 0) tracing.read(images.farthest);
         if (traces && needed.exact_hits) tracing.use(graph.buffer("exact_hits", rays * sizeof(ExactHit)));
+        if (traces && replayed) {
+            const Buffer replaying = graph.buffer("replayed_rays", rays * sizeof(RayRecord));
+            graph.upload(replaying, std::as_bytes(std::span(replayed->rays)));
+            tracing.use(replaying);
+        }
         if (what != Including::trace) {
             graph.clear(buffer(), 0);
             tracing.use(buffer());
