@@ -80,9 +80,10 @@ int needs_command(const NeedsOptions& options, const CommonOptions& common);
 
 struct StabilityOptions {
     std::vector<std::string> variants, cases;  ///< empty: all
-    bool has_all_stages = false;
+    bool has_all_stages = false, is_of_precision = false;
     std::filesystem::path table, out, figure;  ///< table "": ssrlab's own; figure "": none
 };
+int precision_command(const StabilityOptions& options, const CommonOptions& common);  ///< of its --precision: 0
 int stability_command(const StabilityOptions& options, const CommonOptions& common);  ///< the exit code: 0, 2 or 3
 /// The figure of a stability.csv: PDF, PNG or SVG by its name. The exit code: 0, 2 or 3.
 int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure);

@@ -241,8 +241,15 @@ int parse_and_run(int argc, char** argv) {
                                 "Tell of each stage in stability_stages.csv, also of those that are finite");
     stability_command_.add_option("--figure", stability.figure, "Also write the figure: .pdf, .png or .svg")
         ->type_name("FILE");
+    stability_command_.add_flag(
+        "--precision", stability.is_of_precision,
+        "In place of all that: formats and arithmetic, in half, float and double, one image and "
+        "one stage at a time (5 minutes; stability_precision.csv)");
     add_device(stability_command_, common), add_scene_path(stability_command_, common);
-    stability_command_.callback([&] { status = stability_command(stability, common); });
+    stability_command_.callback([&] {
+        status =
+            stability.is_of_precision ? precision_command(stability, common) : stability_command(stability, common);
+    });
 
     DescribeOptions describe;
     CLI::App& describe_command_ =

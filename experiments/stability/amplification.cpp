@@ -48,14 +48,13 @@ void move_color(HostGBuffer& g) {
     for (size_t i = 0; i < g.lit.pixel_count(); ++i) g.lit.set_rgb(i, g.lit.rgb(i) * (1 + color_step * sign_at(i)));
 }
 
-/// The nearest rank at or above the share.
+}  // namespace
+
 double quantile(std::vector<double>& values, double share) {
     const size_t rank = std::min(values.size() - 1, size_t(std::ceil(share * double(values.size() - 1))));
     std::nth_element(values.begin(), values.begin() + ptrdiff_t(rank), values.end());
     return values[rank];
 }
-
-}  // namespace
 
 std::vector<Perturbation> perturbations() {
     return {{"depth", move_depth}, {"normal", move_normal, normal_step}, {"lit", move_color, color_step}};

@@ -24,3 +24,6 @@ double relative_step_of(const Perturbation& perturbation, const HostGBuffer& gbu
 
 Amplification amplification(const Perturbation& perturbation, const CaseFrames& frames, const CaseRun& run,
                             const CaseRun& perturbed);
+
+/// The value that the share `share`, in [0, 1], of `values` lies below; changes their order. At least one value.
+double quantile(std::vector<double>& values, double share);

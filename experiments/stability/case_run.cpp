@@ -12,15 +12,12 @@
 
 namespace {
 
-constexpr unsigned seed = 1;
 /// Rounding of the formats that techniques store radiance in: of r11g11b10f's blue 2^-6, twice.
 constexpr float brighter_than_all = 1.04f;
 
 struct FrameImages {
     HostImage specular, radiance, confidence;
 };
-
-bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 float brightest(const HostGBuffer& gbuffer) {
     float most = 0.0f;
@@ -56,7 +53,7 @@ void judge(CaseRun& run, const FrameImages& frame, const HostGBuffer& gbuffer, f
 FrameImages render(PassGraph& graph, Variant& variant, Compositor& compositor, const CaseFrame& frame, StageScan* scan,
                    double& milliseconds) {
     if (scan) scan->resume();
-    const Reflections reflections = render_variant(graph, variant, frame.camera, seed, frame.gbuffer);
+    const Reflections reflections = render_variant(graph, variant, frame.camera, stability_seed, frame.gbuffer);
     milliseconds = graph.frame_milliseconds();
     if (scan) scan->pause();  // what the compositor makes of a bad pixel is no stage of the technique
     const Composite composite = compositor.render(frame.gbuffer, reflections);
@@ -116,6 +113,8 @@ void render_all(CaseRun& run, Device& device, Variant& variant, const CaseFrames
 }
 
 }  // namespace
+
+bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::string StabilityPoint::label() const {
     if (!preset.empty()) return preset;

@@ -2,6 +2,8 @@
 #include "experiments/stability/case_frames.h"
 #include "experiments/stability/stage_scan.h"
 
+inline constexpr unsigned stability_seed = 1;  ///< of all random numbers
+
 /// A technique with one set of parameters.
 struct StabilityPoint {
     std::string variant, preset;  ///< preset "": the defaults
@@ -38,3 +40,6 @@ CaseRun run_case(Device& device, const StabilityPoint& point, const StabilityCas
 /// Squared error over squared truth, of judged pixels that are finite: free of the scale of radiance. None where the
 /// truth is black.
 std::optional<double> relative_error(const CaseFrames& frames, const HostImage& specular);
+
+/// Whether all three are.
+bool is_finite(glm::vec3 v);

@@ -180,14 +180,20 @@ private:
 
 }  // namespace
 
+std::vector<StabilityCase> chosen_cases(const std::filesystem::path& table, const std::vector<std::string>& names) {
+    return chosen(read_stability_cases(table), names, "case", names_of_case);
+}
+
+std::vector<StabilityPoint> chosen_points(const std::vector<std::string>& names) {
+    return chosen(stability_points(), names, "technique", names_of_point);
+}
+
 std::vector<StabilityRow> run_stability(Device& device, const std::filesystem::path& table,
                                         const StabilitySelection& selection,
                                         const std::vector<std::filesystem::path>& search_path,
                                         const std::function<void(const std::vector<StabilityRow>&, double)>& done) {
-    const std::vector<StabilityCase> cases =
-        chosen(read_stability_cases(table), selection.cases, "case", names_of_case);
-    const std::vector<StabilityPoint> points =
-        chosen(stability_points(), selection.variants, "technique", names_of_point);
+    const std::vector<StabilityCase> cases = chosen_cases(table, selection.cases);
+    const std::vector<StabilityPoint> points = chosen_points(selection.variants);
     CaseDrawer drawer(device, search_path);
     std::map<std::string, CaseFrames> benign_frames;
     std::map<std::string, BenignRun> benign_runs;

@@ -7,6 +7,12 @@ struct StabilitySelection {
     std::vector<std::string> cases, variants;
 };
 
+/// The table's cases with these names, or of these groups, or all. Fails with Error on unknown ones.
+std::vector<StabilityCase> chosen_cases(const std::filesystem::path& table, const std::vector<std::string>& names);
+
+/// The points of stability_points() with these names, or all. Fails with Error on unknown ones.
+std::vector<StabilityPoint> chosen_points(const std::vector<std::string>& names);
+
 /// Runs every chosen technique through every chosen case, and the path tracer with them. `done` gets the rows so far
 /// whenever there is one more, with the share of the work that is behind it. Fails with Error on unknown names.
 std::vector<StabilityRow> run_stability(
