@@ -1,4 +1,5 @@
 #pragma once
+#include "core/ray_probe.h"
 #include "experiments/stability/case_run.h"
 
 #include <set>
