@@ -80,15 +80,14 @@ bool is_sound(const HostGBuffer& g, size_t pixel) {
     return true;
 }
 
-std::shared_ptr<const Reference> CaseDrawer::reference(const Scene& scene, const SceneCamera& camera,
-                                                       const CaseScene& wanted, unsigned pose) {
+std::shared_ptr<const Reference> TruthStore::get(const Scene& scene, const SceneCamera& camera, glm::uvec2 size,
+                                                 unsigned pose) {
     const ScenePose scene_pose = pose_scene(scene, float(pose));
     const CameraPose camera_pose = pose_camera(camera, scene_pose, float(pose));
     const ReferenceSettings settings{.max_samples = samples};
-    const std::string key = reference_stream(scene, scene_pose, camera_pose, wanted.size, settings);
-    std::shared_ptr<const Reference>& known = references_[key];
-    if (!known)
-        known = std::make_shared<Reference>(render_reference(scene, scene_pose, camera_pose, wanted.size, settings));
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const Reference>& known = known_[reference_stream(scene, scene_pose, camera_pose, size, settings)];
+    if (!known) known = std::make_shared<Reference>(render_reference(scene, scene_pose, camera_pose, size, settings));
     return known;
 }
 
@@ -117,7 +116,7 @@ CaseFrames CaseDrawer::draw(const CaseScene& wanted, const std::vector<InputFaul
         const auto [entry, is_new] = known.try_emplace({pose, before, has_fault});
         CaseFrame& frame = entry->second;
         if (is_new) {
-            const std::shared_ptr<const Reference> truth = reference(scene, camera, wanted, pose);
+            const std::shared_ptr<const Reference> truth = truths_.get(scene, camera, wanted.size, pose);
             Rasterizer& rasterizer = *drawn->rasterizer;
             const GBuffer gbuffer = rasterizer.render(camera, {.extent = wanted.size,
                                                                .depth_direction = wanted.depth_direction,
@@ -141,7 +140,7 @@ CaseFrames CaseDrawer::draw(const CaseScene& wanted, const std::vector<InputFaul
         frames.steps.push_back(frame);
         frames.steps.back().camera.frame.x = step;
     }
-    if (!frames.reference) frames.reference = reference(scene, camera, wanted, wanted.poses.back());
+    if (!frames.reference) frames.reference = truths_.get(scene, camera, wanted.size, wanted.poses.back());
     frames.truth = frames.reference->specular.mean;
 
     const HostGBuffer& last = *frames.steps.back().host;

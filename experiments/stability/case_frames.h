@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 
 /// One rendered frame of a case, as techniques read it.
 struct CaseFrame {
@@ -24,23 +25,30 @@ struct CaseFrames {
     std::vector<std::shared_ptr<void>> owners;  ///< of what the frames' images lie in
 };
 
-/// Draws cases, and path-traces what they are compared with: each picture once.
+/// The path-traced pictures of cases, each made once. For several threads.
+class TruthStore {
+public:
+    std::shared_ptr<const Reference> get(const Scene& scene, const SceneCamera& camera, glm::uvec2 size, unsigned pose);
+
+private:
+    std::mutex mutex_;  ///< also held while one is made, which uses all cores
+    std::map<std::string, std::shared_ptr<const Reference>> known_;  ///< by all that decides them
+};
+
+/// Draws cases.
 class CaseDrawer {
 public:
-    CaseDrawer(Device& device, std::vector<std::filesystem::path> search_path)
-        : device_(device), search_path_(std::move(search_path)) {}
+    CaseDrawer(Device& device, std::vector<std::filesystem::path> search_path, TruthStore& truths)
+        : device_(device), search_path_(std::move(search_path)), truths_(truths) {}
 
     /// `perturbation`, if there is one, changes each G-buffer after the case's faults.
     CaseFrames draw(const CaseScene& scene, const std::vector<InputFault>& faults = {},
                     const std::function<void(HostGBuffer&)>& perturbation = {});
 
 private:
-    std::shared_ptr<const Reference> reference(const Scene& scene, const SceneCamera& camera, const CaseScene& wanted,
-                                               unsigned pose);
-
     Device& device_;
     std::vector<std::filesystem::path> search_path_;
-    std::map<std::string, std::shared_ptr<const Reference>> references_;  ///< by all that decides them
+    TruthStore& truths_;
 };
 
 /// Whether every value that the G-buffer holds of the pixel is finite.

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
+#include <thread>
 
 namespace {
 
@@ -160,7 +162,7 @@ public:
 
 private:
     const BenignRun& benign_run(const StabilityPoint& point) {
-        const auto [entry, is_new] = benign_runs_.try_emplace(what_.benign_key + point.variant + ":" + point.label());
+        const auto [entry, is_new] = benign_runs_.try_emplace(point.variant + ":" + point.label());
         if (is_new) {
             const StabilityCase plain{.scene = what_.benign};
             const CaseRun run = run_case(device_, point, plain, benign_, false);
@@ -178,6 +180,74 @@ private:
     std::vector<std::pair<Perturbation, CaseFrames>> perturbed_;
 };
 
+/// Cases that are compared with the same one, which is drawn and rendered once for all of them.
+std::vector<std::vector<size_t>> batches_of(const std::vector<StabilityCase>& cases) {
+    std::map<std::string, size_t> known;
+    std::vector<std::vector<size_t>> batches;
+    for (size_t i = 0; i < cases.size(); ++i) {
+        const auto [entry, is_new] = known.emplace(cases[i].benign_key, batches.size());
+        if (is_new) batches.emplace_back();
+        batches[entry->second].push_back(i);
+    }
+    // The longest first, so that no thread is left with one of them when the others have nothing more to do.
+    std::ranges::stable_sort(batches, std::greater(), [](const auto& batch) { return batch.size(); });
+    return batches;
+}
+
+/// What the threads share.
+struct Work {
+    const std::vector<StabilityCase>& cases;
+    const std::vector<StabilityPoint>& points;
+    const std::vector<std::filesystem::path>& search_path;
+    const std::function<void(const std::vector<StabilityRow>&, double)>& done;
+    const std::vector<std::vector<size_t>> batches = batches_of(cases);
+    std::mutex mutex;  ///< of all that follows
+    size_t next_batch = 0, done_cases = 0;
+    std::vector<std::vector<StabilityRow>> rows = std::vector<std::vector<StabilityRow>>(cases.size());
+    std::exception_ptr failure;
+    TruthStore truths;
+
+    const std::vector<size_t>* take_batch() {
+        const std::lock_guard lock(mutex);
+        return failure || next_batch == batches.size() ? nullptr : &batches[next_batch++];
+    }
+
+    void finish(size_t index, std::vector<StabilityRow> finished) {
+        const std::lock_guard lock(mutex);
+        rows[index] = std::move(finished);
+        done(rows[index], double(++done_cases) / double(cases.size()));
+    }
+};
+
+std::vector<StabilityRow> rows_of(const StabilityCase& what, CaseJudge& judge,
+                                  const std::vector<StabilityPoint>& points) {
+    std::vector<StabilityRow> rows = {judge.path_tracer_row()};
+    for (const StabilityPoint& point : points) {
+        if (!what.only.empty() && !std::ranges::count(what.only, point.variant)) continue;
+        rows.push_back(judge.row(point));
+        rows.back().run.specular = {};
+    }
+    return rows;
+}
+
+void run_batch(Device& device, Work& work, const std::vector<size_t>& batch) {
+    CaseDrawer drawer(device, work.search_path, work.truths);
+    std::optional<CaseFrames> benign;
+    std::map<std::string, BenignRun> benign_runs;
+    for (const size_t i : batch) {
+        const StabilityCase& what = work.cases[i];
+        if (what.images) {
+            std::vector<StabilityRow> rows;
+            for (const Metric& metric : all_metrics()) rows.push_back(metric_row(what, metric));
+            work.finish(i, std::move(rows));
+            continue;
+        }
+        if (!benign) benign = drawer.draw(what.benign);
+        CaseJudge judge(device, drawer, what, *benign, benign_runs);
+        work.finish(i, rows_of(what, judge, work.points));
+    }
+}
+
 }  // namespace
 
 std::vector<StabilityCase> chosen_cases(const std::filesystem::path& table, const std::vector<std::string>& names) {
@@ -188,34 +258,27 @@ std::vector<StabilityPoint> chosen_points(const std::vector<std::string>& names)
     return chosen(stability_points(), names, "technique", names_of_point);
 }
 
-std::vector<StabilityRow> run_stability(Device& device, const std::filesystem::path& table,
+std::vector<StabilityRow> run_stability(std::span<Device* const> devices, const std::filesystem::path& table,
                                         const StabilitySelection& selection,
                                         const std::vector<std::filesystem::path>& search_path,
                                         const std::function<void(const std::vector<StabilityRow>&, double)>& done) {
     const std::vector<StabilityCase> cases = chosen_cases(table, selection.cases);
     const std::vector<StabilityPoint> points = chosen_points(selection.variants);
-    CaseDrawer drawer(device, search_path);
-    std::map<std::string, CaseFrames> benign_frames;
-    std::map<std::string, BenignRun> benign_runs;
-    std::vector<StabilityRow> rows;
-    for (size_t i = 0; i < cases.size(); ++i) {
-        const StabilityCase& what = cases[i];
-        const auto add = [&](StabilityRow row, size_t point) {
-            rows.push_back(std::move(row));
-            rows.back().run.specular = {};
-            done(rows, (double(i) + double(point + 1) / double(points.size() + 1)) / double(cases.size()));
-        };
-        if (what.images) {
-            for (const Metric& metric : all_metrics()) add(metric_row(what, metric), points.size());
-            continue;
-        }
-        auto benign = benign_frames.find(what.benign_key);
-        if (benign == benign_frames.end())
-            benign = benign_frames.emplace(what.benign_key, drawer.draw(what.benign)).first;
-        CaseJudge judge(device, drawer, what, benign->second, benign_runs);
-        add(judge.path_tracer_row(), 0);
-        for (size_t p = 0; p < points.size(); ++p)
-            if (what.only.empty() || std::ranges::count(what.only, points[p].variant)) add(judge.row(points[p]), p + 1);
+    Work work{.cases = cases, .points = points, .search_path = search_path, .done = done};
+    {
+        std::vector<std::jthread> threads;
+        for (Device* device : devices)
+            threads.emplace_back([&work, device] {
+                try {
+                    while (const std::vector<size_t>* batch = work.take_batch()) run_batch(*device, work, *batch);
+                } catch (...) {
+                    const std::lock_guard lock(work.mutex);
+                    if (!work.failure) work.failure = std::current_exception();
+                }
+            });
     }
+    if (work.failure) std::rethrow_exception(work.failure);
+    std::vector<StabilityRow> rows;
+    for (std::vector<StabilityRow>& own : work.rows) std::ranges::move(own, std::back_inserter(rows));
     return rows;
 }

@@ -23,8 +23,8 @@ struct StabilityTest : VariantTest {
     /// `cases`: what stands between the brackets.
     std::vector<StabilityRow> run(const std::string& cases, const std::vector<std::string>& variants) {
         write_text(table, R"({"cases": [)" + cases + "]}");
-        return run_stability(device(), table, {{}, variants}, {scenes},
-                             [](const std::vector<StabilityRow>&, double) {});
+        Device* const devices[] = {&device()};
+        return run_stability(devices, table, {{}, variants}, {scenes}, [](const std::vector<StabilityRow>&, double) {});
     }
 };
 
