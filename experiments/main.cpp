@@ -1,6 +1,7 @@
 #include "core/error.h"
 #include "experiments/commands.h"
 #include "experiments/host_info.h"
+#include "experiments/report.h"
 #include "metrics/tone_map.h"
 
 #include <CLI/CLI.hpp>
@@ -78,6 +79,14 @@ int parse_and_run(int argc, char** argv) {
                           "Remove cells and images that earlier versions of the study left in its folder");
     add_device(run_command_, common), add_scene_path(run_command_, common), add_cache(run_command_, common);
     run_command_.callback([&] { run_study_command(run, common); });
+
+    std::filesystem::path report_folder;
+    CLI::App& report_command_ = *app.add_subcommand("report", "Make report.html anew from the tables of a folder");
+    report_command_.add_option("results", report_folder, "A folder that `ssrlab run` or `ssrlab stability` filled")
+        ->required()
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR");
+    report_command_.callback([&] { write_report(report_folder); });
 
     FiguresOptions figures;
     CLI::App& figures_command_ =

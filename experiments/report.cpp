@@ -3,9 +3,11 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "experiments/html_text.h"
 #include "experiments/report_data.h"
 #include "experiments/report_images.h"
 #include "experiments/report_warnings.h"
+#include "experiments/stability/stability_report.h"
 #include "experiments/summary.h"
 
 #include <algorithm>
@@ -18,20 +20,14 @@ using nlohmann::json;
 constexpr size_t page_bytes = 15'000'000;  ///< a page is mailed and opened on slow machines: larger ones are not
 
 /// The page's scripts, in the order in which they build on each other.
-constexpr const char* scripts[] = {
-    "data.js",    "page.js",     "sections.js",   "points.js", "axes.js",      "line_chart.js",   "strips.js",
-    "ladder.js",  "summary.js",  "overview.js",   "charts.js", "roughness.js", "splits.js",       "hits.js",
-    "effects.js", "temporal.js", "image_data.js", "panes.js",  "viewer.js",    "viewer_input.js", "start.js"};
+constexpr const char* scripts[] = {"data.js",         "page.js",      "sections.js",   "points.js",  "axes.js",
+                                   "line_chart.js",   "strips.js",    "ladder.js",     "summary.js", "overview.js",
+                                   "charts.js",       "roughness.js", "splits.js",     "hits.js",    "effects.js",
+                                   "temporal.js",     "stability.js", "image_data.js", "panes.js",   "viewer.js",
+                                   "viewer_input.js", "start.js"};
 
 std::string part(const std::string& name) {
     return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report" / name);
-}
-
-std::string html_text(const std::string& text) {
-    std::string escaped;
-    for (const char c : text)
-        escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-    return escaped;
 }
 
 /// JSON inside a script element: no "</script>" may end it.
@@ -75,8 +71,7 @@ std::string static_table(const std::vector<const MetricSummary*>& rows) {
 /// What a reader without scripts gets: the warnings, and the relative and the absolute error of each shot.
 std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors,
                         const PointSet& singles) {
-    std::string html =
-        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in the CSV files beside this page.</p>\n";
+    std::string html;
     for (const std::string& warning : warnings) html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
     const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, "relmse"),
                                             others = headline_rows(errors, singles, "mse");
@@ -102,9 +97,33 @@ json image_description(const ReportImage& image) {
             {"target", image.target}, {"seed", image.seed},       {"width", image.width}, {"height", image.height}};
 }
 
+/// `values`: style, script and, where there are any, images.
+void write_page(const std::filesystem::path& folder, const std::string& title, const json& data,
+                std::map<std::string, std::string> values, const std::string& for_no_scripts) {
+    values["title"] = html_text(title);
+    values["data"] = script_text(data);
+    values["static"] =
+        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in the CSV files beside this page.</p>\n" +
+        for_no_scripts;
+    values.emplace("images", "");
+    write_text(folder / "report.html", filled(part("template.html"), values));
+}
+
 }  // namespace
 
 void write_report(const std::filesystem::path& folder) {
+    const json stability = stability_report_data(folder);
+    const std::string stability_part = stability.is_null() ? "" : stability_html(stability);
+    std::map<std::string, std::string> values = {{"style", part("style.css")}};
+    for (const char* name : scripts) values["script"] += part(name);
+    if (!stability.is_null() && !std::filesystem::exists(folder / "manifest.json")) {
+        // No study: the page has this one section.
+        json data = report_data({}, {});
+        for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
+        data["manifest"] = data["defaults"] = json::object();
+        data["stability"] = stability, data["is_study"] = false;
+        return write_page(folder, "What techniques bear", data, values, stability_part);
+    }
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
     const ReportTables tables = read_report_tables(folder, manifest);
@@ -119,12 +138,10 @@ void write_report(const std::filesystem::path& folder) {
     data["manifest"].erase("stale");   // not of this study as it is
     data["warnings"] = warnings;
     data["defaults"] = parameter_defaults(manifest);
-    std::string script;
-    for (const char* name : scripts) script += part(name);
-    std::map<std::string, std::string> values = {
-        {"style", part("style.css")}, {"script", script}, {"static", static_part(warnings, tables.errors, singles)}};
+    data["stability"] = stability, data["is_study"] = true;
+    const std::string for_no_scripts = static_part(warnings, tables.errors, singles) + stability_part;
 
-    size_t used = script_text(data).size() + 100'000;  // the template, descriptions and notes
+    size_t used = script_text(data).size() + for_no_scripts.size() + 100'000;  // the template, descriptions and notes
     for (const auto& [name, text] : values) used += text.size();
     const ReportImages images = report_images(folder, manifest, singles, used < page_bytes ? page_bytes - used : 0);
     data["notes"] = images.notes;
@@ -134,9 +151,6 @@ void write_report(const std::filesystem::path& folder) {
                             image.data + "</script>\n";
         data["images"].push_back(image_description(image));
     }
-    values.emplace("images", "");
-    values["data"] = script_text(data);
     const json title = manifest.value("title", json());
-    values["title"] = html_text(title.is_string() ? title.get<std::string>() : "Study");
-    write_text(folder / "report.html", filled(part("template.html"), values));
+    write_page(folder, title.is_string() ? title.get<std::string>() : "Study", data, values, for_no_scripts);
 }

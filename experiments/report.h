@@ -3,6 +3,7 @@
 
 /// Reads manifest.json, results.csv, splits.csv, effects.csv, times.csv (these three may be absent) and the EXR images
 /// of a results folder (experiments/RESULTS.md), and writes summary.csv, time_summary.csv and report.html into it, each
-/// atomically. The page is one file below 15 MB that needs no network. Fails with Error, naming the file, if one is
-/// missing or malformed.
+/// atomically. The page is one file below 15 MB that needs no network. Where the folder also holds the tables of
+/// `ssrlab stability`, the page shows them; where it holds these alone, it shows nothing else. Fails with Error, naming
+/// the file, if one is missing or malformed.
 void write_report(const std::filesystem::path& results_folder);

@@ -4,7 +4,9 @@
 #include "core/scene/load_scene.h"
 #include "experiments/commands.h"
 #include "experiments/progress.h"
+#include "experiments/report.h"
 #include "experiments/stability/stability.h"
+#include "experiments/stability/stability_report.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -77,6 +79,7 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
     for (const auto& device : devices) workers.push_back(device.get());
     const std::filesystem::path table = options.table.empty() ? stability_case_table() : options.table;
     std::filesystem::create_directories(options.out);
+    write_text(options.out / "stability_cases.csv", stability_cases_csv(read_stability_cases(table)));
     Progress progress(1.0);
     const auto write = [&](const std::vector<StabilityRow>& rows) {
         write_text(options.out / "stability.csv", stability_csv(rows));
@@ -93,7 +96,10 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
     rows = run_stability(workers, table, {options.cases, options.variants}, scene_search_path(common.scene_path), done);
     write(rows);
     print_verdicts(rows);
-    std::printf("\nTables: %s, and by stage stability_stages.csv\n", (options.out / "stability.csv").string().c_str());
+    const nlohmann::json data = stability_report_data(options.out);
+    std::printf("\n%s\n%s\n", failures_text(data).c_str(), data["lead"].get_ref<const std::string&>().c_str());
+    write_report(options.out);
+    std::printf("\nReport: %s\n", (options.out / "report.html").string().c_str());
     if (options.figure.empty()) return 0;
     return stability_figure(options.out / "stability.csv", options.figure);
 }

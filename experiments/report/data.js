@@ -100,6 +100,8 @@ function readData() {
         high: r[8]
     });
     return {
+        isStudy: raw.is_study,  // else the page shows `stability` alone
+        stability: raw.stability,  // as experiments/stability/stability_report.h has it; null: none
         manifest: raw.manifest,
         metrics: raw.metrics,
         defaults: raw.defaults,  // variant to {parameter: value}, of those that this build knows

@@ -63,6 +63,12 @@ std::string stability_csv(const std::vector<StabilityRow>& rows) {
     return text;
 }
 
+std::string stability_cases_csv(const std::vector<StabilityCase>& cases) {
+    std::string text = "case,family,group,why\n";
+    for (const StabilityCase& c : cases) text += csv_line(c.name, c.family, c.group, c.why);
+    return text;
+}
+
 std::string stability_stages_csv(const std::vector<StabilityRow>& rows, bool has_all) {
     std::string text = "case,variant,point,stage,image,nan,infinite,largest\n";
     for (const StabilityRow& r : rows)

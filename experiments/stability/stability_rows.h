@@ -29,6 +29,8 @@ struct StabilityRow {
 
 Verdict verdict_of(const StabilityRow& row);
 
-/// One line for each case and technique, and one for each of their stages that holds a non-finite value, or for all.
+/// One line for each case and technique, one for each case, and one for each stage of the former that holds a
+/// non-finite value, or for all of their stages.
 std::string stability_csv(const std::vector<StabilityRow>& rows);
+std::string stability_cases_csv(const std::vector<StabilityCase>& cases);
 std::string stability_stages_csv(const std::vector<StabilityRow>& rows, bool has_all);

@@ -11,6 +11,7 @@ import tempfile
 
 from report_browser import By, check, choose_in, equal, open_browser, rows_of, table_of, values
 from report_rays import test_rays
+from report_stability import test_stability
 from selenium.webdriver.support.ui import WebDriverWait
 
 RACING, LADDER = "first race=true", "truth ladder"
@@ -334,12 +335,40 @@ def test_temporal(page, folder):
 def test_quiet(page):
     equal([e["message"] for e in page.get_log("browser")], [], "console messages")
     shown = page.find_element(By.TAG_NAME, "body").text
-    for word in ("undefined", "NaN", "[object"):
+    for word in ("undefined", "[object"):
         check(word not in shown, f"the page says {word!r}")
+    # What techniques bear is told in numbers of NaN.
+    others = page.execute_script(
+        "return [...document.querySelectorAll('main > section:not(#stability)')].map(s => s.innerText).join()"
+    )
+    check("NaN" not in others, "the page says 'NaN'")
     equal(
         page.execute_script("return document.body.scrollWidth <= innerWidth"),
         True,
         "the page is not wider than the window",
+    )
+
+
+def test_stability_alone(page):
+    """A folder that holds no study."""
+    with tempfile.TemporaryDirectory(prefix="ssrlab_report_") as folder:
+        subprocess.run([sys.argv[1], "--stability", folder], check=True)
+        open_report(page, folder)
+        test_stability(page, folder)
+        ids = page.execute_script("return [...document.querySelectorAll('main > section')].map(s => s.id)")
+        equal(ids, ["stability"], "sections")
+        test_quiet(page)
+        page.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+        page.refresh()
+        text = page.find_element(By.TAG_NAME, "noscript").text
+        for part in ("20 runs of 4 techniques", "Cases by verdict", "amd_sssr/intersect: radiance", "UNEXPLAINED in 1 run"):
+            check(part in text, f"{part!r} is not in the part for readers without scripts: {text!r}")
+
+
+def open_report(page, folder):
+    page.get("file://" + os.path.join(folder, "report.html"))
+    WebDriverWait(page, 20).until(
+        lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
     )
 
 
@@ -350,10 +379,7 @@ def main():
         subprocess.run([sys.argv[1], "--study", folder], check=True)
         page = open_browser(profile)
         try:
-            page.get("file://" + os.path.join(folder, "report.html"))
-            WebDriverWait(page, 20).until(
-                lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
-            )
+            open_report(page, folder)
             test_results(page, folder)
             test_truth_ladder(page, folder)
             test_images_of_a_rung(page)
@@ -363,7 +389,9 @@ def main():
             test_stages(page)
             test_effects(page, folder)
             test_temporal(page, folder)
+            test_stability(page, folder)
             test_quiet(page)
+            test_stability_alone(page)
         finally:
             page.quit()
 
