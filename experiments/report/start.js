@@ -3,7 +3,7 @@
 document.body.append(tip);
 showStability();
 Promise.resolve(report.isStudy ? showStudy() : showStabilityAlone())
-    .then(() => document.documentElement.setAttribute('data-ready', ''));
+    .then(() => document.documentElement.setAttribute("data-ready", ""));
 
 /// Resolves when the pictures are there.
 function showStudy() {
@@ -13,7 +13,7 @@ function showStudy() {
         choiceListeners.push(showOverview, showSummary, showScatter);
         choiceListeners.forEach(f => f());
     } else {
-        at('summary').append(h('p', {class: 'note'}, 'results.csv has no rows.'));
+        at("summary").append(h("p", {class: "note"}, "results.csv has no rows."));
     }
     showRoughness();
     showSplits();
@@ -28,6 +28,6 @@ function showStudy() {
 }
 
 function showStabilityAlone() {
-    document.querySelectorAll('nav, main > section:not(#stability), #stability > h2').forEach(part => part.remove());
-    at('subtitle').textContent = 'ssrlab stability';
+    document.querySelectorAll("nav, main > section:not(#stability), #stability > h2").forEach(part => part.remove());
+    at("subtitle").textContent = "ssrlab stability";
 }

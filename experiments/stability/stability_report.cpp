@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace {
@@ -159,10 +160,13 @@ struct WorstChange {
 std::string lead_of(const json& data) {
     const json &rows = data["rows"], &techniques = data["techniques"], &cases = data["cases"];
     std::vector<bool> is_finite(techniques.size(), true), spreads(techniques.size(), false);
-    size_t failed = 0;
+    std::set<size_t> met_techniques, met_cases;  // but for the metrics' own
+    size_t runs = 0, failed = 0;
     WorstChange worst;
     for (size_t r = 0; r < rows.size(); ++r) {
         const size_t technique = rows[r][1];
+        if (techniques[technique]["variant"] == "metrics") continue;
+        ++runs, met_techniques.insert(technique), met_cases.insert(rows[r][0].get<size_t>());
         const json& values = rows[r][3];
         if (values.contains("non_finite")) ++failed, is_finite[technique] = false;
         if (values.contains("spread_pixels")) spreads[technique] = true;
@@ -173,9 +177,9 @@ std::string lead_of(const json& data) {
     std::vector<size_t> spreading;
     for (size_t t = 0; t < techniques.size(); ++t)
         if (spreads[t]) spreading.push_back(t);
-    const auto finite = size_t(std::ranges::count(is_finite, true));
-    std::string text = counted(rows.size(), "run") + " of " + counted(techniques.size(), "technique") + " in " +
-                       counted(cases.size(), "case") + ". In " + std::to_string(failed) +
+    const auto finite = size_t(std::ranges::count_if(met_techniques, [&](size_t t) { return is_finite[t]; }));
+    std::string text = counted(runs, "run") + " of " + counted(met_techniques.size(), "technique") + " in " +
+                       counted(met_cases.size(), "case") + ". In " + std::to_string(failed) +
                        " of them a stage holds NaN or Inf; " + std::to_string(finite) +
                        " of the techniques hold none in any. ";
     text += spreading.empty()
@@ -192,6 +196,9 @@ std::string lead_of(const json& data) {
     }
     return text;
 }
+
+/// What is not told of only had what other stages passed it.
+bool is_told(const json& failure) { return failure["first"] > 0 || !failure["explanations"].empty(); }
 
 /// How failures are told to readers of text: the operations of a place, or that nobody has told of them.
 std::string explained(const json& failure, const char* key, const char* between) {
@@ -230,13 +237,13 @@ json stability_report_data(const std::filesystem::path& folder) {
 std::string failures_text(const json& data) {
     std::string text;
     for (const json& f : data["failures"]) {
-        if (f["first"] == 0) continue;
+        if (!is_told(f)) continue;
         text += "\n" + f["variant"].get<std::string>() + ": " + joined(f["points"], ", ") + "\n  " +
                 f["place"].get<std::string>() + ", in " + counted(f["cases"].size(), "case") + ": " +
                 joined(f["cases"], ", ") + "\n  fails by: " + explained(f, "operation", "; or ") +
                 "\n  mended by: " + explained(f, "mend", "; ") + "\n";
     }
-    return text.empty() ? text : "Where values that are not finite first arise:\n" + text;
+    return text.empty() ? text : "Where values that are not finite arise, and what spreads them:\n" + text;
 }
 
 std::string stability_html(const json& data) {
@@ -254,10 +261,11 @@ std::string stability_html(const json& data) {
     html += "</tbody></table>\n";
     if (data["failures"].empty()) return html;
     html +=
-        "<table><caption>Where values that are not finite first arise</caption><thead><tr><th>Technique<th>Stage: "
+        "<table><caption>Where values that are not finite arise, and what spreads "
+        "them</caption><thead><tr><th>Technique<th>Stage: "
         "image<th>Cases<th>Operation<th>Mend</tr></thead><tbody>\n";
     for (const json& f : data["failures"])
-        if (f["first"] > 0)
+        if (is_told(f))
             html += "<tr><td>" + html_text(f["variant"].get<std::string>() + " " + joined(f["points"], ", ")) + "<td>" +
                     html_text(f["place"]) + "<td>" + html_text(joined(f["cases"], ", ")) + "<td>" +
                     html_text(explained(f, "operation", "; or ")) + "<td>" + html_text(explained(f, "mend", "; ")) +

@@ -44,7 +44,7 @@ void write_stability_fixture(const std::filesystem::path& folder) {
             {"depth", 300.0 / double(technique), 9e4}, {"normal", 1, 20}, {"lit", 0, 3}};
     StabilityRow& spreads = row(1, 1);
     add_failure(spreads, "amd_sssr/intersect", "radiance", 9, 3);
-    add_failure(spreads, "amd_sssr/prefilter", "prefiltered_radiance", 36, 0);
+    add_failure(spreads, "amd_sssr/reproject", "variance", 36, 0);
     spreads.run.spread_pixels = 12, spreads.run.spread_frames = 2;
     add_failure(row(2, 3), "of_another_build/trace", "result", 5, 0);
     row(3, 1).run.negative = 7;

@@ -1,6 +1,8 @@
 #include "experiments/stability/stability.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
+#include "experiments/stability/known_failures.h"
+#include "experiments/stability/stability_report.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>
@@ -91,6 +93,44 @@ TEST_F(StabilityTest, OriginalsShowWhereTheyFail) {
     EXPECT_EQ(rows[6].variant, "amd_sssr");
     EXPECT_EQ(rows[6].run.first_non_finite, "amd_sssr/intersect: radiance");
     EXPECT_GE(rows[6].verdict, Verdict::inside);
+}
+
+/// Of each stage in which values that are not finite arise, failures.json tells why.
+TEST_F(StabilityTest, EachFailureOfTheOriginalsIsExplained) {
+    const auto folder = table.parent_path() / (table.stem().string() + "_out");
+    std::filesystem::create_directories(folder);
+    const auto hit = [](const std::string& name, const std::string& fault) {
+        return R"({"case": ")" + name + R"(", "family": "bad hit", )" +
+               R"("group": "faults", "why": "w", "size": [24, 14], "scene": "roughness_gradient", "frames": 3, )" +
+               R"("faults": [{"step": 1, "image": )" + fault + R"(, "at": [0.5, 0.275]}]},)";
+    };
+    const std::vector<StabilityRow> rows = run(
+        hit("lit", R"("lit", "value": "nan")") + hit("depth", R"("depth", "value": "inf")") +
+            R"({"case": "planes", "group": "depth", "why": "w", "size": [48, 27], "scene": "mirror_pillars", "near": 1e-3, "far": 1e6},
+                {"case": "orthographic", "group": "sizes", "why": "w", "size": [24, 24], "scene": "axis_parallel", "camera": "orthographic"})",
+        {"amd_sssr:repeatable", "diligent_ssr:current", "frostbite_sssr:frostbite_2015", "simple_ssr:slides_mirror",
+         "mcguire_dda:tracer=cells"});
+    write_text(folder / "stability.csv", stability_csv(rows));
+    write_text(folder / "stability_stages.csv", stability_stages_csv(rows, false));
+    write_text(folder / "stability_cases.csv", stability_cases_csv(read_stability_cases(table)));
+    const nlohmann::json data = stability_report_data(folder);
+    std::filesystem::remove_all(folder);
+    EXPECT_GT(data["failures"].size(), 8u);
+    for (const nlohmann::json& failure : data["failures"])
+        EXPECT_EQ(failure["unexplained"], 0u) << failure["variant"] << " " << failure["place"] << failure["cases"];
+}
+
+TEST_F(StabilityTest, FailuresNameTechniquesAndCasesThatExistAndAreInTheReadme) {
+    std::set<std::string> techniques, cases;
+    for (const StabilityPoint& p : stability_points()) techniques.insert({p.variant, p.variant + ":" + p.label()});
+    for (const StabilityCase& c : read_stability_cases(stability_case_table()))
+        cases.insert({c.name, c.family, c.group});
+    const std::string readme = read_text(stability_case_table().parent_path() / "README.md");
+    for (const KnownFailure& failure : read_known_failures(known_failures_file())) {
+        for (const std::string& name : failure.techniques) EXPECT_TRUE(techniques.contains(name)) << name;
+        for (const std::string& name : failure.cases) EXPECT_TRUE(cases.contains(name)) << name;
+        EXPECT_NE(readme.find("| " + failure.operation + " |"), std::string::npos) << failure.operation;
+    }
 }
 
 /// The output of one mirror ray is a colour of the lit image: a step of 2^-11 of it is a step of 2^-11 there, or of its
