@@ -187,6 +187,7 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         d.gpu = std::move(gpus[index]);
         d.info = infos[index];
         d.nanoseconds_per_tick = d.gpu.getProperties().limits.timestampPeriod;
+        d.largest_side = d.gpu.getProperties().limits.maxImageDimension2D;
 
         const auto families = d.gpu.getQueueFamilyProperties();
         const auto does_all = [](const vk::QueueFamilyProperties& f) {
@@ -258,7 +259,7 @@ vk::raii::DeviceMemory Device::Impl::allocate(const vk::MemoryRequirements& requ
                     return {device, vk::MemoryAllocateInfo{.allocationSize = requirements.size, .memoryTypeIndex = i}};
                 } catch (const vk::SystemError&) {
                     fail_machine("the Vulkan device '", info.name, "' has no ", requirements.size >> 20,
-                                 " MiB of memory left");
+                                 " MiB of memory left: choose a smaller size");
                 }
     fail_machine("the Vulkan device '", info.name, "' has no suitable memory type");
 }

@@ -28,6 +28,7 @@ struct Device::Impl {
     float nanoseconds_per_tick = 1;  ///< of time stamps
     bool has_doubles = false;        ///< in shaders
     uint32_t timestamp_bits = 0;     ///< 0: the queue cannot write time stamps
+    uint32_t largest_side = 0;       ///< of an image, pixels
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
     vk::raii::CommandPool pool{nullptr};

@@ -60,6 +60,9 @@ vk::BufferImageCopy whole_mip(const Image& image) {
 }  // namespace
 
 std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm::uvec2 extent, unsigned mips) {
+    if (std::max(extent.x, extent.y) > gpu.largest_side)
+        fail_machine("an image of ", extent.x, "x", extent.y, " pixels is larger than any of the Vulkan device '",
+                     gpu.info.name, "', whose sides have ", gpu.largest_side, " at most: choose a smaller size");
     auto storage = std::make_shared<ImageStorage>();
     storage->aspect = aspect_of(format);
     const vk::Format vk_format = vulkan_format(format);
