@@ -89,7 +89,7 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
     const auto done = [&](const std::vector<StabilityRow>& rows_of_case, double share) {
         rows.insert(rows.end(), rows_of_case.begin(), rows_of_case.end());
         write(rows);
-        progress.update(share, rows_of_case.front().case_name);
+        if (!rows_of_case.empty()) progress.update(share, rows_of_case.front().case_name);
         for (const StabilityRow& row : rows_of_case)
             if (const std::string line = complaint(row); !line.empty()) progress.say(line);
     };

@@ -13,7 +13,8 @@ const verdictMarks = [
 const stabilityColumns = [
     ["error", "Error", "squared error over squared truth of the specular radiance"],
     ["benign_error", "Benign error", "the same without what makes the case hard"],
-    ["error_ratio", "Error / benign error", ""], ["non_finite", "NaN and Inf", "values of all stages and frames"],
+    ["error_ratio", "Error / benign error", ""], ["seeds", "Seeds", "of which the errors are means; more than one where the ratio is near that of worse"],
+    ["non_finite", "NaN and Inf", "values of all stages and frames"],
     ["first_non_finite", "First in", "stage: image"],
     ["spread_pixels", "Spread", "pixels of one frame that are not finite though their inputs are"],
     ["spread_frames", "Spread in time", "frames after the fault in which there are any"],

@@ -116,7 +116,8 @@ CaseFrames CaseDrawer::draw(const CaseScene& wanted, const std::vector<InputFaul
         const auto [entry, is_new] = known.try_emplace({pose, before, has_fault});
         CaseFrame& frame = entry->second;
         if (is_new) {
-            const std::shared_ptr<const Reference> truth = truths_.get(scene, camera, wanted.size, pose);
+            const std::shared_ptr<const Reference> truth =
+                wanted.is_lit_directly ? nullptr : truths_.get(scene, camera, wanted.size, pose);
             Rasterizer& rasterizer = *drawn->rasterizer;
             const GBuffer gbuffer = rasterizer.render(camera, {.extent = wanted.size,
                                                                .depth_direction = wanted.depth_direction,
@@ -124,7 +125,10 @@ CaseFrames CaseDrawer::draw(const CaseScene& wanted, const std::vector<InputFaul
                                                                .seed = 1,
                                                                .index = step,
                                                                .previous_frame = before});
-            rasterizer.upload_lit(gbuffer, truth->diffuse.mean);
+            if (truth)
+                rasterizer.upload_lit(gbuffer, truth->diffuse.mean);
+            else
+                rasterizer.light_directly(gbuffer);
             HostGBuffer host = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), wanted.depth_format);
             for (size_t i = 0; i < faults.size(); ++i)
                 if (has_fault[i]) apply(faults[i], host);
@@ -140,8 +144,9 @@ CaseFrames CaseDrawer::draw(const CaseScene& wanted, const std::vector<InputFaul
         frames.steps.push_back(frame);
         frames.steps.back().camera.frame.x = step;
     }
-    if (!frames.reference) frames.reference = truths_.get(scene, camera, wanted.size, wanted.poses.back());
-    frames.truth = frames.reference->specular.mean;
+    if (!frames.reference && !wanted.is_lit_directly)
+        frames.reference = truths_.get(scene, camera, wanted.size, wanted.poses.back());
+    if (frames.reference) frames.truth = frames.reference->specular.mean;
 
     const HostGBuffer& last = *frames.steps.back().host;
     const HostImage reflectance = specular_reflectance(last);

@@ -18,11 +18,11 @@ struct CaseFrame {
 /// What a case shows, and the truth of its last frame. Frames that look alike share their images.
 struct CaseFrames {
     std::vector<CaseFrame> steps;
-    HostImage truth;                 ///< RGB: specular radiance of the last frame
-    std::vector<uint8_t> is_sound;   ///< by pixel: all that the last G-buffer holds of it is finite
-    std::vector<uint8_t> is_judged;  ///< ... and it reflects
-    std::shared_ptr<const Reference> reference;
-    std::vector<std::shared_ptr<void>> owners;  ///< of what the frames' images lie in
+    HostImage truth;                             ///< RGB: specular radiance of the last frame; empty: not known
+    std::vector<uint8_t> is_sound;               ///< by pixel: all that the last G-buffer holds of it is finite
+    std::vector<uint8_t> is_judged;              ///< ... and it reflects
+    std::shared_ptr<const Reference> reference;  ///< null with `truth` empty
+    std::vector<std::shared_ptr<void>> owners;   ///< of what the frames' images lie in
 };
 
 /// The path-traced pictures of cases, each made once. For several threads.

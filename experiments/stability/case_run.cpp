@@ -50,8 +50,8 @@ void judge(CaseRun& run, const FrameImages& frame, const HostGBuffer& gbuffer, f
     run.spread_frames += is_after_faults && spread > 0;
 }
 
-FrameImages render(PassGraph& graph, Variant& variant, Compositor& compositor, const CaseFrame& frame, StageScan* scan,
-                   double& milliseconds) {
+FrameImages render(PassGraph& graph, Variant& variant, Compositor& compositor, const CaseFrame& frame, unsigned seed,
+                   StageScan* scan, double& milliseconds) {
     if (scan) scan->resume();
     const Reflections reflections = render_variant(graph, variant, frame.camera, stability_seed, frame.gbuffer);
     milliseconds = graph.frame_milliseconds();
@@ -72,11 +72,11 @@ double mean_of_judged(const CaseFrames& frames, const HostImage& specular) {
 }
 
 void render_all(CaseRun& run, Device& device, Variant& variant, const CaseFrames& frames, const StabilityCase& what,
-                bool is_scanned) {
+                const CaseRunOptions& options) {
     const glm::uvec2 extent = frames.steps.front().host->extent();
     PassGraph graph(device, extent);
     std::optional<StageScan> scan;
-    if (is_scanned) scan.emplace(graph);
+    if (options.is_scanned) scan.emplace(graph);
     Compositor compositor(graph);
     unsigned last_fault = 0;
     for (const InputFault& fault : what.faults) last_fault = std::max(last_fault, fault.step.value_or(1u << 31));
@@ -93,8 +93,8 @@ void render_all(CaseRun& run, Device& device, Variant& variant, const CaseFrames
         }
         double milliseconds = 0;
         const bool is_looked_at = step < 32 || step % 16 == 0;  // of long sequences some frames are enough
-        FrameImages images =
-            render(graph, variant, compositor, frame, scan && is_looked_at ? &*scan : nullptr, milliseconds);
+        FrameImages images = render(graph, variant, compositor, frame, options.seed,
+                                    scan && is_looked_at ? &*scan : nullptr, milliseconds);
         run.milliseconds = step ? std::min(run.milliseconds, milliseconds) : milliseconds;
         const float most = what.feeds_back ? std::numeric_limits<float>::max() : brightest(*frame.host);
         judge(run, images, *frame.host, most, step > last_fault);
@@ -135,7 +135,7 @@ std::vector<StabilityPoint> stability_points() {
 }
 
 CaseRun run_case(Device& device, const StabilityPoint& point, const StabilityCase& what, const CaseFrames& frames,
-                 bool is_scanned, const CaseFrames* before) {
+                 const CaseRunOptions& options, const CaseFrames* before) {
     CaseRun run;
     try {
         const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
@@ -143,9 +143,9 @@ CaseRun run_case(Device& device, const StabilityPoint& point, const StabilityCas
         variant->ray_probe = &probe;
         if (before) {
             CaseRun smaller;
-            render_all(smaller, device, *variant, *before, what, false);
+            render_all(smaller, device, *variant, *before, what, {});
         }
-        render_all(run, device, *variant, frames, what, is_scanned);
+        render_all(run, device, *variant, frames, what, options);
     } catch (const Error& error) {
         run.refusal = error.what();
     }
@@ -153,6 +153,7 @@ CaseRun run_case(Device& device, const StabilityPoint& point, const StabilityCas
 }
 
 std::optional<double> relative_error(const CaseFrames& frames, const HostImage& specular) {
+    if (frames.truth.values.empty()) return std::nullopt;
     double error = 0, truth = 0;
     for (size_t i = 0; i < specular.pixel_count(); ++i) {
         if (!frames.is_judged[i] || !is_finite(specular.rgb(i))) continue;

@@ -32,10 +32,14 @@ struct CaseRun {
     std::string refusal;        ///< why it could not be rendered
 };
 
+struct CaseRunOptions {
+    unsigned seed = 1;
+    bool is_scanned = false;  ///< every image of every stage is looked at, which takes the most of the time
+};
+
 /// Renders the frames of `what`, after those of `before`, if there are any, in which the technique saw another size.
-/// With `is_scanned` every image of every stage is looked at, which takes the most of the time.
 CaseRun run_case(Device& device, const StabilityPoint& point, const StabilityCase& what, const CaseFrames& frames,
-                 bool is_scanned, const CaseFrames* before = nullptr);
+                 const CaseRunOptions& options = {}, const CaseFrames* before = nullptr);
 
 /// Squared error over squared truth, of judged pixels that are finite: free of the scale of radiance. None where the
 /// truth is black.

@@ -42,8 +42,36 @@ void brighten(Scene& scene, float factor) {
     for (float& value : scene.environment.latlong.values) value *= factor;
 }
 
+/// Each mesh by the inverse of `scale`, below which its instances hang: the picture stays, but the normals go through a
+/// transform as ill-conditioned as the ratio of its parts.
+void scale_instances(Scene& scene, glm::vec3 scale) {
+    for (Mesh& mesh : scene.meshes)
+        for (Vertex& v : mesh.vertices) {
+            v.position /= scale;
+            v.normal = glm::normalize(v.normal * scale);
+            v.tangent = glm::vec4(glm::normalize(glm::vec3(v.tangent) / scale), v.tangent.w);
+        }
+    for (Instance& instance : scene.instances) {
+        Node node{.name = "instance scale", .parent = int(instance.node)};
+        node.scale = scale;
+        for (int axis = 0; axis < 3; ++axis) node.parent_from_node[axis][axis] = scale[axis];
+        instance.node = unsigned(scene.nodes.size());
+        scene.nodes.push_back(node);
+    }
+}
+
+/// Of 2x2 texels: the upper left and the lower right one are there.
+int add_mask(Scene& scene) {
+    Texture texture{.name = "mask", .extent = {2, 2}};
+    for (const uint8_t alpha : {255, 0, 0, 255}) texture.rgba.insert(texture.rgba.end(), {255, 255, 255, alpha});
+    texture.wrap_u = texture.wrap_v = TextureWrap::clamp_to_edge, texture.is_nearest = true;
+    scene.textures.push_back(texture);
+    return int(scene.textures.size()) - 1;
+}
+
 /// {"corners": three or four points, counter-clockwise seen from the front, and the material's "roughness",
-/// "metalness", "base_color", "emission"}.
+/// "metalness", "base_color", "emission"; "masked": by a board of 2x2 squares, of which that at the first corner and
+/// the one across are there}.
 void add_quad(Scene& scene, JsonObject quad) {
     const nlohmann::json& json = quad.any("corners");
     if (!json.is_array() || json.size() < 3 || json.size() > 4) fail(quad.where(), ": 'corners' must be 3 or 4 points");
@@ -62,12 +90,20 @@ void add_quad(Scene& scene, JsonObject quad) {
     material.base_color = quad.vector("base_color", glm::vec3(0.95f));
     material.emission = quad.vector("emission", glm::vec3(0.0f));
     material.is_double_sided = quad.boolean("double_sided", true);
+    if (quad.boolean("masked", false)) {
+        material.alpha_mode = AlphaMode::mask;
+        material.base_color_texture.texture = add_mask(scene);
+    }
     quad.finish();
     Mesh mesh{.name = "quad", .indices = {0, 1, 2}, .material = unsigned(scene.materials.size())};
     if (corners.size() == 4) mesh.indices.insert(mesh.indices.end(), {0, 2, 3});
-    for (const glm::vec3 corner : corners)
-        mesh.vertices.push_back(
-            {.position = corner, .normal = normal, .tangent = {1, 0, 0, 1}, .uv = {}, .color = glm::vec4(1)});
+    constexpr glm::vec2 uv[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (size_t i = 0; i < corners.size(); ++i)
+        mesh.vertices.push_back({.position = corners[i],
+                                 .normal = normal,
+                                 .tangent = {1, 0, 0, 1},
+                                 .uv = {uv[i], uv[i]},
+                                 .color = glm::vec4(1)});
     scene.instances.push_back({.mesh = unsigned(scene.meshes.size()), .node = unsigned(scene.nodes.size())});
     scene.materials.push_back(material), scene.meshes.push_back(mesh), scene.nodes.push_back({.name = "quad"});
 }
@@ -92,6 +128,7 @@ ChangedScene changed_scene(const CaseScene& wanted, const std::vector<std::files
     if (result.camera.far == 0.0f) result.camera.far = 1000.0f;
     if (wanted.near) result.camera.near = *wanted.near;
     if (wanted.far) result.camera.far = *wanted.far;
+    if (wanted.instance_scale != glm::vec3(1.0f)) scale_instances(scene, wanted.instance_scale);
     if (wanted.scale != glm::vec3(1.0f)) {
         scale_nodes(scene, wanted.scale);
         result.camera.node += result.camera.node >= 0;

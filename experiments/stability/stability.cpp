@@ -101,6 +101,21 @@ struct BenignRun {
     double milliseconds = 0;
 };
 
+/// Of the truth, as relative_error() has errors: from the difference of its two halves. None where it is black.
+std::optional<double> noise_of(const CaseFrames& frames) {
+    if (!frames.reference) return std::nullopt;
+    const ReferenceOutput& specular = frames.reference->specular;
+    double noise = 0, truth = 0;
+    for (size_t i = 0; i < frames.truth.pixel_count(); ++i) {
+        if (!frames.is_judged[i]) continue;
+        const glm::dvec3 t(frames.truth.rgb(i)),
+            difference = glm::dvec3(specular.half_a.rgb(i)) - glm::dvec3(specular.half_b.rgb(i));
+        noise += glm::dot(difference, difference) / 4, truth += glm::dot(t, t);
+    }
+    if (truth == 0) return std::nullopt;
+    return noise / truth;
+}
+
 /// One case on its way through the techniques.
 class CaseJudge {
 public:
@@ -124,24 +139,27 @@ public:
     StabilityRow row(const StabilityPoint& point) {
         StabilityRow row{
             .case_name = what_.name, .group = what_.group, .variant = point.variant, .point = point.label()};
-        row.run = run_case(device_, point, what_, frames_, true, before_ ? &*before_ : nullptr);
+        row.run = run_case(device_, point, what_, frames_, {.is_scanned = true}, before_ ? &*before_ : nullptr);
         if (row.run.refusal.empty()) {
             if (what_.has_truth()) row.error = relative_error(frames_, row.run.specular);
-            const BenignRun& benign = benign_run(point);
+            const BenignRun& benign = benign_run(point, 1);
             row.benign_error = benign.error;
+            if (is_near_worse(row, frames_.truth.pixel_count())) average_seeds(row, point);
             if (benign.milliseconds > 0) row.time_ratio = row.run.milliseconds / benign.milliseconds;
             measure_drift(row);
             if (what_.feeds_back) measure_gain(row);
             for (const auto& [perturbation, frames] : perturbed_)
                 row.amplifications.push_back(
-                    amplification(perturbation, frames_, row.run, run_case(device_, point, what_, frames, false)));
+                    amplification(perturbation, frames_, row.run, run_case(device_, point, what_, frames)));
         }
         row.verdict = verdict_of(row);
         return row;
     }
 
-    /// What the path tracer made of it. Where it must give the benign case's picture, that one is its truth.
-    StabilityRow path_tracer_row() const {
+    /// What the path tracer made of it; of a case that it is not asked about nothing. Where it must give the benign
+    /// case's picture, that one is its truth; else its error is its own noise.
+    std::optional<StabilityRow> path_tracer_row() const {
+        if (!frames_.reference) return std::nullopt;
         StabilityRow row{.case_name = what_.name, .group = what_.group, .variant = "path_tracer", .point = "default"};
         row.run.non_finite = frames_.reference->non_finite_samples;
         if (row.run.non_finite) row.run.first_non_finite = "samples";
@@ -153,6 +171,8 @@ public:
         if (what_.is_truth_same) {
             row.error = relative_error(benign_, frames_.truth);
             row.benign_error = 0.0;
+        } else {
+            row.error = noise_of(frames_), row.benign_error = noise_of(benign_);
         }
         if (frames_.reference->seconds > 0 && benign_.reference->seconds > 0)
             row.time_ratio = frames_.reference->seconds / benign_.reference->seconds;
@@ -161,11 +181,26 @@ public:
     }
 
 private:
-    const BenignRun& benign_run(const StabilityPoint& point) {
-        const auto [entry, is_new] = benign_runs_.try_emplace(point.variant + ":" + point.label());
+    /// Over so many seeds; a technique that draws no random number shows it by the second.
+    void average_seeds(StabilityRow& row, const StabilityPoint& point) {
+        const unsigned most = frames_.truth.pixel_count() < 1000 ? 9 : 3;
+        double error = *row.error, benign_error = *row.benign_error;
+        for (unsigned seed = 2; seed <= most; ++seed) {
+            const CaseRun run = run_case(device_, point, what_, frames_, {.seed = seed}, before_ ? &*before_ : nullptr);
+            const std::optional<double> own = relative_error(frames_, run.specular);
+            const std::optional<double> own_benign = benign_run(point, seed).error;
+            if (!own || !own_benign || (*own == *row.error && *own_benign == *row.benign_error)) return;
+            error += *own, benign_error += *own_benign;
+        }
+        row.error = error / most, row.benign_error = benign_error / most, row.seeds = most;
+    }
+
+    const BenignRun& benign_run(const StabilityPoint& point, unsigned seed) {
+        const auto [entry, is_new] =
+            benign_runs_.try_emplace(point.variant + ":" + point.label() + " " + std::to_string(seed));
         if (is_new) {
             const StabilityCase plain{.scene = what_.benign};
-            const CaseRun run = run_case(device_, point, plain, benign_, false);
+            const CaseRun run = run_case(device_, point, plain, benign_, {.seed = seed});
             if (run.refusal.empty()) entry->second = {relative_error(benign_, run.specular), run.milliseconds};
         }
         return entry->second;
@@ -180,6 +215,12 @@ private:
     std::vector<std::pair<Perturbation, CaseFrames>> perturbed_;
 };
 
+/// In frames of 96x54: what a smaller one takes is what its passes take, whatever their size.
+double work_in(const StabilityCase& what) {
+    const double pixels = double(what.scene.size.x) * what.scene.size.y / (96 * 54);
+    return double(what.scene.poses.size()) * std::max(1.0, pixels) * (what.is_perturbed ? 4 : 1);
+}
+
 /// Cases that are compared with the same one, which is drawn and rendered once for all of them.
 std::vector<std::vector<size_t>> batches_of(const std::vector<StabilityCase>& cases) {
     std::map<std::string, size_t> known;
@@ -190,7 +231,11 @@ std::vector<std::vector<size_t>> batches_of(const std::vector<StabilityCase>& ca
         batches[entry->second].push_back(i);
     }
     // The longest first, so that no thread is left with one of them when the others have nothing more to do.
-    std::ranges::stable_sort(batches, std::greater(), [](const auto& batch) { return batch.size(); });
+    const auto work = [&](const std::vector<size_t>& batch) {
+        return std::accumulate(batch.begin(), batch.end(), 0.0,
+                               [&](double sum, size_t i) { return sum + work_in(cases[i]); });
+    };
+    std::ranges::stable_sort(batches, std::greater(), work);
     return batches;
 }
 
@@ -219,13 +264,33 @@ struct Work {
     }
 };
 
+bool is_for(const StabilityCase& what, const StabilityPoint& point) {
+    return what.only.empty() || std::ranges::any_of(names_of_point(point), [&](const std::string& name) {
+               return std::ranges::count(what.only, name) > 0;
+           });
+}
+
 std::vector<StabilityRow> rows_of(const StabilityCase& what, CaseJudge& judge,
                                   const std::vector<StabilityPoint>& points) {
-    std::vector<StabilityRow> rows = {judge.path_tracer_row()};
+    std::vector<StabilityRow> rows;
+    if (std::optional<StabilityRow> row = judge.path_tracer_row()) rows.push_back(std::move(*row));
     for (const StabilityPoint& point : points) {
-        if (!what.only.empty() && !std::ranges::count(what.only, point.variant)) continue;
+        if (!is_for(what, point)) continue;
         rows.push_back(judge.row(point));
         rows.back().run.specular = {};
+    }
+    return rows;
+}
+
+/// Of a case that could not even be drawn.
+std::vector<StabilityRow> refused_rows(const StabilityCase& what, const std::vector<StabilityPoint>& points,
+                                       const std::string& refusal) {
+    std::vector<StabilityRow> rows;
+    for (const StabilityPoint& point : points) {
+        if (!is_for(what, point)) continue;
+        StabilityRow row{.case_name = what.name, .group = what.group, .variant = point.variant, .point = point.label()};
+        row.run.refusal = refusal, row.verdict = verdict_of(row);
+        rows.push_back(std::move(row));
     }
     return rows;
 }
@@ -243,8 +308,14 @@ void run_batch(Device& device, Work& work, const std::vector<size_t>& batch) {
             continue;
         }
         if (!benign) benign = drawer.draw(what.benign);
-        CaseJudge judge(device, drawer, what, *benign, benign_runs);
-        work.finish(i, rows_of(what, judge, work.points));
+        std::vector<StabilityRow> rows;
+        try {
+            CaseJudge judge(device, drawer, what, *benign, benign_runs);
+            rows = rows_of(what, judge, work.points);
+        } catch (const MachineError& error) {
+            rows = refused_rows(what, work.points, error.what());
+        }
+        work.finish(i, std::move(rows));
     }
 }
 

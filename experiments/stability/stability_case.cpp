@@ -15,10 +15,10 @@ glm::uvec2 read_size(JsonObject& object, const std::string& key, glm::uvec2 fall
     if (!object.has(key)) return fallback;
     const nlohmann::json& size = object.any(key);
     const auto is_side = [](const nlohmann::json& side) {
-        return side.is_number_unsigned() && side >= 1u && side <= 16384u;
+        return side.is_number_unsigned() && side >= 1u && side <= 65536u;
     };
     if (!size.is_array() || size.size() != 2 || !is_side(size[0]) || !is_side(size[1]))
-        fail(object.where(), ": '", key, "' must be [width, height] in pixels from 1 to 16384, not ", shown(size));
+        fail(object.where(), ": '", key, "' must be [width, height] in pixels from 1 to 65536, not ", shown(size));
     return {size[0].get<unsigned>(), size[1].get<unsigned>()};
 }
 
@@ -48,6 +48,8 @@ CaseScene read_scene(JsonObject& object) {
     scene.depth_format = object.value_of("depth_format", depth_formats);
     if (object.boolean("reversed_depth", false)) scene.depth_direction = DepthDirection::reversed;
     read_scale(object, scene);
+    scene.instance_scale = object.vector("instance_scale", glm::vec3(1.0f));
+    scene.is_lit_directly = object.choice("lit", {"path_traced", "direct"}, "path_traced") == "direct";
     if (object.has("roughness")) scene.roughness = object.number("roughness", 0.0f, 1.0f);
     scene.radiance = object.number("radiance", 0.0f, 1e12f, 1.0f);
     if (object.has("view")) scene.view = object.any("view");
@@ -102,7 +104,7 @@ MetricImages read_images(JsonObject object) {
 /// The keys of a case that say what is drawn, and stay in what it is compared with.
 bool stays_in_benign(const std::string& key) {
     return key == "scene" || key == "camera" || key == "size" || key == "poses" || key == "frames" || key == "view" ||
-           key == "quads";
+           key == "quads" || key == "lit";
 }
 
 StabilityCase read_case(const nlohmann::json& json, const std::string& where) {
@@ -189,7 +191,8 @@ std::vector<StabilityCase> read_stability_cases(const std::filesystem::path& fil
 }
 
 bool StabilityCase::has_truth() const {
-    return std::ranges::all_of(faults, [](const InputFault& f) { return f.where == "pixel" || f.is_factor; });
+    return !scene.is_lit_directly &&
+           std::ranges::all_of(faults, [](const InputFault& f) { return f.where == "pixel" || f.is_factor; });
 }
 
 std::filesystem::path stability_case_table() {

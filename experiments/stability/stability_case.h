@@ -17,6 +17,8 @@ struct CaseScene {
     DepthDirection depth_direction = DepthDirection::standard;
     glm::vec3 scale{1.0f};  ///< of all geometry; one number in the file scales camera and lights as well
     bool scales_all = false;
+    glm::vec3 instance_scale{1.0f};  ///< of each instance, whose mesh is scaled by the inverse
+    bool is_lit_directly = false;    ///< the lit colour is the rasterised direct light; there is no truth
     std::optional<float> roughness;  ///< perceptual, of every surface
     float radiance = 1.0f;           ///< factor of all that shines
     nlohmann::json view;             ///< an entry of a scene.json's `cameras`, in place of `camera`; null: none
@@ -51,7 +53,7 @@ struct StabilityCase {
         false;  ///< each frame's lit colour is the composited image of the frame before: mirrors in mirrors
     bool is_perturbed = false;           ///< amplification is measured
     bool is_truth_same = false;          ///< the path tracer must give the benign case's image
-    std::vector<std::string> only;       ///< techniques; empty: all
+    std::vector<std::string> only;       ///< techniques, or NAME:PRESET; empty: all
     std::optional<MetricImages> images;  ///< then the metrics alone are looked at, and `scene` says nothing
 
     bool has_truth() const;  ///< whether the path tracer's picture is that of the G-buffer with its faults

@@ -17,9 +17,9 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* number_columns[] = {
-    "error",       "benign_error", "error_ratio",    "non_finite", "spread_pixels", "spread_frames", "negative",
-    "too_bright",  "excess",       "bad_confidence", "time_ratio", "depth_median",  "depth_p999",    "normal_median",
-    "normal_p999", "lit_median",   "lit_p999",       "drift",      "drift_noise",   "gain"};
+    "error",         "benign_error", "error_ratio", "seeds",          "non_finite", "spread_pixels", "spread_frames",
+    "negative",      "too_bright",   "excess",      "bad_confidence", "time_ratio", "depth_median",  "depth_p999",
+    "normal_median", "normal_p999",  "lit_median",  "lit_p999",       "drift",      "drift_noise",   "gain"};
 
 /// Things in the order in which they were first met.
 template <class Key>

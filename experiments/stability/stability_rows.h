@@ -14,7 +14,8 @@ const std::vector<VerdictName>& verdict_names();  ///< by Verdict
 struct StabilityRow {
     std::string case_name, group, variant, point;
     Verdict verdict = Verdict::ok;
-    std::optional<double> error, benign_error;
+    std::optional<double> error, benign_error;  ///< means over the seeds
+    unsigned seeds = 1;
     std::optional<double> time_ratio;
     std::optional<double> drift;  ///< of long sequences: relative change of the mean from the second quarter of the
                                   ///< frames to the last quarter
@@ -28,6 +29,8 @@ struct StabilityRow {
 };
 
 Verdict verdict_of(const StabilityRow& row);
+/// Whether another seed might make a verdict of `worse`, or take it back, in a picture of so many pixels.
+bool is_near_worse(const StabilityRow& row, size_t pixels);
 
 /// One line for each case and technique, one for each case, and one for each stage of the former that holds a
 /// non-finite value, or for all of their stages.
