@@ -1,10 +1,8 @@
 #include "experiments/needs.h"
 
-#include "core/error.h"
 #include "core/gbuffer/rasterizer.h"
-#include "core/near_miss.h"
 #include "experiments/render_variant.h"
-#include "experiments/stability/case_run.h"
+#include "experiments/stability/stability.h"
 #include "groundtruth/path_tracer.h"
 #include "variants/registry.h"
 
@@ -140,12 +138,7 @@ std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantCo
 
 std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
     std::vector<VariantConfig> points;
-    std::vector<std::string> known;
-    for (const StabilityPoint& p : stability_points()) {
-        const std::string name = p.variant + ":" + p.label();
-        if (!std::ranges::count(known, p.variant)) known.push_back(p.variant);
-        known.push_back(name);
-        if (!names.empty() && !std::ranges::count(names, p.variant) && !std::ranges::count(names, name)) continue;
+    for (const StabilityPoint& p : chosen_points(names))
         points.push_back({.variant = p.variant,
                           .preset = p.preset,
                           .parameters = p.parameters,
@@ -153,9 +146,6 @@ std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
                           .seeds = {1},
                           .against = {},
                           .against_point = {}});
-    }
-    for (const std::string& name : names)
-        if (!std::ranges::count(known, name)) fail("unknown technique '", name, "'", suggestion(name, known));
     return points;
 }
 

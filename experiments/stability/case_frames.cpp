@@ -66,7 +66,7 @@ std::vector<InputFault> with_aftermath(const std::vector<InputFault>& faults) {
     return all;
 }
 
-bool is_finite(const HostImage& image, size_t pixel) {
+bool is_finite_pixel(const HostImage& image, size_t pixel) {
     return std::all_of(&image.values[pixel * image.channels], &image.values[pixel * image.channels] + image.channels,
                        [](float value) { return std::isfinite(value); });
 }
@@ -76,7 +76,7 @@ bool is_finite(const HostImage& image, size_t pixel) {
 bool is_sound(const HostGBuffer& g, size_t pixel) {
     for (const HostImage* image : {&g.depth, &g.geometric_normal, &g.normal, &g.base_color, &g.emission, &g.motion,
                                    &g.previous_depth, &g.previous_normal, &g.lit, &g.fallback})
-        if (!is_finite(*image, pixel)) return false;
+        if (!is_finite_pixel(*image, pixel)) return false;
     return true;
 }
 

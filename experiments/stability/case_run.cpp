@@ -53,7 +53,7 @@ void judge(CaseRun& run, const FrameImages& frame, const HostGBuffer& gbuffer, f
 FrameImages render(PassGraph& graph, Variant& variant, Compositor& compositor, const CaseFrame& frame, unsigned seed,
                    StageScan* scan, double& milliseconds) {
     if (scan) scan->resume();
-    const Reflections reflections = render_variant(graph, variant, frame.camera, stability_seed, frame.gbuffer);
+    const Reflections reflections = render_variant(graph, variant, frame.camera, seed, frame.gbuffer);
     milliseconds = graph.frame_milliseconds();
     if (scan) scan->pause();  // what the compositor makes of a bad pixel is no stage of the technique
     const Composite composite = compositor.render(frame.gbuffer, reflections);

@@ -33,7 +33,7 @@ struct CaseRun {
 };
 
 struct CaseRunOptions {
-    unsigned seed = 1;
+    unsigned seed = stability_seed;
     bool is_scanned = false;  ///< every image of every stage is looked at, which takes the most of the time
 };
 

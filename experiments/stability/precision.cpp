@@ -29,7 +29,8 @@ std::vector<PrecisionRow> run_precision(Device& device, const std::filesystem::p
     const std::vector<StabilityCase> cases = chosen_cases(table, selection.cases);
     const std::vector<StabilityPoint> points =
         selection.variants.empty() ? precision_points() : chosen_points(selection.variants);
-    CaseDrawer drawer(device, search_path);
+    TruthStore truths;
+    CaseDrawer drawer(device, search_path, truths);
     std::vector<PrecisionRow> rows = lobe_rows(device);
     for (size_t c = 0; c < cases.size(); ++c) {
         const PrecisionShot shot(drawer, cases[c], search_path);

@@ -13,7 +13,8 @@ const StabilityPoint mirror{"mcguire_dda", ""};
 
 struct PrecisionStudy : VariantTest {
     static const CaseFrames& frames() {
-        static CaseDrawer drawer(device(), {scenes});
+        static TruthStore truths;
+        static CaseDrawer drawer(device(), {scenes}, truths);
         static const CaseFrames frames =
             drawer.draw({.scene = "mirror_pillars", .camera = {}, .size = {48, 27}, .poses = {0}});
         return frames;
