@@ -13,7 +13,8 @@ const verdictMarks = [
 const stabilityColumns = [
     ["error", "Error", "squared error over squared truth of the specular radiance"],
     ["benign_error", "Benign error", "the same without what makes the case hard"],
-    ["error_ratio", "Error / benign error", ""], ["seeds", "Seeds", "of which the errors are means; more than one where the ratio is near that of worse"],
+    ["error_ratio", "Error / benign error", ""],
+    ["seeds", "Seeds", "of which the errors are means, where one alone might decide the verdict"],
     ["non_finite", "NaN and Inf", "values of all stages and frames"],
     ["first_non_finite", "First in", "stage: image"],
     ["spread_pixels", "Spread", "pixels of one frame that are not finite though their inputs are"],
@@ -162,7 +163,7 @@ function showStabilityCell() {
     const row = data.rows.find(r => r[0] === chosen && r[1] === technique);
     const verdict = row ? data.verdicts[row[2]] : {name: "not run", meaning: "the case is not for this technique"};
     const values = row ? row[3] : {};
-    const shown = stabilityColumns.filter(([column]) => column in values);
+    const shown = stabilityColumns.filter(([column]) => column in values && (column !== "seeds" || values.seeds > 1));
     const stages = data.stages.filter(stage => stage[0] === chosen && stage[1] === technique);
     at("stability-cell")
         .replaceChildren(
@@ -188,16 +189,18 @@ function failureTable() {
     const {failures} = report.stability;
     if (!failures.length) return null;
     const isTold = f => f.first || f.explanations.length;
-    const names = some => h("details", {}, h("summary", {}, String(some.length)), some.join(", "));
-    const line = f =>
-        [f.variant, names(f.points), f.place, names(f.cases), number(f.nan, 6), number(f.infinite, 6),
-         f.first ? String(f.first) : "passed on",
-         [...f.explanations.map(e => e.operation), ...(f.unexplained ? [`unexplained in ${f.unexplained}`] : [])].join(
-             "; or "),
-         f.explanations.map(e => e.mend).join("; ")];
+    const names = (some, ...before) =>
+        h("details", {}, h("summary", {}, ...before, String(some.length)), some.join(", "));
+    const line = f => [
+        names(f.points, `${f.variant}, presets: `), f.place, names(f.cases), `${f.nan}, ${f.infinite}`,
+        f.first ? String(f.first) : "passed on",
+        [...f.explanations.map(e => e.operation), ...(f.unexplained ? [`unexplained in ${f.unexplained}`] : [])].join(
+            "; or "),
+        f.explanations.map(e => e.mend).join("; ")
+    ];
     const columns = [
-        {name: "Technique"}, {name: "Presets"}, {name: "Stage: image"}, {name: "Cases"}, {name: "NaN", number: true},
-        {name: "Inf", number: true}, {name: "Arises there", number: true}, {name: "Operation"}, {name: "Mend"}
+        {name: "Technique"}, {name: "Stage: image"}, {name: "Cases"}, {name: "NaN, Inf", number: true},
+        {name: "Arises there", number: true}, {name: "Operation"}, {name: "Mend"}
     ];
     return part(
         "Stages that are not finite",
@@ -205,7 +208,7 @@ function failureTable() {
         table(columns, failures.filter(isTold).map(line)),
         failures.some(f => !isTold(f)) ?
             h("details", {}, h("summary", {}, "Stages that were only passed such values"),
-              table(columns.slice(0, 6), failures.filter(f => !isTold(f)).map(f => line(f).slice(0, 6)))) :
+              table(columns.slice(0, 4), failures.filter(f => !isTold(f)).map(f => line(f).slice(0, 4)))) :
             "");
 }
 
