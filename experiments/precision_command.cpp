@@ -65,7 +65,8 @@ void print_table(const std::vector<PrecisionRow>& rows) {
 }  // namespace
 
 int precision_command(const StabilityOptions& options, const CommonOptions& common) {
-    if (!options.figure.empty()) fail("--figure is of the cases, not of --precision");
+    if (!options.figure.empty() || options.has_all_stages)
+        fail("--figure and --all-stages are of the cases, not of --precision");
     Device device(common.device);
     std::filesystem::create_directories(options.out);
     const std::filesystem::path csv = options.out / "stability_precision.csv";

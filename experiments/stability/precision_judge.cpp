@@ -219,7 +219,7 @@ void PrecisionJudge::judge_march(const std::string& stage, const RecordedRays& r
         }
         row = changed(row, *run);
         row.values = value_change(distances);
-        row.values->differing = traced > 0 ? elsewhere / traced : 0.0;
+        row.values->differing = elsewhere / traced;
         row.wrong = shot_.wrong_share(rays), row.wrong_in_double = shot_.wrong_share(wide);
     }
     add(row);
@@ -244,7 +244,8 @@ void PrecisionJudge::judge_stage(const std::string& stage) {
             floats_, *run, [&](const StageValue& value) { return value.stage == stage && value.image == image; });
         add(row);
     }
-    if (!rays) return;
+    const auto is_traced = [](const RayRecord& ray) { return ray.is_traced > 0; };
+    if (!rays || std::ranges::none_of(rays->rays, is_traced)) return;
     judge_rays(stage, *run);
     judge_march(stage, *rays);
 }

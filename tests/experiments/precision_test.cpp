@@ -1,5 +1,6 @@
 #include "experiments/stability/precision.h"
 #include "core/files.h"
+#include "core/scene/load_scene.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>
@@ -34,6 +35,14 @@ const PrecisionRow& find(const std::vector<PrecisionRow>& rows, PrecisionKind ki
 }
 
 }  // namespace
+
+TEST_F(PrecisionStudy, DefaultsExist) {
+    const std::vector<std::string> known = list_scenes({scenes});
+    for (const StabilityCase& c : read_stability_cases(precision_case_table()))
+        EXPECT_TRUE(std::ranges::count(known, c.scene.scene)) << c.name;
+    for (const StabilityPoint& point : precision_points())
+        EXPECT_NO_THROW(make_variant(point.variant, point.parameters, point.preset)) << point.variant << point.label();
+}
 
 TEST_F(PrecisionStudy, DifferencesAreRelativeAndLeaveOutWhatIsNothing) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
