@@ -28,7 +28,8 @@ std::vector<VariantConfig> all_points(const std::vector<std::string>& names = {}
 struct MeasuredSaving {
     Saving time;                   ///< point "" for "path tracer" and "rasteriser"
     bool keeps_bits = true;        ///< as its parts say
-    bool has_same_bits = true;     ///< of the images of every frame
+    bool repeats_itself = true;    ///< false: no two runs agree (Variant::not_repeatable()), so nothing is compared
+    bool has_same_bits = true;     ///< of the images of every frame; of the path tracer's, of the mean
     float largest_difference = 0;  ///< over the largest value of its image
     bool is_as_said() const;
 };

@@ -46,11 +46,12 @@ std::string percent(const MedianInterval& share) {
 
 std::string csv_of(const Shot& shot, const std::vector<MeasuredSaving>& savings) {
     std::string text =
-        "shot,variant,point,complete_ms,saved_share,low,high,keeps_bits,has_same_bits,largest_difference\n";
+        "shot,variant,point,complete_ms,saved_share,low,high,keeps_bits,repeats_itself,has_same_bits,largest_"
+        "difference\n";
     for (const MeasuredSaving& s : savings)
-        text +=
-            csv_line(shot.name(), s.time.variant, s.time.point, s.time.complete_ms, s.time.share.median,
-                     s.time.share.low, s.time.share.high, s.keeps_bits, s.has_same_bits, double(s.largest_difference));
+        text += csv_line(shot.name(), s.time.variant, s.time.point, s.time.complete_ms, s.time.share.median,
+                         s.time.share.low, s.time.share.high, s.keeps_bits, s.repeats_itself, s.has_same_bits,
+                         double(s.largest_difference));
     return text;
 }
 
@@ -58,6 +59,7 @@ void print(const std::vector<MeasuredSaving>& savings, const std::vector<SavedTi
     std::printf("\n%-44s %12s  %-22s %s\n", "", "without (ms)", "saved", "images");
     for (const MeasuredSaving& s : savings) {
         char images[64] = "same bits";
+        if (!s.repeats_itself) std::snprintf(images, sizeof images, "not compared: no two runs agree");
         if (!s.has_same_bits)
             std::snprintf(images, sizeof images, "%s by %.2g", s.is_as_said() ? "rounded, differ" : "DIFFER",
                           s.largest_difference);
