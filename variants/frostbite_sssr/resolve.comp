@@ -40,8 +40,11 @@ void add_rays_of(ivec2 traced, inout Group group) {
 
 // Taps that the border moves on top of each other, or rounding, count once.
 void add_taps(ivec2 first_pixel, inout Group group) {
+    bool is_any_resolved = false;
+    for (int n = 0; n < group_size; ++n) is_any_resolved = is_any_resolved || group.is_resolved[n];
+    int count = is_any_resolved ? tap_count : 0;
     ivec2 visited[max_tap_count];
-    for (int tap = 0; tap < tap_count; ++tap) {
+    for (int tap = 0; tap < count; ++tap) {
         visited[tap] = tap_position(first_pixel, tap);
         bool is_new = true;
         for (int earlier = 0; earlier < tap; ++earlier) is_new = is_new && visited[earlier] != visited[tap];
