@@ -124,9 +124,11 @@ TEST_F(DiligentMasks, WouldKeepNothingWhereTheTechniqueIsLeftOut) {
         for (const bool is_float : {false, true})
             for (const double threshold : {0.2, 50.2 / 255}) {
                 const nlohmann::json parameters = {{"roughness_threshold", threshold}, {"float_roughness", is_float}};
-                SceneFacts facts;
-                facts.has_reflective = true;
-                facts.min_roughness = roughness;
+                const SceneFacts facts{.has_reflective = true,
+                                       .min_roughness = roughness,
+                                       .max_roughness = roughness,
+                                       .camera_moves = true,
+                                       .has_environment = true};
                 EXPECT_EQ(make_variant("diligent_ssr", parameters)->leave_out(facts).empty(),
                           is_kept(roughness, parameters))
                     << roughness << ", float " << is_float << ", threshold " << threshold;
