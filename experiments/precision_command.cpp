@@ -4,7 +4,7 @@
 #include "core/scene/load_scene.h"
 #include "experiments/commands.h"
 #include "experiments/progress.h"
-#include "experiments/stability/precision.h"
+#include "experiments/stability/precision/precision.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "experiments/stability/precision.h"
+#include "experiments/stability/precision/precision.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "tests/variants/variant_fixture.h"

@@ -1,6 +1,6 @@
 #include "core/digits.h"
 #include "core/shared/brdf.h"
-#include "experiments/stability/precision.h"
+#include "experiments/stability/precision/precision.h"
 
 namespace {
 
@@ -13,13 +13,13 @@ public:
         graph_.set_precision({.format_of = {}, .is_double = [=](const std::string&) { return is_double; }});
     }
     HostImage drawn_directions() {
-        graph_.compute("experiments/stability/lobe_draws.comp").write(image("direction")).set("alpha", alpha_).run();
+        graph_.compute("experiments/stability/precision/lobe_draws.comp").write(image("direction")).set("alpha", alpha_).run();
         return graph_.download(image("direction"));
     }
     /// Density, weight and BRDF.
     std::vector<HostImage> values(const HostImage& directions) {
         graph_.upload(image("direction"), directions);
-        PassGraph::Pass pass = graph_.compute("experiments/stability/lobe_values.comp");
+        PassGraph::Pass pass = graph_.compute("experiments/stability/precision/lobe_values.comp");
         pass.read(image("direction")).set("alpha", alpha_);
         for (const char* name : value_names) pass.write(image(name));
         pass.run({256, 256});

@@ -1,7 +1,7 @@
-#include "experiments/stability/precision.h"
+#include "experiments/stability/precision/precision.h"
 
 #include "core/error.h"
-#include "experiments/stability/precision_judge.h"
+#include "experiments/stability/precision/precision_judge.h"
 
 std::vector<StabilityPoint> precision_points() {
     const auto with = [](const std::string& tracer) { return StabilityPoint{"mcguire_dda", "", {{"tracer", tracer}}}; };
@@ -18,7 +18,7 @@ std::vector<StabilityPoint> precision_points() {
 }
 
 std::filesystem::path precision_case_table() {
-    return std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/stability/precision_cases.json";
+    return std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/stability/precision/precision_cases.json";
 }
 
 std::vector<PrecisionRow> run_precision(Device& device, const std::filesystem::path& table,

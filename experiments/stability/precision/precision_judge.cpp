@@ -1,4 +1,4 @@
-#include "experiments/stability/precision_judge.h"
+#include "experiments/stability/precision/precision_judge.h"
 
 #include "core/error.h"
 #include "experiments/judged_hits.h"

@@ -1,4 +1,4 @@
-#include "experiments/stability/precision_run.h"
+#include "experiments/stability/precision/precision_run.h"
 
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_transfer.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/exact_rays.h"
-#include "experiments/stability/precision.h"
+#include "experiments/stability/precision/precision.h"
 
 /// A case as drawn, and its scene, which is asked where rays truly end.
 class PrecisionShot {

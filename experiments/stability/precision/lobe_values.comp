@@ -1,5 +1,5 @@
 // What the lobe is worth in given directions: the density of drawing it, the weight of a draw, and the BRDF.
-#include "experiments/stability/lobe_arguments.glsl"
+#include "experiments/stability/precision/lobe_arguments.glsl"
 
 uniform sampler2D direction;
 uniform writeonly image2D density, weight, brdf;

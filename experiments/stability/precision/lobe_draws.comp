@@ -1,5 +1,5 @@
 // direction: drawn from the lobe of visible normals.
-#include "experiments/stability/lobe_arguments.glsl"
+#include "experiments/stability/precision/lobe_arguments.glsl"
 
 uniform writeonly image2D direction;
 

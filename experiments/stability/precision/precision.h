@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/stability/precision_run.h"
+#include "experiments/stability/precision/precision_run.h"
 #include "experiments/stability/stability.h"
 
 #include <functional>
