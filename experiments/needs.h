@@ -46,6 +46,6 @@ struct MeasuredSavings {
     std::vector<SavedTime> stages;  ///< of techniques
 };
 /// Renders the shot with and without what it does not need, lit by the rasteriser: `frames` measured frames of each in
-/// turn, on this machine's first device. Who leaves nothing out is not in the result. `report` gets the share done.
+/// turn. Who leaves nothing out is not in the result. `report` gets the share done.
 MeasuredSavings measure_savings(Device& device, const Shot& shot, const std::vector<VariantConfig>& points,
                                 unsigned frames, const std::function<void(double)>& report);

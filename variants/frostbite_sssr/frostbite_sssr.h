@@ -21,5 +21,5 @@ private:
     SplitSumImage split_sum_;
     FrostbiteHorizonImage horizon_;
     bool is_left_out_ = false;
-    bool has_smooth_rays_ = true, has_rough_rays_ = true, filters_color_ = true;  // as far as is known
+    bool has_smooth_rays_ = true, has_rough_rays_ = true, filters_color_ = true;  // until leave_out()
 };
