@@ -205,5 +205,5 @@ MeasuredSavings measure_savings(Device& device, const Shot& shot, const std::vec
         all.push_back(compare_with_all_kept(*source, shot, *point));
         all.back().time = time;
     }
-    return {all, times.saved};
+    return {all, times.saved, times.load};
 }

@@ -44,6 +44,7 @@ MeasuredSaving compare_with_all_kept(FrameSource& source, const Shot& shot, cons
 struct MeasuredSavings {
     std::vector<MeasuredSaving> of;
     std::vector<SavedTime> stages;  ///< of techniques
+    TimingLoad load;                ///< while they were timed
 };
 /// Renders the shot with and without what it does not need, lit by the rasteriser: `frames` measured frames of each in
 /// turn. Who leaves nothing out is not in the result. `report` gets the share done.

@@ -88,6 +88,9 @@ int needs_command(const NeedsOptions& options, const CommonOptions& common) {
     const MeasuredSavings savings = measure_savings(device, shot, points, options.timed_frames,
                                                     [&](double share) { progress.update(share, "timing"); });
     print(savings.of, savings.stages);
+    if (savings.load.disturbed > 0)
+        std::printf("\nwarning: other programs disturbed %u of %u timed frames; run it again on a quiet machine\n",
+                    savings.load.disturbed, options.timed_frames);
     if (!options.csv.empty()) write_text(options.csv, csv_of(shot, savings.of));
     return std::ranges::all_of(savings.of, &MeasuredSaving::is_as_said) ? 0 : 1;
 }
