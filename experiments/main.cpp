@@ -1,7 +1,7 @@
 #include "core/error.h"
-#include "experiments/commands.h"
-#include "experiments/host_info.h"
-#include "experiments/report.h"
+#include "experiments/commands/commands.h"
+#include "experiments/report/report.h"
+#include "experiments/results/host_info.h"
 #include "metrics/tone_map.h"
 
 #include <CLI/CLI.hpp>

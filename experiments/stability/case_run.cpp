@@ -2,8 +2,8 @@
 
 #include "core/error.h"
 #include "core/gbuffer/composite.h"
-#include "experiments/config.h"
-#include "experiments/render_variant.h"
+#include "experiments/measuring/render_variant.h"
+#include "experiments/study/config/config.h"
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 

@@ -1,8 +1,8 @@
 #include "experiments/stability/stability_report.h"
 
 #include "core/error.h"
-#include "experiments/csv.h"
-#include "experiments/html_text.h"
+#include "experiments/report/html_text.h"
+#include "experiments/results/csv.h"
 #include "experiments/stability/known_failures.h"
 #include "experiments/stability/stability_rows.h"
 

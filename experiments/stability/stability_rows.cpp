@@ -1,6 +1,6 @@
 #include "experiments/stability/stability_rows.h"
 
-#include "experiments/csv.h"
+#include "experiments/results/csv.h"
 
 #include <cmath>
 

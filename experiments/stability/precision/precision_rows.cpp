@@ -1,4 +1,4 @@
-#include "experiments/csv.h"
+#include "experiments/results/csv.h"
 #include "experiments/stability/precision/precision.h"
 
 const char* name_of(PrecisionKind kind) {

@@ -2,7 +2,7 @@
 
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "experiments/render_variant.h"
+#include "experiments/measuring/render_variant.h"
 #include "experiments/stability/amplification.h"
 #include "variants/registry.h"
 

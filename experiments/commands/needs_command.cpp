@@ -1,0 +1,96 @@
+// ssrlab needs: what a scene holds, what nobody needs to do for it, and what that saves.
+#include "core/files.h"
+#include "core/gpu/device.h"
+#include "core/scene/load_scene.h"
+#include "experiments/commands/commands.h"
+#include "experiments/commands/needs.h"
+#include "experiments/results/csv.h"
+#include "experiments/study/progress.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+namespace {
+
+Shot shot_of(const NeedsOptions& options, const CommonOptions& common) {
+    std::vector<unsigned> frames(options.frames);
+    std::iota(frames.begin(), frames.end(), options.shot.frame);
+    return load_shot({.scene = options.shot.scene,
+                      .camera = options.shot.camera,
+                      .extent = {options.shot.size[0], options.shot.size[1]},
+                      .frames = frames},
+                     scene_search_path(common.scene_path));
+}
+
+/// One line for each part, with all who leave it out.
+void print_left_out(const std::vector<LeftOutBy>& all) {
+    std::vector<std::string> lines;
+    std::map<std::string, std::string> who;
+    for (const auto& [name, part] : all) {
+        const std::string line = full_name(part) + " (" + part.fact + "): " + part.why +
+                                 (part.keeps_bits ? "" : "; the same up to rounding");
+        if (!who.contains(line)) lines.push_back(line);
+        who[line] += (who[line].empty() ? "" : ", ") + name;
+    }
+    for (const std::string& line : lines) std::printf("  %s\n      by %s\n", line.c_str(), who[line].c_str());
+    if (lines.empty()) std::printf("  nothing\n");
+}
+
+std::string percent(const MedianInterval& share) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%5.1f %% [%.1f, %.1f]", 100 * share.median, 100 * share.low, 100 * share.high);
+    return text;
+}
+
+std::string csv_of(const Shot& shot, const std::vector<MeasuredSaving>& savings) {
+    std::string text =
+        "shot,variant,point,complete_ms,saved_share,low,high,keeps_bits,repeats_itself,has_same_bits,largest_"
+        "difference\n";
+    for (const MeasuredSaving& s : savings)
+        text += csv_line(shot.name(), s.time.variant, s.time.point, s.time.complete_ms, s.time.share.median,
+                         s.time.share.low, s.time.share.high, s.keeps_bits, s.repeats_itself, s.has_same_bits,
+                         double(s.largest_difference));
+    return text;
+}
+
+void print(const std::vector<MeasuredSaving>& savings, const std::vector<SavedTime>& stages) {
+    std::printf("\n%-44s %12s  %-22s %s\n", "", "without (ms)", "saved", "images");
+    for (const MeasuredSaving& s : savings) {
+        char images[64] = "same bits";
+        if (!s.repeats_itself) std::snprintf(images, sizeof images, "not compared: no two runs agree");
+        if (!s.has_same_bits)
+            std::snprintf(images, sizeof images, "%s by %.2g", s.is_as_said() ? "rounded, differ" : "DIFFER",
+                          s.largest_difference);
+        std::printf("%-44s %12.2f  %-22s %s\n", (s.time.variant + " " + s.time.point).c_str(), s.time.complete_ms,
+                    percent(s.time.share).c_str(), images);
+    }
+    std::printf("\nStages, the most that any preset saves of them:\n");
+    for (const SavedTime& stage : stages) std::printf("%-44s %9.2f ms\n", stage.stage.c_str(), stage.milliseconds);
+}
+
+}  // namespace
+
+int needs_command(const NeedsOptions& options, const CommonOptions& common) {
+    const Shot shot = shot_of(options, common);
+    const std::vector<VariantConfig> points = all_points(options.variants);
+    std::printf("%s, camera %s\n\n", shot.scene.name.c_str(), shot.camera.name.c_str());
+    for (const SceneFact& fact : list_facts(shot.scene, shot.facts))
+        std::printf("  %-22s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
+    std::printf("\nLeft out, since nothing here needs it:\n");
+    print_left_out(left_out_of(shot, points));
+    for (const std::string& warning : shot.scene.warnings) std::printf("warning: %s\n", warning.c_str());
+    if (!options.is_measured) return 0;
+
+    Device device(common.device);
+    Progress progress(1.0);
+    const MeasuredSavings savings = measure_savings(device, shot, points, options.timed_frames,
+                                                    [&](double share) { progress.update(share, "timing"); });
+    print(savings.of, savings.stages);
+    if (savings.load.disturbed > 0)
+        std::printf("\nwarning: other programs disturbed %u of %u timed frames; run it again on a quiet machine\n",
+                    savings.load.disturbed, options.timed_frames);
+    if (!options.csv.empty()) write_text(options.csv, csv_of(shot, savings.of));
+    return std::ranges::all_of(savings.of, &MeasuredSaving::is_as_said) ? 0 : 1;
+}

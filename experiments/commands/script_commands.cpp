@@ -1,0 +1,63 @@
+// The commands that are Python scripts: figures, tables, search.
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/commands/child_process.h"
+#include "experiments/commands/commands.h"
+#include "experiments/study/config/config.h"
+#include "metrics/estimators.h"
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+/// Runs a script of experiments/: 0 done, 2 a mistake of the user, else a fault of the machine (3).
+int run_script(const std::string& name, const std::vector<std::string>& arguments) {
+    std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/" + name};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const int code = run_program(command);
+    return code == 0 || code == 2 ? code : 3;
+}
+
+void check_results(const std::filesystem::path& results) {
+    if (!std::filesystem::exists(results / "manifest.json"))
+        fail(results.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
+}
+
+}  // namespace
+
+int figures_command(const FiguresOptions& options) {
+    check_results(options.results);
+    const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
+    return run_script("figures/figures.py", {"--out=" + out.string(), "--", options.results.string()});
+}
+
+int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure) {
+    return run_script("figures/stability_figure.py", {"--out=" + figure.string(), "--", csv.string()});
+}
+
+int tables_command(const TablesOptions& options) {
+    if (options.checks) return run_script("figures/tables.py", {"--check=" + std::to_string(estimator_version)});
+    if (options.results.empty()) {
+        if (!options.fills) fail("tables of what? Name a results folder, or --fill or --check");
+        return run_script("figures/tables.py", {"--fill"});
+    }
+    check_results(options.results);
+    std::vector<std::string> arguments;
+    if (options.keeps) arguments.push_back("--keep");
+    if (!options.out.empty()) arguments.push_back("--out=" + options.out.string());
+    arguments.insert(arguments.end(), {"--", options.results.string()});
+    return run_script("figures/tables.py", arguments);
+}
+
+int search_command(const SearchOptions& options, const std::vector<std::string>& run_options) {
+    const Config config = read_config(options.config);
+    if (!config.is_search) fail(options.config.string(), ": has no 'search'; `ssrlab run` runs a study");
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out;
+    std::filesystem::create_directories(out);
+    write_text(out / "search.json", config.source.dump(1) + "\n");  // without comments, which Python does not read
+    std::vector<std::string> arguments = {"--out=" + out.string(), (out / "search.json").string(), "--",
+                                          std::filesystem::read_symlink("/proc/self/exe").string()};
+    arguments.insert(arguments.end(), run_options.begin(), run_options.end());
+    return run_script("study/search.py", arguments);
+}

@@ -1,0 +1,112 @@
+// The commands that need no Vulkan device: reference, compare.
+#include "core/error.h"
+#include "core/gbuffer/scene_facts.h"
+#include "core/scene/load_scene.h"
+#include "experiments/commands/commands.h"
+#include "experiments/study/config/shot.h"
+#include "experiments/study/progress.h"
+#include "groundtruth/path_tracer.h"
+#include "groundtruth/reference_audit.h"
+#include "groundtruth/reference_cache.h"
+#include "groundtruth/reference_error.h"
+#include "groundtruth/reference_file.h"
+#include "groundtruth/truth_ladder.h"
+#include "metrics/compare.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+namespace {
+
+Shot load_single_shot(const ShotOptions& options, const CommonOptions& common) {
+    const ShotConfig config{.scene = options.scene,
+                            .camera = options.camera,
+                            .extent = {options.size[0], options.size[1]},
+                            .frames = {options.frame}};
+    return load_shot(config, scene_search_path(common.scene_path));
+}
+
+/// Root of a noise-free mean square with its interval, in percent of `unit`.
+std::string rms_percent(const LadderDifference& difference, double unit) {
+    const auto root = [&](double square) { return 100 * std::sqrt(std::max(square, 0.0)) / unit; };
+    char text[64];
+    std::snprintf(text, sizeof text, "%6.2f [%.2f, %.2f]", root(difference.square),
+                  root(difference.square - 1.96 * difference.square_error),
+                  root(difference.square + 1.96 * difference.square_error));
+    return text;
+}
+
+void print_ladder(const LadderSummary& ladder) {
+    if (ladder.mean_specular <= 0) {
+        std::printf("truth ladder: nothing reflects\n");
+        return;
+    }
+    std::printf(
+        "truth ladder, in %% of the mean specular light %.4g of %zu reflecting pixels; the image shows %.1f %% of what "
+        "they reflect\n",
+        ladder.mean_specular, ladder.pixels, 100 * ladder.on_screen_share);
+    std::printf("  %-16s %-31s %16s  %-22s  %s\n", "rung", "what the step costs", "mean change",
+                "RMS of the step [95 %]", "RMS from the truth [95 %]");
+    for (const LadderRung& rung : ladder.rungs) {
+        char mean[32];
+        std::snprintf(mean, sizeof mean, "%+.2f +- %.2f", 100 * rung.step.mean / ladder.mean_specular,
+                      196 * rung.step.mean_error / ladder.mean_specular);
+        std::printf("  %-16s %-31s %16s  %-22s  %s\n", rung.name.c_str(), rung.costs.c_str(), mean,
+                    rms_percent(rung.step, ladder.mean_specular).c_str(),
+                    rms_percent(rung.from_truth, ladder.mean_specular).c_str());
+    }
+}
+
+}  // namespace
+
+void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common) {
+    const Shot shot = load_single_shot(options.shot, common);
+    for (const std::string& warning : shot.scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    const ShotFrame frame = shot_frame(shot, options.shot.frame);
+
+    Progress progress(1.0);
+    ReferenceRun run;
+    run.progress = [&](double fraction, double rays_per_second, double) {
+        char what[64];
+        std::snprintf(what, sizeof what, "%.2f Mray/s", rays_per_second * 1e-6);
+        progress.update(fraction, what);
+    };
+    run.notice = [&](const std::string& text) { progress.say("note: " + text); };
+    Reference reference = cached_reference(shot.scene, frame.scene, frame.camera, shot.config.extent, options.settings,
+                                           common.cache.empty() ? default_cache_folder() : common.cache, run);
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path(shot.scene.name + "_reference.exr") : options.out;
+    const ErrorSummary error = relative_error_summary(reference, reference.specular);
+    write_reference(out, reference, options.settings);
+
+    progress.say(out.string() + (reference.from_cache ? " (from the cache)" : ""));
+    std::printf("passes %s samples per pixel, %s, %.3g Gray\n", reference.passes.c_str(),
+                format_duration(reference.seconds).c_str(), reference.rays * 1e-9);
+    std::printf(
+        "relative standard error of the specular light at a pixel: median %.2f %%, 95 %% of pixels below %.2f %%\n",
+        100 * error.median, 100 * error.p95);
+    if (options.settings.target_relative_error > 0)
+        std::printf("%.1f %% of the pixels reached the target\n", 100 * reference.reached_share);
+    if (options.settings.ladder) print_ladder(summarize_ladder(reference));
+    for (const std::string& warning : audit_reference(reference).warnings)
+        std::printf("warning: %s\n", warning.c_str());
+    if (reference.non_finite_samples)
+        std::printf("warning: %llu samples were not finite and count as zero\n",
+                    (unsigned long long)reference.non_finite_samples);
+}
+
+void compare_images_command(const CompareCommandOptions& options) {
+    const Comparison result =
+        compare({.reference = options.reference,
+                 .test = options.test,
+                 .metrics = options.metrics,
+                 .map = options.map,
+                 .map_max = options.map_max,
+                 .settings = {.exposure_ev = options.exposure_ev, .tone_map = tone_map_named(options.tone_map)},
+                 .fail_on_non_finite = options.fail_on_non_finite});
+    if (options.as_json)
+        std::cout << to_json(result).dump(2) << '\n';
+    else
+        print(result, std::cout, std::cerr);
+}

@@ -1,0 +1,192 @@
+"""A results folder as the figures need it."""
+
+import csv
+import json
+import os
+from dataclasses import dataclass
+
+from paper_figures.exr import ExrError, read_exr_rgb
+
+
+class ResultsError(Exception):
+    """A mistake in the results folder or in what was asked of it: one sentence."""
+
+
+ONE_SEED = "none: 1 seed"  # experiments/results/interval.h
+
+
+@dataclass
+class Measured:
+    """A value with its 95 % interval; low and high are None where there is none."""
+
+    value: float
+    low: float
+    high: float
+    is_one_seed: bool = False  # of a technique that draws random numbers: another seed might tell anything
+
+    def whiskers(self):
+        """Lengths below and above the value, as matplotlib's errorbar takes them."""
+        if self.low is None:
+            return [[0.0], [0.0]]
+        return [[max(self.value - self.low, 0.0)], [max(self.high - self.value, 0.0)]]
+
+
+def label(variant, point):
+    return variant if point in ("", "default") else f"{variant} {point}"
+
+
+def frame_number(row):
+    """None for "all"."""
+    try:
+        return None if row["frame"] == "all" else int(row["frame"])
+    except ValueError as e:
+        raise ResultsError(f"summary.csv: 'frame' = \"{row['frame']}\" is neither a number nor all") from e
+
+
+def rows_for_shots(rows):
+    """Of each quantity the rows over its shot's frames ("all"), else those of the shot's last frame."""
+    over_frames = {(r["shot"], r["target"], r["metric"], r["mask"]) for r in rows if r["frame"] == "all"}
+    last = {}
+    for r in rows:
+        last[r["shot"]] = max(last.get(r["shot"], 0), frame_number(r) or 0)
+    return [
+        r
+        for r in rows
+        if r["frame"] == "all"
+        or (frame_number(r) == last[r["shot"]] and (r["shot"], r["target"], r["metric"], r["mask"]) not in over_frames)
+    ]
+
+
+class Results:
+    def __init__(self, folder):
+        self.folder = folder
+        self.manifest = self._read_manifest()
+        self.all_errors = self.read_csv("summary.csv")
+        self.errors = rows_for_shots(self.all_errors)
+        self.times = self.read_csv("time_summary.csv")
+        self.splits = self.read_csv("splits.csv", is_optional=True)
+        self.effects = self.read_csv("effects.csv", is_optional=True)
+        self.hits = self.read_csv("hits.csv", is_optional=True)
+        self.single_changes = self._single_changes()
+
+    def _read_manifest(self):
+        file = os.path.join(self.folder, "manifest.json")
+        try:
+            with open(file, encoding="utf-8") as text:
+                manifest = json.load(text)
+        except OSError as e:
+            raise ResultsError(f"cannot read {file}: {e.strerror}; is it a folder that `ssrlab run` filled?") from e
+        except ValueError as e:
+            raise ResultsError(f"{file} is not valid JSON: {e}") from e
+        if not isinstance(manifest, dict):
+            raise ResultsError(f"{file} must be a JSON object")
+        return manifest
+
+    def read_csv(self, name, is_optional=False):
+        file = os.path.join(self.folder, name)
+        if is_optional and not os.path.exists(file):
+            return []
+        try:
+            with open(file, newline="", encoding="utf-8") as text:
+                return list(csv.DictReader(text))
+        except OSError as e:
+            raise ResultsError(f"cannot read {file}: {e.strerror}") from e
+
+    def _single_changes(self):
+        """(variant, point) to (parameter, value) of the swept points that differ from a baseline in one parameter."""
+        values = {(v["variant"], v["point"]): v.get("parameters", {}) for v in self.manifest.get("variants", [])}
+        baselines = dict.fromkeys(
+            (e["against_variant"], e["against_point"]) for e in self.effects if e["against"] == "baseline"
+        )
+        changes = {}
+        for key, own in values.items():
+            if key in baselines or "=" not in key[1]:
+                continue
+            for baseline in baselines:
+                differing = [n for n, v in own.items() if values.get(baseline, {}).get(n) != v]
+                if baseline[0] == key[0] and len(differing) == 1:
+                    changes.setdefault(key, (differing[0], own[differing[0]]))
+        return changes
+
+    def points(self):
+        """The compared (variant, point), in the order of the study; single changes have a figure of their own."""
+        every = dict.fromkeys((r["variant"], r["point"]) for r in self.errors)
+        return [key for key in every if key not in self.single_changes]
+
+    def measured(self, row, columns=("value", "low", "high"), name="summary.csv"):
+        """None where the row has no value."""
+        numbers = [self._number(row, c, name) for c in columns]
+        return None if numbers[0] is None else Measured(*numbers, row.get("interval") == ONE_SEED)
+
+    def _number(self, row, column, name):
+        text = row.get(column)
+        try:
+            return float(text) if text else None
+        except ValueError as e:
+            raise ResultsError(f"{os.path.join(self.folder, name)}: '{column}' = \"{text}\" is not a number") from e
+
+    def shots(self):
+        return list(dict.fromkeys(row["shot"] for row in self.errors))
+
+    def frames_text(self, rows):
+        """Which frames rows of one shot speak for, one text each; empty for a shot of one frame."""
+        frames = next(
+            (s.get("frames") or [] for s in self.manifest.get("shots", []) if s.get("shot") == rows[0]["shot"]), []
+        )
+        if len(frames) < 2:
+            return []
+        return list(
+            dict.fromkeys("mean over frames" if r["frame"] == "all" else f"frame {r['frame']} alone" for r in rows)
+        )
+
+    def headline_metric(self):
+        found = list(dict.fromkeys(r["metric"] for r in self.errors))
+        return "relmse" if "relmse" in found or not found else found[0]
+
+    def errors_of(self, target, metric, mask):
+        """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out, and so are single changes."""
+        rows = [
+            r
+            for r in self.errors
+            if (r["target"], r["metric"], r["mask"]) == (target, metric, mask)
+            and (r["variant"], r["point"]) not in self.single_changes
+        ]
+        if not rows:
+            found = sorted({f"{r['target']} {r['metric']} {r['mask']}" for r in self.errors})
+            raise ResultsError(
+                f"{os.path.join(self.folder, 'summary.csv')} has no rows of target {target}, metric {metric}, mask {mask}; it has: {', '.join(found)}"
+            )
+        read = {(r["shot"], r["variant"], r["point"]): self.measured(r) for r in rows}
+        return {key: value for key, value in read.items() if value is not None}
+
+    def times_of(self, shot):
+        """(variant, point) to {stage: Measured} in ms; the G-buffer and the lit colour belong to no variant and are not in it."""
+        stages = {}
+        for r in self.times:
+            if r["shot"] == shot and r["variant"]:
+                values = (self._number(r, c, "time_summary.csv") for c in ("median_ms", "low_ms", "high_ms"))
+                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*values)
+        return stages
+
+    def exposure(self, shot):
+        """The shot's exposure in EV."""
+        return next((s.get("exposure_ev") or 0.0 for s in self.manifest.get("shots", []) if s.get("shot") == shot), 0.0)
+
+    def images_of(self, shot, target):
+        """(variant, point) to RGB image of the first seed; the reference's key is ("reference", "")."""
+        entries = [
+            i
+            for i in self.manifest.get("images", [])
+            if i.get("shot") == shot
+            and i.get("target") == target
+            and i.get("kind") in ("result", "reference")
+            and (i["variant"], i.get("point") or "") not in self.single_changes
+        ]
+        first = {}
+        for entry in sorted(entries, key=lambda i: i.get("seed") or 0):
+            first.setdefault((entry["variant"], entry.get("point") or ""), entry["exr"])
+        order = {(i["variant"], i.get("point") or ""): n for n, i in reversed(list(enumerate(entries)))}
+        try:
+            return {key: read_exr_rgb(os.path.join(self.folder, first[key])) for key in sorted(first, key=order.get)}
+        except ExrError as e:
+            raise ResultsError(str(e)) from e

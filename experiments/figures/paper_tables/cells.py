@@ -1,0 +1,277 @@
+"""Tables as a study asks for them: which rows of a results folder, by what, in which order.
+
+A table is an entry of the config's "tables" (experiments/README.md explains its keys); its numbers are cells."""
+
+import json
+import math
+from dataclasses import dataclass
+
+from paper_figures.results import ResultsError, rows_for_shots
+
+SOURCES = {  # name to (file, columns of value, low and high)
+    "effects": ("effects.csv", ("ratio", "low", "high")),
+    "results": ("summary.csv", ("value", "low", "high")),
+    "splits": ("splits.csv", None),  # its quantities are columns: see _split_rows()
+    "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
+    "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
+    "hits": ("hits.csv", ("value", "low", "high")),
+}
+SHARES = ("hits",)  # may be 0: their mean over shots is the arithmetic one
+NOT_SHARES = ("fetches", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
+KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "labels"}
+NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
+SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
+
+
+NO_INTERVAL = "none: "  # experiments/results/interval.h: before the reason
+NOT_POSITIVE = NO_INTERVAL + "an error is not above 0"
+BOTH = " / "  # between what differs among the parts of a mean
+
+
+@dataclass
+class Cell:
+    """One number of a table with its 95 % interval, and the range over what it is a mean of; None where there is none."""
+
+    table: str
+    row: str
+    column: str
+    value: float = None  # none: what its rows have is no value, or has no geometric mean
+    low: float = None
+    high: float = None
+    least: float = None  # of the shots that a geometric mean is over
+    most: float = None
+    is_significant: bool = False  # by the adjusted p-value of the study's primary comparisons
+    seeds: int = None
+    interval: str = None  # what it holds, or why there is none: experiments/results/interval.h
+    mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
+    clock: str = None  # of times
+    disturbed_share: float = None  # of the frames that a time is the median of, by other programs
+
+    def reasons(self):
+        """Why there is no interval, where that is known."""
+        kinds = (self.interval or "").split(BOTH)
+        return [kind[len(NO_INTERVAL) :] for kind in kinds if kind.startswith(NO_INTERVAL)]
+
+
+def _number(row, column):
+    text = row.get(column) or ""
+    try:
+        return float(text) if text else None
+    except ValueError as e:
+        raise ResultsError(f"'{column}' = \"{text}\" is not a number") from e
+
+
+def _split_rows(rows):
+    """A row for each of the three quantities of splits.csv, named by `metric`."""
+    for row in rows:
+        for metric in ("mse", "bias_squared", "variance"):
+            yield row | {
+                "metric": metric,
+                "value": row[metric],
+                "low": row.get(metric + "_low", ""),
+                "high": row.get(metric + "_high", ""),
+            }
+
+
+class Table:
+    """One entry of "tables", checked."""
+
+    def __init__(self, entry, where_from):
+        unknown = sorted(set(entry) - KEYS)
+        if unknown:
+            raise ResultsError(f"{where_from}: unknown key '{unknown[0]}' of a table; known are {', '.join(sorted(KEYS))}")
+        for key in ("name", "caption", "of", "rows", "columns"):
+            if key not in entry:
+                raise ResultsError(f"{where_from}: a table needs '{key}'")
+        if entry["of"] not in SOURCES:
+            raise ResultsError(f"{where_from}: 'of' = \"{entry['of']}\", but must be one of {', '.join(SOURCES)}")
+        self.name, self.caption, self.of = entry["name"], entry["caption"], entry["of"]
+        self.where = {k: v if isinstance(v, list) else [v] for k, v in entry.get("where", {}).items()}
+        self.rows, self.columns = (v if isinstance(v, list) else [v] for v in (entry["rows"], entry["columns"]))
+        self.over, self.sort, self.labels = entry.get("over"), entry.get("sort"), entry.get("labels", {})
+
+
+class Selection:
+    """The rows of a results folder that a table is made of, and how they are named in it."""
+
+    def __init__(self, results, table):
+        self.table = table
+        self.shots = results.manifest["shots"]
+        self.parameters = {(v["variant"], v["point"]): v.get("parameters", {}) for v in results.manifest["variants"]}
+        rows = results.read_csv(SOURCES[table.of][0])
+        if table.of == "splits":
+            rows = list(_split_rows(rows))
+        if table.of == "results":
+            rows = rows_for_shots(rows)
+        self.rows = [r for r in rows if all(self._is_inside(r, k) for k in table.where)]
+        if not self.rows:
+            raise ResultsError(f"table '{table.name}': {SOURCES[table.of][0]} has no row where {json.dumps(table.where)}")
+        self.disturbed = {_timed(r): _number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
+
+    def entry(self, row, key):
+        """What a row has under a key: a column of the file, else a parameter of its point."""
+        if key in row:
+            return row[key]
+        value = self.parameters.get((row.get("variant"), row.get("point")), {}).get(key)
+        return value if value is None or isinstance(value, str) else json.dumps(value)
+
+    def _is_inside(self, row, key):
+        allowed = [v if isinstance(v, str) else json.dumps(v) for v in self.table.where[key]]
+        return self.entry(row, key) in allowed
+
+    def label(self, row, keys):
+        """How a row is named along an axis: parameters with their names, columns of the file by their values alone."""
+        words = []
+        for key in keys:
+            value = self.entry(row, key)
+            if value is None:
+                continue
+            text = value if key in row else f"{key} = {value}"
+            words.append(self.table.labels.get(text, text))
+        return ", ".join(word for word in words if word)
+
+    def place(self, row, keys):
+        """Sorts rows as the table's `where` lists their values; equal where it does not."""
+        listed = self.table.where
+        return [listed[k].index(self.entry(row, k)) if k in listed and self.entry(row, k) in listed[k] else 0 for k in keys]
+
+
+def _timed(row, against=""):
+    """What names a row of time_summary.csv; of time_effects.csv with the prefix "against_" that of the other point."""
+    return tuple(row.get(key) for key in ("shot", against + "variant", against + "point", "stage"))
+
+
+def _cell(selection, row, name):
+    table = selection.table
+    value, low, high = (_number(row, c) for c in SOURCES[table.of][1] or ("value", "low", "high"))
+    if table.of in SHARES and row["quantity"] not in NOT_SHARES:
+        low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
+    p = _number(row, "p_holm")
+    seeds = _number(row, "seeds")
+    shares = [selection.disturbed.get(key) for key in (_timed(row), _timed(row, "against_"))]
+    return Cell(
+        table.name,
+        *name,
+        value,
+        low,
+        high,
+        is_significant=p is not None and p < SIGNIFICANT,
+        seeds=seeds and int(seeds),
+        interval=row.get("interval") or None,
+        clock=row.get("clock") or None,
+        disturbed_share=_largest(shares),
+    )
+
+
+def _largest(numbers):
+    return max((n for n in numbers if n is not None), default=None)
+
+
+def _joined(texts):
+    return BOTH.join(dict.fromkeys(t for t in texts if t)) or None
+
+
+def _geometric_mean(parts):
+    """Over shots, which are what they are and no sample: its interval holds what those of the single ones hold, taken as
+    independent (half-widths of logarithms, added in quadrature). Parts without a value are not in it."""
+    cells = [c for c in parts if c.value is not None]
+    result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
+    result.interval = _joined(c.interval for c in cells or parts)
+    result.clock = _joined(c.clock for c in cells)
+    result.disturbed_share = _largest(c.disturbed_share for c in cells)
+    result.seeds = min((c.seeds for c in cells if c.seeds is not None), default=None)
+    if not cells:
+        return result
+    if min(c.value for c in cells) <= 0:
+        result.interval = NOT_POSITIVE
+        return result
+    result.value = math.exp(sum(math.log(c.value) for c in cells) / len(cells))
+    result.least, result.most = min(c.value for c in cells), max(c.value for c in cells)
+    if all(c.low and c.low > 0 and c.high for c in cells):
+        half = math.sqrt(sum((math.log(c.high / c.low) / 2) ** 2 for c in cells)) / len(cells)
+        result.low, result.high = result.value * math.exp(-half), result.value * math.exp(half)
+    return result
+
+
+def _arithmetic_mean(parts):
+    """Of shares over shots, which are what they are and no sample; intervals as those of _geometric_mean()."""
+    cells = [c for c in parts if c.value is not None]
+    result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
+    if not cells:
+        return result
+    result.value = sum(c.value for c in cells) / len(cells)
+    result.least, result.most = min(c.value for c in cells), max(c.value for c in cells)
+    result.seeds = min((c.seeds for c in cells if c.seeds is not None), default=None)
+    if all(c.low is not None and c.high is not None for c in cells):
+        half = math.sqrt(sum(((c.high - c.low) / 2) ** 2 for c in cells)) / len(cells)
+        result.low, result.high = result.value - half, result.value + half
+    return result
+
+
+def _mean(table, parts):
+    return _arithmetic_mean(parts) if table.of in SHARES else _geometric_mean(parts)
+
+
+def _refuse_shared(selection, name, rows):
+    """Rows of one cell must be told apart by what the mean is over: a mean of two masks of a shot is none over shots."""
+    table = selection.table
+    file, place = SOURCES[table.of][0], f"({name[0]}; {name[1]})"
+    if table.over is None:
+        if len(rows) > 1:
+            raise ResultsError(
+                f"table '{table.name}': {len(rows)} rows of {file} fall on one cell {place}; "
+                "narrow it with 'where', tell them apart by 'rows' or 'columns', or name what the mean is 'over'"
+            )
+        return
+    seen = {}
+    for row in rows:
+        part = selection.entry(row, table.over)
+        if part is None:
+            raise ResultsError(f"table '{table.name}': 'over' = \"{table.over}\" is neither a column of {file} nor a parameter of all points")
+        if part in seen:
+            first = seen[part]
+            differing = [f"{k} ({first[k]}, {row[k]})" for k in NAMING if k in row and first[k] != row[k]]
+            raise ResultsError(
+                f"table '{table.name}': the cell {place} has two rows of {file} with {table.over} = {part}, which differ in "
+                f"{', '.join(differing) or 'nothing that names them'}; narrow it with 'where', or tell them apart by 'rows' or 'columns'"
+            )
+        seen[part] = row
+
+
+def _about(selection, filled):
+    """What is said of a table beside its cells; `filled`: the rows that have a value."""
+    table = selection.table
+    shots = [s for s in selection.shots if any(r["shot"] == s["shot"] for r in filled)]
+    return {
+        "name": table.name,
+        "caption": table.caption,
+        "shots": [s["shot"] for s in shots],
+        "resolutions": sorted({f"{s['width']}x{s['height']}" for s in shots}),
+        "over": table.over,
+        "over_count": len({selection.entry(r, table.over) for r in selection.rows}) if table.over else None,
+        "clocks": sorted({r["clock"] for r in filled if r.get("clock")}),
+    }
+
+
+def cells_of(results, table):
+    """(what is said of the table, all of its cells row by row)."""
+    selection = Selection(results, table)
+    groups = {}
+    axes = [table.rows, table.columns]
+    for row in sorted(selection.rows, key=lambda r: [selection.place(r, keys) for keys in axes]):  # stable
+        groups.setdefault(tuple(selection.label(row, keys) for keys in axes), []).append(row)
+    cells, filled = [], []
+    for name, rows in groups.items():
+        _refuse_shared(selection, name, rows)
+        parts = [_cell(selection, row, name) for row in rows]
+        filled += [row for row, part in zip(rows, parts) if part.value is not None]
+        cells.append(parts[0] if table.over is None else _mean(table, parts))
+    return _about(selection, filled), _sorted(cells, table.sort)
+
+
+def _sorted(cells, column):
+    rows = list(dict.fromkeys(c.row for c in cells))
+    if column is not None:
+        values = {c.row: c.value for c in cells if c.column == column and c.value is not None}
+        rows.sort(key=lambda r: values.get(r, math.inf))
+    return sorted(cells, key=lambda c: rows.index(c.row))

@@ -1,0 +1,177 @@
+"""A table as Markdown, LaTeX and CSV."""
+
+import csv
+import io
+import math
+
+from paper_tables.cells import BOTH
+
+# What intervals hold (experiments/results/interval.h) that is less than the scatter over the seeds and the reference's noise, where
+# there are such: its mark, and what the mark says.
+LESSER = {
+    "seeds": ("\N{DAGGER}", "the interval holds the seeds alone, not the reference's noise"),
+    "pixels and seeds": ("\N{DOUBLE DAGGER}", "the interval holds the choice of pixels, not the reference's noise"),
+    "pixels": ("\N{DOUBLE DAGGER}", "the interval holds the choice of pixels, not the reference's noise"),
+}
+DISTURBED = "\N{SECTION SIGN}"
+NO_VALUE = "\N{EN DASH}"
+
+
+def _decimals(cell):
+    """As many as tell two digits of the interval's half-width, else three of the value; never more than four of it."""
+    size = abs(cell.value)
+    if size == 0 or not math.isfinite(size):
+        return 2
+    most = 3 - math.floor(math.log10(size))
+    half = (cell.high - cell.low) / 2 if cell.low is not None and cell.high is not None else None
+    wanted = most - 1 if not half else 1 - math.floor(math.log10(half))
+    return max(min(wanted, most), 0)
+
+
+def _text(value, decimals):
+    if value != 0 and abs(value) < 1e-4:
+        return f"{value:.1e}"
+    return f"{value:.{decimals}f}"
+
+
+def _has_interval(cell):
+    return cell.value is not None and cell.low is not None and cell.high is not None
+
+
+def _lesser(cell):
+    return [LESSER[kind] for kind in (cell.interval or "").split(BOTH) if kind in LESSER] if _has_interval(cell) else []
+
+
+def _has_range(cell):
+    return cell.least is not None and cell.least != cell.most
+
+
+def _is_part(table, cell):
+    """A mean over fewer than the table has, since the others have no value."""
+    return cell.mean_of is not None and cell.mean_of < table["over_count"]
+
+
+def _reasons(cell):
+    return [] if _has_interval(cell) else [r for r in cell.reasons() if r != "no value"]
+
+
+def cell_text(table, cell):
+    """0.71 [0.70, 0.73] (0.37 to 0.90; 6 of 8): the value, its interval, the range over shots, and how many of them have a value;
+    with marks that notes() explains."""
+    marks = "".join(dict.fromkeys(mark for mark, _ in _lesser(cell))) + DISTURBED * bool(cell.disturbed_share)
+    words = []
+    if cell.value is None:
+        text = NO_VALUE
+    else:
+        decimals = _decimals(cell)
+        text = _text(cell.value, decimals)
+        if _has_interval(cell):
+            text += f" [{_text(cell.low, decimals)}, {_text(cell.high, decimals)}]"
+        if _has_range(cell):
+            words.append(f"{_text(cell.least, decimals)} to {_text(cell.most, decimals)}")
+        if _is_part(table, cell):
+            words.append(f"{cell.mean_of} of {table['over_count']}")
+    if cell.clock and len(table["clocks"]) > 1:
+        words.append(cell.clock)
+    words += _reasons(cell)
+    return text + marks + (f" ({'; '.join(words)})" if words else "")
+
+
+def notes(table, cells):
+    """What brackets, parentheses and marks of the table mean; "" where it has none."""
+    over = "shots" if table["over"] == "shot" else f"all {table['over']}"
+    found = []
+    if any(_has_interval(c) for c in cells):
+        found.append("in brackets 95 % intervals")
+    if any(_has_range(c) for c in cells):
+        found.append(f"in parentheses the range over {over}")
+    if any(_is_part(table, c) and c.value is not None for c in cells):
+        found.append(f"\"n of {table['over_count']}\": so many of the {over} have a value and are in the mean")
+    found += dict.fromkeys(f"{mark}: {meaning}" for c in cells for mark, meaning in _lesser(c))
+    reasons = list(dict.fromkeys(f'"{reason}"' for c in cells for reason in _reasons(c)))
+    if reasons:
+        found.append(f"{', '.join(reasons)}: why there is no interval")
+    if any(c.value is not None and not _has_interval(c) and not _reasons(c) for c in cells):
+        found.append("a number without brackets has no interval")
+    if any(c.value is None for c in cells):
+        found.append(f"{NO_VALUE}: no value")
+    share = max((c.disturbed_share for c in cells if c.disturbed_share), default=None)
+    if share:
+        found.append(f"{DISTURBED}: other programs disturbed some of its frames, {100 * share:.0f} % at most")
+    if any(c.is_significant for c in cells):
+        found.append("bold: told from 1 by Holm's test at 0.05")
+    text = "; ".join(found)
+    return text and text[0].upper() + text[1:] + "."
+
+
+def _grid(cells):
+    rows = list(dict.fromkeys(c.row for c in cells))
+    columns = list(dict.fromkeys(c.column for c in cells))
+    return rows, columns, {(c.row, c.column): c for c in cells}
+
+
+def markdown(table, cells, made_from):
+    rows, columns, at = _grid(cells)
+
+    def shown(row, column):
+        cell = at.get((row, column))
+        if cell is None:
+            return ""
+        text = cell_text(table, cell)
+        return f"**{text}**" if cell.is_significant else text
+
+    escaped = [c.replace("|", "\\|") for c in columns]
+    lines = [f"{table['caption']}", "", "| | " + " | ".join(escaped) + " |", "|---" * (len(columns) + 1) + "|"]
+    for row in rows:
+        name = row.replace("|", "\\|")
+        lines.append(f"| {name} | " + " | ".join(shown(row, c) for c in columns) + " |")
+    return "\n".join([*lines, "", f"{made_from} {notes(table, cells)}".rstrip(), ""])
+
+
+def _latex_escaped(text):
+    for plain, escaped in {"\\": r"\textbackslash{}", "_": r"\_", "%": r"\%", "&": r"\&", "#": r"\#", "^": r"\^{}"}.items():
+        text = text.replace(plain, escaped)
+    for mark, name in {"\N{DAGGER}": "dag", "\N{DOUBLE DAGGER}": "ddag", DISTURBED: "S"}.items():
+        text = text.replace(mark, f"\\{name}{{}}")
+    return text.replace(NO_VALUE, "--")
+
+
+def latex(table, cells, made_from):
+    """With the package booktabs; intervals small, as what the marks mean below."""
+    rows, columns, at = _grid(cells)
+
+    def shown(row, column):
+        cell = at.get((row, column))
+        if cell is None:
+            return ""
+        value, _, rest = _latex_escaped(cell_text(table, cell)).partition(" ")
+        value = f"\\textbf{{{value}}}" if cell.is_significant else value
+        return f"{value} {{\\scriptsize {rest}}}" if rest else value
+
+    head = " & ".join(_latex_escaped(c) for c in columns)
+    lines = [
+        f"% {made_from}",
+        "\\begin{table}",
+        f"\\caption{{{_latex_escaped(table['caption'])}}}",
+        f"\\begin{{tabular}}{{l{'r' * len(columns)}}}",
+        "\\toprule",
+        f" & {head} \\\\",
+        "\\midrule",
+    ]
+    lines += [f"{_latex_escaped(r)} & " + " & ".join(shown(r, c) for c in columns) + " \\\\" for r in rows]
+    explained = notes(table, cells)
+    below = [f"\\par\\smallskip {{\\scriptsize {_latex_escaped(explained)}}}"] if explained else []
+    return "\n".join([*lines, "\\bottomrule", "\\end{tabular}", *below, "\\end{table}", ""])
+
+
+def comma_separated(cells):
+    """The grid with a column for each value, low and high."""
+    rows, columns, at = _grid(cells)
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([""] + [name for c in columns for name in (c, f"{c} low", f"{c} high")])
+    for row in rows:
+        found = [at.get((row, c)) for c in columns]
+        numbers = [(cell.value, cell.low, cell.high) if cell else ("", "", "") for cell in found]
+        writer.writerow([row] + ["" if n is None else n for three in numbers for n in three])
+    return out.getvalue()

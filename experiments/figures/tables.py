@@ -1,0 +1,105 @@
+"""Tables of a study's results, as its config asks for them ("tables", experiments/README.md): Markdown, LaTeX and CSV.
+
+usage: tables.py RESULTS [--out DIR] [--keep]
+       tables.py --fill | --check ESTIMATORS
+
+With --keep also the summary that is committed (experiments/summaries), and the documents that show its tables; --fill makes
+the tables of all documents anew, --check says which differ, and which summaries today's estimators did not make."""
+
+import argparse
+import os
+import sys
+
+from paper_figures.results import Results, ResultsError
+from paper_tables import documents, formats, summary_file
+from paper_tables.cells import Table, cells_of
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description="Tables (Markdown, LaTeX, CSV) from a results folder.")
+    parser.add_argument("results", nargs="?", help="a folder that `ssrlab run` filled")
+    parser.add_argument("--out", help="default: tables in the results folder")
+    parser.add_argument("--keep", action="store_true", help="also write the summary that is committed, and the documents")
+    parser.add_argument("--fill", action="store_true", help="make the tables of all documents anew")
+    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="compare them, and the version of the estimators")
+    parser.add_argument("--root", default=ROOT, help=argparse.SUPPRESS)  # tests use a tree of their own
+    arguments = parser.parse_args()
+    if sum([arguments.results is not None, arguments.fill, arguments.check is not None]) != 1:
+        parser.error("name one results folder, or --fill, or --check")
+    return arguments
+
+
+def write(file, text):
+    with open(file, "w", encoding="utf-8") as stream:
+        stream.write(text)
+
+
+def default_folder(results):
+    return os.path.join(results, "tables")
+
+
+def remove_others(out, names):
+    """Tables that the config no longer asks for; no other files."""
+    for file in os.listdir(out):
+        name, kind = os.path.splitext(file)
+        if kind in (".md", ".tex", ".csv") and name not in names:
+            os.remove(os.path.join(out, file))
+
+
+def make(folder, out, summary_folder):
+    """Writes a study's tables; returns how many. `summary_folder`: where the summary is kept, too; may be None."""
+    results = Results(folder)
+    config = results.manifest["config"]
+    entries = config.get("tables", [])
+    if not entries:
+        raise ResultsError(f"{folder}: its study asks for no tables; add \"tables\" to its config (experiments/README.md)")
+    why_not = summary_file.why_not_kept(results.manifest) if summary_folder else None
+    if why_not:
+        raise ResultsError(f"{folder} cannot be kept: {why_not}")
+    origin = summary_file.origin(results.manifest)
+    tables, every = [], []
+    os.makedirs(out, exist_ok=True)
+    for entry in entries:
+        table, cells = cells_of(results, Table(entry, folder))
+        made_from = summary_file.made_from(origin, table, cells)
+        write(os.path.join(out, table["name"] + ".md"), formats.markdown(table, cells, made_from))
+        write(os.path.join(out, table["name"] + ".tex"), formats.latex(table, cells, made_from))
+        write(os.path.join(out, table["name"] + ".csv"), formats.comma_separated(cells))
+        tables.append(table)
+        every += cells
+    if out == default_folder(folder):
+        remove_others(out, {table["name"] for table in tables})
+    if summary_folder:
+        summary_file.write(os.path.join(summary_folder, results.manifest["study"]["name"] + ".csv"), origin, tables, every)
+    return len(entries)
+
+
+def main():
+    arguments = parse_arguments()
+    summaries = os.path.join(arguments.root, "experiments", "summaries")
+    try:
+        if arguments.check is not None:
+            found = documents.mistakes(arguments.root, summaries, arguments.check)
+            for sentence in found:
+                print(f"error: {sentence}", file=sys.stderr)
+            return 2 if found else 0
+        if arguments.results:
+            out = arguments.out or default_folder(arguments.results)
+            count = make(arguments.results, out, summaries if arguments.keep else None)
+            print(f"{count} tables in {out}")
+        if arguments.fill or arguments.keep:
+            changed = documents.rewrite(arguments.root, summaries)
+            print(f"{len(changed)} documents changed" + "".join(f"\n{file}" for file in changed))
+    except ResultsError as mistake:
+        print(f"error: {mistake}", file=sys.stderr)
+        return 2
+    except OSError as fault:
+        print(f"error: cannot write the tables: {fault}", file=sys.stderr)
+        return 3
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

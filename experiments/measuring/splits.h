@@ -1,0 +1,23 @@
+#pragma once
+#include "experiments/measuring/lit_noise.h"
+#include "experiments/results/cell.h"
+#include "metrics/score.h"
+
+/// One target's images of all seeds, added one after the other.
+struct SeedSplit {
+    const MetricReference& reference;  ///< must outlive this
+    SeedMoments moments = {};
+    std::vector<unsigned> seeds = {};
+    std::vector<HostImage> images = {};
+
+    void add(unsigned seed, const HostImage& rgb);
+};
+
+/// What all pairs of seeds tell (seed_pairs()) under each mask that holds finite pixels; nothing below two seeds, but
+/// of a point that does not depend on them, whose one seed is as good as two: all of its error is bias. Intervals are
+/// Student's over the pairs of successive seeds, which are independent (two pairs or more), around the value that all
+/// pairs give; it is a little more certain. That of the squared bias has the reference's noise added in quadrature
+/// (noise_half_width(); none where that cannot be told), and what `lit_noise` knows of `mse`. `shared` holds shot,
+/// frame, variant, point and target.
+std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared,
+                                 bool depends_on_seed = true, const LitNoises& lit_noise = {});

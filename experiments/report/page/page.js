@@ -1,0 +1,132 @@
+// What all sections share: elements, numbers as text, tables, tips.
+
+/// An element: `h("td", {class: "number"}, "12")`. Attributes that are functions become listeners, null ones are left
+/// out.
+function h(tag, attributes = {}, ...children) { return fill(document.createElement(tag), attributes, children); }
+
+function svg(tag, attributes = {}, ...children) {
+    return fill(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
+}
+
+function fill(element, attributes, children) {
+    for (const [name, value] of Object.entries(attributes)) {
+        if (typeof value === "function")
+            element.addEventListener(name, value);
+        else if (value !== null && value !== undefined && value !== false)
+            element.setAttribute(name, value === true ? "" : value);
+    }
+    element.append(...children.flat().filter(c => c !== null && c !== undefined));
+    return element;
+}
+
+const at = id => document.getElementById(id);
+const unique = list => [...new Set(list)];
+const list = value => Array.isArray(value) ? value : [];
+const pointLabel = row => row.variant + (row.point && row.point !== "default" ? " · " + row.point : "");
+
+/// Four significant digits; exponents only where the plain form is long.
+function number(x, digits = 4) {
+    if (x === null || x === undefined) return "–";
+    if (!Number.isFinite(x)) return String(x);
+    if (x === 0) return "0";
+    const size = Math.abs(x);
+    if (size >= 1e5 || size < 1e-3) {
+        const [mantissa, exponent] = x.toExponential(digits - 1).split("e");
+        return `${Number(mantissa)}e${Number(exponent)}`;
+    }
+    return String(Number(x.toPrecision(digits)));
+}
+
+/// Why a value has no interval, as experiments/results/interval.h has it; empty where that is not told.
+const whyNoInterval = row => row.value !== null && row.interval?.startsWith("none: ") ?
+    `${row.interval.slice("none: ".length)}: no interval` :
+    "";
+const interval = (row, digits = 4) => row.low === null || row.low === undefined ?
+    whyNoInterval(row) :
+    `[${number(row.low, digits)}, ${number(row.high, digits)}]`;
+
+/// A single seed of a point that depends on it: another one might tell anything.
+const isOneSeed = row => row.interval === "none: 1 seed";
+
+function select(label, options, value, changed) {
+    const box = h("select", {change: event => changed(event.target.value)}, options.map(o => {
+        const [key, text] = Array.isArray(o) ? o : [o, o];
+        return h("option", {value: key, selected: key === value}, text);
+    }));
+    return h("label", {}, label, box);
+}
+
+/// Rows are arrays of cells; a cell is a text, an element, or {sort, content}. Columns with `number` are right-aligned;
+/// a sortable table has a button in each head.
+function table(columns, rows, options = {}) {
+    const body = h("tbody");
+    const heads = columns.map(
+        (column, i) =>
+            h("th", {class: column.number ? "number" : null, scope: "col"},
+              options.sortable ? h("button", {click: () => sortBy(i), title: "Sort by " + column.name}, column.name) :
+                                 column.name));
+    const show =
+        ordered =>
+            body.replaceChildren(
+                ...ordered.map(
+                    (row, i) =>
+                        h("tr", {
+                            class: options.groupBy !== undefined && i > 0 &&
+                                    sortKey(row[options.groupBy]) !== sortKey(ordered[i - 1][options.groupBy]) ?
+                                "group" :
+                                null
+                        },
+                          row.map(
+                              (cell, c) =>
+                                  h(
+                                      "td", {
+                                          class: columns[c].number ? "number" : null,
+                                          "data-value": cell && cell.sort !== undefined ? String(cell.sort) : null
+                                      },
+                                      cell && cell.content !== undefined ? cell.content : cell)))));
+    function sortBy(i) {
+        const up = heads[i].getAttribute("aria-sort") !== "ascending";
+        heads.forEach(head => head.removeAttribute("aria-sort"));
+        heads[i].setAttribute("aria-sort", up ? "ascending" : "descending");
+        show([...rows].sort((a, b) => compareCells(sortKey(a[i]), sortKey(b[i]), up)));
+    }
+    show(rows);
+    return h(
+        "table", {}, options.caption ? h("caption", {}, options.caption) : null, h("thead", {}, h("tr", {}, heads)),
+        body);
+}
+
+const sortKey = cell => cell && cell.sort !== undefined ? cell.sort : cell instanceof Node ? cell.textContent : cell;
+
+/// Missing numbers come last in both directions.
+function compareCells(a, b, up) {
+    if (a === null || b === null) return (a === null) - (b === null);
+    const order = typeof a === "number" && typeof b === "number" ?
+        a - b :
+        String(a).localeCompare(String(b), "en", {numeric: true});
+    return up ? order : -order;
+}
+
+const cell = (sort, ...content) => ({sort: sort === undefined ? null : sort, content: h("span", {}, ...content)});
+
+const tip = h("div", {class: "tip", hidden: true, role: "tooltip"});
+
+/// Shows `text` beside the pointer, or beside the element for keyboard users.
+function withTip(element, text) {
+    const show = event => {
+        const box = element.getBoundingClientRect();
+        tip.textContent = text;
+        tip.hidden = false;
+        tip.style.left = Math.min((event.clientX ?? box.right) + 14, innerWidth - tip.offsetWidth - 8) + "px";
+        tip.style.top = Math.min((event.clientY ?? box.top) + 14, innerHeight - tip.offsetHeight - 8) + "px";
+    };
+    const hide = () => {
+        tip.hidden = true;
+    };
+    for (const name of ["pointermove", "focus"]) element.addEventListener(name, show);
+    for (const name of ["pointerleave", "blur"]) element.addEventListener(name, hide);
+    element.setAttribute("tabindex", "0");
+    element.setAttribute("role", "img");
+    element.setAttribute("aria-label", text.replaceAll("\n", "; "));
+    return element;
+}

@@ -1,0 +1,156 @@
+#include "experiments/report/report.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "experiments/report/html_text.h"
+#include "experiments/report/report_data.h"
+#include "experiments/report/report_images.h"
+#include "experiments/report/report_warnings.h"
+#include "experiments/results/summary.h"
+#include "experiments/stability/stability_report.h"
+
+#include <algorithm>
+#include <map>
+
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t page_bytes = 15'000'000;  ///< a page is mailed and opened on slow machines: larger ones are not
+
+/// The page's scripts, in the order in which they build on each other.
+constexpr const char* scripts[] = {"data.js",         "page.js",      "sections.js",   "points.js",  "axes.js",
+                                   "line_chart.js",   "strips.js",    "ladder.js",     "summary.js", "overview.js",
+                                   "charts.js",       "roughness.js", "splits.js",     "hits.js",    "effects.js",
+                                   "temporal.js",     "stability.js", "image_data.js", "panes.js",   "viewer.js",
+                                   "viewer_input.js", "start.js"};
+
+std::string part(const std::string& name) {
+    return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report/page" / name);
+}
+
+/// JSON inside a script element: no "</script>" may end it.
+std::string script_text(const json& value) {
+    std::string escaped;
+    for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace))
+        escaped += c == '<' ? "\\u003c" : std::string(1, c);
+    return escaped;
+}
+
+/// The rows of `metric` of what is reflected; where there are none such, those of the first target, metric and mask.
+std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> errors, const PointSet& singles,
+                                                const std::string& metric) {
+    std::vector<const MetricSummary*> rows = rows_for_shots(errors);
+    std::erase_if(rows, [&](const MetricSummary* e) { return singles.contains({e->variant, e->point}); });
+    const auto narrow = [&](const std::string MetricSummary::*column, const std::string& wanted) {
+        const bool has_wanted = std::ranges::any_of(rows, [&](const MetricSummary* e) { return e->*column == wanted; });
+        const std::string chosen = has_wanted || rows.empty() ? wanted : rows.front()->*column;
+        std::erase_if(rows, [&](const MetricSummary* e) { return e->*column != chosen; });
+    };
+    narrow(&MetricSummary::target, "specular");
+    narrow(&MetricSummary::metric, metric);
+    narrow(&MetricSummary::mask, "reflective");
+    return rows;
+}
+
+std::string static_table(const std::vector<const MetricSummary*>& rows) {
+    const MetricSummary& chosen = *rows.front();
+    std::string html =
+        "<table><caption>" + html_text(chosen.metric + " of target " + chosen.target + " on mask " + chosen.mask) +
+        "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>Low<th>High<th>Floor</tr></thead><tbody>\n";
+    const auto cell = [](const std::optional<double>& value) {
+        return "<td>" + (value ? json(*value).dump() : "&ndash;");
+    };
+    for (const MetricSummary* e : rows)
+        html += "<tr><td>" + html_text(e->shot) + "<td>" + html_text(e->variant) + "<td>" + html_text(e->point) +
+                cell(e->value) + cell(e->low) + cell(e->high) + cell(e->floor) + "</tr>\n";
+    return html + "</tbody></table>\n";
+}
+
+/// What a reader without scripts gets: the warnings, and the relative and the absolute error of each shot.
+std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors,
+                        const PointSet& singles) {
+    std::string html;
+    for (const std::string& warning : warnings) html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
+    const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, "relmse"),
+                                            others = headline_rows(errors, singles, "mse");
+    if (!rows.empty()) html += static_table(rows);
+    if (!others.empty() && others.front()->metric != rows.front()->metric) html += static_table(others);
+    return html;
+}
+
+/// Replaces each {{name}} of the template once; what is put in is not searched again.
+std::string filled(const std::string& page, const std::map<std::string, std::string>& values) {
+    std::string out;
+    size_t at = 0;
+    for (size_t open; (open = page.find("{{", at)) != std::string::npos;) {
+        const size_t close = page.find("}}", open);
+        out += page.substr(at, open - at) + values.at(page.substr(open + 2, close - open - 2));
+        at = close + 2;
+    }
+    return out + page.substr(at);
+}
+
+json image_description(const ReportImage& image) {
+    return {{"shot", image.shot},     {"variant", image.variant}, {"point", image.point}, {"kind", image.kind},
+            {"target", image.target}, {"seed", image.seed},       {"width", image.width}, {"height", image.height}};
+}
+
+/// `values`: style, script and, where there are any, images.
+void write_page(const std::filesystem::path& folder, const std::string& title, const json& data,
+                std::map<std::string, std::string> values, const std::string& for_no_scripts) {
+    values["title"] = html_text(title);
+    values["data"] = script_text(data);
+    values["static"] =
+        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in the CSV files beside this page.</p>\n" +
+        for_no_scripts;
+    values.emplace("images", "");
+    write_text(folder / "report.html", filled(part("template.html"), values));
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& folder) {
+    const json stability = stability_report_data(folder);
+    const std::string stability_part = stability.is_null() ? "" : stability_html(stability);
+    std::map<std::string, std::string> values = {{"style", part("style.css")}};
+    for (const char* name : scripts) values["script"] += part(name);
+    if (!stability.is_null() && !std::filesystem::exists(folder / "manifest.json")) {
+        // No study: the page has this one section.
+        json data = report_data({}, {});
+        for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
+        data["manifest"] = data["defaults"] = json::object();
+        data["stability"] = stability, data["is_study"] = false;
+        return write_page(folder, "What techniques bear", data, values, stability_part);
+    }
+    const json manifest = read_json(folder / "manifest.json");
+    if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
+    const ReportTables tables = read_report_tables(folder, manifest);
+    write_summaries(folder, tables.errors, tables.times);
+
+    const std::vector<SingleChange> changes = single_changes(manifest, tables.effects);
+    const PointSet singles = points_of(changes);
+    const std::vector<std::string> warnings = report_warnings(manifest, tables.errors, tables.times);
+    json data = report_data(tables, changes);
+    data["manifest"] = manifest;
+    data["manifest"].erase("images");  // the page has its own list
+    data["manifest"].erase("stale");   // not of this study as it is
+    data["warnings"] = warnings;
+    data["defaults"] = parameter_defaults(manifest);
+    data["stability"] = stability, data["is_study"] = true;
+    const std::string for_no_scripts = static_part(warnings, tables.errors, singles) + stability_part;
+
+    size_t used = script_text(data).size() + for_no_scripts.size() + 100'000;  // the template, descriptions and notes
+    for (const auto& [name, text] : values) used += text.size();
+    const ReportImages images = report_images(folder, manifest, singles, used < page_bytes ? page_bytes - used : 0);
+    data["notes"] = images.notes;
+    data["images"] = json::array();
+    for (const ReportImage& image : images.images) {
+        values["images"] += "<script type=\"text/plain\" id=\"image-" + std::to_string(data["images"].size()) + "\">" +
+                            image.data + "</script>\n";
+        data["images"].push_back(image_description(image));
+    }
+    const json title = manifest.value("title", json());
+    write_page(folder, title.is_string() ? title.get<std::string>() : "Study", data, values, for_no_scripts);
+}

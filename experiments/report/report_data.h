@@ -1,0 +1,28 @@
+#pragma once
+#include "experiments/report/report_points.h"
+#include "experiments/results/effects.h"
+#include "experiments/results/summary.h"
+#include "experiments/results/time_effects.h"
+
+#include <nlohmann/json.hpp>
+
+/// The tables of a results folder (experiments/RESULTS.md).
+struct ReportTables {
+    std::vector<MetricSummary> errors;
+    std::vector<SplitRow> splits;
+    std::vector<HitRow> hits;
+    std::vector<EffectRow> effects;
+    std::vector<TimeEffectRow> time_effects;
+    std::vector<TimeSummary> times;
+};
+
+/// results.csv must be there; tables that are not are empty. `manifest` is the folder's.
+ReportTables read_report_tables(const std::filesystem::path& folder, const nlohmann::json& manifest);
+
+/// The rows that speak for their shot: those over its frames ("all") where there are such, else those of its last
+/// frame.
+std::vector<const MetricSummary*> rows_for_shots(std::span<const MetricSummary> errors);
+
+/// What the page's scripts read (page/data.js): tables as arrays, with texts as indices into `texts`, since few texts
+/// are repeated many times. Of the single changes only what speaks for a shot, not each of its frames.
+nlohmann::json report_data(const ReportTables& tables, std::span<const SingleChange> changes);

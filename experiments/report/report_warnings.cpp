@@ -1,0 +1,213 @@
+#include "experiments/report/report_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace {
+
+using nlohmann::json;
+
+/// The member, or null where `object` is no object or lacks it: a manifest of another version is still worth a report.
+const json& member(const json& object, const char* key) {
+    static const json none;
+    if (!object.is_object()) return none;
+    const auto found = object.find(key);
+    return found == object.end() ? none : *found;
+}
+
+double number(const json& value, double fallback) { return value.is_number() ? value.get<double>() : fallback; }
+std::string text(const json& value) { return value.is_string() ? value.get<std::string>() : "?"; }
+bool is_true(const json& value) { return value.is_boolean() && value.get<bool>(); }
+
+/// Warnings of the manifest are clauses: this ends them as sentences end.
+std::string ended(std::string clause) {
+    if (!clause.empty() && clause.back() != '.') clause += '.';
+    return clause;
+}
+
+std::string percent(double share) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.3g %%", 100.0 * share);
+    return buffer;
+}
+
+/// Rounded towards zero: 99.96 % that falls short must not be read as 100 %.
+double rounded_down(double share) { return std::floor(share * 1000.0) / 1000.0; }
+
+void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
+    for (const json& warning : member(manifest, "warnings"))
+        if (warning.is_string()) warnings.push_back("This study: " + ended(warning.get<std::string>()));
+    if (!is_true(member(manifest, "is_complete")))
+        warnings.push_back("This study is not finished: some variants or shots may be missing.");
+}
+
+/// Whether the makers of the cells differ in `part`, in what `shown` tells of it.
+bool differ(const json& provenance, const char* part, std::initializer_list<const char*> shown) {
+    for (const json& maker : provenance)
+        for (const char* key : shown)
+            if (member(member(maker, part), key) != member(member(provenance.front(), part), key)) return true;
+    return false;
+}
+
+void warn_of_provenance(std::vector<std::string>& warnings, const json& provenance) {
+    if (!provenance.is_array()) return;
+    std::string different;
+    const auto add = [&](bool is_different, const char* what) {
+        if (is_different) different += (different.empty() ? "" : ", ") + std::string(what);
+    };
+    add(differ(provenance, "host", {"name", "cpu", "cores", "memory_gib"}), "hosts");
+    add(differ(provenance, "host", {"kernel"}), "kernels");
+    add(differ(provenance, "device", {"name", "driver", "api"}), "devices or drivers");
+    add(differ(provenance, "ssrlab", {"commit", "code", "compiler", "build"}), "versions of ssrlab");
+    if (!different.empty())
+        warnings.push_back("Parts of this study were made by different " + different +
+                           ": `provenance` in manifest.json says which; compare times within one shot only.");
+    if (std::ranges::any_of(provenance,
+                            [](const json& maker) { return is_true(member(member(maker, "ssrlab"), "dirty")); }))
+        warnings.push_back(
+            "The program or its shaders are not those of the commit: it does not identify them, `code` in "
+            "manifest.json "
+            "does.");
+}
+
+/// One warning for each reason, with all points that have it.
+void warn_of_variation(std::vector<std::string>& warnings, const json& variants) {
+    std::map<std::pair<std::string, std::string>, std::string> points;  // by variant and reason
+    for (const json& v : variants) {
+        const json& why = member(v, "not_repeatable");
+        if (!why.is_string()) continue;
+        std::string& names = points[{text(member(v, "variant")), why.get<std::string>()}];
+        names += (names.empty() ? "" : ", ") + text(member(v, "point"));
+    }
+    for (const auto& [what, names] : points)
+        warnings.push_back(what.first + " (" + names +
+                           "): results differ from run to run, and their intervals do not " +
+                           "hold the scatter between runs. The reason: " + ended(what.second));
+}
+
+std::string shots_of(const json& proof) {
+    std::string list;
+    for (const json& shot : member(proof, "shots")) list += (list.empty() ? "" : ", ") + text(shot);
+    return list;
+}
+
+void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
+    if (!has_times) return;
+    const json& proofs = member(clock, "proofs");
+    if (!proofs.is_array() || proofs.empty()) warnings.push_back("The clock was not proven: take times with care.");
+    for (const json& proof : proofs) {
+        const json& verdict = member(proof, "verdict");
+        if (verdict == "failed")
+            warnings.push_back(
+                "The clock did not prove itself: passes of 1 : 10 : 100 work took other times on a quiet "
+                "machine, so no time can be trusted of " +
+                shots_of(proof) + ".");
+        else if (verdict != "passed")
+            warnings.push_back(
+                "The clock could not be judged, since other programs were at work on the machine; the "
+                "times of these shots are not proven: " +
+                shots_of(proof) + ".");
+    }
+    if (!member(clock, "aa_floor").is_number())
+        warnings.push_back("No A/A pair was measured: the noise floor of the times is not known.");
+}
+
+void warn_of_load(std::vector<std::string>& warnings, std::span<const TimeSummary> times) {
+    std::map<std::string, double> shares;
+    for (const TimeSummary& t : times) shares[t.shot] = std::max(shares[t.shot], t.disturbed_share);
+    for (const auto& [shot, share] : shares)
+        if (share > 0)
+            warnings.push_back(shot + ": other programs disturbed " + percent(share) +
+                               " of the timed frames: its times may be too long. A run on a quiet machine takes them "
+                               "again.");
+}
+
+void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
+    const std::string name = text(member(shot, "shot")) + ": ";
+    for (const json& warning : member(shot, "warnings"))
+        if (warning.is_string()) warnings.push_back(name + ended(warning.get<std::string>()));
+    const json& reference = member(shot, "reference");
+    const double target_error = number(member(reference, "target_relative_error"), 0.0);
+    const double reached = number(member(reference, "reached_share"), 1.0);
+    if (target_error > 0 && reached < 1.0)
+        warnings.push_back(name + "only " + percent(rounded_down(reached)) +
+                           " of the reference's pixels reached the relative error of " + percent(target_error) +
+                           " that was asked for; the intervals below account for the noise that is left.");
+    for (const json& of_frame : member(shot, "references"))
+        for (const json& warning : member(of_frame, "warnings"))
+            if (warning.is_string())
+                warnings.push_back(name + "frame " + std::to_string(uint64_t(number(member(of_frame, "frame"), 0.0))) +
+                                   ": " + ended(warning.get<std::string>()));
+    if (const double bad = number(member(reference, "non_finite_samples"), 0.0); bad > 0)
+        warnings.push_back(name + std::to_string(uint64_t(bad)) +
+                           " samples of the reference were not finite and were left out: its mean may be biased.");
+}
+
+constexpr double most_lit_noise = 0.1;  ///< share of an error
+
+/// The worst of each shot: techniques read light that is too noisy.
+void warn_of_light(std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
+    std::map<std::string, std::pair<double, const MetricSummary*>> worst;
+    for (const MetricSummary& e : errors) {
+        if (!e.lit_noise || !e.value || e.mask != "reflective") continue;
+        const double share = *e.lit_noise / std::max(std::abs(*e.value), 1e-300);
+        auto& [most, row] = worst.try_emplace(e.shot, most_lit_noise, nullptr).first->second;
+        if (share > most) most = share, row = &e;
+    }
+    for (const auto& [shot, found] : worst)
+        if (const MetricSummary* e = found.second)
+            warnings.push_back(shot + ": the noise of the path-traced light that techniques read makes up to " +
+                               percent(found.first) + " of an error (" + e->variant + " " + e->point + ", " +
+                               e->metric + " of " + e->target +
+                               "): intervals allow for it, more samples of the reference lower it.");
+}
+
+constexpr size_t most_pixel_warnings = 12;  ///< the rest is counted: nobody reads a hundred
+
+std::vector<std::string> pixel_warnings(std::span<const MetricSummary> errors) {
+    std::map<std::string, std::pair<size_t, size_t>> worst;
+    for (const MetricSummary& e : errors) {
+        auto& [non_finite, negative] = worst[e.shot + ", " + e.variant + " (" + e.point + "), " + e.target + ": "];
+        non_finite = std::max(non_finite, e.non_finite);
+        negative = std::max(negative, e.negative);
+    }
+    std::vector<std::string> warnings;
+    for (const auto& [where, counts] : worst) {
+        if (counts.first)
+            warnings.push_back(where + std::to_string(counts.first) +
+                               (counts.first == 1 ? " pixel is" : " pixels are") +
+                               " NaN or infinite and left out of every mean.");
+        if (counts.second)
+            warnings.push_back(where + std::to_string(counts.second) +
+                               (counts.second == 1 ? " pixel is" : " pixels are") + " negative.");
+    }
+    return warnings;
+}
+
+void warn_of_pixels(std::vector<std::string>& warnings, std::span<const MetricSummary> errors) {
+    const std::vector<std::string> found = pixel_warnings(errors);
+    const size_t shown = std::min(found.size(), most_pixel_warnings);
+    warnings.insert(warnings.end(), found.begin(), found.begin() + long(shown));
+    if (found.size() > shown)
+        warnings.push_back(std::to_string(found.size() - shown) +
+                           " more warnings of pixels that are not finite or negative: see the columns non_finite and "
+                           "negative of summary.csv.");
+}
+
+}  // namespace
+
+std::vector<std::string> report_warnings(const json& manifest, std::span<const MetricSummary> errors,
+                                         std::span<const TimeSummary> times) {
+    std::vector<std::string> warnings;
+    warn_of_study(warnings, manifest);
+    warn_of_variation(warnings, member(manifest, "variants"));
+    warn_of_provenance(warnings, member(manifest, "provenance"));
+    warn_of_clock(warnings, member(manifest, "clock"), !times.empty());
+    warn_of_load(warnings, times);
+    for (const json& shot : member(manifest, "shots")) warn_of_shot(warnings, shot);
+    warn_of_light(warnings, errors);
+    warn_of_pixels(warnings, errors);
+    return warnings;
+}

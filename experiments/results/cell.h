@@ -1,0 +1,83 @@
+#pragma once
+#include "experiments/measuring/reference_noise.h"
+#include "metrics/seed_pairs.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// One row of results.csv; the columns are explained in experiments/RESULTS.md.
+struct ResultRow {
+    std::string shot, scene, camera;
+    std::string frame;  ///< its number, or "all": over the frames of the shot
+    unsigned width = 0, height = 0;
+    std::string variant, point;
+    unsigned seed = 0;
+    std::string target, metric, formula, mask;
+    std::optional<double> value;  ///< none where it is not finite, e.g. the PSNR of equal images
+    bool is_corrected = false;
+    std::optional<double> uncorrected, low, high, floor;
+    std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
+    size_t pixels = 0, non_finite = 0, negative = 0;
+};
+
+/// One row of splits.csv: what of an error is the same for all seeds, and what differs.
+struct SplitRow {
+    std::string shot, frame, variant, point, target, mask;
+    unsigned seeds = 0;
+    double mse = 0, bias_squared = 0, variance = 0;
+    std::optional<double> variance_low, variance_high;
+    size_t pixels = 0;
+    std::optional<double> bias_squared_low, bias_squared_high;
+    // Kept in cells, for effects, but not in splits.csv.
+    std::vector<unsigned> seed_numbers;  ///< of `pairs`
+    SeedPairs pairs;
+    std::vector<float> reference_noise;  ///< of bias_squared, see ReferenceNoise::sums
+    /// In bias_squared, as ResultRow has them; empty where `mse` is not measured.
+    std::optional<double> lit_noise, lit_half_width;
+};
+
+/// One row of times.csv.
+struct TimeRow {
+    std::string shot, variant, point;
+    unsigned seed = 0;
+    std::string stage;
+    unsigned frame = 0;
+    double milliseconds = 0;
+    std::string clock;
+    std::optional<double> foreign_load = {};  ///< see CpuTimes; none where the system does not tell
+    bool is_disturbed = false;                ///< other work took too much of the machine meanwhile
+};
+
+/// One row of hits.csv: what became of the rays that one pass traced.
+struct HitRow {
+    std::string shot, frame, variant, point;
+    std::string stage;     ///< the pass
+    std::string mask;      ///< of the pixels that they start from
+    std::string quantity;  ///< a verdict of judged_hits.h; "correct": the sum of right ones; "miss: " and the outcome
+                           ///< that the tracer gave for an avoidable one; "distance_error"; "fetches"
+    unsigned seeds = 0;
+    double rays = 0;  ///< mean over the seeds
+    double value = 0;
+    std::optional<double> low, high;  ///< over the seeds; none with a single one
+};
+
+/// What a run makes of one shot and variant point with all its seeds: the unit of work that is done once, kept, and
+/// never done again.
+struct Cell {
+    std::vector<ResultRow> rows;
+    std::vector<SplitRow> splits;
+    std::vector<ReferenceNoise> reference_noise;
+    std::vector<TimeRow> times;
+    std::vector<HitRow> hits;
+    nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
+    nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
+    std::vector<std::string> notes;                   ///< sentences for the manifest: what could not be told, and why
+    nlohmann::json provenance;  ///< what made it, where and when, see experiments/results/provenance.h
+    std::string name;           ///< as CellStore knows it
+};
+
+/// Fails with nlohmann::json::exception if a member is missing or of another type.
+void to_json(nlohmann::json& json, const Cell& cell);
+void from_json(const nlohmann::json& json, Cell& cell);

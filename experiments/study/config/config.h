@@ -1,0 +1,106 @@
+#pragma once
+#include "core/gbuffer/composite.h"
+#include "core/scene/camera.h"
+#include "groundtruth/reference.h"
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// One camera of one scene at one resolution, over some frames; or one G-buffer from files.
+struct ShotConfig {
+    std::string scene;   ///< a scene's name, or a path to a .json/.gltf/.glb
+    std::string camera;  ///< "": the scene's first
+    glm::uvec2 extent{480, 270};
+    std::vector<unsigned> frames{0};  ///< poses, ascending: rendered in this order, so histories work
+    unsigned warm_up = 0;             ///< frames at the first pose before it is played: rendered, not measured
+    unsigned repeat = 1;  ///< how often the last pose is rendered in a row; a shot of one pose has its flicker measured
+    std::optional<unsigned> change;   ///< the first of `frames` after the scene's step: how long it ghosts is measured
+    bool measures_last_only = false;  ///< else every one of `frames` is measured ...
+    unsigned measure_from = 0;        ///< ... that is not before this one
+
+    std::filesystem::path gbuffer;  ///< in place of a scene: a folder with gbuffer.exr and camera.json
+    std::filesystem::path
+        reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
+
+    bool operator==(const ShotConfig&) const = default;
+};
+
+/// A variant and one point of its parameter grid.
+struct VariantConfig {
+    std::string variant;
+    std::string preset;         ///< "": none
+    nlohmann::json parameters;  ///< values that differ from the preset's or default ones
+    std::string point;          ///< its label in results: the preset and the swept values, or "default"
+    std::vector<unsigned> seeds;
+    bool depends_on_seed = true;  ///< else one seed tells all, see Variant::depends_on_seed()
+    bool is_baseline = false;     ///< all other points are compared with it, over the seeds that both have
+    nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
+    std::string against_point;  ///< of the same variant; "" for that point itself
+    bool is_timed = true;
+};
+
+/// Parameter values as points are named by them: {"estimator": "a", "taps": 4} is `estimator=a taps=4`.
+std::string label_of(const nlohmann::json& values);
+
+struct TimingConfig {
+    unsigned frames = 15;  ///< measured per variant, after the warm-up; 0: no timing
+    unsigned warm_up = 3;
+};
+
+/// Which rays of a technique are compared with what they truly meet.
+struct JudgedRays {
+    unsigned every = 1;        ///< of the pixels along each axis
+    unsigned seeds = 1000000;  ///< the first of a point's seeds, at most
+};
+
+/// The comparisons that a study is made for: one error of all points and shots. All others are exploratory.
+struct PrimaryComparisons {
+    std::string metric = "relmse", mask = "reflective", target = "specular";
+};
+
+/// Seeds of a point whose result depends on them, if the config names none: few seeds give wide intervals, and those of
+/// fewer skewed errors do not cover.
+inline constexpr unsigned default_seeds = 8;
+
+/// A study: everything that `ssrlab run` is told.
+struct Config {
+    std::filesystem::path file;  ///< what it was read from
+    std::string title;
+    std::vector<ShotConfig> shots;
+    std::vector<VariantConfig> variants;
+    ReferenceSettings reference;
+    bool has_reference = true;  ///< else no error is measured: frames are timed and rays judged
+    bool direct_lit = false;    ///< SSR reads rasterised direct light in place of the path-traced lit colour
+    CompositeFormula composite = CompositeFormula::split_sum;
+    DepthFormat depth_format = DepthFormat::d32f;
+    DepthDirection depth_direction = DepthDirection::standard;
+    unsigned normal_bits = 0;  ///< RasterizerOptions::normal_bits
+    TimingConfig timing;
+    std::optional<JudgedRays> hits;    ///< none: no ray is judged
+    std::vector<std::string> metrics;  ///< names of metrics/metric.h
+    std::vector<std::string> masks;
+    std::vector<std::string> targets;
+    PrimaryComparisons primary;
+    std::vector<std::string> frame_metrics;    ///< of all measured frames but the last, and of their mean; may be empty
+    std::vector<std::string> frame_masks;      ///< of each of those frames; their mean has all masks
+    float reflective_max_roughness = 0.6f;     ///< the mask `reflective`: perceptual roughness at most this ...
+    float reflective_min_reflectance = 0.02f;  ///< ... and F0 A + F90 B (largest channel) at least this
+    bool is_search = false;                    ///< its only variant is where `ssrlab search` starts from
+    nlohmann::json source;                     ///< as read, for the manifest
+};
+
+/// What results can be compared with: `specular`, `image`, `incident`, and the rungs of the truth ladder
+/// (truth_ladder.h) that are means over the lobe like `incident`: `camera_radiance`, `on_screen`. The second rung is
+/// `incident` itself.
+const std::vector<std::string>& target_names();
+bool is_ladder_rung(const std::string& target);
+/// Whether the reference of each shot's last frame must have a truth ladder.
+bool needs_ladder(const Config& config);
+
+/// Reads and checks a config; its keys are in experiments/README.md. Every mistake is an Error that names file and key.
+/// Scenes are only looked up later; variants, parameters, metrics and masks are checked here, before any work starts.
+Config read_config(const std::filesystem::path& file);

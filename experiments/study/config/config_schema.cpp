@@ -1,0 +1,143 @@
+#include "experiments/study/config/config_schema.h"
+
+#include "experiments/study/config/config.h"
+#include "metrics/masks.h"
+#include "metrics/metric.h"
+#include "variants/registry.h"
+
+namespace {
+
+using nlohmann::json;
+
+json one_or_more(const json& item) {
+    return {{"anyOf", {item, {{"type", "array"}, {"items", item}, {"minItems", 1}}}}};
+}
+json masks() {
+    return one_or_more(
+        {{"anyOf", {{{"enum", mask_names()}}, {{"type", "string"}, {"pattern", roughness_class_pattern}}}}});
+}
+json list_of(const std::vector<std::string>& names) { return one_or_more({{"enum", names}}); }
+json object(const json& members, const std::vector<std::string>& required = {}) {
+    return {{"type", "object"}, {"properties", members}, {"required", required}, {"additionalProperties", false}};
+}
+json number(double min, double max) { return {{"type", "number"}, {"minimum", min}, {"maximum", max}}; }
+json integer(int min, int max) { return {{"type", "integer"}, {"minimum", min}, {"maximum", max}}; }
+
+json counts(unsigned max) {
+    return {{"anyOf", {integer(1, int(max)), {{"type", "array"}, {"items", integer(0, int(max))}}}}};
+}
+
+std::string description_of(const VariantEntry& entry) {
+    const std::string limits = limits_text(entry.limits);
+    return entry.title + " (" + entry.source + ")" + (limits.empty() ? "" : "; enforced limits: " + limits);
+}
+
+json variant_schema(const VariantEntry& entry) {
+    const json parameters = make_variant(entry.name)->params.schema();
+    json axes = parameters;
+    for (auto& [name, schema] : axes["properties"].items())
+        schema = {{"description", schema["description"]}, {"type", "array"}, {"items", schema}, {"minItems", 1}};
+    std::vector<std::string> presets = {""};
+    for (const Preset& preset : entry.presets) presets.push_back(preset.name);
+    return object({{"variant", {{"const", entry.name}, {"description", description_of(entry)}}},
+                   {"preset", list_of(presets)},
+                   {"parameters", parameters},
+                   {"sweep", axes},
+                   {"each", axes},
+                   {"seeds", counts(100000)},
+                   {"baseline", {{"type", "boolean"}}},
+                   {"against", parameters},
+                   {"timing", {{"type", "boolean"}}}},
+                  {"variant"});
+}
+
+json table_schema() {
+    const json text = {{"type", "string"}}, any_object = {{"type", "object"}};
+    return object({{"name", text},
+                   {"caption", text},
+                   {"of", {{"enum", {"effects", "results", "splits", "times", "time_effects", "hits"}}}},
+                   {"where", any_object},
+                   {"rows", one_or_more(text)},
+                   {"columns", one_or_more(text)},
+                   {"over", text},
+                   {"sort", text},
+                   {"labels", any_object}},
+                  {"name", "caption", "of", "rows", "columns"});
+}
+
+json search_schema() {
+    return object({{"axes", {{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}}},
+                   {"metrics", list_of(metric_names())},
+                   {"target", {{"enum", target_names()}}},
+                   {"mask", {{"type", "string"}}},
+                   {"rounds", integer(1, 100)},
+                   {"most_time", number(1, 1e6)},
+                   {"least_gain", number(0, 1)}},
+                  {"axes"});
+}
+
+}  // namespace
+
+nlohmann::json config_schema(const std::string& variant) {
+    const std::string dialect = "https://json-schema.org/draft/2020-12/schema";
+    if (!variant.empty()) {
+        find_variant(variant);
+        json schema = make_variant(variant)->params.schema();
+        schema["$schema"] = dialect;
+        schema["title"] = "Parameters of " + variant;
+        return schema;
+    }
+    json variants = json::array();
+    for (const VariantEntry& entry : variant_table()) variants.push_back(variant_schema(entry));
+    const json text = {{"type", "string"}};
+    json frames = counts(100000);
+    frames["anyOf"].push_back(object({{"from", integer(0, 100000)}, {"to", integer(0, 100000)}}, {"from", "to"}));
+    const json shot =
+        object({{"scene", one_or_more(text)},
+                {"camera", one_or_more(text)},
+                {"resolution", {{"type", "array"}, {"items", integer(1, 16384)}, {"minItems", 2}, {"maxItems", 2}}},
+                {"frames", frames},
+                {"measure_from", integer(0, 100000)},
+                {"warm_up", integer(0, 100000)},
+                {"repeat", integer(1, 100000)},
+                {"change", integer(1, 100000)},
+                {"measure", {{"enum", {"all", "last"}}}}},
+               {"scene"});
+    const json capture = object({{"gbuffer", text}, {"reference", text}}, {"gbuffer"});
+    json samples = integer(16, 1 << 24);
+    samples["description"] = "per pixel, at most; without it " + std::to_string(ReferenceSettings::default_samples) +
+                             ", or no limit if seconds or target_relative_error is set";
+    const json reference = object({{"samples", samples},
+                                   {"seconds", number(0, 1e7)},
+                                   {"target_relative_error", number(0, 1)},
+                                   {"max_depth", integer(1, 1024)},
+                                   {"seed", integer(0, 1 << 30)}});
+    json schema =
+        object({{"$schema", text},
+                {"title", text},
+                {"shots", {{"type", "array"}, {"items", {{"anyOf", {shot, capture}}}}, {"minItems", 1}}},
+                {"variants", {{"type", "array"}, {"items", {{"anyOf", variants}}}, {"minItems", 1}}},
+                {"seeds", counts(100000)},
+                {"reference", {{"anyOf", {reference, {{"const", "none"}}}}}},
+                {"lit", {{"enum", {"path_traced", "direct"}}}},
+                {"composite", {{"enum", {"split_sum", "additive_fresnel"}}}},
+                {"depth_format", {{"enum", {"d32f", "d24", "d16"}}}},
+                {"depth_direction", {{"enum", {"standard", "reversed"}}}},
+                {"normal_encoding", {{"enum", {"float", "octahedral_16", "octahedral_8"}}}},
+                {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}})},
+                {"hits", object({{"every", integer(1, 64)}, {"seeds", integer(1, 1000000)}})},
+                {"metrics", list_of(metric_names())},
+                {"masks", masks()},
+                {"frame_metrics", {{"anyOf", {list_of(metric_names()), {{"type", "array"}, {"maxItems", 0}}}}}},
+                {"frame_masks", masks()},
+                {"targets", list_of(target_names())},
+                {"primary", object({{"metric", text}, {"mask", text}, {"target", {{"enum", target_names()}}}})},
+                {"reflective_max_roughness", number(0, 1)},
+                {"reflective_min_reflectance", number(0, 1)},
+                {"tables", {{"type", "array"}, {"items", table_schema()}}},
+                {"search", search_schema()}},
+               {"shots", "variants"});
+    schema["$schema"] = dialect;
+    schema["title"] = "ssrlab study";
+    return schema;
+}

@@ -1,0 +1,84 @@
+#include "experiments/study/config/shot.h"
+
+#include "core/files.h"
+#include "core/scene/load_scene.h"
+#include "experiments/study/capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+std::vector<FrameStep> timeline(const ShotConfig& config) {
+    std::vector<FrameStep> steps;
+    const auto render = [&](unsigned frame) -> FrameStep& {
+        FrameStep step{.index = unsigned(steps.size()), .frame = frame};
+        if (!steps.empty()) step.previous_frame = steps.back().frame;
+        return steps.emplace_back(step);
+    };
+    for (unsigned i = 0; i < config.warm_up; ++i) render(config.frames.front()).is_warm_up = true;
+    for (const unsigned frame : config.frames) {
+        const bool is_last = frame == config.frames.back();
+        for (unsigned i = 0; i < (is_last ? config.repeat : 1); ++i)
+            render(frame).is_held = is_last && config.repeat > 1;
+        steps.back().is_measured = is_last || (!config.measures_last_only && frame >= config.measure_from);
+    }
+    return steps;
+}
+
+std::string Shot::name() const {
+    const unsigned first = config.frames.front(), last = config.frames.back();
+    std::string name =
+        scene.name + "." + camera.name + "." + std::to_string(config.extent.x) + "x" + std::to_string(config.extent.y);
+    if (last > 0) name += ".f" + std::to_string(first);
+    if (last > first) name += "-" + std::to_string(last);
+    if (config.frames.size() != last - first + 1) name += ".n" + std::to_string(config.frames.size());
+    if (config.warm_up > 0) name += ".w" + std::to_string(config.warm_up);
+    if (config.repeat > 1) name += ".r" + std::to_string(config.repeat);
+    return name;
+}
+
+Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
+    Shot shot{.config = config,
+              .scene = load_scene(config.scene, search_path),
+              .camera = {},
+              .facts = {},
+              .steps = timeline(config)};
+    shot.camera = shot.scene.camera(config.camera);
+    shot.facts = derive_facts(shot.scene, shot.camera, config.frames);
+    return shot;
+}
+
+Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer) {
+    Shot shot{.config = config, .scene = {}, .camera = {.name = "gbuffer"}, .facts = {}, .steps = timeline(config)};
+    shot.config.extent = gbuffer.extent();
+    shot.scene.name = capture_name(config.gbuffer);
+    ContentHash hash;
+    for (const HostImage* image : {&gbuffer.depth, &gbuffer.geometric_normal, &gbuffer.normal, &gbuffer.base_color,
+                                   &gbuffer.emission, &gbuffer.motion, &gbuffer.material_id, &gbuffer.previous_depth,
+                                   &gbuffer.previous_normal, &gbuffer.lit, &gbuffer.fallback})
+        hash.add(std::as_bytes(std::span(image->values)));
+    hash.add(std::as_bytes(std::span(&gbuffer.camera, 1)));
+    shot.scene.content_hash = hash.hex();
+    SceneFacts& facts = shot.facts;
+    // Unknown, so that nothing is left out for lack of them.
+    facts.camera_moves = facts.objects_move = facts.has_environment = true;
+    facts.has_faulty_inputs = !count_non_finite(gbuffer).empty();
+    for (size_t i = 0; i < gbuffer.depth.values.size(); ++i) {
+        if (gbuffer.depth.values[i] == gbuffer.camera.depth.z) continue;
+        facts.has_geometry = true;
+        const glm::vec3 normal = gbuffer.normal.rgb(i);
+        facts.has_faulty_inputs |= std::abs(glm::dot(normal, normal) - 1.0f) > 0.002f;  // as repair_image.frag
+        const float roughness = gbuffer.normal.values[i * 4 + 3];
+        if (gbuffer.base_color.values[i * 4 + 3] <= 0.0f && gbuffer.emission.values[i * 4 + 3] <= 0.0f) continue;
+        facts.has_reflective = true;
+        facts.min_roughness = std::min(facts.min_roughness, roughness),
+        facts.max_roughness = std::max(facts.max_roughness, roughness);
+    }
+    return shot;
+}
+
+ShotFrame shot_frame(const Shot& shot, unsigned frame) {
+    ShotFrame now{.frame = frame, .scene = pose_scene(shot.scene, float(frame)), .camera = {}};
+    now.camera = pose_camera(shot.camera, now.scene, float(frame));
+    return now;
+}

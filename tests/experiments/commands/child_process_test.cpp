@@ -1,0 +1,43 @@
+// Programs that ssrlab starts: arguments are data, whatever they hold.
+#include "experiments/commands/child_process.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/commands/commands.h"
+
+#include <gtest/gtest.h>
+#include <filesystem>
+
+namespace fs = std::filesystem;
+
+TEST(ChildProcess, GivesTheExitCode) {
+    EXPECT_EQ(run_program({"/bin/true"}), 0);
+    EXPECT_EQ(run_program({"/bin/sh", "-c", "exit 7"}), 7);
+    EXPECT_THROW(run_program({"/nonexistent/program"}), MachineError);
+    EXPECT_THROW(run_program({"/bin/sh", "-c", "kill -9 $$"}), MachineError);
+}
+
+TEST(ChildProcess, HandsArgumentsOnAsTheyAre) {
+    const fs::path folder = fs::temp_directory_path() / "ssrlab_child_process_test";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const std::string odd = "it's; touch f; echo \"$HOME\" `id` \\ \n*";
+    EXPECT_EQ(run_program({"/bin/sh", "-c", "printf %s \"$1\" > \"$0\"", (folder / "said").string(), odd}), 0);
+    EXPECT_EQ(read_text(folder / "said"), odd);
+    fs::remove_all(folder);
+}
+
+TEST(ChildProcess, FiguresOfAFolderOfAnyName) {
+    const fs::path folder = fs::temp_directory_path() / "ssrlab_figures_test", made = folder / "made";
+    for (const std::string& name : {"x'; touch '" + made.string() + "'; echo '", std::string("it's \"so\"")}) {
+        fs::remove_all(folder);
+        // A slash cannot be part of a name; the rest of the command is.
+        const fs::path results = folder / name;
+        write_text(results / "manifest.json", "{}");
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(figures_command({.results = results, .out = {}}), 2) << "it has no tables: a mistake of the user";
+        const std::string said = testing::internal::GetCapturedStderr();
+        EXPECT_NE(said.find((results / "summary.csv").string()), std::string::npos) << said;
+        EXPECT_FALSE(fs::exists(made)) << "a path was run as a command";
+    }
+    fs::remove_all(folder);
+}

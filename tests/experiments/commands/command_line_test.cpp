@@ -1,0 +1,162 @@
+// What `ssrlab` says to mistakes and faults: one sentence, exit code 2 or 3, nothing half-written.
+#include "core/exr.h"
+#include "core/files.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Outcome {
+    int code;
+    std::string text;
+};
+
+struct CommandLine : testing::Test {
+    fs::path folder =
+        fs::temp_directory_path() /
+        ("ssrlab_command_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+
+    void SetUp() override {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    Outcome ssrlab(const std::string& arguments, const std::string& before = "") {
+        const std::string command = "cd '" + folder.string() + "'; " + before + " SSRLAB_CACHE='" + folder.string() +
+                                    "/cache' '" SSRLAB_PROGRAM "' " + arguments + " 2>&1";
+        FILE* pipe = popen(command.c_str(), "r");
+        std::string text;
+        char buffer[512];
+        while (std::fgets(buffer, sizeof buffer, pipe)) text += buffer;
+        return {WEXITSTATUS(pclose(pipe)), text};
+    }
+    void expect_mistake(const std::string& arguments, const std::string& says) {
+        const Outcome o = ssrlab(arguments);
+        EXPECT_EQ(o.code, 2) << o.text;
+        EXPECT_NE(o.text.find(says), std::string::npos) << arguments << "\n" << o.text;
+        EXPECT_EQ(std::count(o.text.begin(), o.text.end(), '\n'), 1) << "one sentence, not: " << o.text;
+    }
+    void config(const std::string& text) { write_text(folder / "study.json", text); }
+};
+
+const std::string good_shot = R"("shots": [{"scene": "sky_only", "resolution": [8, 8]}])";
+
+}  // namespace
+
+TEST_F(CommandLine, NamesMistakesInConfigs) {
+    expect_mistake("run nowhere.json", "nowhere.json");
+    config("{\n \"shots\": [,]\n}");
+    expect_mistake("run study.json", "study.json:2:");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dad"}]})");
+    expect_mistake("run study.json", "did you mean 'mcguire_dda'?");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"thicknes": 1}}]})");
+    expect_mistake("run study.json", "did you mean 'dda.thickness'?");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.stride": 1000}}]})");
+    expect_mistake("run study.json", "[1, 64]");
+    config(R"({"shots": [{"scene": "sky_only", "resolution": [0, 8]}], "variants": [{"variant": "none"}]})");
+    expect_mistake("run study.json", "'resolution' [0,8]");
+    config("{" + good_shot + R"(, "variants": [{"variant": "none"}], "refrence": {}})");
+    expect_mistake("run study.json", "did you mean 'reference'?");
+    config(
+        R"({"shots": [{"scene": "mirror_pilars", "resolution": [8, 8]}], "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
+    EXPECT_NE(ssrlab("run study.json --out o").text.find("did you mean 'mirror_pillars'?"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "o/results.csv"));
+}
+
+TEST_F(CommandLine, NamesBrokenFiles) {
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    expect_mistake("compare a.exr b.exr", "b.exr: no such file");
+    fs::copy(folder / "a.exr", folder / "cut.exr");
+    fs::resize_file(folder / "cut.exr", fs::file_size(folder / "cut.exr") / 2);
+    expect_mistake("compare a.exr cut.exr", "cut.exr");
+    expect_mistake("compare a.exr a.exr --metric flop", "did you mean 'flip'?");
+    write_exr(folder / "small.exr", HostImage({4, 4}, 3, 0.5f));
+    expect_mistake("compare a.exr small.exr", "small.exr");
+    fs::copy(fs::path(SSRLAB_SOURCE_DIR) / "scenes/fence/scene.glb", folder / "cut.glb");
+    fs::resize_file(folder / "cut.glb", fs::file_size(folder / "cut.glb") / 2);
+    expect_mistake("needs cut.glb", "cut.glb");
+    expect_mistake("needs no_such_scene", "unknown scene 'no_such_scene'");
+    expect_mistake("figures .", "manifest.json");
+    expect_mistake("describe mcguire", "unknown variant 'mcguire'");
+    EXPECT_EQ(ssrlab("reference fence --size 0 10").code, 2);
+    EXPECT_EQ(ssrlab("frobnicate").code, 2);
+}
+
+TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
+    const std::string rest = ", " + good_shot + R"(, "variants": [{"variant": "none"}]})";
+    config("{\"title\": " + std::string(300'000, '[') + std::string(300'000, ']') + rest);
+    expect_mistake("run study.json", "study.json: its JSON nests more than 100 levels");
+    config("{\"reflective_max_roughness\": 1e400" + rest);
+    expect_mistake("run study.json", "reflective_max_roughness: the number 1e400");
+    config("{\"timing\": {\"frames\": 0, \"frames\": 15}" + rest);
+    expect_mistake("run study.json", "study.json: timing: the key 'frames' comes twice");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.thickness": 1e39}}]})");
+    expect_mistake("run study.json", "'dda.thickness' = 1e+39");
+    const std::string name(300'000, 'n');
+    for (const std::string extension : {"", ".json", ".glb"}) {
+        config(R"({"shots": [{"scene": ")" + name + extension + R"("}], "variants": [{"variant": "none"}]})");
+        const Outcome o = ssrlab("run study.json");
+        EXPECT_EQ(o.code, 2) << extension << o.text.substr(0, 500);
+        EXPECT_LT(o.text.size(), 2000u);
+    }
+    config("{" + good_shot + R"(, "variants": [{"variant": ")" + name + R"("}]})");
+    expect_mistake("run study.json", "unknown variant 'nnn");
+}
+
+TEST_F(CommandLine, StopsAReferenceByWhatWasAskedFor) {
+    const Outcome o = ssrlab("reference roughness_gradient --size 16 9 --target 0.05 --out r.exr");
+    const size_t end = o.text.find(" % of the pixels reached the target");
+    ASSERT_NE(end, std::string::npos) << o.text;
+    EXPECT_GT(std::stod(o.text.substr(o.text.rfind('\n', end) + 1)), 75.0) << o.text;  // 256 samples: less than half
+}
+
+TEST_F(CommandLine, SaysWhatTheMachineLacks) {
+    const Outcome no_device = ssrlab("list devices", "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent");
+    EXPECT_EQ(no_device.code, 3) << no_device.text;
+    EXPECT_NE(no_device.text.find("mesa-vulkan-drivers"), std::string::npos) << no_device.text;
+
+    // A file size limit makes writes fail as a full disk does, with another errno. Vulkan's own files must not count.
+    const Outcome full = ssrlab("reference fence --size 320 180 --samples 16 --out r.exr",
+                                "trap '' XFSZ; ulimit -f 16; export MESA_SHADER_CACHE_DISABLE=true;");
+    EXPECT_EQ(full.code, 3) << full.text;
+    EXPECT_NE(full.text.find("error: cannot write"), std::string::npos) << full.text;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
+    EXPECT_FALSE(fs::exists(folder / "r.exr"));
+}
+
+TEST_F(CommandLine, ComparesByOneNumberPerLine) {
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    write_exr(folder / "b.exr", HostImage({16, 16}, 3, 0.75f));
+    const Outcome o = ssrlab("compare a.exr b.exr --metric mse --metric mae");
+    EXPECT_EQ(o.code, 0);
+    EXPECT_EQ(o.text, "mse 0.0625\nmae 0.25\n");
+    EXPECT_EQ(ssrlab("compare a.exr b.exr --metric mse --json --map m.exr").code, 0);
+    EXPECT_NEAR(read_exr_rgb(folder / "m.exr").values[0], 0.0625f, 1e-7f);
+}
+
+TEST_F(CommandLine, EveryCommandExplainsItself) {
+    for (const char* command : {"", "run", "figures", "compare", "reference", "gbuffer", "needs", "describe", "list"}) {
+        const Outcome o = ssrlab(std::string(command) + " --help");
+        EXPECT_EQ(o.code, 0);
+        EXPECT_GT(o.text.size(), 100u) << command;
+    }
+    EXPECT_NE(ssrlab("describe mcguire_dda").text.find("dda.thickness"), std::string::npos);
+    EXPECT_NE(ssrlab("describe diligent_ssr").text.find("Enforced limits: WebGL 2"), std::string::npos);
+    EXPECT_EQ(ssrlab("describe amd_sssr").text.find("Enforced limits"), std::string::npos);
+    EXPECT_NE(ssrlab("describe --schema").text.find("\"dda.max_steps\""), std::string::npos);
+}
+
+TEST_F(CommandLine, SavesGBuffers) {
+    const Outcome o = ssrlab("gbuffer fence --size 33 21 --out g --reversed-depth");
+    EXPECT_EQ(o.code, 0) << o.text;
+    EXPECT_EQ(read_exr(folder / "g/gbuffer.exr").find("depth")->image.extent, glm::uvec2(33, 21));
+    EXPECT_TRUE(fs::exists(folder / "g/camera.json"));
+}

@@ -1,0 +1,402 @@
+"""Tables of a made-up study, from its results folder to the documents that show them. All checks read that one study,
+and so stand in one file.
+
+usage: tables_test.py TABLES_SCRIPT
+"""
+
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+script = sys.argv[1]
+sys.path.insert(0, os.path.dirname(script))
+sys.dont_write_bytecode = True
+
+from paper_tables import summary_file  # noqa: E402
+
+SHOTS = ("floor", "wall")
+TABLES = [
+    {
+        "name": "changes",
+        "caption": "What each change does_to the error",
+        "of": "effects",
+        "where": {"target": "specular", "metric": ["mse", "flip"]},
+        "rows": "taps",
+        "columns": "metric",
+        "over": "shot",
+        "sort": "mse",
+        "labels": {"taps = 16": "sixteen | taps"},
+    },
+    {
+        "name": "levels",
+        "caption": "Errors",
+        "of": "results",
+        "where": {"metric": "mse", "point": ["taps=4", "default"]},
+        "rows": ["variant", "point"],
+        "columns": "shot",
+    },
+    {"name": "parts", "caption": "Parts", "of": "splits", "where": {"shot": "floor"}, "rows": "point", "columns": "metric"},
+]
+SEEDS, REFERENCE, ONE_SEED = "seeds", "reference and seeds", "none: 1 seed"  # experiments/results/interval.h
+RATIOS = {  # point, metric, shot: ratio, low, high, p_holm
+    ("taps=4", "mse", "floor"): (0.5, 0.45, 0.555555555555, 0.001),
+    ("taps=4", "mse", "wall"): (2.0, 1.8, 2.222222222222, 0.001),
+    ("taps=4", "flip", "floor"): (0.81, 0.80, 0.82, 0.2),
+    ("taps=4", "flip", "wall"): (0.81, "", "", ""),
+    ("taps=16", "mse", "floor"): (0.25, 0.2, 0.3, 0.2),
+    ("taps=16", "mse", "wall"): (0.25, 0.2, 0.3, 0.2),
+}
+
+
+def check(is_true, what):
+    if not is_true:
+        sys.exit(f"tables_test: {what}")
+
+
+def write(file, text):
+    os.makedirs(os.path.dirname(file), exist_ok=True)
+    with open(file, "w", encoding="utf-8") as stream:
+        stream.write(text)
+
+
+def read(file):
+    with open(file, encoding="utf-8") as stream:
+        return stream.read()
+
+
+def write_rows(file, rows):
+    with open(file, "w", newline="") as stream:
+        writer = csv.DictWriter(stream, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def manifest(tables):
+    points = [("default", 1), ("taps=4", 4), ("taps=16", 16)]
+    return {
+        "provenance": [
+            {
+                "ssrlab": {"commit": "abc1234", "dirty": False, "code": "00ff", "estimators": 7},
+                "device": {"name": "a device"},
+                "finished": "2026-01-31T12:05:00Z",
+            }
+        ],
+        "study": {"name": "made_up", "config": "configs/made_up.json"},
+        "title": "Made up",
+        "is_complete": True,
+        "config": {"tables": tables},
+        "shots": [{"shot": s, "width": 320, "height": 180} for s in SHOTS],
+        "variants": [{"variant": "sssr", "point": p, "parameters": {"taps": taps}} for p, taps in points],
+    }
+
+
+def write_results(folder, tables=TABLES, ratios=RATIOS):
+    write(os.path.join(folder, "manifest.json"), json.dumps(manifest(tables)))
+    effects = [
+        {"shot": shot, "frame": "0", "variant": "sssr", "point": point, "against": "baseline", "against_variant": "sssr"}
+        | {"against_point": "default", "target": "specular", "metric": metric, "mask": "all", "seeds": 8}
+        | {"interval": SEEDS if metric == "flip" else REFERENCE}
+        | dict(zip(("ratio", "low", "high", "p_holm", "interval"), numbers))
+        for (point, metric, shot), numbers in ratios.items()
+    ]
+    write_rows(os.path.join(folder, "effects.csv"), effects)
+    errors = [
+        {"shot": shot, "frame": frame, "variant": "sssr", "point": point, "target": "specular", "metric": "mse", "mask": "all"}
+        | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1}
+        for shot in SHOTS
+        for frame, point, value in (("3", "default", 5.0), ("all", "default", 0.0123), ("3", "taps=4", 0.002))
+    ]
+    errors += [row | {"frame": "all", "value": 0.00234, "low": "", "high": ""} for row in errors if row["point"] == "taps=4"]
+    write_rows(os.path.join(folder, "summary.csv"), errors)
+    split = {"shot": "floor", "frame": "3", "variant": "sssr", "target": "specular", "mask": "all", "seeds": 8, "mse": 3}
+    split |= {"bias_squared": 2, "bias_squared_low": 1.5, "bias_squared_high": 2.5, "variance": 1}
+    split |= {"variance_low": 0.9, "variance_high": 1.1}
+    write_rows(os.path.join(folder, "splits.csv"), [split | {"point": "default"}, split | {"point": "taps=4"}])
+    times = [
+        {"shot": shot, "variant": "sssr", "point": point, "stage": "total", "clock": "gpu_timestamp", "frames": 15}
+        | {"median_ms": 2, "low_ms": 1.9, "high_ms": 2.1, "disturbed_share": 0.4 if (shot, point) == ("wall", "default") else 0}
+        for shot in SHOTS
+        for point in ("default", "taps=4")
+    ]
+    write_rows(os.path.join(folder, "time_summary.csv"), times)
+    ratio = {"variant": "sssr", "point": "taps=4", "against": "baseline", "against_variant": "sssr", "against_point": "default"}
+    ratio |= {"stage": "total", "clock": "gpu_timestamp", "rounds": 15, "ratio": 1, "low": 0.9, "high": 1.1}
+    write_rows(os.path.join(folder, "time_effects.csv"), [{"shot": shot} | ratio for shot in SHOTS])
+
+
+def tables(*arguments):
+    return subprocess.run([sys.executable, "-B", script, *arguments], capture_output=True, text=True)
+
+
+def test_numbers(folder):
+    result = tables(folder)
+    check(result.returncode == 0, result.stderr)
+    changes = read(os.path.join(folder, "tables", "changes.md")).splitlines()
+    # exp(mean of logs) = 1; half-widths of the logarithms are ln(1 / 0.9) each, their root of squares over 2 is
+    # 0.0745, so that the interval is [0.928, 1.077].
+    half = math.sqrt(2) * math.log(1 / 0.9) / 2
+    check(abs(math.exp(half) - 1.0773) < 1e-4, "the expectation itself")
+    check(changes[2] == "| | mse | flip |", changes[2])
+    check(changes[4] == r"| sixteen \| taps | 0.250 [0.217, 0.289] |  |", changes[4])  # sorted by mse
+    check(changes[5] == "| taps = 4 | 1.000 [0.928, 1.077] (0.500 to 2.000) | 0.810 |", changes[5])
+    origin, _, explained = changes[7].partition(". ")
+    check(origin == "`ssrlab run configs/made_up.json`: commit abc1234, 2 shots at 320x180, 8 seeds, a device", origin)
+    check(explained == "In brackets 95 % intervals; in parentheses the range over shots; a number without brackets has no interval.", explained)
+    levels = read(os.path.join(folder, "tables", "levels.md")).splitlines()
+    check(levels[4].startswith("| sssr, taps=4 | 0.00234 | 0.00234 |"), levels[4])  # as listed; `all` speaks for the shot
+    check(levels[5].startswith("| sssr, default | 0.0123 [0.0111, 0.0135] |"), levels[5])
+    parts = read(os.path.join(folder, "tables", "parts.md")).splitlines()
+    check(parts[4] == "| default | 3.00 | 2.00 [1.50, 2.50] | 1.00 [0.90, 1.10] |", parts[4])
+    latex = read(os.path.join(folder, "tables", "changes.tex"))
+    check(r"\toprule" in latex and r"does\_to" in latex and r"1.000 {\scriptsize [0.928" in latex, latex)
+    grid = list(csv.reader(open(os.path.join(folder, "tables", "changes.csv"))))
+    check(grid[0] == ["", "mse", "mse low", "mse high", "flip", "flip low", "flip high"], grid[0])
+    check(abs(float(grid[2][1]) - 1) < 1e-12 and abs(float(grid[2][2]) - math.exp(-half)) < 1e-9, grid[2])
+
+
+def test_bold(folder):
+    """A ratio that Holm's test tells from 1 is bold, in a table of single shots."""
+    table = TABLES[0] | {"columns": ["metric", "shot"], "where": {"metric": "mse"}}
+    table = {k: v for k, v in table.items() if k not in ("over", "sort")}
+    write_results(folder, [table])
+    check(tables(folder).returncode == 0, "single shots")
+    line = read(os.path.join(folder, "tables", "changes.md")).splitlines()[4]
+    check(line == "| taps = 4 | **0.500 [0.450, 0.556]** | **2.00 [1.80, 2.22]** |", line)
+
+
+def footer(folder, name):
+    return read(os.path.join(folder, "tables", name + ".md")).splitlines()[-1]
+
+
+def test_footers(folder):
+    """A footer counts the shots of its table's own cells, and a mean says how many of them have a value."""
+    missing = {("taps=4", "mse", "wall"): ("", "", "", "", "none: no value")}
+    missing |= {("taps=16", "mse", shot): ("", "", "", "", "none: no value") for shot in SHOTS}
+    write_results(folder, TABLES, RATIOS | missing)
+    check(tables(folder).returncode == 0, "missing values")
+    lines = read(os.path.join(folder, "tables", "changes.md")).splitlines()
+    check(lines[4].startswith("| taps = 4 | 0.500 [0.450, 0.556] (1 of 2) | 0.810"), lines[4])
+    check(lines[5] == "| sixteen \\| taps | \N{EN DASH} |  |", lines[5])
+    check("2 shots at" in lines[7] and "\"n of 2\": so many of the shots have a value" in lines[7], lines[7])
+    check(lines[7].endswith("\N{EN DASH}: no value."), lines[7])
+    latex = read(os.path.join(folder, "tables", "changes.tex"))
+    check(r"sixteen | taps & -- & " in latex, latex)
+    parts = footer(folder, "parts")
+    check("abc1234, 1 of the study's 2 shots (floor) at 320x180, 8 seeds," in parts, parts)
+
+    write_results(folder, [TABLES[0]], RATIOS | {("taps=4", "mse", "wall"): (-1.0, "", "", "", "none: an error is not above 0")})
+    check(tables(folder).returncode == 0, "no geometric mean")
+    lines = read(os.path.join(folder, "tables", "changes.md")).splitlines()
+    check(lines[5].startswith("| taps = 4 | \N{EN DASH} (an error is not above 0) | 0.810"), lines[5])
+
+    incomplete = manifest(TABLES) | {"is_complete": False}
+    incomplete["provenance"][0]["ssrlab"]["commit"] = ""
+    write(os.path.join(folder, "manifest.json"), json.dumps(incomplete))
+    check(tables(folder).returncode == 0, "an incomplete study")
+    check(footer(folder, "parts").startswith("`ssrlab run configs/made_up.json` (not complete): commit unknown, 1 of"), footer(folder, "parts"))
+
+
+def test_what_intervals_hold(folder):
+    """Marks tell apart what intervals hold and why there is none, in Markdown, LaTeX and the document that shows them."""
+    single = {k: v for k, v in TABLES[0].items() if k not in ("over", "sort")} | {"columns": ["metric", "shot"], "name": "single"}
+    one_seed = {("taps=4", "mse", "wall"): (2.0, "", "", "", ONE_SEED), ("taps=4", "flip", "wall"): (0.81, 0.80, 0.82, 0.2)}
+    write_results(folder, [TABLES[0], single], RATIOS | one_seed)
+    root = os.path.join(folder, "tree")
+    block = "<!-- table made_up {} -->\n<!-- end of table -->\n"
+    write(os.path.join(root, "README.md"), block.format("single") + block.format("changes"))
+    result = tables(folder, "--keep", "--root", root)
+    check(result.returncode == 0, result.stderr)
+    text = read(os.path.join(folder, "tables", "single.md"))
+    marked = "| taps = 4 | **0.500 [0.450, 0.556]** | 2.00 (1 seed) | 0.8100 [0.8000, 0.8200]\N{DAGGER} | 0.8100 [0.8000, 0.8200]\N{DAGGER} |"
+    check(marked in text, text)
+    check("\N{DAGGER}: the interval holds the seeds alone" in text and '"1 seed": why there is no interval' in text, text)
+    mean = read(os.path.join(folder, "tables", "changes.md"))
+    check("| 1.00 (0.50 to 2.00; 1 seed) | 0.8100 [0.8030, 0.8171]\N{DAGGER} |" in mean, mean)
+    check(text in read(os.path.join(root, "README.md")) and mean in read(os.path.join(root, "README.md")), "marks are lost where they are kept")
+    latex = read(os.path.join(folder, "tables", "single.tex"))
+    check(r"0.8100 {\scriptsize [0.8000, 0.8200]\dag{}}" in latex and r"2.00 {\scriptsize (1 seed)}" in latex, latex)
+    check(r"{\scriptsize In brackets 95 \% intervals; \dag{}: the interval holds" in latex, latex)
+
+
+def test_times(folder):
+    """Times that other programs disturbed are marked, and so are ratios of them; the footer names the clock."""
+    times = {"name": "times", "caption": "Times", "of": "times", "where": {"stage": "total"}, "rows": "point", "columns": "shot"}
+    ratios = times | {"name": "ratios", "of": "time_effects"}
+    write_results(folder, [times, ratios, ratios | {"name": "mean", "columns": "stage", "over": "shot"}])
+    check(tables(folder).returncode == 0, "times")
+    lines = read(os.path.join(folder, "tables", "times.md")).splitlines()
+    check(lines[4] == "| default | 2.00 [1.90, 2.10] | 2.00 [1.90, 2.10]\N{SECTION SIGN} |", lines[4])
+    check(lines[5] == "| taps=4 | 2.00 [1.90, 2.10] | 2.00 [1.90, 2.10] |", lines[5])
+    check("a device, clock gpu_timestamp." in lines[7] and "disturbed some of its frames, 40 % at most" in lines[7], lines[7])
+    lines = read(os.path.join(folder, "tables", "ratios.md")).splitlines()
+    check(lines[4] == "| taps=4 | 1.00 [0.90, 1.10] | 1.00 [0.90, 1.10]\N{SECTION SIGN} |", lines[4])
+    lines = read(os.path.join(folder, "tables", "mean.md")).splitlines()
+    check(lines[4].endswith("]\N{SECTION SIGN} |"), lines[4])
+    file = os.path.join(folder, "time_summary.csv")
+    write(file, read(file).replace("gpu_timestamp", "host_fence", 1))
+    check(tables(folder).returncode == 0, "two clocks")
+    lines = read(os.path.join(folder, "tables", "times.md")).splitlines()
+    check(lines[4].startswith("| default | 2.00 [1.90, 2.10] (host_fence) | 2.00 [1.90, 2.10]\N{SECTION SIGN} (gpu_timestamp) |"), lines[4])
+    check("clock gpu_timestamp and host_fence." in lines[7], lines[7])
+
+
+def test_shares(folder):
+    """Shares of rays may be 0; their mean over shots is the arithmetic one."""
+    shares = {  # quantity: by shot (value, low, high)
+        "correct": {"floor": (0.9, 0.88, 0.92), "wall": (0.6, 0.58, 0.62)},
+        "false_hit": {"floor": (0, 0, 0), "wall": (0.5, 0.4, 0.6)},
+        "empty": {"floor": (0, "", ""), "wall": (0, "", "")},
+    }
+    table = {"name": "rays", "caption": "Rays", "of": "hits", "where": {"quantity": list(shares), "mask": "all"}}
+    table |= {"rows": ["point", "stage"], "columns": "quantity", "over": "shot"}
+    write_results(folder, [table])
+    rows = [
+        {"shot": shot, "frame": "0", "variant": "sssr", "point": "default", "stage": "trace", "mask": mask, "quantity": quantity}
+        | {"seeds": 4, "rays": 100, "value": value, "low": low, "high": high}
+        for quantity, by_shot in shares.items()
+        for shot, (value, low, high) in by_shot.items()
+        for mask in ("all", "edge")
+    ]
+    write_rows(os.path.join(folder, "hits.csv"), rows)
+    result = tables(folder)
+    check(result.returncode == 0, result.stderr)
+    lines = read(os.path.join(folder, "tables", "rays.md")).splitlines()
+    check(lines[2] == "| | correct | false_hit | empty |", lines[2])
+    grid = list(csv.reader(open(os.path.join(folder, "tables", "rays.csv"))))
+    check(grid[1][0] == "default, trace", grid[1])
+    numbers = [float(text) if text else None for text in grid[1][1:]]
+    # Half-widths of 0.02 and 0.02, and of 0 and 0.1: the root of their squares' sum over 2.
+    half = math.sqrt(2 * 0.02**2) / 2
+    expected = [0.75, 0.75 - half, 0.75 + half, 0.25, 0.2, 0.3, 0, None, None]
+    for number, value in zip(numbers, expected, strict=True):
+        check((number is None) == (value is None) and (number is None or abs(number - value) < 1e-12), f"{numbers}, expected {expected}")
+    check("(0.600 to 0.900)" in lines[4], lines[4])
+
+
+def test_means_over_what_is_told_apart(folder):
+    """Two metrics of a shot are not two shots."""
+    for changed, parts in (
+        ({"columns": "target"}, ("over a mean", "taps = 4", "shot = floor", "metric (mse, flip)")),
+        ({"over": "nothing"}, ("'over' = \"nothing\" is neither a column of effects.csv nor a parameter",)),
+    ):
+        write_results(folder, [TABLES[0] | {"name": "over a mean"} | changed])
+        result = tables(folder)
+        check(result.returncode == 2 and all(p in result.stderr for p in parts), f"{changed}: {result.returncode} {result.stderr}")
+    write_results(folder, [TABLES[0] | {"rows": "shot", "over": "taps"}])
+    result = tables(folder)
+    check(result.returncode == 0, result.stderr)  # over a parameter
+    line = read(os.path.join(folder, "tables", "changes.md")).splitlines()[4]
+    check(line == "| floor | 0.354 [0.315, 0.396] (0.250 to 0.500) | 0.810 [0.800, 0.820]\N{DAGGER} (1 of 2) |", line)
+
+
+def test_tables_that_nobody_asks_for(temporary):
+    """They leave the results' own folder; a folder that was named keeps what lies in it."""
+    folder, named = os.path.join(temporary, "changed"), os.path.join(temporary, "named")
+    write_results(folder)
+    for out in (os.path.join(folder, "tables"), named):
+        for file in ("old.md", "old.tex", "old.csv", "notes.txt"):
+            write(os.path.join(out, file), "")
+    check(tables(folder).returncode == 0 and tables(folder, "--out", named).returncode == 0, "tables are not made")
+    left = os.listdir(os.path.join(folder, "tables"))
+    check("notes.txt" in left and "changes.md" in left and not any(f.startswith("old") for f in left), f"left: {left}")
+    check("old.md" in os.listdir(named), "a folder that was named lost a file")
+
+
+def test_refusals(folder):
+    for changed, why in (
+        ({"over": None}, "rows of effects.csv fall on one cell"),
+        ({"where": {"metric": "psnr"}}, "effects.csv has no row where"),
+        ({"of": "nothing"}, "must be one of effects, results"),
+        ({"row": "point"}, "unknown key 'row'"),
+    ):
+        entry = {k: v for k, v in (TABLES[0] | changed).items() if v is not None}
+        write_results(folder, [entry])
+        result = tables(folder)
+        check(result.returncode == 2 and why in result.stderr, f"{changed}: {result.returncode} {result.stderr}")
+    write_results(folder, [])
+    check(tables(folder).returncode == 2, "a study without tables")
+
+
+def test_documents(temporary):
+    """Kept summaries fill documents; a stale document and a stale summary are told."""
+    folder, root = os.path.join(temporary, "results"), os.path.join(temporary, "tree")
+    write_results(folder)
+    document = os.path.join(root, "variants", "README.md")
+    text = "Before\n<!-- table made_up changes -->\nold\n<!-- end of table -->\nafter, and <!-- table made_up parts -->\n<!-- end of table -->"
+    write(document, text)
+    os.makedirs(os.path.join(root, "experiments", "summaries"))
+    result = tables(folder, "--keep", "--root", root)
+    check(result.returncode == 0, result.stderr)
+    filled = read(document)
+    check(filled.startswith("Before\n<!-- table made_up changes -->\nWhat each change") and "old" not in filled, filled)
+    check(read(os.path.join(folder, "tables", "changes.md")) in filled, "documents show what the folder has")
+    check(filled.endswith("<!-- end of table -->") and "| bias_squared |" in filled, filled)
+    check(tables("--check", "7", "--root", root).returncode == 0, "nothing is stale")
+
+    stale = tables("--check", "8", "--root", root)
+    check(stale.returncode == 2 and "made with estimators 7, but today's are 8" in stale.stderr, stale.stderr)
+    write(document, filled.replace("0.250 [", "0.251 [", 1))
+    stale = tables("--check", "7", "--root", root)
+    check(stale.returncode == 2 and "README.md: its tables differ" in stale.stderr, stale.stderr)
+    check(tables("--fill", "--root", root).returncode == 0 and read(document) == filled, "--fill")
+    write(document, "nothing")
+    unshown = tables("--check", "7", "--root", root)
+    check(unshown.returncode == 2 and "no document shows" in unshown.stderr, unshown.stderr)
+    write(document, "<!-- table other changes -->\n<!-- end of table -->")
+    check("cannot read" in tables("--check", "7", "--root", root).stderr, "a study without a summary")
+
+
+def test_kept_numbers(temporary):
+    """What is kept reads back as it was, but for six digits; too much of it is refused, and so is what no commit holds."""
+    folder, root = os.path.join(temporary, "results"), os.path.join(temporary, "tree")
+    write_results(folder)
+    origin, kept = summary_file.read(os.path.join(root, "experiments", "summaries", "made_up.csv"))
+    check(origin["shots"] == 2 and origin["code"] == "00ff", origin)
+    check(kept["parts"][0]["resolutions"] == ["320x180"] and kept["parts"][0]["shots"] == ["floor"], kept["parts"][0])
+    cell = next(c for c in kept["changes"][1] if c.row == "taps = 4" and c.column == "mse")
+    check(abs(cell.value - 1) < 1e-6 and cell.least == 0.5 and cell.most == 2 and cell.seeds == 8, cell)
+    many = [cell] * 3000
+    try:
+        summary_file.write(os.path.join(temporary, "large.csv"), origin, [kept["changes"][0]], many)
+        check(False, "a large summary was written")
+    except Exception as e:  # noqa: BLE001
+        check("at most 100000" in str(e), e)
+    for whole, program, why in (
+        ({"is_complete": False}, {}, "the study is not complete"),
+        ({}, {"commit": ""}, "no commit is known"),
+        ({}, {"dirty": True}, "no commit holds"),
+    ):
+        made_up = manifest(TABLES) | whole
+        made_up["provenance"][0]["ssrlab"] |= program
+        write(os.path.join(folder, "manifest.json"), json.dumps(made_up))
+        result = tables(folder, "--keep", "--root", root)
+        check(result.returncode == 2 and why in result.stderr, f"{why}: {result.stderr}")
+    made_up["provenance"].append(json.loads(json.dumps(made_up["provenance"][0])))
+    made_up["provenance"][1]["ssrlab"]["estimators"] = 8
+    write(os.path.join(folder, "manifest.json"), json.dumps(made_up))
+    result = tables(folder)
+    check(result.returncode == 2 and "made with estimators [7, 8]" in result.stderr, result.stderr)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = os.path.join(temporary, "single")
+        write_results(folder)
+        test_numbers(folder)
+        test_bold(folder)
+        test_footers(folder)
+        test_what_intervals_hold(folder)
+        test_times(folder)
+        test_shares(folder)
+        test_means_over_what_is_told_apart(folder)
+        test_refusals(folder)
+        test_tables_that_nobody_asks_for(temporary)
+        test_documents(temporary)
+        test_kept_numbers(temporary)
+
+
+main()

@@ -1,0 +1,185 @@
+#include "tests/experiments/measuring/coverage.h"
+
+#include "core/scene/load_scene.h"
+#include "experiments/measuring/measure.h"
+#include "experiments/measuring/rung_errors.h"
+#include "groundtruth/reference_guide.h"
+#include "groundtruth/reference_passes.h"
+
+#include <tbb/parallel_for.h>
+#include <cmath>
+#include <map>
+#include <random>
+#include <tuple>
+
+namespace {
+
+/// A scene as its path tracer sees it.
+struct View {
+    glm::uvec2 extent;
+    Scene scene;
+    ScenePose pose;
+    CameraPose camera;
+    PathTracer path_tracer;
+    PixelTracer tracer;
+    ReferenceGuide guide;
+
+    View(const std::string& name, glm::uvec2 size)
+        : extent(size),
+          scene(load_scene(name, {std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes"})),
+          pose(pose_scene(scene, 0)),
+          camera(pose_camera(scene.cameras.front(), pose, 0)),
+          path_tracer(scene, pose, camera, extent, {.ladder = true}),
+          tracer{[this](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
+                 [this](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
+                        PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }},
+          guide(render_guide(tracer, extent, {})) {}
+
+    Reference reference(unsigned samples, unsigned seed) const {
+        ReferenceState state = empty_state(extent, {.ladder = true});
+        tbb::parallel_for(0u, extent.x * extent.y, [&](unsigned p) {
+            add_samples(state.reference, tracer, p % extent.x, p / extent.x, seed, SampleSet::reference,
+                        samples / batch_count);
+        });
+        state.reference.guide = guide;
+        return std::move(state.reference);
+    }
+};
+
+void accumulate(HostImage& sum, const HostImage& image, double weight) {
+    for (size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += float(weight * image.values[i]);
+}
+
+/// The reference whose halves are the means of the even and of the odd seeds: independent of each other.
+Reference mean_of(const std::vector<Reference>& seeds) {
+    Reference mean = seeds.front();
+    const auto outputs = [](Reference& r) {
+        return std::array{&r.image,           &r.diffuse, &r.specular, &r.incident, &r.ladder.camera_radiance,
+                          &r.ladder.on_screen};
+    };
+    for (ReferenceOutput* output : outputs(mean))
+        for (HostImage* image : {&output->mean, &output->half_a, &output->half_b}) *image = HostImage(mean.extent, 3);
+    const double share = 1.0 / double(seeds.size());
+    for (size_t s = 0; s < seeds.size(); ++s) {
+        Reference seed = seeds[s];
+        const auto from = outputs(seed), to = outputs(mean);
+        for (size_t i = 0; i < from.size(); ++i) {
+            accumulate(s % 2 == 0 ? to[i]->half_a : to[i]->half_b, from[i]->mean, 2 * share);
+            accumulate(to[i]->mean, from[i]->mean, share);
+        }
+    }
+    return mean;
+}
+
+HostImage product(const HostImage& a, const HostImage& b) {
+    HostImage result = a;
+    for (size_t i = 0; i < result.values.size(); ++i) result.values[i] *= b.values[i];
+    return result;
+}
+
+std::map<std::string, CompositedImages> tests(const View& view) {
+    constexpr unsigned other_seed = 0x7e57;
+    const Reference shown = view.reference(1024, other_seed), noisy = view.reference(16, other_seed + 1);
+    const TruthLadder& ladder = shown.ladder;
+    const HostImage confidence(view.extent, 1);
+    return {{"fallback", {product(ladder.reflectance, ladder.fallback), ladder.fallback, confidence}},
+            {"on_screen", {product(ladder.reflectance, ladder.on_screen.mean), ladder.on_screen.mean, confidence}},
+            {"noisy", {noisy.specular.mean, noisy.incident.mean, confidence}}};
+}
+
+std::vector<Mask> masks(const View& view, const Reference& reference, unsigned draws) {
+    HostImage roughness(view.extent, 1);
+    const HostImage confidence(view.extent, 1);
+    for (unsigned p = 0; p < view.extent.x * view.extent.y; ++p)
+        roughness.values[p] = view.path_tracer.first_hit(p % view.extent.x, p / view.extent.x).roughness;
+    const MaskInputs inputs{.view_depth = reference.depth,
+                            .normal = reference.normal,
+                            .material_id = reference.material_id,
+                            .roughness = roughness,
+                            .reflectance = reference.ladder.reflectance,
+                            .confidence = confidence,
+                            .reflective_max_roughness = 0.6f,
+                            .reflective_min_reflectance = 0.02f,
+                            .previous = nullptr};
+    std::vector<Mask> all = {make_mask("all", inputs), make_mask("reflective", inputs), make_mask("edge", inputs)};
+    std::vector<size_t> pixels;  // reflective ones, the quiet first
+    for (size_t p = 0; p < all[1].inside.size(); ++p)
+        if (all[1].inside[p]) pixels.push_back(p);
+    std::ranges::stable_sort(pixels, {}, [&](size_t p) {
+        const glm::vec3 v = reference.specular.variance.rgb(p);
+        return v.x + v.y + v.z;
+    });
+    std::mt19937 random(1);
+    const auto drawn = [&](const std::string& name, size_t count, size_t from) {
+        Mask mask{.name = name, .extent = view.extent, .inside = std::vector<uint8_t>(roughness.values.size())};
+        for (size_t i = 0; i < count; ++i) mask.inside[pixels[random() % from]] = 1;
+        return mask;
+    };
+    for (unsigned i = 0; i < draws; ++i) {
+        all.push_back(drawn("ten", 10, pixels.size()));
+        all.push_back(drawn("hundred", 100, pixels.size()));
+        all.push_back(drawn("dominant", 40, pixels.size() / 2));
+        all.back().inside[pixels[pixels.size() - 1 - i]] = 1;
+    }
+    return all;
+}
+
+/// Results of one reference, in an order that is the same for all of one view.
+std::vector<ResultRow> results(const Reference& reference, const std::map<std::string, CompositedImages>& tests,
+                               std::span<const Mask> masks, const CoverageSetting& setting) {
+    Config config;
+    config.targets = setting.targets, config.metrics = setting.metrics;
+    const PoseTruth truth = pose_truth(reference, config, 0, {.has_targets = true});
+    std::vector<ResultRow> rows;
+    for (const auto& [name, images] : tests)
+        for (ResultRow& row : measure_targets(truth, images, masks, {.variant = name})) rows.push_back(std::move(row));
+    for (const nlohmann::json& e : rung_entries(truth, masks)) {
+        ResultRow row{.variant = "rung " + e["rung"].get<std::string>()};
+        row.target = e["target"], row.metric = e["metric"], row.mask = e["mask"], row.value = e["value"].get<double>();
+        if (!e["low"].is_null()) row.low = e["low"].get<double>(), row.high = e["high"].get<double>();
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// Sums first, then finished.
+void add(CoverageRow& row, const ResultRow& result, double truth) {
+    ++row.trials;
+    if (!result.low || !result.high) return;
+    ++row.intervals;
+    // Values are sums of float32 products: 1e-9 of them is rounding, where the noise is nearly none.
+    const double rounding = 1e-9 * std::abs(truth);
+    row.covered += *result.low - rounding <= truth && truth <= *result.high + rounding;
+    row.truth += truth, row.mean += *result.value, row.deviation += std::pow(*result.value - truth, 2);
+    row.half_width += (*result.high - *result.low) / 2;
+}
+
+}  // namespace
+
+std::vector<CoverageRow> coverage(const CoverageSetting& setting) {
+    const View view(setting.scene, setting.extent);
+    std::vector<Reference> seeds;
+    for (unsigned seed = 0; seed < setting.seeds; ++seed) seeds.push_back(view.reference(setting.samples, seed));
+    const Reference all = mean_of(seeds);
+    const auto tested = tests(view);
+    const std::vector<Mask> inside = masks(view, view.reference(256, setting.seeds), setting.draws);
+    const std::vector<ResultRow> truth = results(all, tested, inside, setting);
+    std::map<std::tuple<std::string, std::string, std::string, std::string>, CoverageRow> sums;
+    for (const Reference& seed : seeds) {
+        const std::vector<ResultRow> rows = results(seed, tested, inside, setting);
+        for (size_t i = 0; i < rows.size(); ++i) {
+            const ResultRow& r = rows[i];
+            CoverageRow& row = sums[{r.variant, r.target, r.mask, r.metric}];
+            row.scene = setting.scene, row.samples = setting.samples;
+            row.test = r.variant, row.target = r.target, row.mask = r.mask, row.metric = r.metric;
+            add(row, r, truth[i].value.value_or(NAN));
+        }
+    }
+    std::vector<CoverageRow> rows;
+    for (auto& [key, row] : sums) {
+        for (double* sum : {&row.truth, &row.mean, &row.deviation, &row.half_width}) *sum /= row.intervals;
+        row.deviation = std::sqrt(row.deviation);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}

@@ -1,0 +1,287 @@
+// What is timed and how: order, frames, pairs, and what leaving out saved. No test here looks at how long anything
+// took.
+#include "experiments/measuring/timing.h"
+#include "core/gpu/device.h"
+#include "experiments/results/host_info.h"
+#include "experiments/results/summary.h"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace {
+
+constexpr glm::uvec2 extent{64, 36};
+
+/// Notes what is asked of the source that it hands on to.
+class WatchedSource final : public FrameSource {
+public:
+    WatchedSource(Device& device, const Shot& shot, const Config& config)
+        : source_(scene_source(device, shot, config, false)) {}
+
+    using FrameSource::render;
+    GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
+        steps.push_back(step);
+        return source_->render(step, seed, lit);
+    }
+    const CameraData& camera() const override { return source_->camera(); }
+    PassGraph& graph() override { return source_->graph(); }
+
+    std::vector<FrameStep> steps;
+
+private:
+    std::unique_ptr<FrameSource> source_;
+};
+
+/// A machine on which each look at the counters finds 2 s gone by, and others at work as `loads` say, in turn; none
+/// after the last.
+struct MadeUpMachine {
+    std::vector<double> loads;
+    size_t looks = 0;
+    double machine = 0;
+
+    CpuTimes operator()() {
+        if (looks > 0 && looks <= loads.size()) machine += loads[looks - 1] * 2 * 4;
+        return {.machine = machine, .own = 0, .wall = 2.0 * double(looks++), .cpus = 4};
+    }
+};
+
+struct Timing : testing::Test {
+    Device device{""};
+    Config config{.timing = {.frames = 15, .warm_up = 2}};
+    std::set<unsigned> lit_frames;
+
+    Timing() {
+        for (const char* name : {"none", "mcguire_dda"})
+            config.variants.push_back({.variant = name, .preset = "", .point = "default", .seeds = {3}});
+    }
+
+    Shot shot(const std::string& scene, const std::vector<unsigned>& frames) {
+        return load_shot({.scene = scene, .camera = "", .extent = extent, .frames = frames},
+                         {std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    }
+    ShotTimes time(FrameSource& source, const Shot& shot, bool keep_all = false, MadeUpMachine machine = {}) {
+        const HostImage lit(extent, 3);
+        const auto lit_of = [&](unsigned frame) -> const HostImage& {
+            lit_frames.insert(frame);
+            return lit;
+        };
+        return time_variants(
+            source, shot, config, lit_of, keep_all, [](double) {}, std::ref(machine));
+    }
+};
+
+std::set<std::string> stages_of(const ShotTimes& times, const std::string& variant) {
+    std::set<std::string> stages;
+    for (const TimeRow& row : times.rows)
+        if (row.variant == variant) stages.insert(row.stage);
+    return stages;
+}
+
+}  // namespace
+
+TEST_F(Timing, PlaysTheShotThereAndBack) {
+    const Shot moving = shot("moving_emitter", {4, 5, 6, 9});
+    WatchedSource source(device, moving, config);
+    time(source, moving);
+    const std::vector<unsigned> expected = {4, 5, 6, 9, 6, 5, 4, 5, 6, 9, 6, 5, 4, 5, 6, 9, 6};
+    ASSERT_EQ(source.steps.size(), expected.size());
+    for (unsigned i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(source.steps[i].frame, expected[i]);
+        EXPECT_EQ(source.steps[i].index, i);
+        EXPECT_EQ(source.steps[i].previous_frame, i > 0 ? std::optional(expected[i - 1]) : std::nullopt);
+    }
+    EXPECT_EQ(lit_frames, (std::set<unsigned>{4, 5, 6, 9}));
+}
+
+TEST(TimedSteps, HoldASingleFrame) {
+    for (const FrameStep& step : timed_steps({7}, 5)) EXPECT_EQ(step.frame, 7u);
+    EXPECT_EQ(timed_steps({7}, 5).back().index, 4u);
+    const std::vector<FrameStep> two = timed_steps({7, 8}, 4);
+    EXPECT_EQ(two[2].frame, 7u);
+    EXPECT_EQ(two[3].frame, 8u);
+}
+
+TEST(TimedTurns, GiveEachCopyEachPlaceAlike) {
+    const size_t count = 6;
+    const unsigned rounds = 6000;
+    std::vector<unsigned> at(count * count);
+    for (const std::vector<size_t>& order : timed_turns(count, rounds)) {
+        ASSERT_EQ(std::set(order.begin(), order.end()).size(), count);
+        for (size_t place = 0; place < count; ++place) ++at[order.at(place) * count + place];
+    }
+    // Binomial: 1000 +- 29; five deviations. The run is the same each time.
+    for (const unsigned times : at) EXPECT_NEAR(times, 1000, 145);
+    EXPECT_EQ(timed_turns(4, 9), timed_turns(4, 9));
+}
+
+TEST_F(Timing, GivesEveryStageOfEveryMeasuredFrameAndTheirSum) {
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    const ShotTimes times = time(source, still);
+    EXPECT_EQ(stages_of(times, "mcguire_dda"),
+              (std::set<std::string>{"mcguire_dda/shade", "mcguire_dda/trace", "total"}));
+    EXPECT_FALSE(stages_of(times, "").empty()) << "the G-buffer's own stages";
+    std::map<std::pair<std::string, unsigned>, double> sums;
+    std::map<std::pair<std::string, std::string>, unsigned> counts;
+    for (const TimeRow& row : times.rows) {
+        EXPECT_LT(row.frame, 15u);
+        EXPECT_EQ(row.shot, still.name());
+        EXPECT_EQ(row.seed, row.variant.empty() ? 0u : 3u);
+        ++counts[{row.variant, row.stage}];
+        if (!row.variant.empty())
+            sums[{row.variant, row.frame}] += row.stage == "total" ? -row.milliseconds : row.milliseconds;
+    }
+    for (const auto& [stage, count] : counts) EXPECT_EQ(count, 15u) << stage.first << " " << stage.second;
+    // On a GPU the total is the frame's envelope, which holds the gaps between the stages too.
+    if (source.graph().clock() == Clock::gpu_timestamp) return;
+    for (const auto& [frame, difference] : sums) EXPECT_NEAR(difference, 0.0, 1e-9) << "ms: the rounding of a sum";
+}
+
+TEST_F(Timing, RepeatsFramesThatOthersDisturbed) {
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    // Each round is a window of its own: the 3rd and the 5th are disturbed, a load at the threshold is none.
+    const ShotTimes times = time(source, still, false, {.loads = {0, 0.05, 0.3, 0, 0.06, 0.01}});
+    EXPECT_EQ(source.steps.size(), 2u + 15u + 2u);
+    std::set<unsigned> frames;
+    for (const TimeRow& row : times.rows) {
+        frames.insert(row.frame);
+        EXPECT_FALSE(row.is_disturbed);
+        EXPECT_NEAR(row.foreign_load.value(), row.frame == 1 ? 0.05 : row.frame == 5 ? 0.01 : 0.0, 1e-12);
+    }
+    EXPECT_EQ(frames, (std::set<unsigned>{0, 1, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}));
+    EXPECT_EQ(times.load.disturbed, 0u);
+    EXPECT_EQ(times.load.left_out, 2u);
+    EXPECT_NEAR(times.load.largest.value(), 0.05, 1e-12);
+}
+
+TEST_F(Timing, MarksWhatItCannotRepeat) {
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    MadeUpMachine busy{.loads = std::vector<double>(100, 0.5)};
+    busy.loads[7] = 0, busy.loads[20] = 0.2;
+    const ShotTimes times = time(source, still, false, busy);
+    EXPECT_EQ(source.steps.size(), 2u + (1 + most_repeated_frames) * 15u) << "and no more";
+    std::map<unsigned, bool> disturbed;
+    for (const TimeRow& row : times.rows) disturbed[row.frame] = row.is_disturbed;
+    ASSERT_EQ(disturbed.size(), 15u);
+    EXPECT_FALSE(disturbed.at(7));
+    EXPECT_TRUE(disturbed.at(20)) << "the least disturbed come first";
+    EXPECT_EQ(times.load.disturbed, 14u);
+    EXPECT_EQ(times.load.left_out, 30u);
+    EXPECT_EQ(times.load.largest, 0.5);
+    EXPECT_TRUE(is_disturbed(timing_entry(times, "a", {})));
+    for (const TimeSummary& summary : summarise(times.rows)) {
+        EXPECT_EQ(summary.frames, 15u);
+        EXPECT_NEAR(summary.disturbed_share, 14.0 / 15, 1e-12);
+    }
+}
+
+TEST_F(Timing, TakesTimesWhereLoadCannotBeTold) {
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    const auto lit = [image = HostImage(extent, 3)](unsigned) -> const HostImage& { return image; };
+    const ShotTimes times = time_variants(
+        source, still, config, lit, false, [](double) {}, [] { return CpuTimes{}; });
+    EXPECT_EQ(source.steps.size(), 17u);
+    for (const TimeRow& row : times.rows) EXPECT_FALSE(row.foreign_load || row.is_disturbed);
+    EXPECT_FALSE(times.load.largest);
+}
+
+TEST_F(Timing, PairsEveryTimedPointAndLeavesOutTheOthers) {
+    config.variants.push_back({.variant = "mcguire_dda",
+                               .preset = "",
+                               .parameters = {{"dda.stride", 4}},
+                               .point = "dda.stride=4",
+                               .seeds = {3},
+                               .is_timed = false});
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    const ShotTimes times = time(source, still);
+    ASSERT_EQ(times.pairs.size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(times.pairs[i].variant, config.variants[i].variant);
+        EXPECT_GT(times.pairs[i].first_ms, 0.0);
+        EXPECT_GT(times.pairs[i].second_ms, 0.0);
+        EXPECT_NE(times.pairs[i].first_ms, times.pairs[i].second_ms) << "measured once, told twice";
+    }
+    EXPECT_TRUE(std::ranges::none_of(times.rows, [](const TimeRow& row) { return row.point == "dda.stride=4"; }));
+
+    for (VariantConfig& variant : config.variants) variant.is_timed = false;
+    EXPECT_TRUE(time(source, still).rows.empty());
+}
+
+TEST_F(Timing, MeasuresWhatLeavingOutSaved) {
+    const Shot rough = shot("all_rough", {0});
+    WatchedSource source(device, rough, config);
+    const ShotTimes lean = time(source, rough), all = time(source, rough, true);
+    EXPECT_FALSE(stages_of(lean, "mcguire_dda").contains("mcguire_dda/trace"));
+    EXPECT_TRUE(stages_of(all, "mcguire_dda").contains("mcguire_dda/trace"));
+    ASSERT_EQ(lean.saved.size(), 2u);
+    EXPECT_EQ(lean.saved[0].stage, "mcguire_dda/shade");
+    EXPECT_EQ(lean.saved[1].stage, "mcguire_dda/trace");
+    for (const SavedTime& saved : lean.saved) EXPECT_GT(saved.milliseconds, 0.0);
+    EXPECT_TRUE(all.saved.empty());
+    ASSERT_EQ(lean.savings.size(), 1u);
+    const Saving& saving = lean.savings.front();
+    EXPECT_EQ(saving.variant, "mcguire_dda");
+    EXPECT_GT(saving.complete_ms, 0.0);
+    EXPECT_LE(saving.share.low, saving.share.median);
+    EXPECT_LT(saving.share.high, 1.0);
+    EXPECT_TRUE(all.savings.empty());
+
+    const Shot mirrors = shot("fence", {0});
+    WatchedSource mirror_source(device, mirrors, config);
+    EXPECT_TRUE(time(mirror_source, mirrors).saved.empty());
+}
+
+TEST(TimedWork, IsThatOfOneMachine) {
+    const Config config{.variants = {{.variant = "none", .seeds = {0}}}};
+    const nlohmann::json here = host_info();
+    nlohmann::json there = here;
+    EXPECT_EQ(timed_work(config, {}, here), timed_work(config, {}, there));
+    for (const char* key : {"name", "cpu", "cores", "memory_gib", "kernel"}) {
+        ASSERT_TRUE(here.contains(key)) << key;
+        there = here;
+        there[key] = "another";
+        EXPECT_NE(timed_work(config, {}, here), timed_work(config, {}, there)) << key;
+    }
+}
+
+TEST(TimingEntry, GoesIntoTheManifest) {
+    const ClockProof clock{.method = "host_fence", .empty_submit_ms = 0.1, .checks = {}};
+    nlohmann::json manifest = {
+        {"clock", nlohmann::json::object()},
+        {"shots",
+         {{{"shot", "a"},
+           {"left_out",
+            {{{"what", "v/trace"}, {"stage", "v/trace"}, {"saved_ms", nullptr}},
+             {{"what", "alpha tests"}, {"stage", "alpha tests"}, {"saved_ms", nullptr}}}}},
+          {{"shot", "b"}, {"left_out", {{{"what", "v/trace"}, {"stage", "v/trace"}, {"saved_ms", nullptr}}}}}}}};
+    ShotTimes times;
+    times.pairs = {{"none", "default", 0.2, 0.3}, {"v", "default", 9.5, 10.5}};
+    times.saved = {{"v/trace", 2.5}};
+    times.savings = {{"v", "default", 20.0, {0.25, 0.2, 0.3}}};
+    add_timing(manifest, timing_entry(times, "a", clock));
+    // The pair of `none` differs by 40 %, but takes only two and three times what an empty submission does.
+    EXPECT_DOUBLE_EQ(manifest["clock"]["aa_floor"].get<double>(), 0.1);
+    EXPECT_EQ(manifest["clock"]["aa_pairs"].size(), 2u);
+    EXPECT_EQ(manifest["clock"]["savings"][0]["share"], 0.25);
+    EXPECT_EQ(manifest["shots"][0]["left_out"][0]["saved_ms"], 2.5);
+    EXPECT_TRUE(manifest["shots"][0]["left_out"][1]["saved_ms"].is_null());
+    EXPECT_TRUE(manifest["shots"][1]["left_out"][0]["saved_ms"].is_null()) << "another shot";
+
+    times.pairs = {{"v", "default", 18.0, 22.0}}, times.saved = {};
+    add_timing(manifest, timing_entry(times, "b", clock));
+    EXPECT_DOUBLE_EQ(manifest["clock"]["aa_floor"].get<double>(), 0.2);
+    EXPECT_EQ(manifest["clock"]["aa_pairs"].size(), 3u);
+    EXPECT_EQ(manifest["clock"]["aa_pairs"][2]["shot"], "b");
+    ASSERT_EQ(manifest["clock"]["proofs"].size(), 1u) << "one clock, proven once";
+    EXPECT_EQ(manifest["clock"]["proofs"][0]["shots"], nlohmann::json({"a", "b"}));
+    const ClockProof another{.method = "host_fence", .empty_submit_ms = 0.2, .checks = {}};
+    add_timing(manifest, timing_entry(times, "c", another));
+    EXPECT_EQ(manifest["clock"]["proofs"].size(), 2u);
+    EXPECT_EQ(manifest["clock"]["load"].size(), 3u);
+}

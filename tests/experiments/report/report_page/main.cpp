@@ -1,0 +1,42 @@
+#include "core/error.h"
+#include "core/exr.h"
+#include "experiments/report/report.h"
+#include "tests/experiments/report/report_fixture.h"
+#include "tests/experiments/report/report_stability_fixture.h"
+#include "tests/experiments/report/report_study_fixture.h"
+
+#include <half.h>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+/// For the tests that look at a report from outside:
+/// report_page DIR                     fills DIR with the made-up results folder and its report
+/// report_page --study DIR             the same with the made-up study of changes, and a run of `ssrlab stability`
+/// report_page --stability DIR         the same with the latter alone
+/// report_page --halves FILE.exr X Y   prints R G B of a pixel, rounded to half floats
+int main(int argc, char** argv) {
+    try {
+        if (argc == 2) {
+            write_report_fixture(argv[1]);
+            write_report(argv[1]);
+        } else if (argc == 3 && argv[1] == std::string("--study")) {
+            write_study_fixture(argv[2]);
+            write_stability_fixture(argv[2]);
+            write_report(argv[2]);
+        } else if (argc == 3 && argv[1] == std::string("--stability")) {
+            write_stability_fixture(argv[2]);
+            write_report(argv[2]);
+        } else if (argc == 5 && argv[1] == std::string("--halves")) {
+            const HostImage image = read_exr_rgb(argv[2]);
+            const float* pixel = image.pixel(unsigned(std::atoi(argv[3])), unsigned(std::atoi(argv[4])));
+            std::printf("%.17g %.17g %.17g\n", double(half(pixel[0])), double(half(pixel[1])), double(half(pixel[2])));
+        } else {
+            std::fprintf(stderr, "usage: report_page DIR | --study DIR | --stability DIR | --halves FILE.exr X Y\n");
+            return 2;
+        }
+    } catch (const Error& e) {
+        std::fprintf(stderr, "error: %s\n", e.what());
+        return 2;
+    }
+}

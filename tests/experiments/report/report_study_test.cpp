@@ -1,0 +1,98 @@
+#include "core/files.h"
+#include "core/json.h"
+#include "experiments/report/report.h"
+#include "experiments/report/report_data.h"
+#include "tests/experiments/report/report_study_fixture.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace {
+
+struct StudyReport : testing::Test {
+    std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("ssrlab_study_report_test_" + std::to_string(getpid()));
+    void SetUp() override { write_study_fixture(folder); }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+};
+
+}  // namespace
+
+TEST_F(StudyReport, ReadsEffectsAsTheyWereWritten) {
+    const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
+    write_text(folder / "before.csv", read_text(folder / "effects.csv"));
+    ASSERT_FALSE(tables.effects.empty());
+    write_effects(folder, tables.effects);
+    EXPECT_EQ(read_text(folder / "effects.csv"), read_text(folder / "before.csv"));
+}
+
+TEST_F(StudyReport, TellsSingleChangesFromPresets) {
+    const auto manifest = read_json(folder / "manifest.json");
+    const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
+    const std::vector<SingleChange> changes = single_changes(manifest, tables.effects);
+    ASSERT_EQ(changes.size(), 3u);
+    EXPECT_EQ(changes[0].point, "first float_histories=true");
+    EXPECT_EQ(changes[0].parameter, "float_histories");
+    EXPECT_EQ(changes[0].value, true);
+    EXPECT_EQ(changes[1].parameter, "round_up_tiles");
+    EXPECT_TRUE(single_changes(manifest, {}).empty());  // without a baseline nothing is a change of one
+    EXPECT_TRUE(single_changes(nlohmann::json::object(), tables.effects).empty());
+}
+
+TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredVariants) {
+    const nlohmann::json manifest = {
+        {"variants",
+         {{{"variant", "amd_sssr"}, {"point", "slides"}, {"parameters", {{"hierarchy.march", "slides"}}}},
+          {{"variant", "of another build"}, {"point", "default"}, {"parameters", nlohmann::json::object()}}}}};
+    const nlohmann::json defaults = parameter_defaults(manifest);
+    ASSERT_EQ(defaults.size(), 1u);
+    EXPECT_EQ(defaults["amd_sssr"]["denoiser_form"], "fast");
+    EXPECT_EQ(defaults["amd_sssr"]["hierarchy.march"], "sdk");
+    EXPECT_TRUE(parameter_defaults(nlohmann::json::object()).empty());
+}
+
+TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
+    const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
+    size_t over_frames = 0, of_last = 0;
+    for (const MetricSummary* e : rows_for_shots(tables.errors)) {
+        if (e->metric != "relmse" || e->mask != "reflective") continue;
+        const bool has_frames = e->shot == study_moving_shot || e->shot == study_step_shot;
+        EXPECT_EQ(e->frame, has_frames ? "all" : "0") << e->shot;
+        ++(has_frames ? over_frames : of_last);
+    }
+    EXPECT_EQ(over_frames, 2u * 7u);
+    EXPECT_EQ(of_last, 5u * 7u);
+}
+
+TEST_F(StudyReport, CarriesEachFrameOfPresetsAlone) {
+    const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
+    const auto changes = single_changes(read_json(folder / "manifest.json"), tables.effects);
+    const nlohmann::json data = report_data(tables, changes);
+    EXPECT_EQ(data["effects"].size(), tables.effects.size());
+    EXPECT_EQ(data["splits"].size(), 7u * 5u);
+    size_t frames = 0;
+    for (const auto& row : data["frames"]) {
+        const std::string point = data["texts"][row[2].get<size_t>()];
+        EXPECT_EQ(point.find('='), std::string::npos) << point;
+        if (data["texts"][row[6].get<size_t>()] == "reflective") ++frames;
+    }
+    EXPECT_EQ(frames, 4u * (4u + 16u));  // none and three presets, in all frames of both shots that have several
+}
+
+TEST_F(StudyReport, EscapesWhatParametersMean) {
+    write_report(folder);
+    const std::string page = read_text(folder / "report.html");
+    EXPECT_EQ(page.find("<b>32</b>"), std::string::npos);
+    EXPECT_NE(page.find("\\u003cb>32\\u003c/b> bits"), std::string::npos);
+}
+
+TEST_F(StudyReport, ShowsReadersWithoutScriptsPresetsAlone) {
+    write_report(folder);
+    const std::string page = read_text(folder / "report.html");
+    const std::string part = page.substr(page.find("<noscript>"), page.find("</noscript>") - page.find("<noscript>"));
+    EXPECT_NE(part.find("<td>mended"), std::string::npos);
+    EXPECT_EQ(part.find("float_histories=true"), std::string::npos);
+    size_t rows = 0;
+    for (size_t at = 0; (at = part.find("<tr><td>", at)) != std::string::npos; ++at) ++rows;
+    EXPECT_EQ(rows, 2u * 7u * 4u);  // of the relative and of the absolute error
+}

@@ -1,0 +1,280 @@
+#include "experiments/report/report.h"
+
+#include "core/error.h"
+#include "core/exr.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "experiments/report/report_images.h"
+#include "experiments/report/report_warnings.h"
+#include "experiments/results/csv.h"
+#include "experiments/results/interval.h"
+#include "experiments/results/summary.h"
+#include "tests/experiments/report/report_fixture.h"
+
+#include <gtest/gtest.h>
+#include <half.h>
+#include <unistd.h>
+#include <zlib.h>
+#include <cmath>
+#include <random>
+
+namespace {
+
+/// The made-up folder, for each test anew.
+struct Report : testing::Test {
+    std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("ssrlab_report_test_" + std::to_string(getpid()));
+    void SetUp() override { write_report_fixture(folder); }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    std::string message() const {
+        try {
+            write_report(folder);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "";
+    }
+};
+
+std::vector<ResultRow> seed_rows(std::vector<double> values, std::optional<double> half_width,
+                                 std::optional<double> floor) {
+    std::vector<ResultRow> rows;
+    for (const double v : values) {
+        ResultRow row{.shot = "s",
+                      .variant = "v",
+                      .point = "p",
+                      .seed = unsigned(rows.size()),
+                      .target = "specular",
+                      .metric = "mse",
+                      .mask = "all",
+                      .value = v,
+                      .floor = floor};
+        if (half_width) row.low = v - *half_width, row.high = v + *half_width;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+bool contains(const std::vector<std::string>& texts, const std::string& part) {
+    return std::ranges::any_of(texts, [&](const std::string& text) { return text.find(part) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST(Csv, ReadsQuotedFieldsAndNamesLineAndColumnOfMistakes) {
+    const auto file = std::filesystem::temp_directory_path() / "ssrlab_csv_test.csv";
+    write_text(file, "name,value\r\n\"a \"\"b\"\",\nc\",0.25\nd,\n");
+    CsvReader csv(file);
+    ASSERT_TRUE(csv.next());
+    EXPECT_EQ(csv.text("name"), "a \"b\",\nc");
+    EXPECT_EQ(csv.number("value"), 0.25);
+    ASSERT_TRUE(csv.next());
+    EXPECT_FALSE(csv.optional_number("value"));
+    EXPECT_FALSE(csv.next());
+    const auto mistake = [&](const std::string& content, const char* column) -> std::string {
+        write_text(file, content);
+        try {
+            for (CsvReader bad(file); bad.next();) bad.number(column);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_NE(mistake("value\n1\nx2\n", "value").find("ssrlab_csv_test.csv:3: 'value' = \"x2\""), std::string::npos);
+    EXPECT_NE(mistake("value\n1e999\n", "value").find(":2:"), std::string::npos);
+    EXPECT_NE(mistake("value\n1,2\n", "value").find(":2: 2 fields"), std::string::npos);
+    EXPECT_NE(mistake("value\n1\n", "valeu").find("did you mean 'value'"), std::string::npos);
+    EXPECT_NE(mistake("value\n\"1\n", "value").find("not closed"), std::string::npos);
+    EXPECT_NE(mistake("", "value").find("is empty"), std::string::npos);
+    std::filesystem::remove(file);
+}
+
+TEST(Summary, JoinsTheSpreadOfSeedsWithTheNoiseOfTheReference) {
+    const auto s = summarise(seed_rows({5, 6, 7}, 0.5, 0.1)).at(0);
+    EXPECT_EQ(s.seeds, 3u);
+    EXPECT_DOUBLE_EQ(*s.value, 6.0);
+    EXPECT_DOUBLE_EQ(*s.seed_deviation, 1.0);
+    // With two degrees of freedom Student's t has the closed form (2p - 1) sqrt(2 / (4p (1 - p))); it joins 0.5 of the
+    // reference.
+    const double t = 0.95 * std::sqrt(2.0 / (4.0 * 0.975 * 0.025));
+    EXPECT_NEAR(*s.high - 6.0, std::hypot(t / std::sqrt(3.0), 0.5), 1e-9);
+    EXPECT_NEAR(6.0 - *s.low, *s.high - 6.0, 1e-12);
+    EXPECT_FALSE(summarise(seed_rows({2}, 0.5, 0.1)).at(0).seed_deviation);
+}
+
+TEST(Summary, GivesNoMeanWhereASeedHasNoValue) {
+    auto rows = seed_rows({1, 2}, 0.5, 0.1);
+    rows[1].value.reset();
+    EXPECT_FALSE(summarise(rows).at(0).value);
+    EXPECT_EQ(summarise(rows).at(0).interval, interval::no_value);
+}
+
+TEST(Summary, AddsUpAStageThatRunsTwiceInAFrame) {
+    std::vector<TimeRow> rows;
+    for (unsigned frame = 0; frame < 3; ++frame)
+        for (const double ms : {1.0, 2.0}) rows.push_back({"s", "v", "p", 0, "mips", frame, ms + frame, "host_fence"});
+    const auto t = summarise(rows).at(0);
+    EXPECT_EQ(t.frames, 3u);
+    EXPECT_EQ(t.median, 5.0);
+    EXPECT_EQ(t.low, 3.0);
+    EXPECT_EQ(t.high, 7.0);
+}
+
+TEST(ReportImages, HalvesComeBackAsImathRoundsThem) {
+    HostImage image({3, 2}, 3);
+    std::mt19937 random(3);
+    for (float& v : image.values) v = std::generate_canonical<float, 24>(random) * 10.0f - 1.0f;
+    image.values[0] = NAN, image.values[4] = INFINITY, image.values[9] = 1e6f, image.values[12] = 1e-7f;
+    size_t clamped = 0;
+    const auto packed = encode_halves(image, clamped);
+    EXPECT_EQ(clamped, 1u);
+    std::vector<unsigned char> bytes(36);
+    uLongf size = bytes.size();
+    ASSERT_EQ(uncompress(bytes.data(), &size, packed.data(), packed.size()), Z_OK);
+    ASSERT_EQ(size, 36u);
+    for (size_t i = 1; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(bytes[i] + bytes[i - 1]);
+    for (size_t i = 0; i < 6; ++i)
+        for (size_t c = 0; c < 3; ++c) {
+            const float value = image.values[i * 3 + c];
+            const uint16_t expected = half(value == 1e6f ? 65504.0f : value).bits();
+            EXPECT_EQ(bytes[c * 6 + i] | bytes[18 + c * 6 + i] << 8, expected) << i << ' ' << c;
+        }
+    EXPECT_EQ(base64({'M'}), "TQ==");  // RFC 4648, section 10 has the like
+    EXPECT_EQ(base64({'f', 'o', 'o', 'b', 'a'}), "Zm9vYmE=");
+    EXPECT_EQ(base64({'f', 'o', 'o', 'b', 'a', 'r'}), "Zm9vYmFy");
+}
+
+TEST_F(Report, ReducesImagesToTheBudgetAndSaysSo) {
+    const auto manifest = read_json(folder / "manifest.json");
+    const auto bytes = [](const ReportImages& r) {
+        size_t sum = 0;
+        for (const ReportImage& image : r.images) sum += image.data.size();
+        return sum;
+    };
+    const ReportImages all = report_images(folder, manifest, {}, 100'000'000);
+    EXPECT_EQ(all.images.size(),
+              2u * 3u * 4u);  // targets x shots x (reference and three points), of the first seed only
+    EXPECT_TRUE(all.notes.empty());
+    const ReportImages compared = report_images(folder, manifest, {{"mcguire_dda", "stride=4"}}, 100'000'000);
+    EXPECT_EQ(compared.images.size(), 2u * 3u * 3u);
+    EXPECT_TRUE(contains(compared.notes, "change one parameter of a baseline are not in this page"));
+    const ReportImages foremost = report_images(folder, manifest, {}, bytes(all) * 3 / 4);
+    EXPECT_EQ(foremost.images.size(), 12u);
+    EXPECT_EQ(foremost.images[0].target, "image");
+    EXPECT_TRUE(contains(foremost.notes, "'specular' are not in this page"));
+    const ReportImages half = report_images(folder, manifest, {}, bytes(foremost) * 3 / 4);
+    EXPECT_EQ(half.images.back().width, 81u);  // 161 pixels by two, rounded up
+    EXPECT_TRUE(contains(half.notes, "2 x 2"));
+    const ReportImages some = report_images(folder, manifest, {}, 2000);
+    EXPECT_LE(bytes(some), 2000u);
+    EXPECT_LT(some.images.size(), 12u);
+    EXPECT_TRUE(contains(some.notes, "to keep it small"));
+}
+
+TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
+    const auto errors = summarise(read_result_rows(folder / "results.csv"));
+    const auto times = summarise(read_time_rows(folder / "times.csv"));
+    auto manifest = read_json(folder / "manifest.json");
+    const auto warnings = report_warnings(manifest, errors, times);
+    EXPECT_TRUE(contains(warnings, "This study: a clause that the study has to say."));
+    EXPECT_TRUE(contains(warnings, "The clock did not prove itself"));
+    EXPECT_TRUE(contains(
+        warnings,
+        "roughness_gradient.side.161x91: only 62 % of the reference's pixels reached the relative error of 3 %"));
+    EXPECT_TRUE(contains(warnings, "fence.low.160x90, mcguire_dda (stride=4), specular: 1 pixel is NaN"));
+    EXPECT_EQ(warnings.size(), 5u);  // and the like for target `image`
+    std::vector<MetricSummary> many(40, errors.front());
+    for (size_t i = 0; i < many.size(); ++i) many[i].point = std::to_string(i), many[i].negative = 2;
+    const auto counted = report_warnings(manifest, many, times);
+    EXPECT_TRUE(contains(counted, "28 more warnings of pixels"));
+    EXPECT_EQ(counted.size(), warnings.size() - 2 + 12 + 1);
+    manifest["shots"][0]["warnings"] = {"a texture is missing"};
+    manifest["is_complete"] = false;
+    EXPECT_TRUE(
+        contains(report_warnings(manifest, errors, times), "mirror_pillars.front.160x90: a texture is missing."));
+    EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "not finished"));
+    EXPECT_TRUE(contains(report_warnings(nlohmann::json::object(), errors, times), "not proven"));
+    manifest["clock"]["proofs"][0]["verdict"] = "not_judged";
+    EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "The clock could not be judged"));
+}
+
+TEST_F(Report, WarnsOfDisturbedTimesAndOfSeveralMakers) {
+    const auto errors = summarise(read_result_rows(folder / "results.csv"));
+    auto rows = read_time_rows(folder / "times.csv");
+    auto manifest = read_json(folder / "manifest.json");
+    const auto now = [&] { return report_warnings(manifest, errors, summarise(rows)); };
+    const size_t before = now().size();
+    for (TimeRow& row : rows) row.is_disturbed = row.shot == fixture_shots[1] && row.frame < 3;
+    EXPECT_TRUE(contains(now(), "fence.low.160x90: other programs disturbed 20 % of the timed frames"));
+    EXPECT_EQ(now().size(), before + 1);
+
+    manifest["provenance"].push_back(manifest["provenance"][0]);
+    EXPECT_EQ(now().size(), before + 1) << "the same maker";
+    manifest["provenance"][1]["host"]["cores"] = 64;
+    EXPECT_TRUE(contains(now(), "Parts of this study were made by different hosts:"));
+    manifest["provenance"][1]["ssrlab"]["commit"] = "another";
+    EXPECT_TRUE(contains(now(), "Parts of this study were made by different hosts, versions of ssrlab:"));
+    EXPECT_FALSE(contains(now(), "are not those of the commit"));
+    manifest["provenance"][1]["ssrlab"]["dirty"] = true;
+    EXPECT_TRUE(contains(now(), "are not those of the commit"));
+}
+
+TEST_F(Report, WarnsOfLightThatIsTooNoisy) {
+    auto errors = summarise(read_result_rows(folder / "results.csv"));
+    const auto manifest = read_json(folder / "manifest.json");
+    const size_t before = report_warnings(manifest, errors, {}).size();
+    for (MetricSummary& e : errors) e.lit_noise = 0.09 * std::abs(*e.value);
+    EXPECT_EQ(report_warnings(manifest, errors, {}).size(), before);
+    for (MetricSummary& e : errors)
+        if (e.shot == fixture_shots[0] && e.mask == "reflective") e.lit_noise = 0.23 * std::abs(*e.value);
+    const auto warnings = report_warnings(manifest, errors, {});
+    EXPECT_EQ(warnings.size(), before + 1) << "one of each shot";
+    EXPECT_TRUE(contains(warnings, fixture_shots[0] + ": the noise of the path-traced light"));
+    EXPECT_TRUE(contains(warnings, "23 % of an error"));
+}
+
+TEST_F(Report, IsOneSmallFileThatNeedsNothingElse) {
+    write_report(folder);
+    const std::string page = read_text(folder / "report.html");
+    EXPECT_LT(page.size(), 15'000'000u);
+    EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org/2000/svg"));  // a name, not an address
+    EXPECT_EQ(page.find("https://"), std::string::npos);
+    EXPECT_EQ(page.find("{{"), std::string::npos);
+    EXPECT_NE(page.find("Linear tracing &lt;/script&gt; against the truth"), std::string::npos);
+    EXPECT_EQ(page.find("tracing </script>"), std::string::npos);
+}
+
+TEST_F(Report, DoesWithoutTimesAndWithOneShot) {
+    std::filesystem::remove(folder / "times.csv");
+    auto manifest = read_json(folder / "manifest.json");
+    for (const char* key : {"clock", "provenance", "shots", "images", "variants"}) manifest.erase(key);
+    write_text(folder / "manifest.json", manifest.dump());
+    EXPECT_EQ(message(), "");
+    EXPECT_EQ(read_text(folder / "time_summary.csv"),
+              "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,disturbed_share\n");
+}
+
+TEST_F(Report, NamesTheFileThatIsMissingOrBroken) {
+    const std::string results = read_text(folder / "results.csv"), manifest = read_text(folder / "manifest.json");
+    const auto after = [&](const char* file, const std::string& content) {
+        write_text(folder / file, content);
+        return message();
+    };
+    EXPECT_NE(after("results.csv", results.substr(0, results.size() - 5)).find("results.csv:"), std::string::npos);
+    write_text(folder / "results.csv", results);
+    EXPECT_NE(after("manifest.json", "[1, 2]").find("manifest.json must be a JSON object"), std::string::npos);
+    EXPECT_NE(after("manifest.json", manifest.substr(0, 100)).find("manifest.json:"), std::string::npos);
+    EXPECT_NE(after("manifest.json", R"({"images": [{"shot": 1}]})").find("images[0]: 'shot' must be a text"),
+              std::string::npos);
+    EXPECT_NE(after("manifest.json", R"({"images": 3})").find("'images' must be an array"), std::string::npos);
+    write_text(folder / "manifest.json", manifest);
+    const auto image = folder / "images" / fixture_shots[0] / "reference_image.exr";
+    std::filesystem::resize_file(image, 500);
+    EXPECT_NE(message().find("reference_image.exr"), std::string::npos);
+    std::filesystem::remove(image);
+    EXPECT_NE(message().find("reference_image.exr: no such file"), std::string::npos);
+    std::filesystem::remove(folder / "results.csv");
+    EXPECT_NE(message().find("results.csv"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
+}

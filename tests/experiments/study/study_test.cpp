@@ -1,0 +1,176 @@
+// Whole studies, small ones: that a run repeats itself, continues where it stopped, and that leaving work out changes
+// nothing.
+#include "core/error.h"
+#include "core/json.h"
+#include "groundtruth/reference_file.h"
+#include "tests/experiments/study/study_fixture.h"
+
+namespace {
+
+double value_of(const std::vector<ResultRow>& rows, const std::string& variant, const std::string& metric,
+                const std::string& mask) {
+    for (const ResultRow& r : rows)
+        if (r.variant == variant && r.metric == metric && r.mask == mask && r.target == "specular")
+            return r.value.value();
+    ADD_FAILURE() << "no row " << variant << " " << metric << " " << mask;
+    return 0;
+}
+
+}  // namespace
+
+TEST_F(StudyTest, RepeatsItselfAndContinues) {
+    const Config study = config(R"(["mirror_pillars", "floating_holes"])");
+    const std::string first = read_text(run(study, "a") / "results.csv");
+    EXPECT_EQ(read_text(run(study, "b") / "results.csv"), first);
+
+    // A killed run leaves cells and no tables; it must end with the same rows.
+    size_t kept = 0;
+    for (const auto& cell : fs::directory_iterator(folder / "a/cells"))
+        if (kept++ % 2) fs::remove(cell.path());
+    for (const char* file : {"results.csv", "times.csv", "manifest.json", "report.html"})
+        fs::remove(folder / "a" / file);
+    EXPECT_EQ(read_text(run(study, "a") / "results.csv"), first);
+    EXPECT_TRUE(fs::exists(folder / "a/report.html"));
+}
+
+TEST_F(StudyTest, LinearTracingBeatsNothingOnMirrors) {
+    const auto rows = read_result_rows(run(config(R"("mirror_pillars")"), "a") / "results.csv");
+    EXPECT_LT(value_of(rows, "mcguire_dda", "mse", "reflective"), 0.5 * value_of(rows, "none", "mse", "reflective"));
+    for (const ResultRow& r : rows) EXPECT_EQ(r.non_finite, 0u);
+}
+
+TEST_F(StudyTest, LeavingOutChangesNothing) {
+    const Config study = config(R"(["all_rough", "sky_only", "fence"])");
+    const auto lean = read_result_rows(run(study, "lean") / "results.csv"),
+               all = read_result_rows(run(study, "all", true) / "results.csv");
+    ASSERT_EQ(lean.size(), all.size());
+    // The rasteriser's and the variants' images are the same bits. The path tracer's extra features are identities that
+    // round in other places: 1e-7 of a radiance, some hundred times that where a metric subtracts; its noise is 1e-2.
+    for (size_t i = 0; i < lean.size(); ++i) {
+        ASSERT_EQ(lean[i].shot + lean[i].variant + lean[i].target + lean[i].metric + lean[i].mask,
+                  all[i].shot + all[i].variant + all[i].target + all[i].metric + all[i].mask);
+        EXPECT_EQ(lean[i].pixels, all[i].pixels);
+        EXPECT_NEAR(lean[i].value.value_or(0), all[i].value.value_or(0),
+                    1e-7 + 1e-4 * std::abs(lean[i].value.value_or(0)))
+            << lean[i].shot << " " << lean[i].metric << " " << lean[i].mask;
+    }
+    const nlohmann::json complete = read_json(folder / "all/manifest.json");
+    for (const auto& shot : complete["shots"]) EXPECT_TRUE(shot["left_out"].empty()) << shot["left_out"].dump();
+    const nlohmann::json manifest = read_json(folder / "lean/manifest.json");
+    for (const auto& shot : manifest["shots"]) {
+        if (shot["scene"] == "fence") continue;
+        bool leaves_trace_out = false;
+        for (const auto& part : shot["left_out"])
+            leaves_trace_out = leaves_trace_out || part["what"].get<std::string>().find("trace") != std::string::npos;
+        EXPECT_TRUE(leaves_trace_out) << shot["scene"] << " " << shot["left_out"].dump();
+    }
+}
+
+TEST_F(StudyTest, SkyIsExact) {
+    const auto rows = read_result_rows(run(config(R"("sky_only")"), "a") / "results.csv");
+    ASSERT_FALSE(rows.empty());
+    for (const ResultRow& r : rows) {
+        if (r.metric != "mse" || r.target == "incident") continue;
+        EXPECT_EQ(r.value.value(), 0.0) << r.target << " " << r.mask;
+    }
+}
+
+TEST_F(StudyTest, ProcessesShareAFolder) {
+    const Config study = config(R"(["mirror_pillars", "fence"])", R"(, "title": "shared")");
+    const std::string alone = read_text(run(study, "alone") / "results.csv");
+    const std::string command = "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() +
+                                "' '" SSRLAB_PROGRAM "' run study.json --out shared > ";
+    ASSERT_EQ(std::system((command + "log1 2>&1 & " + command + "log2 2>&1; code=$?; wait; exit $code").c_str()), 0)
+        << read_text(folder / "log2");
+    EXPECT_EQ(read_text(folder / "shared/results.csv"), alone);
+    size_t cells = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "shared/cells")) {
+        cells += entry.path().extension() == ".json";
+        EXPECT_NE(entry.path().extension(), ".claim");
+    }
+    EXPECT_EQ(cells, 6u) << "two shots of two points, and the times of each";
+}
+
+TEST_F(StudyTest, ANewReferenceMakesNewCells) {
+    // The same request may be answered by other pixels: where a time limit stops it, or a file was replaced.
+    const Config study = config(R"("fence")");
+    run(study, "a");
+    const auto count = [&] { return std::distance(fs::directory_iterator(folder / "a/cells"), {}); };
+    const auto before = count();
+    run(study, "a");
+    EXPECT_EQ(count(), before);
+    for (const auto& entry : fs::directory_iterator(folder / "cache"))
+        if (entry.path().extension() == ".exr") {
+            ReferenceState state = read_reference_state(entry.path());
+            state.reference.specular.mean.values[0] += 1;
+            write_reference(entry.path(), state.reference, state.settings);
+        }
+    run(study, "a");
+    EXPECT_EQ(count(), 2 * before);
+}
+
+TEST_F(StudyTest, OtherSeedsMakeNewCells) {
+    Config study = config(R"("fence")");
+    for (const unsigned seed : {0, 7}) {
+        for (VariantConfig& variant : study.variants) variant.seeds = {seed};
+        const auto rows = read_result_rows(run(study, "a") / "results.csv");
+        ASSERT_FALSE(rows.empty());
+        for (const ResultRow& r : rows) EXPECT_EQ(r.seed, seed);
+    }
+}
+
+TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
+    Config study = config(R"("fence")");
+    study.timing = {.frames = 15, .warm_up = 2};
+    const fs::path out = run(study, "a");
+    const auto times = read_time_rows(out / "times.csv");
+    const auto frames_of = [&](const std::string& variant, const std::string& stage) {
+        return std::ranges::count_if(times, [&](const TimeRow& t) { return t.variant == variant && t.stage == stage; });
+    };
+    EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/trace"), 15);
+    EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/shade"), 15);
+    EXPECT_EQ(frames_of("none", "mcguire_dda/trace"), 0);
+    const nlohmann::json clock = read_json(out / "manifest.json")["clock"];
+    ASSERT_EQ(clock["proofs"].size(), 1u);
+    EXPECT_EQ(clock["proofs"][0]["checks"].size(), 3u);
+    EXPECT_EQ(clock["proofs"][0]["shots"].size(), 1u);
+    EXPECT_GT(clock["proofs"][0]["empty_submit_ms"].get<double>(), 0.0);
+    EXPECT_EQ(clock["load"].size(), 1u);
+}
+
+TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
+    // The G-buffer and the reference of a scene, saved and loaded back in its place, must give the same numbers.
+    const std::string common =
+        "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() + "' '" SSRLAB_PROGRAM "' ";
+    ASSERT_EQ(std::system((common + "gbuffer mirror_pillars --size 96 54 --out capture > log 2>&1").c_str()), 0)
+        << read_text(folder / "log");
+    ASSERT_EQ(
+        std::system((common + "reference mirror_pillars --size 96 54 --samples 64 --out truth.exr > log 2>&1").c_str()),
+        0)
+        << read_text(folder / "log");
+    write_text(
+        folder / "capture.json",
+        R"({"shots": [{"gbuffer": "capture", "reference": "truth.exr"}], "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
+    write_text(
+        folder / "scene.json",
+        R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54]}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
+    const auto capture = read_result_rows(run(read_config(folder / "capture.json"), "a") / "results.csv"),
+               scene = read_result_rows(run(read_config(folder / "scene.json"), "b") / "results.csv");
+    ASSERT_EQ(capture.size(), scene.size());
+    for (size_t i = 0; i < scene.size(); ++i)
+        EXPECT_EQ(capture[i].value, scene[i].value)
+            << scene[i].target << " " << scene[i].metric << " " << scene[i].mask;
+
+    // Without a truth it is rendered all the same.
+    Config alone = read_config(folder / "capture.json");
+    alone.shots.front().reference.clear();
+    EXPECT_TRUE(read_result_rows(run(alone, "alone") / "results.csv").empty());
+    EXPECT_FALSE(read_json(folder / "alone/manifest.json")["images"].empty());
+
+    // The truth of another scene may have the same size.
+    ASSERT_EQ(std::system((common + "reference fence --size 96 54 --samples 16 --out other.exr > log 2>&1").c_str()),
+              0);
+    Config mismatched = read_config(folder / "capture.json");
+    mismatched.shots.front().reference = folder / "other.exr";
+    EXPECT_THROW(run(mismatched, "c"), Error);
+}
