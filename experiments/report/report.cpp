@@ -41,8 +41,9 @@ std::string script_text(const json& value) {
 /// The rows of `metric` of what is reflected; where there are none such, those of the first target, metric and mask.
 std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> errors, const PointSet& singles,
                                                 const std::string& metric) {
-    std::vector<const MetricSummary*> rows = rows_for_shots(errors);
-    std::erase_if(rows, [&](const MetricSummary* e) { return singles.contains({e->variant, e->point}); });
+    std::vector<const MetricSummary*> rows;
+    for (const MetricSummary& e : errors)
+        if (e.speaks_for_shot && !singles.contains({e.variant, e.point})) rows.push_back(&e);
     const auto narrow = [&](const std::string MetricSummary::*column, const std::string& wanted) {
         const bool has_wanted = std::ranges::any_of(rows, [&](const MetricSummary* e) { return e->*column == wanted; });
         const std::string chosen = has_wanted || rows.empty() ? wanted : rows.front()->*column;
@@ -127,12 +128,12 @@ void write_report(const std::filesystem::path& folder) {
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
     const ReportTables tables = read_report_tables(folder, manifest);
-    write_summaries(folder, tables.errors, tables.times);
+    write_rows(folder / "summary.csv", tables.errors);
+    write_rows(folder / "time_summary.csv", tables.times);
 
-    const std::vector<SingleChange> changes = single_changes(manifest, tables.effects);
-    const PointSet singles = points_of(changes);
+    const PointSet singles = single_changes(manifest);
     const std::vector<std::string> warnings = report_warnings(manifest, tables.errors, tables.times);
-    json data = report_data(tables, changes);
+    json data = report_data(tables, singles);
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
     data["manifest"].erase("stale");   // not of this study as it is

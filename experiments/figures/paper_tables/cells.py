@@ -6,7 +6,7 @@ import json
 import math
 from dataclasses import dataclass
 
-from paper_figures.results import ResultsError, rows_for_shots
+from paper_figures.results import ResultsError, rows_that_speak
 
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low", "high")),
@@ -102,7 +102,7 @@ class Selection:
         if table.of == "splits":
             rows = list(_split_rows(rows))
         if table.of == "results":
-            rows = rows_for_shots(rows)
+            rows = rows_that_speak(rows)
         self.rows = [r for r in rows if all(self._is_inside(r, k) for k in table.where)]
         if not self.rows:
             raise ResultsError(f"table '{table.name}': {SOURCES[table.of][0]} has no row where {json.dumps(table.where)}")

@@ -34,6 +34,7 @@ struct VariantConfig {
     std::string variant;
     std::string preset;         ///< "": none
     nlohmann::json parameters;  ///< values that differ from the preset's or default ones
+    nlohmann::json swept;       ///< those of them that its `sweep` or `each` gave it; an empty object if it has neither
     std::string point;          ///< its label in results: the preset and the swept values, or "default"
     std::vector<unsigned> seeds;
     bool depends_on_seed = true;  ///< else one seed tells all, see Variant::depends_on_seed()
