@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "experiments/report/answers.h"
 #include "experiments/report/html_text.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
@@ -134,6 +135,12 @@ void write_report(const std::filesystem::path& folder) {
     const PointSet singles = single_changes(manifest);
     const std::vector<std::string> warnings = report_warnings(manifest, tables.errors, tables.times);
     json data = report_data(tables, singles);
+    const Headline headline = headline_of(manifest, tables.errors);
+    data["headline"] = {{"metric", headline.metric},
+                        {"mask", headline.mask},
+                        {"target", headline.target},
+                        {"perceptual_metric", headline.perceptual_metric}};
+    data["answers"] = answers_json(shot_answers(tables, manifest), headline);
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
     data["manifest"].erase("stale");   // not of this study as it is

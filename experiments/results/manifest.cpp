@@ -28,6 +28,7 @@ nlohmann::json variant_entries(const Config& config) {
                            {"parameters", variant->params.values()},
                            {"depends_on_seed", variant->depends_on_seed()}});
         if (!v.swept.empty()) entries.back()["swept"] = v.swept;
+        if (variant->asks_scene()) entries.back()["asks_scene"] = true;
         if (v.is_baseline) entries.back()["baseline"] = true;
         for (const SingleChange& c : changes)
             if (c.variant == v.variant && c.point == v.point)

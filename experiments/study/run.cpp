@@ -6,6 +6,7 @@
 #include "core/json.h"
 #include "experiments/measuring/rung_errors.h"
 #include "experiments/measuring/timing.h"
+#include "experiments/report/answers.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_points.h"
 #include "experiments/results/effects.h"
@@ -225,6 +226,15 @@ nlohmann::json read_manifest_before(const std::filesystem::path& file) {
     }
 }
 
+/// What a reader wants to know first, once for each shot.
+void say_answers(StudyRun& study) {
+    const std::filesystem::path& out = study.settings.out;
+    const nlohmann::json manifest = read_json(out / "manifest.json");
+    for (const ShotAnswer& answer : shot_answers(read_report_tables(out, manifest), manifest))
+        study.progress.say("\n" + answer.shot + ": " + answer.sentence +
+                           (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence));
+}
+
 }  // namespace
 
 void run_study(const Config& config, const RunSettings& settings) {
@@ -256,6 +266,7 @@ void run_study(const Config& config, const RunSettings& settings) {
             run_gbuffer_shot(study, shot);
         write_results(study, &shot == &config.shots.back());
     }
+    say_answers(study);
     study.progress.say("\nReport: " +
                        std::filesystem::absolute(settings.out / "report.html").lexically_normal().string());
 }

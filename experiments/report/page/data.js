@@ -26,6 +26,8 @@ function readData() {
         manifest: raw.manifest,
         metrics: raw.metrics,
         defaults: raw.defaults,  // variant to {parameter: value}, of those that this build knows
+        headline: raw.headline ?? null,  // experiments/report/answers.h
+        answers: raw.answers ?? [],
         warnings: raw.warnings,
         notes: raw.notes,
         images: raw.images,
