@@ -13,7 +13,7 @@ MOST_VARIANTS = 4
 BOX_COLORS = ["#e69f00", "#56b4e9"]
 
 
-def _display(image, exposure):
+def display(image, exposure):
     """sRGB (IEC 61966-2-1) at this exposure; pixels that are not finite are magenta."""
     linear = np.clip(np.nan_to_num(image.astype(np.float64) * 2.0**exposure), 0.0, 1.0)
     coded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
@@ -119,7 +119,7 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
     figure.set_constrained_layout_pads(w_pad=0.02, h_pad=0.02, wspace=0.01, hspace=0.01)
     grid = figure.subplots(len(ratios), len(images), squeeze=False, gridspec_kw={"height_ratios": ratios})
     for column, (key, image) in enumerate(images.items()):
-        _show(grid[0, column], _display(image, exposure))
+        _show(grid[0, column], display(image, exposure))
         error = errors.get((shot, *key))
         number = (
             ""
@@ -169,7 +169,7 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
 def _draw_crop(picture_axes, map_axes, image, reference, error, box, color, exposure, maximum):
     x, y, w, h = box
     part = np.s_[y : y + h, x : x + w]
-    _show(picture_axes, _display(image[part], exposure))
+    _show(picture_axes, display(image[part], exposure))
     _frame(picture_axes, color)
     if error is None:
         map_axes.axis("off")

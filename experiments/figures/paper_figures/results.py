@@ -117,8 +117,10 @@ class Results:
         )
 
     def headline_metric(self):
+        """That which the study is made to compare, else the first."""
         found = list(dict.fromkeys(r["metric"] for r in self.errors))
-        return "relmse" if "relmse" in found or not found else found[0]
+        primary = self.manifest.get("primary", {}).get("metric", "mse")
+        return primary if primary in found or not found else found[0]
 
     def errors_of(self, target, metric, mask):
         """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out, and so are single changes."""

@@ -60,7 +60,7 @@ struct JudgedRays {
 
 /// The comparisons that a study is made for: one error of all points and shots. All others are exploratory.
 struct PrimaryComparisons {
-    std::string metric = "relmse", mask = "reflective", target = "specular";
+    std::string metric = "mse", mask = "reflective", target = "specular";
 };
 
 /// Seeds of a point whose result depends on them, if the config names none: few seeds give wide intervals, and those of
