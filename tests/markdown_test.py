@@ -1,4 +1,5 @@
-"""Links between the Markdown files, to their headings, and the paths that they name, lead somewhere."""
+"""Links between the Markdown files, to their headings, and the paths that they name, lead somewhere; pictures are of today."""
+import hashlib
 import os
 import re
 import unittest
@@ -18,7 +19,7 @@ def all_files():
 
 FILES = set(all_files())
 FOLDERS = {str(parent) for file in FILES for parent in Path(file).parents}
-PATH = r"(?<![\w./*-])((?:[\w-]+/)+(?:README|RESULTS|[a-z0-9_]+)\.(?:cpp|h|py|js|md|sh|csv|json|glsl|comp|frag|cmake))\b"
+NAME = r"(?:README|RESULTS|[a-z0-9_]+)\.(?:cpp|h|py|js|md|sh|csv|json|glsl|comp|frag|cmake)"
 DOCUMENTS = sorted(file for file in FILES if file.endswith(".md"))
 
 
@@ -60,7 +61,7 @@ class Markdown(unittest.TestCase):
         count = 0
         for document in DOCUMENTS:
             text = (ROOT / document).read_text(encoding="utf-8")
-            for path in re.findall(PATH, text):
+            for path in re.findall(rf"(?<![\w./*-])((?:[\w-]+/)+{NAME})\b", text):
                 first = path.split("/")[0]
                 near = os.path.normpath(os.path.join(os.path.dirname(document), path))
                 if first not in FOLDERS and os.path.dirname(near) not in FOLDERS:
@@ -68,6 +69,14 @@ class Markdown(unittest.TestCase):
                 count += 1
                 self.assertTrue({path, near} & FILES, f"{document}: {path}")
         self.assertGreater(count, 100)
+
+    def test_pictures_of_the_readme_were_drawn_from_what_is_committed(self):
+        """Else draw them anew: experiments/figures/readme_pictures.py."""
+        made_from = {"error_time": "summaries/best.csv", "comparison": "configs/comparison.json"}
+        for name, source in made_from.items():
+            picture = (ROOT / f"experiments/figures/readme/{name}.png").read_bytes()
+            digest = hashlib.sha256((ROOT / "experiments" / source).read_bytes()).hexdigest()
+            self.assertTrue(b"tEXtSource\0" + digest.encode() in picture, f"{name}.png is not of this {source}")
 
 
 if __name__ == "__main__":
