@@ -18,6 +18,7 @@ PAGES = {
         "experiments/stability/README": "Stability and precision",
     },
     "Techniques": {
+        "variants/README": "Adding one",
         "variants/tracers/README": "Tracers",
         "variants/amd_sssr/README": "AMD FidelityFX SSSR",
         "variants/diligent_ssr/README": "DiligentFX",
