@@ -47,6 +47,7 @@ html_css_files = ["site.css"]
 html_extra_path = ["index.html"]
 html_copy_source = False
 html_use_index = False
+html_show_copyright = False
 html_show_search_summary = False  # browsers let no page from the disk read another, of which it would show the text
 
 
