@@ -4,7 +4,7 @@
 usage: experiments/figures/readme_pictures.py [RESULTS]
 
 error_time.png is drawn from experiments/summaries/best.csv. With RESULTS, a folder that `ssrlab run
-experiments/configs/comparison.json` filled, comparison.png too. Needs Debian's python3-matplotlib, -numpy and -pil.
+experiments/configs/readme.json` filled, comparison.png too. Needs Debian's python3-matplotlib, -numpy and -pil.
 """
 
 import argparse
@@ -117,12 +117,12 @@ def draw_comparison(folder):
         value, low, high = (style.number(x) for x in (error.value, error.low, error.high))
         top.set_title(f"{label(*key)}: {value} [{low}, {high}]")
         crops.show(below, maps[key][DISCS], cmap="magma", vmin=0, vmax=most)
-    save(figure, "comparison", digest(FOLDER.parent / "configs/comparison.json"))
+    save(figure, "comparison", digest(FOLDER.parent / "configs/readme.json"))
 
 
 def main():
     parser = argparse.ArgumentParser(description="The pictures of the README (PNG).")
-    parser.add_argument("results", nargs="?", help="a folder that `ssrlab run experiments/configs/comparison.json` filled")
+    parser.add_argument("results", nargs="?", help="a folder that `ssrlab run experiments/configs/readme.json` filled")
     arguments = parser.parse_args()
     style.apply()
     try:
