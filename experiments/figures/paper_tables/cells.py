@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 
 from paper_figures.results import ResultsError, rows_that_speak
-from paper_tables import agreement
+from paper_tables import agreement, limits
 
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low", "high")),
@@ -16,6 +16,7 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
     "hits": ("hits.csv", ("value", "low", "high")),
+    "limits": ("summary.csv", ("value", "low", "high")),  # errors over the information limit of one frame: limits.py
     "agreement": ("summary.csv", ("value", "low", "high")),  # of metrics with each other, and ...
     "eye": ("summary.csv", ("value", "low", "high")),  # ... with people: agreement.py
 }
@@ -104,9 +105,11 @@ class Selection:
         rows = results.read_csv(SOURCES[table.of][0])
         if table.of == "splits":
             rows = list(_split_rows(rows))
-        if table.of in ("results", "agreement", "eye"):
+        if table.of in ("results", "limits", "agreement", "eye"):
             rows = rows_that_speak(rows)
         self.rows = [r for r in rows if all(self._is_inside(r, k) for k in table.where)]
+        if table.of == "limits":
+            self.rows = list(limits.limit_rows(self.rows, self.shots))
         if table.of == "agreement":
             self.rows = list(agreement.agreement_rows(self.rows))
         if table.of == "eye":

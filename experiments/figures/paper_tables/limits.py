@@ -1,0 +1,32 @@
+"""How many times the information limit of one frame an error is: rows for tables, as a study's files would hold them."""
+
+RUNG = "on_screen"  # groundtruth/truth_ladder.h
+
+
+def _limits(shots):
+    """{(shot, target, metric, mask): entry of manifest.json's `truth_ladder`}."""
+    return {
+        (shot["shot"], rung["target"], rung["metric"], rung["mask"]): rung
+        for shot in shots
+        for rung in shot.get("truth_ladder", [])
+        if rung["rung"] == RUNG and rung.get("value")
+    }
+
+
+def _quotient(numerator, denominator):
+    return float(numerator) / denominator if numerator and denominator and denominator > 0 else ""
+
+
+def limit_rows(rows, shots):
+    """Of rows of summary.csv those whose limit is known and above 0. The interval's ends are those of both, each at its
+    worst, and so on the safe side; none where one of both has none."""
+    limits = _limits(shots)
+    for row in rows:
+        limit = limits.get((row["shot"], row["target"], row["metric"], row["mask"]))
+        if limit is None or not row["value"] or limit["value"] <= 0:
+            continue
+        yield row | {
+            "value": _quotient(row["value"], limit["value"]),
+            "low": _quotient(row["low"], limit.get("high")),
+            "high": _quotient(row["high"], limit.get("low")),
+        }

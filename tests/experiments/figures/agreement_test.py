@@ -1,0 +1,65 @@
+"""How metrics agree with each other and with people, and errors over the limit of one frame: against numbers by hand."""
+
+import os
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/figures"))
+
+from paper_figures.results import ResultsError  # noqa: E402
+from paper_tables import agreement, limits  # noqa: E402
+
+
+def rows(metric, values, shot="s"):
+    return [{"shot": shot, "variant": "v", "point": p, "metric": metric, "value": str(v)} for p, v in values.items()]
+
+
+class Agreement(unittest.TestCase):
+    def test_kendalls_tau_counts_pairs(self):
+        self.assertEqual(agreement.kendall_tau([1, 2, 3, 4], [1, 2, 3, 4]), 1)
+        self.assertEqual(agreement.kendall_tau([1, 2, 3, 4], [4, 3, 2, 1]), -1)
+        self.assertAlmostEqual(agreement.kendall_tau([1, 2, 3, 4], [1, 2, 4, 3]), 4 / 6)
+        self.assertAlmostEqual(agreement.kendall_tau([1, 2, 3], [5, 5, 6]), 1)  # ties say nothing
+        self.assertIsNone(agreement.kendall_tau([1, 2], [3, 3]))
+
+    def test_more_is_better_by_ssim(self):
+        both = rows("mse", {"a": 1, "b": 2, "c": 3}) + rows("ssim", {"a": 0.9, "b": 0.8, "c": 0.7})
+        taus = {(r["metric"], r["against"]): r["value"] for r in agreement.agreement_rows(both)}
+        self.assertEqual(taus[("mse", "ssim")], 1)
+        self.assertEqual(len(taus), 4)
+
+    def test_shots_are_a_sample(self):
+        mean, low, high = agreement.mean_over_shots([1, 2, 3, 4])
+        self.assertEqual(mean, 2.5)
+        # Student's t(0.975, 3) = 3.18245; the approximation is right to 0.5 %.
+        half = 3.18245 * 1.2909944 / 2
+        self.assertLess(abs((high - low) / 2 / half - 1), 0.005)
+        self.assertEqual(agreement.mean_over_shots([1, 2, 3])[1:], (None, None))
+
+    def test_shares_have_wilsons_interval(self):
+        share, low, high = agreement.share_of_pairs([1.0] * 8 + [0.0] * 2)
+        self.assertEqual(share, 0.8)
+        self.assertAlmostEqual(low, 0.4902, places=4)  # Wilson 1927 for 8 of 10
+        self.assertAlmostEqual(high, 0.9433, places=4)
+
+    def test_judgements_are_compared_with_each_metric(self):
+        both = rows("mse", {"a": 1, "b": 2}) + rows("ssim", {"a": 0.7, "b": 0.8})
+        judged = {"shot": "s", "first": "v", "first_point": "a", "second": "v", "second_point": "b"}
+        found = list(agreement.eye_rows(both, [judged | {"nearer": "second"}, judged | {"nearer": "neither"}]))
+        self.assertEqual({r["metric"]: r["value"] for r in found}, {"mse": 0, "ssim": 1})
+        with self.assertRaises(ResultsError):
+            list(agreement.eye_rows(both, [judged | {"shot": "another", "nearer": "first"}]))
+
+
+class Limits(unittest.TestCase):
+    def test_are_worst_at_each_end(self):
+        ladder = {"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "all", "value": 2.0, "low": 1.0, "high": 4.0}
+        shots = [{"shot": "s", "truth_ladder": [ladder, ladder | {"rung": "camera_radiance", "value": 9.0}]}]
+        row = {"shot": "s", "target": "specular", "metric": "mse", "mask": "all", "value": "8", "low": "6", "high": "10"}
+        found = list(limits.limit_rows([row, row | {"mask": "edge"}, row | {"low": "", "high": ""}], shots))
+        self.assertEqual([(r["value"], r["low"], r["high"]) for r in found], [(4, 1.5, 10), (4, "", "")])
+
+
+if __name__ == "__main__":
+    unittest.main()
