@@ -2,7 +2,7 @@
 """Sheets of pictures for people to judge which of two results is nearer to the truth, without knowing their names.
 
     judge.py sheets RESULTS OUT [--pairs N] [--seed S]    draws pairs; OUT has pair_<n>.png and key.csv
-    judge.py enter OUT ANSWERS.csv                        ANSWERS: pair,nearer (left, right or neither); adds them to
+    judge.py enter OUT ANSWERS.csv --judge NAME           ANSWERS: pair,nearer (left, right or neither); adds them to
                                                           experiments/findings/judgements.csv
 
 Half of the pairs are drawn from all, half from those that two of the metrics order differently. `ssrlab tables` counts how
@@ -28,7 +28,8 @@ from paper_figures.results import Results, ResultsError
 from paper_tables.agreement import HIGHER_IS_BETTER, JUDGEMENTS
 
 METRICS = ("mse", "relmse", "flip")
-COLUMNS = ("shot", "first", "first_point", "second", "second_point", "nearer")
+COLUMNS = ("shot", "first", "first_point", "second", "second_point", "nearer", "judge")
+PAIR = COLUMNS[:5]
 SCALE = 2  # pixels are shown so large: as many on a side
 GAP = 12
 
@@ -91,7 +92,7 @@ def make_sheets(arguments):
     os.makedirs(arguments.out, exist_ok=True)
     with open(os.path.join(arguments.out, "key.csv"), "w", newline="", encoding="utf-8") as stream:
         key = csv.writer(stream, lineterminator="\n")
-        key.writerow(("pair",) + COLUMNS[:-1])
+        key.writerow(("pair",) + PAIR)
         for number, (shot, left, right) in enumerate(draw_pairs(results, arguments.pairs, random.Random(arguments.seed)), 1):
             Image.fromarray(sheet(results, shot, left, right)).save(os.path.join(arguments.out, f"pair_{number}.png"))
             key.writerow((number, shot, *left, *right))
@@ -107,7 +108,7 @@ def enter(arguments):
         if is_new:
             judgements.writerow(COLUMNS)
         for answer in csv.DictReader(stream):
-            judgements.writerow([key[answer["pair"]][c] for c in COLUMNS[:-1]] + [named[answer["nearer"]]])
+            judgements.writerow([key[answer["pair"]][c] for c in PAIR] + [named[answer["nearer"]], arguments.judge])
 
 
 def main():
@@ -118,7 +119,7 @@ def main():
     sheets.add_argument("--pairs", type=int, default=40), sheets.add_argument("--seed", type=int, default=1)
     sheets.set_defaults(run=make_sheets)
     entering = commands.add_parser("enter")
-    entering.add_argument("out"), entering.add_argument("answers")
+    entering.add_argument("out"), entering.add_argument("answers"), entering.add_argument("--judge", required=True)
     entering.set_defaults(run=enter)
     arguments = parser.parse_args()
     try:

@@ -7,9 +7,11 @@ import os
 
 from paper_figures.results import ResultsError
 
+STUDENT = {3: 3.18245, 4: 2.77645, 5: 2.57058, 6: 2.44691, 7: 2.36462, 8: 2.30600, 9: 2.26216}  # t(0.975, degrees of freedom)
 HIGHER_IS_BETTER = ("ssim", "psnr")
 # Pairs of images, without names and in an order drawn anew, of which somebody said which is nearer to the truth
 # (experiments/figures/judge.py).
+PAIR = ("shot", "first", "first_point", "second", "second_point")
 JUDGEMENTS = os.path.abspath(os.path.join(os.path.dirname(__file__), "../../findings/judgements.csv"))
 
 
@@ -53,12 +55,18 @@ def read_judgements(file=JUDGEMENTS):
         return list(csv.DictReader(stream))
 
 
+def _decided(judgements):
+    """One of each pair on which all who judged it agree."""
+    pairs = {}
+    for judged in judgements:
+        pairs.setdefault(tuple(judged[c] for c in PAIR), []).append(judged)
+    return [of_pair[0] for of_pair in pairs.values() if len({j["nearer"] for j in of_pair}) == 1 and of_pair[0]["nearer"] in PAIR]
+
+
 def eye_rows(rows, judgements):
     """For each metric and pair that was decided, 1 if the metric puts the two points in the order of the judgement."""
     found = _by_shot(rows)
-    for number, judged in enumerate(judgements):
-        if judged["nearer"] not in ("first", "second"):
-            continue
+    for number, judged in enumerate(_decided(judgements)):
         if judged["shot"] not in found:
             raise ResultsError(f"{JUDGEMENTS} judges {judged['shot']}, of which these results have no rows")
         for metric, values in found[judged["shot"]].items():
@@ -80,9 +88,10 @@ def mean_over_shots(values):
     mean = sum(values) / n
     if n < 4:
         return mean, None, None
-    # Its quantile by Cornish and Fisher (Abramowitz and Stegun 26.7.5): right to 0.5 % from 3 degrees of freedom on.
-    z, degrees = 1.959964, n - 1
-    quantile = z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2)
+    degrees = n - 1
+    z = 1.959964  # from 10 degrees of freedom on by Cornish and Fisher's expansion (Abramowitz and Stegun 26.7.5)
+    expanded = z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2)
+    quantile = STUDENT.get(degrees, expanded)
     half = quantile * math.sqrt(sum((v - mean) ** 2 for v in values) / degrees / n)
     return mean, mean - half, mean + half
 

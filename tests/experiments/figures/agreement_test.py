@@ -32,9 +32,10 @@ class Agreement(unittest.TestCase):
     def test_shots_are_a_sample(self):
         mean, low, high = agreement.mean_over_shots([1, 2, 3, 4])
         self.assertEqual(mean, 2.5)
-        # Student's t(0.975, 3) = 3.18245; the approximation is right to 0.5 %.
-        half = 3.18245 * 1.2909944 / 2
-        self.assertLess(abs((high - low) / 2 / half - 1), 0.005)
+        self.assertAlmostEqual((high - low) / 2, 3.18245 * 1.2909944 / 2, places=4)  # Student's t(0.975, 3)
+        mean, low, high = agreement.mean_over_shots(list(range(31)))
+        # t(0.975, 30) = 2.04227; the expansion is right to 1e-4 there.
+        self.assertLess(abs((high - low) / 2 / (2.04227 * (31 * 32 / 12) ** 0.5 / 31**0.5) - 1), 1e-4)
         self.assertEqual(agreement.mean_over_shots([1, 2, 3])[1:], (None, None))
 
     def test_shares_have_wilsons_interval(self):
@@ -46,7 +47,8 @@ class Agreement(unittest.TestCase):
     def test_judgements_are_compared_with_each_metric(self):
         both = rows("mse", {"a": 1, "b": 2}) + rows("ssim", {"a": 0.7, "b": 0.8})
         judged = {"shot": "s", "first": "v", "first_point": "a", "second": "v", "second_point": "b"}
-        found = list(agreement.eye_rows(both, [judged | {"nearer": "second"}, judged | {"nearer": "neither"}]))
+        swapped = judged | {"first_point": "b", "second_point": "a"}  # judges differ: undecided
+        found = list(agreement.eye_rows(both, [judged | {"nearer": "second"}] * 2 + [swapped | {"nearer": n} for n in ("first", "second")]))
         self.assertEqual({r["metric"]: r["value"] for r in found}, {"mse": 0, "ssim": 1})
         with self.assertRaises(ResultsError):
             list(agreement.eye_rows(both, [judged | {"shot": "another", "nearer": "first"}]))
