@@ -1,13 +1,15 @@
 """Tables within Markdown files: between `<!-- table STUDY NAME -->` and `<!-- end of table -->`, made from the committed
-summary of the study."""
+summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "caption": "..."} -->` shows an excerpt: the
+named rows and columns in that order (all, where a key is left out)."""
 
+import json
 import os
 import re
 
 from paper_figures.results import ResultsError
 from paper_tables import formats, summary_file
 
-BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+) -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
+BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
 
 
 def markdown_files(root):
@@ -15,6 +17,26 @@ def markdown_files(root):
     for folder, folders, names in os.walk(root):
         folders[:] = sorted(f for f in folders if not f.startswith(".") and not f.startswith("build") and f != "results")
         yield from (os.path.join(folder, name) for name in sorted(names) if name.endswith(".md"))
+
+
+def _excerpt(table, cells, text, where):
+    try:
+        wanted = json.loads(text)
+    except ValueError as e:
+        raise ResultsError(f"{where}: {text} is not JSON: {e}") from e
+    unknown = sorted(set(wanted) - {"rows", "columns", "caption"})
+    if unknown:
+        raise ResultsError(f"{where}: unknown key '{unknown[0]}' of an excerpt; known are rows, columns, caption")
+    for key, of in (("rows", "row"), ("columns", "column")):
+        names = wanted.get(key)
+        if names is None:
+            continue
+        found = {getattr(c, of) for c in cells}
+        missing = [n for n in names if n not in found]
+        if missing:
+            raise ResultsError(f"{where}: it has no {of} '{missing[0]}'; it has: {', '.join(sorted(found))}")
+        cells = sorted((c for c in cells if getattr(c, of) in names), key=lambda c: names.index(getattr(c, of)))
+    return table | {"caption": wanted.get("caption", table["caption"])}, cells
 
 
 def filled(text, summaries, file):
@@ -26,6 +48,8 @@ def filled(text, summaries, file):
         if block["name"] not in tables:
             raise ResultsError(f"{file}: {path} has no table '{block['name']}'; it has: {', '.join(tables)}")
         table, cells = tables[block["name"]]
+        if block["excerpt"]:
+            table, cells = _excerpt(table, cells, block["excerpt"], f"{file}: table {block['name']}")
         return block["head"] + formats.markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
 
     return BLOCK.sub(made, text)

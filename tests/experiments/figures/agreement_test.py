@@ -2,13 +2,15 @@
 
 import os
 import sys
+import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/figures"))
 
 from paper_figures.results import ResultsError  # noqa: E402
-from paper_tables import agreement, limits  # noqa: E402
+from paper_tables import agreement, documents, limits, summary_file  # noqa: E402
+from paper_tables.cells import Cell  # noqa: E402
 
 
 def rows(metric, values, shot="s"):
@@ -61,6 +63,27 @@ class Limits(unittest.TestCase):
         row = {"shot": "s", "target": "specular", "metric": "mse", "mask": "all", "value": "8", "low": "6", "high": "10"}
         found = list(limits.limit_rows([row, row | {"mask": "edge"}, row | {"low": "", "high": ""}], shots))
         self.assertEqual([(r["value"], r["low"], r["high"]) for r in found], [(4, 1.5, 10), (4, "", "")])
+
+
+class Excerpts(unittest.TestCase):
+    def test_show_the_named_rows_and_columns_in_their_order(self):
+        table = {"name": "t", "caption": "All", "shots": ["s"], "resolutions": [], "over": None, "over_count": None, "clocks": []}
+        cells = [Cell("t", row, column, 1.0, 0.9, 1.1) for row in ("a", "b", "c") for column in ("x", "y")]
+        origin = {"study": "s.json", "title": "", "commit": "c", "code": "", "estimators": 3, "finished": "", "device": "d"}
+        with tempfile.TemporaryDirectory() as folder:
+            summary_file.write(os.path.join(folder, "s.csv"), origin | {"shots": 1, "is_complete": True}, [table], cells)
+
+            def shown(excerpt):
+                text = f"<!-- table s t {excerpt} -->\n<!-- end of table -->"
+                return documents.filled(text, folder, "f.md").splitlines()
+
+            lines = shown('{"rows": ["c", "a"], "columns": ["y"], "caption": "Some"}')
+            self.assertEqual(lines[1], "Some")
+            self.assertEqual([line.split(" | ")[0] for line in lines[5:7]], ["| c", "| a"])
+            self.assertEqual(lines[3], "| | y |")
+            for bad in ('{"rows": ["d"]}', '{"row": ["a"]}', '{"rows": }'):
+                with self.assertRaises(ResultsError):
+                    shown(bad)
 
 
 if __name__ == "__main__":
