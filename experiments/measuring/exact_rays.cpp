@@ -5,6 +5,7 @@
 #include "variants/tracers/outcome.h"
 
 #include <tbb/parallel_for.h>
+#include <cmath>
 
 namespace {
 
@@ -49,6 +50,8 @@ ExactHit ExactRays::judged(const SurfacePoint& point, glm::vec3 direction, float
 
 ExactHit ExactRays::hit(glm::uvec2 pixel, const RayRecord& ray) const {
     const glm::vec3 direction = glm::normalize(glm::mat3(camera_.world_from_view) * ray.direction);
+    // A defect may draw no direction at all: not a number, which Embree must not be given.
+    if (!std::isfinite(direction.x + direction.y + direction.z)) return {.outcome = outcome_own_surface};
     const CameraRay camera_ray = ::camera_ray(pose_, extent_, glm::vec2(pixel) + 0.5f);
     glm::vec3 origin = glm::vec3(camera_.world_from_view * glm::vec4(ray.origin, 1.0f));
     if (const std::optional<Met> start = meet(scene_, camera_ray.origin, camera_ray.direction)) {

@@ -14,7 +14,8 @@ public:
 
     /// In the order of the rays; of those that were not traced, or not asked for, a hit without meaning. Asked for is
     /// one pixel in `every` along each axis. Rays start where the pixel's camera ray meets the scene, which the
-    /// G-buffer knows to the precision of its depth only. They go as the technique drew them. A point is shown if it
+    /// G-buffer knows to the precision of its depth only. They go as the technique drew them; one
+    /// whose direction is not a number meets nothing (outcome_own_surface). A point is shown if it
     /// lies within the image, on the side that faces the camera, and nothing hides it: that of points, as in the truth
     /// ladder, not of pixels.
     std::vector<ExactHit> hits(const RecordedRays& recorded, unsigned every = 1) const;

@@ -187,6 +187,15 @@ TEST_F(DiligentRay, IsAMirrorsOwnForARoughnessOfZero) {
     }
 }
 
+/// A normal map may turn normals away from the viewer.
+TEST_F(DiligentRay, IsADirectionWhereTheViewerIsBelowTheHorizon) {
+    noise = HostImage({128, 128}, 2, 0.3f);
+    for (const float roughness : {0.0f, 0.001f, 0.005f, 0.02f, 0.3f}) {
+        const HostImage found = rays(100, {{"bias_towards_mirror", true}}, roughness);
+        EXPECT_TRUE(std::ranges::all_of(found.values, [](float v) { return std::isfinite(v); })) << roughness;
+    }
+}
+
 /// The unit normals that the height of a cap comes from are rounded: it may exceed that of a whole sphere.
 TEST_F(DiligentRay, CapsReachARimWhateverTheirHeightIsRoundedTo) {
     DiligentParameters parameters;

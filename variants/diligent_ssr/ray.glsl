@@ -43,7 +43,10 @@ vec3 sample_normal_near_mirror(vec3 o, float alpha, vec2 u, float bias) {
                     vec3(sin_turn * across, cos_turn));
     float below_pole = u.y * height;
     vec3 c = cap * vec3(cap_sine(below_pole) * unit_circle(u.x), 1.0 - below_pole);
-    return normalize(vec3(alpha * (c.xy + v.xy), max(c.z + v.z, 0.0)));
+    vec3 m = vec3(alpha * (c.xy + v.xy), max(c.z + v.z, 0.0));
+    // Nothing is visible of a nearly smooth surface that a shading normal turns away from the viewer: 0, as of a mirror.
+    float size = length(m);
+    return size > 0.0 ? m / size : vec3(0.0, 0.0, 1.0);
 }
 
 // Of perfect mirrors the normal itself: what sampling leaves of the horizon's normals is 0 for them, not a direction.

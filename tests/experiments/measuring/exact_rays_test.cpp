@@ -147,6 +147,10 @@ TEST_F(ExactRaysTest, BelowItsSurfaceARayMeetsItsOwn) {
     EXPECT_NE(hit(pixel_at({0, 0, -1}), {0.3f, 0.01f, -1, 0}).outcome, outcome_own_surface);
 }
 
+TEST_F(ExactRaysTest, WithoutADirectionARayMeetsNothing) {
+    EXPECT_EQ(hit(pixel_at({0, 0, -1}), {0, 0, 0, 0}).outcome, outcome_own_surface);  // 0 / 0
+}
+
 TEST_F(ExactRaysTest, AnOrthographicCameraSeesPointsAlongItsAxis) {
     shot = shot_of_walls(true);
     look();
