@@ -8,6 +8,7 @@ const effectChoice = {
     shot: "all shots",
     scale: "all"
 };
+const hiddenShots = new Set();  // by the legend
 const significant = 0.05;  // of p after Holm's correction
 const errorParts = {
     bias_squared: "bias²",
@@ -102,8 +103,7 @@ function drawEffects() {
     const isAll = effectChoice.shot === "all shots", shots = effectShots();
     const rows = effectsShown().filter(e => isChosen(e) && (isAll || e.shot === effectChoice.shot));
     const scale = effectScale(rows, !isAll);
-    const legend = h("div", {class: "legend"}, shots.map((s, i) => legendEntry(i, s)));
-    at("effect-legend").replaceChildren(isAll ? legend : "");
+    at("effect-legend").replaceChildren(isAll ? shotLegend(shots) : "");
     const hasTimes = totalTimeEffects(rows).length > 0;
     const others = [...otherEffects(), ...(hasTimes ? [{name: "time", rows: totalTimeEffects(rows)}] : [])];
     at("effect-family").textContent = familyText(rows);
@@ -116,12 +116,18 @@ function drawEffects() {
     const lines = effectGroups(rows).map(
         g =>
             [h("div", {class: "change"}, h("b", {}, g.label), g.doc ? h("small", {}, g.doc) : null, repeatNote(g.rows)),
-             strip(scale, g.rows.filter(e => e.value !== null).map(e => effectMark(e, shots, isAll))),
+             strip(scale, g.rows.filter(e => e.value !== null && !(isAll && hiddenShots.has(e.shot))).map(e => effectMark(e, shots, isAll))),
              ...cells(g.rows)]);
     const label = `${metricName(effectChoice.metric)}: ratio, logarithmic`;
     lines.push(["", stripAxis(scale, label), ...columns.slice(2).map(() => "")]);
     at("effect-table").replaceChildren(table(columns, lines));
 }
+
+/// A button per shot: it shows and hides that shot's marks.
+const shotLegend = shots => legend(shots.map((shot, i) => ({label: shortShot(shot), style: seriesStyle(i), isShown: !hiddenShots.has(shot), toggle: () => {
+    hiddenShots.has(shot) ? hiddenShots.delete(shot) : hiddenShots.add(shot);
+    drawEffects();
+}})));
 
 function familyText(rows) {
     const {metric, mask, target} = report.manifest.primary ?? {};
@@ -181,7 +187,7 @@ const pText = e => e.isPrimary ? `p (Holm) ${number(e.holm, 2)}` : `p ${number(e
 
 function effectMark(e, shots, isAll) {
     return {
-        series: isAll ? shots.indexOf(e.shot) : 0,
+        style: seriesStyle(isAll ? shots.indexOf(e.shot) : 0),
         row: isAll ? {value: e.value} : e,
         isHollow: !isSignificant(e),
         tip: `${e.shot}\n${e.point}\n${e.metric} × ${number(e.value)} ${interval(e)}\n${

@@ -2,12 +2,16 @@
 
 const isLadderRung = target => target === "camera_radiance" || target === "on_screen";
 
+/// Errors of the rungs in one shot, of its last frame.
+const ladderOf = (shot, {target, metricKey: key, mask}) =>
+    list(manifestShots().find(s => s.shot === shot)?.truth_ladder)
+        .filter(r => r.target === target && metricKey(r) === key && r.mask === mask);
+
 /// Errors of the rungs against the chosen target, under the chosen mask, as rows like those of variants; of the last
 /// frame alone.
 function ladderRows(key) {
     return manifestShots().flatMap(
-        shot => list(shot.truth_ladder)
-                    .filter(r => r.target === choice.target && metricKey(r) === key && r.mask === choice.mask)
+        shot => ladderOf(shot.shot, {target: choice.target, metricKey: key, mask: choice.mask})
                     .map(
                         r => ({
                             ...r,

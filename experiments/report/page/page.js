@@ -107,6 +107,28 @@ function compareCells(a, b, up) {
     return up ? order : -order;
 }
 
+/// Makes `element` a button to pointer, keys and screen readers.
+function clickable(element, act) {
+    element.setAttribute("role", "button");
+    element.classList.add("clickable");
+    element.addEventListener("click", act);
+    element.addEventListener("keydown", event => {
+        if (event.key !== "Enter" && event.key !== " ") return;
+        event.preventDefault();
+        act(event);
+    });
+}
+
+/// A word of warning beside what it concerns; `why` is read out, and shown beside the pointer.
+function badge(text, why) {
+    const element = h("span", {class: "badge"}, text);
+    withTip(element, `${text}: ${why}`);
+    return element;
+}
+
+/// A folded part; printing opens all of them.
+const folded = (title, ...content) => h("details", {}, h("summary", {}, title), ...content);
+
 const cell = (sort, ...content) => ({sort: sort === undefined ? null : sort, content: h("span", {}, ...content)});
 
 const tip = h("div", {class: "tip", hidden: true, role: "tooltip"});

@@ -1,4 +1,4 @@
-// Head, warnings and the tables that do not change: what was run, references, needs, parameters.
+// Head, warnings and the tables that do not change: references, needs, parameters.
 
 const known = (value, text = String(value)) =>
     value === null || value === undefined || value === "" ? "not recorded" : text;
@@ -6,73 +6,15 @@ const percent = x => x === null || x === undefined ? "–" : number(100 * x, 3) 
 
 function showHead() {
     const {manifest} = report;
-    const makers = list(manifest.provenance);
-    const shots = list(manifest.shots).length, points = unique(report.errors.map(pointLabel)).length;
+    const shots = list(manifest.shots).length;
     const parts = [
-        `${shots} ${shots === 1 ? "shot" : "shots"}`, `${points} ${points === 1 ? "variant point" : "variant points"}`,
+        `${shots} ${shots === 1 ? "shot" : "shots"}`, `${allPoints.length} variant ${allPoints.length === 1 ? "point" : "points"}`,
         ...unique(makers.map(m => m.device?.name)), makers.map(m => m.started).sort()[0]
     ];
     at("subtitle").textContent = parts.filter(Boolean).join(" · ");
-    const all = [...report.warnings];
-    at("warnings").replaceChildren(...all.map(text => h("p", {class: "warning", role: "note"}, text)));
-
-    const {clock} = manifest, proofs = list(clock?.proofs);
-    const times = [
-        ["Clock", known(unique(proofs.map(p => p.method)).join(", "))],
-        ["Clock proof", proofs.length ? proofs.map(clockProof).join(" | ") : "not recorded"],
-        ["A/A floor of times", known(clock?.aa_floor, percent(clock?.aa_floor))],
-        ["Empty submit", known(proofs[0]?.empty_submit_ms, proofs.map(p => number(p.empty_submit_ms, 3)).join(", ") + " ms")],
-        ["Foreign load, at most", foreignLoad(list(clock?.load))],
-    ];
-    at("facts").replaceChildren(...(makers.length ? makers : [{}]).map((m, i) => factList(makerFacts(m, makers.length > 1 ? i + 1 : 0))),
-                                factList(times));
-}
-
-const factList = facts =>
-    h("dl", {class: "facts"}, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
-
-/// What made some of the cells, where and when; `place` counts them from 1 where there are several.
-function makerFacts(maker, place) {
-    const {device = {}, host = {}, ssrlab = {}} = maker;
-    return [
-        ...(place ? [[`Made by ${place}`, `${list(maker.cells).length} cells`]] : []),
-        ["Device", known(device.name, [device.name, device.type && `(${device.type})`].filter(Boolean).join(" "))],
-        [
-            "Driver",
-            known(device.driver, [device.driver, device.api && `Vulkan ${device.api}`].filter(Boolean).join(", "))
-        ],
-        [
-            "Host",
-            known(
-                host.cpu,
-                [host.name, host.cpu, host.cores && `${host.cores} cores`,
-                 host.memory_gib && `${number(host.memory_gib)} GiB`]
-                    .filter(Boolean)
-                    .join(", "))
-        ],
-        ["Kernel", known(host.kernel)],
-        ["ssrlab", known(ssrlab.version, [ssrlab.version, ssrlab.build, ssrlab.compiler].filter(Boolean).join(", "))],
-        [
-            "Commit",
-            h("span", {class: "hash"},
-              known(ssrlab.commit, String(ssrlab.commit).slice(0, 12)) + (ssrlab.dirty ? " with changes" : ""))
-        ],
-        ["Run", `${known(maker.started)} to ${known(maker.finished)}`],
-    ];
-}
-
-const verdictTexts = {passed: "passed", failed: "FAILED", not_judged: "NOT JUDGED, the machine was busy"};
-
-const clockProof = proof =>
-    list(proof.checks)
-        .map(
-            p => `${p.stage_kind}: ${verdictTexts[p.verdict] ?? "not recorded"} (${
-                list(p.ratio).map(r => number(r, 3)).join(" : ")} for ${list(p.expected).join(" : ")})`)
-        .join("; ");
-
-function foreignLoad(loads) {
-    const largest = loads.map(l => l.largest_foreign_load).filter(x => typeof x === "number");
-    return largest.length ? percent(Math.max(...largest)) + " of the machine's CPU time" : "not recorded";
+    const {warnings} = report, count = `${warnings.length} ${warnings.length === 1 ? "warning" : "warnings"} of the study`;
+    at("warnings").replaceChildren(
+        warnings.length ? folded(count, h("ul", {}, warnings.map(text => h("li", {class: "warning"}, text)))) : "");
 }
 
 function showReferences() {
@@ -84,7 +26,7 @@ function showReferences() {
         const r = s.reference ?? {}, e = r.relative_error ?? {};
         return [
             s.shot, number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""),
-            number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95), percent(r.reached_share),
+            number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95), reachedCell(r),
             s.references ? String(s.references.length) : "1", known(s.lit, String(s.lit).replace("_", "\u2011")),
             h("span", {class: "hash", title: r.hash ?? ""}, known(r.hash, String(r.hash).slice(0, 12)))
         ];
@@ -96,6 +38,11 @@ function showReferences() {
                   "Every comparison accounts for it."),
             h("div", {class: "scroll"}, table(columns, rows)));
 }
+
+/// A share says something only of a target.
+const reachedCell = reference => reference.target_relative_error > 0 ?
+    `${percent(reference.reached_share)} (of ${percent(reference.target_relative_error)})` :
+    h("span", {}, badges(mistakesOfReference(reference)));
 
 const manifestShots = () => list(report.manifest.shots);
 

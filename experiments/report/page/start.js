@@ -1,30 +1,40 @@
 // Fills the page, top to bottom.
 
-document.body.append(tip);
+document.body.append(tip, textureDefinitions());
 showStability();
 Promise.resolve(report.isStudy ? showStudy() : showStabilityAlone())
     .then(() => document.documentElement.setAttribute("data-ready", ""));
 
+/// Paper cannot be unfolded.
+addEventListener("beforeprint", () => {
+    for (const part of document.querySelectorAll("details:not([open])")) {
+        part.open = true;
+        part.drawNow?.();
+    }
+});
+
 /// Resolves when the pictures are there.
 function showStudy() {
     showHead();
+    let pictures = null;
     if (report.errors.length) {
-        showChoice();
-        choiceListeners.push(showOverview, showSummary, showScatter);
-        choiceListeners.forEach(f => f());
+        pictures = showAnswers();
+        showExplorer();
     } else {
-        at("summary").append(h("p", {class: "note"}, "results.csv has no rows."));
+        leaveOut("answers");
+        at("results").append(h("p", {class: "note"}, "results.csv has no rows."));
     }
-    showRoughness();
-    showSplits();
     showHits();
     showStages();
+    showRoughness();
+    showSplits();
     showEffects();
     showTemporal();
     showReferences();
     showNeeds();
     showParameters();
-    return showViewer();
+    showProvenance();
+    return Promise.all([pictures, showViewer()]);
 }
 
 function showStabilityAlone() {

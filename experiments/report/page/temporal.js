@@ -19,7 +19,7 @@ const frameChoice = {
 function showTemporal() {
     const rows =
         report.errors.filter(r => temporalTables.some(t => t.metrics.includes(r.metric)) && !isSingleChange(r));
-    const frames = chartedRows(report.frames).filter(r => r.value !== null);
+    const frames = report.frames.filter(r => r.value !== null);
     if (!rows.length && !frames.length) {
         leaveOut("temporal");
         return;
@@ -56,11 +56,11 @@ function temporalTable({title, metrics, hasDisoccluded}, all) {
     ];
     const lines = shots
                       .flatMap(shot => comparedPoints.map(point => {
-                          const isOwn = r => r.shot === shot && pointLabel(r) === point;
+                          const isOwn = r => r.shot === shot && pointKey(r) === pointKey(point);
                           const own = rows.filter(isOwn);
                           return own.length ?
                               [
-                                  shot, point, ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
+                                  shot, pointLabel(point), ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
                                   ...(disoccluded.length ? [disoccludedCell(disoccluded.find(isOwn))] : [])
                               ] :
                               null;
@@ -104,41 +104,29 @@ function showFrames(rows) {
             h("div", {class: "controls"},
               select("Metric", metrics.map(m => [m, metricName(m)]), frameChoice.metric, changed("metric")),
               select("Mask", masks, frameChoice.mask, changed("mask"))),
-            pointLegend(), h("div", {class: "grid small", id: "frame-charts"}));
+            h("div", {id: "frame-legend"}), h("div", {class: "grid", id: "frame-charts"}));
+    pointListeners.push(() => drawFrames(rows));
     drawFrames(rows);
 }
 
 function drawFrames(all) {
-    const rows = all.filter(r => metricKey(r) === frameChoice.metric && r.mask === frameChoice.mask);
-    const metric = frameChoice.metric.split("|")[0];
-    at("frame-charts")
-        .replaceChildren(
-            ...unique(rows.map(r => r.shot)).map(shot => frameChart(shot, rows.filter(r => r.shot === shot), metric)));
+    const rows = all.filter(r => metricKey(r) === frameChoice.metric && r.mask === frameChoice.mask), shown = chartedRows(rows);
+    at("frame-legend").replaceChildren(pointLegend(rows));
+    at("frame-charts").replaceChildren(...unique(shown.map(r => r.shot)).map(shot => frameChart(shot, shown.filter(r => r.shot === shot))));
 }
 
-function frameChart(shot, rows, metric) {
-    const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b);
-    const step = Math.ceil(frames.length / 8);
+function frameChart(shot, rows) {
+    const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b), {metric} = rows[0];
+    const step = Math.ceil(frames.length / 8), last = frames.at(-1), air = Math.max(0.4, 0.03 * (last - frames[0]));
     const change = manifestShots().find(s => s.shot === shot)?.change;
-    const lines =
-        unique(rows.map(chartedIndex)).map(series => ({
-                                               series,
-                                               points: rows.filter(r => chartedIndex(r) === series)
-                                                           .sort((a, b) => a.frame - b.frame)
-                                                           .map(row => ({
-                                                                    at: Number(row.frame),
-                                                                    row,
-                                                                    tip: `${pointLabel(row)}\nframe ${row.frame}\n${
-                                                                        metric} ${number(row.value)} ${interval(row)}`
-                                                                }))
-                                           }));
     return lineChart({
-        title: shot + (change === undefined ? "" : `: the scene changes at frame ${change}`),
-        xLabel: "frame",
-        yLabel: metric + unitText(metric),
-        lines,
-        ticks: frames.filter((_, i) => i % step === 0).map(f => ({at: f, text: String(f)})),
+        title: `${metric} by frame, ${shot}`,
+        caption: shortShot(shot) + (change === undefined ? "" : `: the scene changes at frame ${change}`),
+        x: {type: "linear", domain: [frames[0] - air, last + air], ticks: frames.filter((_, i) => i % step === 0), tickFormat: String, label: "frame"},
+        rows,
+        place: row => Number(row.frame),
+        tip: row => `${pointText(row)}\nframe ${row.frame}\n${rowText(row)}`,
         isLog: better(metric) === "lower",
-        spread: false
+        size: frames.length > 12 ? 3.2 : 4.5
     });
 }
