@@ -82,7 +82,7 @@ function disagreementText(shot) {
 
 function drawAnswerCharts() {
     const {shot} = answerChoice, metrics = headlineMetrics();
-    const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), {width: 420, height: 290}));
+    const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), {width: 420, height: 320}));
     at("answer-charts").replaceChildren(...charts.filter(Boolean));
     at("answer-legend").replaceChildren(pointLegend(headlineRows(shot, metrics[0])));
 }

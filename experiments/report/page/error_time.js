@@ -38,15 +38,14 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
         ...(limit ? levelLine("limit of one frame", limit, x, y, {stroke: "var(--accent)", strokeDasharray: "1 3"}) : [])
     ];
     const frames = framesText(rows[0]);
-    const caption = `${shortShot(shot)}: ${metric} of ${target}, ${mask}${frames ? ", " + frames : ""}`;
+    const caption = [`${shortShot(shot)}: ${metric}`, target, mask, frames].filter(Boolean).join(", ");
     const chart = markChart({title: `${metric} against time, ${shot}`, caption, width, height, x, y, marks, under});
     chart.dataset.shot = shot;
     return chart;
 }
 
 const frontLine = front => Plot.line(front, {
-    x: p => p.time.value, y: p => p.row.value, curve: "step-after", stroke: "var(--faint)", strokeWidth: 1.2, strokeDasharray: "2 2",
-    ariaLabel: "front"
+    x: p => p.time.value, y: p => p.row.value, curve: "step-after", stroke: "var(--faint)", strokeWidth: 1.4, strokeDasharray: "3 2"
 });
 
 /// A line across the chart at the value of `row`, with its interval, named at its right end; at the chart's edge, with

@@ -1,4 +1,4 @@
-// The reader's choice of metric and points, and what it shows: matrices, charts of error against time, the table.
+// The reader's choice of metric and points, and what it shows: the matrix, charts of error against time, the table.
 
 const matchText = (shown, all) => shown === all ? `${all} points` : `${shown} of ${all} points`;
 
@@ -12,6 +12,7 @@ function showExplorer() {
     const box = (label, key) => h("label", {}, h("input", {type: "checkbox", id: key, checked: shownPoints[key], change: event => changed(key)(event.target.checked)}), label);
     at("points-choice").append(
         h("label", {}, "Filter", filter), select("Sort by", Object.entries(sortKeys), shownPoints.sort, changed("sort")), box("group by variant", "isGrouped"),
+        ...(variants.includes("none") ? [select("Cells relative to", [["best", "the least"], ["none", "none"]], shownPoints.relativeTo, changed("relativeTo"))] : []),
         select("Colours and shapes stand for", [
             ...(comparedPoints.length <= mostNumbered ? [["point", "points"]] : []), ["variant", "variants"], ...swept.map(name => [name, name])
         ], shownPoints.colourBy, changed("colourBy")),
@@ -19,7 +20,7 @@ function showExplorer() {
         h("output", {id: "match", "aria-live": "polite"}));
     showChoice();
     const draw = () => {
-        drawMatrices();
+        drawMatrix();
         drawErrorTime();
         showSummary();
     };
@@ -28,12 +29,11 @@ function showExplorer() {
     draw();
 }
 
-function drawMatrices() {
-    const rows = filteredRows(chosenRows()), others = filteredRows(otherRows());
+function drawMatrix() {
+    const rows = filteredRows(chosenRows());
     at("match").textContent = matchText(unique(rows.map(pointKey)).length, unique(chosenRows().map(pointKey)).length);
-    const order = sortedPoints(rows);
-    at("matrix").replaceChildren(...[rows, others].filter(own => own.length).map(own => matrix(own, order)));
-    if (!rows.length) at("matrix").replaceChildren(h("p", {class: "note"}, "No point's name has these words."));
+    at("matrix").replaceChildren(rows.length ? matrix([chosenRows(), otherRows()].filter(own => own.length), sortedPoints(rows)) :
+                                               h("p", {class: "note"}, "No point's name has these words."));
 }
 
 function drawErrorTime() {
@@ -48,7 +48,7 @@ function drawErrorTime() {
         "A mark tells its parameters and numbers; a click opens its images."
     ].filter(Boolean).join(" ");
     at("legend").replaceChildren(pointLegend(rows));
-    const charts = unique(rows.map(r => r.shot)).flatMap(
-        shot => [rows, others].map(own => errorTimeChart(shot, own.filter(r => r.shot === shot))));
-    at("scatter").replaceChildren(...charts.filter(Boolean));
+    const pairs = unique(rows.map(r => r.shot)).map(
+        shot => [rows, others].map(own => errorTimeChart(shot, own.filter(r => r.shot === shot))).filter(Boolean));
+    at("scatter").replaceChildren(...pairs.filter(pair => pair.length).map(pair => h("div", {class: "pair"}, pair)));
 }

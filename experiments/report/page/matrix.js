@@ -1,12 +1,13 @@
-// All points in all shots at a glance: a matrix per metric, coloured by the error relative to that of none.
+// All points in all shots at a glance: one matrix of both errors, coloured by the error relative to another.
 
 const fullColour = 8;  // a ratio of that size, or its inverse, has the full colour
 
-/// What the cells of one shot are relative to: its row of none, else its least error.
+/// What the cells of one shot and metric are divided by: the least error, or that of none; null where it is not told.
 function columnReference(rows) {
-    const none = rows.find(r => r.variant === "none");
-    if (none?.value > 0) return none;
-    return rows.filter(r => r.value > 0).reduce((least, r) => !least || r.value < least.value ? r : least, null);
+    const positive = rows.filter(r => r.value > 0);
+    if (!positive.length || better(rows[0].metric) !== "lower") return null;
+    if (shownPoints.relativeTo === "none") return positive.find(r => r.variant === "none") ?? null;
+    return positive.reduce((least, r) => r.value < least.value ? r : least);
 }
 
 /// Blue below 1, orange above, the stronger the farther; readable text on either.
@@ -15,32 +16,31 @@ function ratioColour(ratio) {
     return `color-mix(in oklab, var(${ratio < 1 ? "--less" : "--more"}) ${(100 * size).toFixed(0)}%, var(--card))`;
 }
 
-/// `rows`: of one metric, filtered; `order`: the points, as the reader sorted them.
-function matrix(rows, order) {
-    const {metric} = rows[0], isRatio = better(metric) === "lower", shots = unique(rows.map(r => r.shot));
-    const byCell = new Map(rows.map(r => [r.shot + "|" + pointKey(r), r]));
-    const best = clearlyBestRows(rows);
-    const columns = shots.map(shot => {
-        const all = rowsOfMetric(metricKey(rows[0])).filter(r => r.shot === shot && r.value !== null);
-        return {shot, reference: isRatio ? columnReference(all) : null};
-    });
-    const named = unique(columns.map(c => c.reference?.variant).filter(Boolean));
-    const relative = !isRatio ? "no colours: less is not better" :
-        named.length === 1 && named[0] === "none" ? "÷ that of none in the same column" :
-                                                    "÷ the least of the same column";
-    const head = h("tr", {}, h("th", {scope: "col"}, "Point"), columns.map(({shot}) => {
-        const mistakes = mistakesOfReference(manifestShots().find(s => s.shot === shot)?.reference);
-        return h("th", {scope: "col", title: shot}, shortShot(shot), " ", badges(mistakes));
-    }));
-    const buttons = [];
+/// A column per metric and shot. `groups`: rows of one metric each, not filtered.
+const matrixColumns = groups => groups.flatMap(rows => unique(rows.map(r => r.shot)).map((shot, i) => {
+    const own = rows.filter(r => r.shot === shot && r.value !== null);
+    return {
+        shot, metric: rows[0].metric, isFirst: i === 0, reference: own.length ? columnReference(own) : null,
+        best: clearlyBest(own), byPoint: new Map(rows.filter(r => r.shot === shot).map(r => [pointKey(r), r]))
+    };
+}));
+
+/// `groups`: of the chosen metric and of the one beside it, not filtered; `order`: the points, as the reader sorted them.
+function matrix(groups, order) {
+    const columns = matrixColumns(groups), buttons = [];
+    const head = [
+        h("tr", {}, h("td"), groups.map(rows => h("th", {scope: "colgroup", class: "metric", colspan: columns.filter(c => c.metric === rows[0].metric).length},
+                                                  rows[0].metric + unitText(rows[0].metric)))),
+        h("tr", {}, h("th", {scope: "col"}, "Point"), columns.map(c => h("th", {scope: "col", title: c.shot, class: c.isFirst ? "first" : null}, breakable(shortShot(c.shot)))))
+    ];
     const lines = order.flatMap((point, i) => {
-        const cells = columns.map(({shot, reference}) => {
-            const row = byCell.get(shot + "|" + pointKey(point));
+        const cells = columns.map(column => {
+            const row = column.byPoint.get(pointKey(point));
             if (!row) return h("td", {}, "–");
-            const button = matrixButton(row, reference, best.has(row));
+            const ratio = column.reference && row.value > 0 ? row.value / column.reference.value : null;
+            const button = matrixButton(row, ratio, column);
             buttons.push(button);
-            const ratio = reference && row.value > 0 ? row.value / reference.value : null;
-            return h("td", {style: ratio ? `background:${ratioColour(ratio)}` : null}, button);
+            return h("td", {style: ratio ? `background:${ratioColour(ratio)}` : null, class: column.isFirst ? "first" : null}, button);
         });
         const isFirst = shownPoints.isGrouped && (i === 0 || order[i - 1].variant !== point.variant);
         const label = shownPoints.colourBy === "point" ? `${pointNumber(point)} ${pointLabel(point)}` : pointLabel(point);
@@ -49,23 +49,33 @@ function matrix(rows, order) {
             h("tr", {}, h("th", {scope: "row", title: pointText(point)}, icon(styleOf(point)), label), cells)
         ].filter(Boolean);
     });
-    const caption = `${metric}${unitText(metric)} of ${choice.target}, ${choice.mask} pixels${isRatio ? `: error ${relative}` : ""}`;
-    const element = h("table", {class: "matrix"}, h("caption", {}, caption), h("thead", {}, head), h("tbody", {}, lines));
+    const element = h("table", {class: "matrix"}, h("caption", {}, matrixCaption(columns)), h("thead", {}, head), h("tbody", {}, lines));
     rove(element, buttons);
     return h("div", {class: "scroll"}, element);
 }
 
-function matrixButton(row, reference, isBest) {
-    const ratio = reference && row.value !== null ? row.value / reference.value : null;
-    const text = row.value === null ? "–" : ratio === null ? number(row.value, 3) : number(ratio, 2);
+/// Names of scenes may break after each word.
+const breakable = name => name.split(/(?<=[_.])/).flatMap(part => [part, h("wbr")]);
+
+function matrixCaption(columns) {
+    const what = `${unique(columns.map(c => c.metric)).join(" and ")} of ${choice.target}, ${choice.mask} pixels`;
+    if (columns.every(c => !c.reference)) return `${what}.`;
+    const other = shownPoints.relativeTo === "none" ? "that of none" : "the least";
+    const colours = shownPoints.relativeTo === "none" ? "blue is less, orange more" : "the more orange, the worse";
+    return `${what}, divided by ${other} of the same column: ${colours}, full at ${fullColour} times.`;
+}
+
+function matrixButton(row, ratio, {reference, best}) {
+    const text = row.value === null ? "–" : ratio === null ? number(row.value, 3) : number(ratio, ratio < 10 ? 3 : 2);
     const mistakes = mistakesOfError(row);
-    const button = h("button", {"data-value": row.value, class: isBest ? "best" : null}, text, mistakes.length ? " !" : "");
+    const button = h("button", {"data-value": row.value, class: row === best ? "best" : null}, text, mistakes.length ? " !" : "");
     withTip(button, [
-        `${row.shot}\n${pointText(row)}`, rowText(row), ratio === null || reference === row ? null : `× ${number(ratio, 3)} of ${pointLabel(reference)}`,
-        isBest ? "best of its shot, no other interval touches its own" : null, ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
+        `${row.shot}\n${pointText(row)}`, rowText(row), ratio === null || reference === row ? null : `${number(ratio, 3)} times that of ${pointLabel(reference)}`,
+        row === best ? "best of its shot, no other interval touches its own" : null, ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
     ].filter(Boolean).join("\n"));
-    clickable(button, () => openPoint(row));
-    button.removeAttribute("role");  // it is one
+    button.removeAttribute("role");  // it has its own
+    button.setAttribute("aria-label", `${button.textContent}; ${button.getAttribute("aria-label")}`);
+    button.addEventListener("click", () => openPoint(row));
     return button;
 }
 

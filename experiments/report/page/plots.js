@@ -118,6 +118,7 @@ function plot(options) {
         ...options
     });
     picture.setAttribute("role", "group");
+    picture.querySelectorAll("g[aria-label]").forEach(g => g.removeAttribute("aria-label"));  // of Plot, and of no use to readers
     const marks = [...picture.querySelectorAll("[tabindex]")];
     rove(picture, marks);
     return picture;

@@ -18,6 +18,7 @@ const shownPoints = {
     filter: "",
     sort: "study",
     isGrouped: false,
+    relativeTo: "best",  // or none: what cells of the matrix are divided by
     colourBy: comparedPoints.length <= mostNumbered ? "point" : "variant",
     // A grid has holes without them; a list of changes to a baseline is told by its effects.
     hasSingleChanges: comparedPoints.some(p => (p.point.match(/=/g) ?? []).length > 1),
@@ -92,7 +93,8 @@ function legendGroups(rows) {
     const points = [...new Map(rows.map(r => [pointKey(r), r])).values()], by = shownPoints.colourBy;
     const name = p => by === "point" ? `${pointNumber(p)} ${pointLabel(p)}` :
         by === "variant"             ? p.variant :
-                                       `${by} = ${JSON.stringify(parametersOf(p)[by]) ?? "none"}`;
+        by in parametersOf(p)        ? `${by} = ${JSON.stringify(parametersOf(p)[by])}` :
+                                       `without ${by}`;
     const ordered = by === "point" || by === "variant" ?
         points :
         [...points].sort((a, b) => compareCells(parametersOf(a)[by] ?? null, parametersOf(b)[by] ?? null, true));
@@ -149,11 +151,12 @@ const unitText = metric => {
     return unit && unit !== "1" ? ` (${unit.replace("^2", "²")})` : "";
 };
 
-/// Names of shots without the parts that all of them share.
+/// Names of shots as short as they still differ: their scenes, or without the parts that all of them share.
 const shortShot = (() => {
     const shots = unique(report.errors.map(r => r.shot)), parts = shot => shot.split(".");
-    const isShared = (part, i) => i > 0 && shots.length > 1 && shots.every(s => parts(s)[i] === part);
-    const short = new Map(shots.map(s => [s, parts(s).filter((part, i) => !isShared(part, i)).join(".")]));
+    const areScenesUnique = unique(shots.map(s => parts(s)[0])).length === shots.length;
+    const isShared = (part, i) => i > 0 && shots.every(s => parts(s)[i] === part);
+    const short = new Map(shots.map(s => [s, areScenesUnique ? parts(s)[0] : parts(s).filter((part, i) => !isShared(part, i)).join(".")]));
     return shot => short.get(shot) ?? shot;
 })();
 

@@ -46,23 +46,7 @@ const reachedCell = reference => reference.target_relative_error > 0 ?
 
 const manifestShots = () => list(report.manifest.shots);
 
-/// What leaving out saves each timed point in each shot.
-function savingsTable(savings) {
-    const shots = unique(savings.map(s => s.shot)), points = unique(savings.map(pointLabel));
-    const cell = (shot, point) => {
-        const saved = savings.find(s => s.shot === shot && pointLabel(s) === point);
-        return saved ? `${percent(saved.share)} [${percent(saved.low)}, ${percent(saved.high)}] of ${number(saved.complete_ms, 3)} ms` : "–";
-    };
-    return h(
-        "div", {}, h("p", {}, "Share of a technique's time that is saved by what the scene does not need: median and interval over the frames."),
-        h("div", {class: "scroll"},
-          table([{name: "Technique"}, ...shots.map(name => ({name, number: true}))],
-                points.map(point => [point, ...shots.map(shot => cell(shot, point))]))));
-}
-
 function showNeeds() {
-    const savings = list(report.manifest.clock?.savings);
-    if (savings.length) at("needs").append(savingsTable(savings));
     for (const shot of manifestShots()) {
         const needs = list(shot.needs), leftOut = list(shot.left_out);
         if (!needs.length && !leftOut.length) continue;
@@ -102,22 +86,31 @@ function showParameters() {
                                     first.source, stages.length && "Stages: " + stages.join(", "),
                                     limitsNote(points)
                                 ].filter(Boolean).join(". ").replaceAll("..", ".")));
-        const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
-        if (!keys.length) continue;
-        const text = value => value === undefined ? "–" :
-            typeof value === "number"             ? number(value, 6) :
-                                                    JSON.stringify(value);
-        const differs = key => unique(points.map(p => JSON.stringify(p.parameters?.[key]))).length > 1;
-        const meaning = key => report.manifest.parameter_docs?.[name]?.[key] ?? null;
-        const row = key =>
-            [h(differs(key) ? "b" : "span", {title: meaning(key)}, key), ...points.map(p => text(p.parameters?.[key]))];
-        const columns = [{name: "Parameter"}, ...points.map(p => ({name: p.point, number: true}))];
-        const rest = keys.length > longTable && keys.some(differs) ? keys.filter(k => !differs(k)) : [];
-        at("parameters")
-            .append(
-                h("div", {class: "scroll"}, table(columns, keys.filter(k => !rest.includes(k)).map(row))),
-                rest.length ? h("details", {}, h("summary", {}, `${rest.length} more, equal for all points`),
-                                h("div", {class: "scroll"}, table(columns, rest.map(row)))) :
-                              "");
+        at("parameters").append(...parameterTables(points, name));
     }
+}
+
+const parameterText = value => value === undefined ? "–" : typeof value === "number" ? number(value, 6) : JSON.stringify(value);
+const mostColumns = 8;  // of points; more of them are rows
+
+/// What differs among the points of a variant, then what is equal for all of them.
+function parameterTables(points, variant) {
+    const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
+    if (!keys.length) return [];
+    const differs = key => unique(points.map(p => JSON.stringify(p.parameters?.[key]))).length > 1;
+    const differing = keys.filter(differs), equal = keys.filter(key => !differs(key));
+    const name = key => h("span", {title: report.manifest.parameter_docs?.[variant]?.[key] ?? null}, key);
+    const value = (p, key) => parameterText(p.parameters?.[key]);
+    const areRows = points.length > mostColumns;
+    const columns = areRows ? [{name: "Point"}, ...differing.map(key => ({name: key, number: true}))] :
+                              [{name: "Parameter"}, ...points.map(p => ({name: p.point, number: true}))];
+    const rows = areRows ? points.map(p => [p.point, ...differing.map(key => value(p, key))]) :
+                           differing.map(key => [name(key), ...points.map(p => value(p, key))]);
+    const common = table([{name: "Parameter"}, {name: "Value", number: true}], equal.map(key => [name(key), value(points[0], key)]));
+    const isLong = rows.length > longTable;
+    const shown = h("div", {class: "scroll"}, table(columns, rows));
+    return [
+        ...(differing.length ? [isLong ? folded(`${rows.length} points, their ${differing.length} parameters that differ`, shown) : shown] : []),
+        ...(equal.length ? [differing.length && equal.length > 3 ? folded(`${equal.length} more, equal for all points`, common) : common] : [])
+    ];
 }

@@ -22,13 +22,21 @@ function textureDefinitions() {
 const textureSwatch = fill =>
     svg("svg", {viewBox: "0 0 14 14", "aria-hidden": "true", class: "icon"}, svg("rect", {width: 14, height: 14, fill}));
 
+const stageChoice = {
+    bars: "times"
+};
+
 function showStages() {
     const shots = unique(report.times.map(t => t.shot));
     if (!shots.length) {
         leaveOut("stages");
         return;
     }
-    at("stage-shots").append(...shotParts(shots, stagesOf));
+    const bars = select("Bars show", [["times", "times"], ["shares", "shares of each point's total"]], stageChoice.bars, value => {
+        stageChoice.bars = value;
+        pointsChanged();
+    });
+    at("stage-shots").append(h("div", {class: "controls"}, bars), ...shotParts(shots, stagesOf));
 }
 
 function stagesOf(shot) {
@@ -47,7 +55,7 @@ function stagesOf(shot) {
          cell(t.value, number(t.value)), interval(t), String(t.frames), t.clock.replaceAll("_", " ")];
     return [
         stages.length ? stageBars(own) : h("p", {class: "note"}, "No variant of this shot has a stage: all were left out."),
-        savedNote(shot, own), floorNote(shot), formNote(own),
+        savedNote(shot), floorNote(shot), formNote(own),
         h("details", {open: own.length <= longTable}, h("summary", {}, "All stages as numbers"), table(columns, sorted.map(row), {groupBy: 0})),
         ...(shared.length ? [h("h3", {}, "Shared by all variants: G-buffer and lit colour"), table(columns, shared.map(row))] : [])
     ];
@@ -60,32 +68,39 @@ const stageIndex = t => stagesOfVariant.get(t.variant).indexOf(t.stage);
 const stageName = stage => stage.split("/").pop().replaceAll("_", " ");
 
 function stageBars(own) {
+    const areShares = stageChoice.bars === "shares";
     const rows = unique(own.map(pointLabel)).map(label => {
         const ofPoint = own.filter(t => pointLabel(t) === label), total = ofPoint.find(t => t.stage === "total");
-        const parts = ofPoint.filter(t => t.stage !== "total").map(t => ({
-            value: t.value, fill: stageFill(stageIndex(t)), text: stageName(t.stage), data: {stage: t.stage},
+        const stages = ofPoint.filter(t => t.stage !== "total"), sum = stages.reduce((all, t) => all + t.value, 0);
+        const parts = stages.map(t => ({
+            value: areShares ? t.value / sum : t.value, fill: stageFill(stageIndex(t)), text: stageName(t.stage), data: {stage: t.stage, value: t.value},
             tip: `${label}\n${t.stage}: ${number(t.value)} ms ${interval(t)}${total?.value > 0 ? `\n${percent(t.value / total.value)} of the total` : ""}`
         }));
-        return {label, parts, total};
+        return {label, parts, total: areShares ? null : total};
     }).filter(row => row.parts.length);
     const legends = unique(own.map(t => t.variant)).map(variant => {
         const stages = stagesOfVariant.get(variant).filter(s => own.some(t => t.variant === variant && t.stage === s));
         return stages.length ? h("p", {class: "stage-names"}, h("b", {}, variant), stages.map(
             stage => h("span", {class: "stage"}, textureSwatch(stageFill(stageIndex({variant, stage}))), stageName(stage)))) : "";
     });
-    const chart = stackedBars({title: `Stage times, ${own[0].shot}`, rows, xLabel: "median time (ms); the line is the 95 % interval of the total"});
+    const chart = stackedBars({
+        title: `Stage times, ${own[0].shot}`, rows, isShare: areShares,
+        xLabel: areShares ? "share of the point's time (medians)" : "median time (ms); the line is the 95 % interval of the total"
+    });
     return h("div", {class: "bars"}, chart, h("div", {}, legends));
 }
 
-/// What the scene has no use for, and what leaving it out saves each point.
-function savedNote(shot, own) {
-    const leftOut = list(manifestShots().find(s => s.shot === shot)?.left_out).filter(l => own.some(t => String(l.what).startsWith(t.variant + "/")));
-    const savings = list(report.manifest.clock?.savings).filter(s => s.shot === shot && own.some(t => pointKey(t) === pointKey(s)));
-    if (!leftOut.length && !savings.length) return "";
-    const saved = s => `${pointLabel(s)} saves ${percent(s.share)} [${percent(s.low)}, ${percent(s.high)}] of ${number(s.complete_ms, 3)} ms`;
-    return h("p", {class: "note"},
-             leftOut.length ? `Left out, as this scene has no use for it: ${unique(leftOut.map(l => `${l.what} (${l.fact})`)).join("; ")}. ` : "",
-             savings.length ? savings.map(saved).join("; ") + "." : "");
+/// What each point saves by leaving out what the scene has no use for: medians and intervals over the frames.
+function savedNote(shot) {
+    const savings = list(report.manifest.clock?.savings).filter(s => s.shot === shot);
+    if (!savings.length) return "";
+    const leftOut = list(manifestShots().find(s => s.shot === shot)?.left_out).length;
+    const share = s => cell(s.share, `${percent(s.share)} `, h("small", {}, `[${percent(s.low)}, ${percent(s.high)}]`));
+    return folded(
+        `What is saved by the ${leftOut} parts that this scene has no use for`,
+        table([{name: "Point"}, {name: "Share of its total that is saved", number: true}, {name: "Total without saving (ms)", number: true}],
+              savings.map(s => [pointLabel(s), share(s), number(s.complete_ms, 3)])),
+        h("p", {class: "note"}, "Which parts, and why: ", h("a", {href: "#needs"}, "What the scenes need"), "."));
 }
 
 /// What was timed: a point's name does not tell which form of a stage ran. Single changes equal their baseline in all

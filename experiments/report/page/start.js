@@ -5,36 +5,33 @@ showStability();
 Promise.resolve(report.isStudy ? showStudy() : showStabilityAlone())
     .then(() => document.documentElement.setAttribute("data-ready", ""));
 
-/// Paper cannot be unfolded.
+/// Paper cannot be unfolded; what is drawn on opening may hold further parts.
 addEventListener("beforeprint", () => {
-    for (const part of document.querySelectorAll("details:not([open])")) {
+    for (let part; (part = document.querySelector("details:not([open])"));) {
         part.open = true;
         part.drawNow?.();
     }
 });
 
+/// The browser paints, and answers its reader, in between.
+const pause = () => new Promise(done => setTimeout(done));
+
 /// Resolves when the pictures are there.
-function showStudy() {
+async function showStudy() {
     showHead();
-    let pictures = null;
     if (report.errors.length) {
-        pictures = showAnswers();
+        await showAnswers();
         showExplorer();
     } else {
         leaveOut("answers");
         at("results").append(h("p", {class: "note"}, "results.csv has no rows."));
     }
-    showHits();
-    showStages();
-    showRoughness();
-    showSplits();
-    showEffects();
-    showTemporal();
-    showReferences();
-    showNeeds();
-    showParameters();
-    showProvenance();
-    return Promise.all([pictures, showViewer()]);
+    await pause();
+    await showViewer();
+    for (const show of [showHits, showStages, showRoughness, showSplits, showEffects, showTemporal, showReferences, showNeeds, showParameters, showProvenance]) {
+        await pause();
+        show();
+    }
 }
 
 function showStabilityAlone() {

@@ -1,4 +1,4 @@
-// The summary table, and the choice of target, metric and mask that it shares with matrices and charts.
+// The summary table, and the choice of target, metric and mask that it shares with the matrix and the charts.
 
 const choice = {
     target: null,
