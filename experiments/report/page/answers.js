@@ -52,10 +52,10 @@ const headlineRows = (shot, metric) => {
     return narrow(narrow(of, "target", target), "mask", mask);
 };
 
+/// Names of the metrics that stand side by side: one or two.
 const headlineMetrics = () => {
-    const {metric, perceptual_metric: perceptual} = report.headline, all = unique(report.errors.map(r => r.metric));
-    const first = preferred(all, metric);
-    return unique([first, ...(all.includes(perceptual) ? [perceptual] : [])]);
+    const first = headlineMetric(report.errors);
+    return [first, otherMetric(first, report.errors)].filter(Boolean).map(key => key.split("|")[0]);
 };
 
 const isApart = (a, b) => a.low !== null && b.low !== null && (a.high < b.low || b.high < a.low);

@@ -59,7 +59,7 @@ function showEffects() {
         h("div", {class: "controls"}, box("Against", "against"), box("Shot", "shot"), box("Target", "target"),
           box("Metric", "metric", metricName), box("Mask", "mask"), box("Scale", "scale", o => scales[o])),
         h("p", {class: "note", id: "effect-family"}), h("div", {id: "effect-legend"}),
-        h("div", {class: "scroll strips", id: "effect-table"}));
+        scroller(h("div", {class: "strips", id: "effect-table"})));
     drawEffects();
 }
 

@@ -78,6 +78,6 @@ function hitPart(shot) {
     return [
         stackedBars({title: `Where rays ended, ${shot}`, rows, xLabel: "share of the rays", isShare: true}),
         h("details", {open: lines.length <= longTable}, h("summary", {}, "The same as numbers, with fetches and reasons"),
-          h("div", {class: "scroll"}, table(columns, lines)))
+          scroller(table(columns, lines)))
     ];
 }

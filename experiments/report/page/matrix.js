@@ -51,7 +51,7 @@ function matrix(groups, order) {
     });
     const element = h("table", {class: "matrix"}, h("caption", {}, matrixCaption(columns)), h("thead", {}, head), h("tbody", {}, lines));
     rove(element, buttons);
-    return h("div", {class: "scroll"}, element);
+    return scroller(element);
 }
 
 /// Names of scenes may break after each word.

@@ -126,6 +126,19 @@ function badge(text, why) {
     return element;
 }
 
+// A box that scrolls is a tab stop, so that arrow keys reach all of it; its height changes with its content.
+const scrollWatcher = new ResizeObserver(entries => entries.forEach(({target}) => {
+    if (target.scrollWidth > target.clientWidth + 1 || target.scrollHeight > target.clientHeight + 1)
+        target.tabIndex = 0;
+    else
+        target.removeAttribute("tabindex");
+}));
+function scroller(...content) {
+    const box = h("div", {class: "scroll"}, content);
+    scrollWatcher.observe(box);
+    return box;
+}
+
 /// A folded part; printing opens all of them.
 const folded = (title, ...content) => h("details", {}, h("summary", {}, title), ...content);
 

@@ -42,15 +42,17 @@ function linearAxis(values, label, hasZero = false) {
 const errorAxis = (isLog, rows, label, also = []) =>
     (isLog ? logAxis : linearAxis)([...rows.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value]), ...also], label);
 
-/// One tab stop for all of `elements`: arrow keys, Home and End go from one to the next.
+/// One tab stop for all of `elements`, the last that had the focus: arrow keys, Home and End go from one to the next.
 function rove(container, elements) {
     elements.forEach((e, i) => e.setAttribute("tabindex", i ? -1 : 0));
+    container.addEventListener("focusin", event => {
+        if (!elements.includes(event.target)) return;
+        elements.forEach(e => e.setAttribute("tabindex", e === event.target ? 0 : -1));
+    });
     container.addEventListener("keydown", event => {
-        const from = elements.indexOf(document.activeElement);
-        const to = {ArrowRight: from + 1, ArrowDown: from + 1, ArrowLeft: from - 1, ArrowUp: from - 1, Home: 0, End: elements.length - 1}[event.key];
+        const from = elements.indexOf(event.target), last = elements.length - 1;
+        const to = {ArrowRight: from + 1, ArrowDown: from + 1, ArrowLeft: from - 1, ArrowUp: from - 1, Home: 0, End: last}[event.key];
         if (from < 0 || !elements[to]) return;
-        elements[from].setAttribute("tabindex", -1);
-        elements[to].setAttribute("tabindex", 0);
         elements[to].focus();
         event.preventDefault();
     });

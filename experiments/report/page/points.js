@@ -132,9 +132,9 @@ const headlineMetric = rows => {
 /// The metric that is read beside it: physical and perceptual errors order techniques differently. Undefined if `rows`
 /// have none.
 const otherMetric = (key, rows) => {
-    const {metric, perceptual_metric: perceptual} = report.headline;
-    const other = key.startsWith(metric + "|") ? perceptual : metric;
-    return unique(rows.map(metricKey)).find(k => k.startsWith(other + "|"));
+    const {metric, perceptual_metric: perceptual} = report.headline, keys = unique(rows.map(metricKey));
+    const others = key.startsWith(metric + "|") ? [perceptual, "relmse"] : [metric];
+    return others.map(other => keys.find(k => k.startsWith(other + "|"))).find(Boolean);
 };
 const metricName = key => {
     const [metric, formula] = key.split("|");

@@ -37,7 +37,7 @@ function showProvenance() {
     at("provenance").append(
         ...(makers.length ? makers : [{}]).flatMap((maker, i) => [
             h("div", {id: `maker-${i + 1}`}, factList(makerFacts(maker, makers.length > 1 ? i + 1 : 0))),
-            list(maker.cells).length ? folded(`${maker.cells.length} cells made by it`, h("div", {class: "scroll"}, table(columns, maker.cells.map(cellRow)))) : ""
+            list(maker.cells).length ? folded(`${maker.cells.length} cells made by it`, scroller(table(columns, maker.cells.map(cellRow)))) : ""
         ]),
         factList(times));
     // A link into a folded part opens it.

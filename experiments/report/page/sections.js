@@ -36,7 +36,7 @@ function showReferences() {
             h("p", {class: "note"},
               "Relative standard error of the truth's specular light at a pixel, in the last frame. " +
                   "Every comparison accounts for it."),
-            h("div", {class: "scroll"}, table(columns, rows)));
+            scroller(table(columns, rows)));
 }
 
 /// A share says something only of a target.
@@ -108,7 +108,7 @@ function parameterTables(points, variant) {
                            differing.map(key => [name(key), ...points.map(p => value(p, key))]);
     const common = table([{name: "Parameter"}, {name: "Value", number: true}], equal.map(key => [name(key), value(points[0], key)]));
     const isLong = rows.length > longTable;
-    const shown = h("div", {class: "scroll"}, table(columns, rows));
+    const shown = scroller(table(columns, rows));
     return [
         ...(differing.length ? [isLong ? folded(`${rows.length} points, their ${differing.length} parameters that differ`, shown) : shown] : []),
         ...(equal.length ? [differing.length && equal.length > 3 ? folded(`${equal.length} more, equal for all points`, common) : common] : [])

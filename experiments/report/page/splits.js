@@ -21,7 +21,7 @@ function showSplits() {
         h("div", {class: "controls"}, select("Target", targets, splitChoice.target, changed("target")),
           select("Mask", masks, splitChoice.mask, changed("mask"))),
         legend([{label: "bias²", style: splitStyles[0]}, {label: "variance", style: splitStyles[1], isHollow: true}]),
-        h("div", {class: "scroll strips", id: "split-table"}));
+        scroller(h("div", {class: "strips", id: "split-table"})));
     pointListeners.push(drawSplits);
     drawSplits();
 }

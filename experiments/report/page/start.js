@@ -1,6 +1,7 @@
 // Fills the page, top to bottom.
 
 document.body.append(tip, textureDefinitions());
+document.querySelectorAll(".scroll").forEach(box => scrollWatcher.observe(box));
 showStability();
 Promise.resolve(report.isStudy ? showStudy() : showStabilityAlone())
     .then(() => document.documentElement.setAttribute("data-ready", ""));

@@ -113,7 +113,7 @@ function valueCell(row, isBest) {
 function summaryRow(row, rows, best, others, otherBest) {
     const ratio = againstNone(row, rows), time = totalTime(row), other = others.find(o => isSamePoint(o, row));
     return [
-        row.shot, row.variant, cell(row.point, row.point, " ", badges([...mistakesOfError(row), ...mistakesOfTime(row)])),
+        row.shot, row.variant, cell(row.point, row.point, " ", badges(mistakesOfError(row))),
         valueCell(row, best.has(row)),
         ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
         cell(row.floor, number(row.floor)),
@@ -121,7 +121,9 @@ function summaryRow(row, rows, best, others, otherBest) {
         cell(
             ratio?.value ?? null, ratio ? number(ratio.value, 3) : "", " ",
             h("small", {}, ratio ? interval({low: ratio.low, high: ratio.high}) : "")),
-        cell(time?.value ?? null, time ? number(time.value) : "–", " ", h("small", {}, time ? interval(time) : "")),
+        cell(
+            time?.value ?? null, time ? number(time.value) : "–", " ", h("small", {}, time ? interval(time) : ""),
+            ...(time ? badges(mistakesOfTime(row)) : [])),
         cell(
             row.seeds, row.seeds === null ? "–" : String(row.seeds),
             row.deviation === null ? "" : h("small", {}, ` (±${number(row.deviation, 2)})`)),
@@ -146,7 +148,7 @@ function showSummary() {
         table(columns, rows.map(r => summaryRow(r, rows, best, others, otherBest)), {sortable: true, groupBy: 0});
     const isOpen = at("summary").querySelector("details")?.open ?? chosen.length <= longTable;
     const title = `All ${rows.length} values, with noise floors, times and seeds`;
-    at("summary").replaceChildren(h("details", {open: isOpen}, h("summary", {}, title), h("div", {class: "scroll"}, whole)));
+    at("summary").replaceChildren(h("details", {open: isOpen}, h("summary", {}, title), scroller(whole)));
     const about = report.metrics[name];
     const direction = {
         lower: "Less is better.",

@@ -69,7 +69,7 @@ function temporalTable({title, metrics, hasDisoccluded}, all) {
     const meanings = shown.flatMap(m => [h("b", {}, m), `: ${report.metrics[m]?.doc ?? "not known"}. `]);
     return [
         h("h3", {}, title), h("p", {class: "note"}, meanings),
-        h("div", {class: "scroll"}, table(columns, lines, {sortable: true, groupBy: 0}))
+        scroller(table(columns, lines, {sortable: true, groupBy: 0}))
     ];
 }
 

@@ -190,6 +190,21 @@ void add_hits(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
         add(last, "sssr/trace_rough", mask, 0);
         if (shot.name == study_moving_shot) add("3", "sssr/trace_smooth", mask, 0.5 * right);
     }
+    // Shares of the squared error.
+    for (const auto& [quantity, value] : {std::pair("right", 0.125), std::pair("unavoidable_miss", 0.25),
+                                          std::pair("empty", 0.125), std::pair("wrong_place", 0.5)})
+        cell.hits.push_back({.shot = shot.name,
+                             .frame = last,
+                             .variant = point.variant,
+                             .point = point.point,
+                             .stage = "error",
+                             .mask = "reflective",
+                             .quantity = std::string("error: ") + quantity,
+                             .seeds = point.seeds,
+                             .rays = 1234.5,
+                             .value = value,
+                             .low = {},
+                             .high = {}});
 }
 
 json study_manifest(const std::vector<StudyShot>& shots) {
