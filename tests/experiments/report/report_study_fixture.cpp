@@ -228,9 +228,10 @@ json study_manifest(const std::vector<StudyShot>& shots) {
         json entry = {{"shot", shot.name}, {"frames", shot.frames}, {"frame", shot.frames.back()}};
         if (shot.name == study_step_shot) entry["change"] = 30;
         if (shot.name == study_moving_shot || shot.name == shots.front().name)
-            for (const char* mask : {"all", "reflective"})
+            for (const auto& [target, mask] :
+                 {std::pair("specular", "all"), std::pair("specular", "reflective"), std::pair("image", "reflective")})
                 entry["truth_ladder"].push_back({{"rung", "on_screen"},
-                                                 {"target", "specular"},
+                                                 {"target", target},
                                                  {"metric", "relmse"},
                                                  {"formula", "relmse_a"},
                                                  {"mask", mask},
