@@ -22,10 +22,10 @@ constexpr size_t page_bytes = 15'000'000;  ///< a page is mailed and opened on s
 
 /// The page's scripts, in the order in which they build on each other.
 constexpr const char* scripts[] = {
-    "data.js",      "page.js",         "points.js",  "sections.js",   "plots.js",        "strips.js",  "ladder.js",
-    "mistakes.js",  "provenance.js",   "summary.js", "error_time.js", "answers.js",      "matrix.js",  "explore.js",
-    "hits.js",      "error_shares.js", "stages.js",  "roughness.js",  "splits.js",       "effects.js", "temporal.js",
-    "stability.js", "image_data.js",   "panes.js",   "viewer.js",     "viewer_input.js", "start.js"};
+    "data.js",     "page.js",      "points.js",       "sections.js", "plots.js",      "bars.js",         "strips.js",
+    "ladder.js",   "mistakes.js",  "provenance.js",   "summary.js",  "error_time.js", "answers.js",      "matrix.js",
+    "explore.js",  "hits.js",      "error_shares.js", "stages.js",   "roughness.js",  "splits.js",       "effects.js",
+    "temporal.js", "stability.js", "image_data.js",   "panes.js",    "viewer.js",     "viewer_input.js", "start.js"};
 
 std::string part(const std::string& name) {
     return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report/page" / name);

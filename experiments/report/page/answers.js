@@ -34,15 +34,26 @@ function drawAnswers(shots) {
         drawAnswers(shots);
         at("answer-shots").querySelector("[aria-pressed=true]").focus();
     };
-    at("answer-shots").replaceChildren(...shots.map(
-        shot => h("li", {}, h("button", {"aria-pressed": String(isChosen(shot)), click: choose(shot), title: shot}, answerText(shot)))));
+    at("answer-shots")
+        .replaceChildren(...shots.map(
+            shot =>
+                h("li", {},
+                  h("button", {
+                      "aria-pressed": String(isChosen(shot)),
+                      click: choose(shot),
+                      title: [shot, answerOf(shot)?.sentence].filter(Boolean).join("\n")
+                  },
+                    answerText(shot)))));
+    at("answer-shots").classList.toggle("many", shots.length > mostWhole);
     const perceptual = answerOf(answerChoice.shot)?.perceptual_sentence;
     at("answer-note").replaceChildren(perceptual ?? "", " ", disagreementText(answerChoice.shot) ?? "");
     drawAnswerCharts();
     return drawAnswerPictures();
 }
 
-const answerText = shot => [h("b", {}, shortShot(shot)), " ", answerOf(shot)?.sentence ?? "No technique is named."];
+const answerText = shot =>
+    h("span", {}, h("b", {}, shortShot(shot)), " ", answerOf(shot)?.sentence ?? "No technique is named.");
+const mostWhole = 4;  // sentences; of more shots only the chosen one's is shown whole
 
 /// Rows of the shot that the headline speaks of, by the name of a metric.
 const headlineRows = (shot, metric) => {
@@ -75,9 +86,11 @@ function disagreementText(shot) {
     const pairs = disagreements(shot), [physical, perceptual] = headlineMetrics();
     if (!pairs.length) return null;
     const names = pair => [...pair].sort((a, b) => a.value - b.value).map(pointLabel).join(" before ");
-    const text = `${physical} and ${perceptual} disagree about ${pairs.length} ${pairs.length === 1 ? "pair" : "pairs"} of points`;
-    return h("span", {title: `By ${physical}, and the other way by ${perceptual}:\n${pairs.map(names).join("\n")}`},
-             `${text}, such as ${names(pairs[0])} by ${physical} alone.`);
+    const text = `${physical} and ${perceptual} disagree about ${pairs.length} ${
+        pairs.length === 1 ? "pair" : "pairs"} of points`;
+    return h(
+        "span", {title: `By ${physical}, and the other way by ${perceptual}:\n${pairs.map(names).join("\n")}`},
+        `${text}, such as ${names(pairs[0])} by ${physical} alone.`);
 }
 
 function drawAnswerCharts() {
@@ -101,7 +114,8 @@ function answerPictures(shot) {
     };
     return [
         {title: "truth", text: target, image: own.find(i => i.target === target && i.kind === "reference")},
-        of(answer?.tied?.length ? "best, not told from others" : "best", answer?.best), of("base line", answer?.baseline)
+        of(answer?.tied?.length ? "best, not told from others" : "best", answer?.best),
+        of("base line", answer?.baseline)
     ].filter(Boolean);
 }
 
@@ -112,11 +126,17 @@ async function drawAnswerPictures() {
     if (!hasPictures) return;
     const images = await Promise.all(wanted.map(p => p.image && loadImage(p.image.index)));
     if (answerChoice.shot !== shot) return;  // another choice was made meanwhile
-    const exposure = manifestShots().find(s => s.shot === shot)?.exposure_ev, codes = displayTable(Number.isFinite(exposure) ? exposure : 0);
+    const exposure = manifestShots().find(s => s.shot === shot)?.exposure_ev,
+          codes = displayTable(Number.isFinite(exposure) ? exposure : 0);
     at("answer-pictures").replaceChildren(...wanted.map(({title, text, row}, i) => {
         const caption = h("figcaption", {}, h("b", {}, title), " ", h("small", {}, text));
-        if (!images[i]) return h("figure", {}, caption, h("p", {class: "note"}, "Its image is in the results folder, not in this page."));
-        const canvas = h("canvas", {width: images[i].width, height: images[i].height, role: "img", "aria-label": `${title}, ${shot}`});
+        if (!images[i])
+            return h(
+                "figure", {}, caption,
+                h("p", {class: "note"}, "Its image is in the results folder, not in this page."));
+        const canvas =
+            h("canvas",
+              {width: images[i].width, height: images[i].height, role: "img", "aria-label": `${title}, ${shot}`});
         canvas.getContext("2d").putImageData(colorPixels(images[i], codes), 0, 0);
         if (row) {
             clickable(canvas, () => openPoint(row));

@@ -27,12 +27,10 @@ function showHits() {
     const masks = unique(rays.map(r => r.mask));
     hitChoice.mask = preferred(masks, report.headline.mask);
     const parts = shotParts(unique(rays.map(r => r.shot)), hitPart);
-    at("hits").append(
-        h("div", {class: "controls"}, select("Mask", masks, hitChoice.mask, value => {
-              hitChoice.mask = value;
-              pointsChanged();
-          })),
-        verdictLegend(verdicts), ...parts);
+    at("hits").append(h("div", {class: "controls"}, select("Mask", masks, hitChoice.mask, value => {
+                            hitChoice.mask = value;
+                            pointsChanged();
+                        })), verdictLegend(verdicts), ...parts);
 }
 
 /// Rows of one point, frame and pass, by quantity.
@@ -54,13 +52,19 @@ const passName = (first, hasFrames) => first.stage.split("/").pop() + (hasFrames
 function hitPart(shot) {
     const groups = hitGroups(shot), hasFrames = unique(groups.map(g => g.first.frame)).length > 1;
     if (!groups.length) return [];
-    const rows = groups.map(({first, by}) => ({
-        label: `${pointLabel(first)}: ${passName(first, hasFrames)}`,
-        parts: verdicts.filter(v => by.has(v.key)).map(v => {
-            const r = by.get(v.key);
-            return {value: r.value, fill: v.color, text: v.short, tip: `${pointLabel(first)}\n${v.name}: ${percent(r.value)} of its rays${percentInterval(r)}`};
-        })
-    }));
+    const rows = groups.map(
+        ({first, by}) => ({
+            label: `${pointLabel(first)}: ${passName(first, hasFrames)}`,
+            parts: verdicts.filter(v => by.has(v.key)).map(v => {
+                const r = by.get(v.key);
+                return {
+                    value: r.value,
+                    fill: v.color,
+                    text: v.short,
+                    tip: `${pointLabel(first)}\n${v.name}: ${percent(r.value)} of its rays${percentInterval(r)}`
+                };
+            })
+        }));
     const columns = [
         {name: "Point"}, {name: "Rays of"}, {name: "Correct", number: true}, {name: "Error of distance", number: true},
         {name: "Depth fetches", number: true}, {name: "Rays", number: true}, {name: "Avoidable misses were told as"}
@@ -69,15 +73,16 @@ function hitPart(shot) {
         const correct = by.get("correct"), distance = by.get("distance_error"), fetches = by.get("fetches");
         const told = [...by.values()].filter(r => r.quantity.startsWith("miss: ")).sort((a, b) => b.value - a.value);
         return [
-            pointLabel(first), passName(first, hasFrames), cell(correct.value, percent(correct.value), h("small", {}, percentInterval(correct))),
-            cell(distance?.value, distance ? number(distance.value, 2) : ""), cell(fetches.value, number(fetches.value, 3)),
-            cell(first.rays, number(first.rays, 6)),
+            pointLabel(first), passName(first, hasFrames),
+            cell(correct.value, percent(correct.value), h("small", {}, percentInterval(correct))),
+            cell(distance?.value, distance ? number(distance.value, 2) : ""),
+            cell(fetches.value, number(fetches.value, 3)), cell(first.rays, number(first.rays, 6)),
             told.slice(0, 3).map(r => `${r.quantity.slice(6).replace("_", " ")} ${percent(r.value)}`).join(", ")
         ];
     });
     return [
         stackedBars({title: `Where rays ended, ${shot}`, rows, xLabel: "share of the rays", isShare: true}),
-        h("details", {open: lines.length <= longTable}, h("summary", {}, "The same as numbers, with fetches and reasons"),
-          scroller(table(columns, lines)))
+        h("details", {open: lines.length <= longTable},
+          h("summary", {}, "The same as numbers, with fetches and reasons"), scroller(table(columns, lines)))
     ];
 }

@@ -12,20 +12,19 @@ const ladderOf = (shot, {target, metricKey: key, mask}) =>
 function ladderRows(key) {
     return manifestShots().flatMap(
         shot => ladderOf(shot.shot, {target: choice.target, metricKey: key, mask: choice.mask})
-                    .map(
-                        r => ({
-                            ...r,
-                            shot: shot.shot,
-                            frame: String(shot.frame),
-                            isRanked: false,
-                            variant: "truth ladder",
-                            point: r.rung + (list(shot.frames).length > 1 ? ", last frame" : ""),
-                            floor: null,
-                            corrected: better(r.metric) === "lower",
-                            seeds: null,
-                            deviation: null,
-                            nonFinite: 0
-                        })));
+                    .map(r => ({
+                             ...r,
+                             shot: shot.shot,
+                             frame: String(shot.frame),
+                             isRanked: false,
+                             variant: "truth ladder",
+                             point: r.rung + (list(shot.frames).length > 1 ? ", last frame" : ""),
+                             floor: null,
+                             corrected: better(r.metric) === "lower",
+                             seeds: null,
+                             deviation: null,
+                             nonFinite: 0
+                         })));
 }
 
 /// The rows of each shot, and then its rungs.

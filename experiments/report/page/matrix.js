@@ -20,18 +20,34 @@ function ratioColour(ratio) {
 const matrixColumns = groups => groups.flatMap(rows => unique(rows.map(r => r.shot)).map((shot, i) => {
     const own = rows.filter(r => r.shot === shot && r.value !== null);
     return {
-        shot, metric: rows[0].metric, isFirst: i === 0, reference: own.length ? columnReference(own) : null,
-        best: clearlyBest(own), byPoint: new Map(rows.filter(r => r.shot === shot).map(r => [pointKey(r), r]))
+        shot,
+        metric: rows[0].metric,
+        isFirst: i === 0,
+        reference: own.length ? columnReference(own) : null,
+        best: clearlyBest(own),
+        byPoint: new Map(rows.filter(r => r.shot === shot).map(r => [pointKey(r), r]))
     };
 }));
 
-/// `groups`: of the chosen metric and of the one beside it, not filtered; `order`: the points, as the reader sorted them.
+/// `groups`: of the chosen metric and of the one beside it, not filtered; `order`: the points, as the reader sorted
+/// them.
 function matrix(groups, order) {
     const columns = matrixColumns(groups), buttons = [];
     const head = [
-        h("tr", {}, h("td"), groups.map(rows => h("th", {scope: "colgroup", class: "metric", colspan: columns.filter(c => c.metric === rows[0].metric).length},
-                                                  rows[0].metric + unitText(rows[0].metric)))),
-        h("tr", {}, h("th", {scope: "col"}, "Point"), columns.map(c => h("th", {scope: "col", title: c.shot, class: c.isFirst ? "first" : null}, breakable(shortShot(c.shot)))))
+        h("tr", {}, h("td"),
+          groups.map(
+              rows =>
+                  h("th", {
+                      scope: "colgroup",
+                      class: "metric",
+                      colspan: columns.filter(c => c.metric === rows[0].metric).length
+                  },
+                    rows[0].metric + unitText(rows[0].metric)))),
+        h("tr", {}, h("th", {scope: "col"}, "Point"),
+          columns.map(
+              c =>
+                  h("th", {scope: "col", title: c.shot, class: c.isFirst ? "first" : null},
+                    breakable(shortShot(c.shot)))))
     ];
     const lines = order.flatMap((point, i) => {
         const cells = columns.map(column => {
@@ -40,16 +56,24 @@ function matrix(groups, order) {
             const ratio = column.reference && row.value > 0 ? row.value / column.reference.value : null;
             const button = matrixButton(row, ratio, column);
             buttons.push(button);
-            return h("td", {style: ratio ? `background:${ratioColour(ratio)}` : null, class: column.isFirst ? "first" : null}, button);
+            return h(
+                "td",
+                {style: ratio ? `background:${ratioColour(ratio)}` : null, class: column.isFirst ? "first" : null},
+                button);
         });
         const isFirst = shownPoints.isGrouped && (i === 0 || order[i - 1].variant !== point.variant);
-        const label = shownPoints.colourBy === "point" ? `${pointNumber(point)} ${pointLabel(point)}` : pointLabel(point);
+        const label =
+            shownPoints.colourBy === "point" ? `${pointNumber(point)} ${pointLabel(point)}` : pointLabel(point);
         return [
-            isFirst ? h("tr", {class: "variant"}, h("th", {scope: "rowgroup", colspan: columns.length + 1}, point.variant)) : null,
+            isFirst ?
+                h("tr", {class: "variant"}, h("th", {scope: "rowgroup", colspan: columns.length + 1}, point.variant)) :
+                null,
             h("tr", {}, h("th", {scope: "row", title: pointText(point)}, icon(styleOf(point)), label), cells)
         ].filter(Boolean);
     });
-    const element = h("table", {class: "matrix"}, h("caption", {}, matrixCaption(columns)), h("thead", {}, head), h("tbody", {}, lines));
+    const element =
+        h("table", {class: "matrix"}, h("caption", {}, matrixCaption(columns)), h("thead", {}, head),
+          h("tbody", {}, lines));
     rove(element, buttons);
     return scroller(element);
 }
@@ -68,10 +92,13 @@ function matrixCaption(columns) {
 function matrixButton(row, ratio, {reference, best}) {
     const text = row.value === null ? "–" : ratio === null ? number(row.value, 3) : number(ratio, ratio < 10 ? 3 : 2);
     const mistakes = mistakesOfError(row);
-    const button = h("button", {"data-value": row.value, class: row === best ? "best" : null}, text, mistakes.length ? " !" : "");
+    const button =
+        h("button", {"data-value": row.value, class: row === best ? "best" : null}, text, mistakes.length ? " !" : "");
     withTip(button, [
-        `${row.shot}\n${pointText(row)}`, rowText(row), ratio === null || reference === row ? null : `${number(ratio, 3)} times that of ${pointLabel(reference)}`,
-        row === best ? "best of its shot, no other interval touches its own" : null, ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
+        `${row.shot}\n${pointText(row)}`, rowText(row),
+        ratio === null || reference === row ? null : `${number(ratio, 3)} times that of ${pointLabel(reference)}`,
+        row === best ? "best of its shot, no other interval touches its own" : null,
+        ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
     ].filter(Boolean).join("\n"));
     button.removeAttribute("role");  // it has its own
     button.setAttribute("aria-label", `${button.textContent}; ${button.getAttribute("aria-label")}`);
@@ -106,9 +133,13 @@ function sortedPoints(rows) {
         time: own => meanLog(own.map(r => totalTime(r)?.value))
     };
     const by = keys[shownPoints.sort];
-    const ordered = [...points.values()].map(own => ({key: by(own), point: own[0]})).sort((a, b) => compareCells(a.key, b.key, true));
+    const ordered = [...points.values()]
+                        .map(own => ({key: by(own), point: own[0]}))
+                        .sort((a, b) => compareCells(a.key, b.key, true));
     const result = ordered.map(o => o.point);
     if (!shownPoints.isGrouped) return result;
     const first = new Map(result.map(p => p.variant).reverse().map((v, i) => [v, -i]));
-    return result.map((p, i) => [p, i]).sort(([a, i], [b, j]) => first.get(a.variant) - first.get(b.variant) || i - j).map(([p]) => p);
+    return result.map((p, i) => [p, i])
+        .sort(([a, i], [b, j]) => first.get(a.variant) - first.get(b.variant) || i - j)
+        .map(([p]) => p);
 }

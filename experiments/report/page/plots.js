@@ -1,4 +1,4 @@
-// Charts, by Observable Plot (vendor/): scales, marks with intervals, stacked bars, legends.
+// Charts, by Observable Plot (vendor/): scales, marks with intervals, legends.
 
 /// Decades, and 2 and 5 between them where there are few; even steps where the axis spans less than a factor of 1.6.
 function logTicks(low, high) {
@@ -39,8 +39,8 @@ function linearAxis(values, label, hasZero = false) {
     return {type: "linear", domain, ticks: evenTicks(...domain), tickFormat: axisText, label};
 }
 
-const errorAxis = (isLog, rows, label, also = []) =>
-    (isLog ? logAxis : linearAxis)([...rows.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value]), ...also], label);
+const errorAxis = (isLog, rows, label, also = []) => (isLog ? logAxis : linearAxis)(
+    [...rows.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value]), ...also], label);
 
 /// One tab stop for all of `elements`, the last that had the focus: arrow keys, Home and End go from one to the next.
 function rove(container, elements) {
@@ -51,7 +51,14 @@ function rove(container, elements) {
     });
     container.addEventListener("keydown", event => {
         const from = elements.indexOf(event.target), last = elements.length - 1;
-        const to = {ArrowRight: from + 1, ArrowDown: from + 1, ArrowLeft: from - 1, ArrowUp: from - 1, Home: 0, End: last}[event.key];
+        const to = {
+            ArrowRight: from + 1,
+            ArrowDown: from + 1,
+            ArrowLeft: from - 1,
+            ArrowUp: from - 1,
+            Home: 0,
+            End: last
+        }[event.key];
         if (from < 0 || !elements[to]) return;
         elements[to].focus();
         event.preventDefault();
@@ -78,34 +85,65 @@ const named = marks => ({
 const inDomain = (v, axis) => v >= axis.domain[0] && v <= axis.domain[1];
 const clampTo = (v, axis) => Math.min(Math.max(v, axis.domain[0]), axis.domain[1]);
 
-/// Layers for `marks`: [{x, y, spanX, spanY, color, symbol, hasOutline, isHollow, number, tip, data, open, size}]; spans
-/// are intervals [low, high], or null. What lies beyond an axis is an arrow at its end.
+/// Layers for `marks`: [{x, y, spanX, spanY, color, symbol, hasOutline, isHollow, number, tip, data, open, size}];
+/// spans are intervals [low, high], or null. What lies beyond an axis is an arrow at its end.
 function markLayers(marks, x, y) {
     const isInside = m => inDomain(m.x, x) && inDomain(m.y, y);
     const inside = marks.filter(isInside), beyond = marks.filter(m => !isInside(m));
     const span = (m, key, axis) => m[key] && m[key][1] >= axis.domain[0] && m[key][0] <= axis.domain[1];
     const arrow = m => m.y < y.domain[0] ? "▼" : m.y > y.domain[1] ? "▲" : m.x < x.domain[0] ? "◀" : "▶";
     const anchor = m => m.x < x.domain[0] ? "start" : m.x > x.domain[1] ? "end" : "middle";
-    const arrows = ["start", "middle", "end"].map(place => beyond.filter(m => anchor(m) === place)).filter(a => a.length);
+    const arrows =
+        ["start", "middle", "end"].map(place => beyond.filter(m => anchor(m) === place)).filter(a => a.length);
     return [
         Plot.ruleX(marks.filter(m => span(m, "spanY", y) && inDomain(m.x, x)), {
-            x: "x", y1: m => clampTo(m.spanY[0], y), y2: m => clampTo(m.spanY[1], y), stroke: "color", strokeWidth: 1.5
+            x: "x",
+            y1: m => clampTo(m.spanY[0], y),
+            y2: m => clampTo(m.spanY[1], y),
+            stroke: "color",
+            strokeWidth: 1.5
         }),
         Plot.ruleY(marks.filter(m => span(m, "spanX", x) && inDomain(m.y, y)), {
-            y: "y", x1: m => clampTo(m.spanX[0], x), x2: m => clampTo(m.spanX[1], x), stroke: "color", strokeWidth: 1.5
+            y: "y",
+            x1: m => clampTo(m.spanX[0], x),
+            x2: m => clampTo(m.spanX[1], x),
+            stroke: "color",
+            strokeWidth: 1.5
         }),
         Plot.dot(inside, {
-            x: "x", y: "y", symbol: "symbol", r: m => m.size ?? 4.5, fill: m => m.isHollow ? "var(--card)" : m.color,
-            stroke: m => m.isHollow ? m.color : m.hasOutline ? "var(--ink)" : "var(--card)", strokeWidth: 1.2,
-            sort: null, ...named(inside)
+            x: "x",
+            y: "y",
+            symbol: "symbol",
+            r: m => m.size ?? 4.5,
+            fill: m => m.isHollow ? "var(--card)" : m.color,
+            stroke: m => m.isHollow ? m.color :
+                m.hasOutline        ? "var(--ink)" :
+                                      "var(--card)",
+            strokeWidth: 1.2,
+            sort: null,
+            ...named(inside)
         }),
         Plot.text(inside.filter(m => m.number), {
-            x: "x", y: "y", text: m => String(m.number), dx: 7, dy: -7, textAnchor: "start", fontSize: 10.5,
-            fill: "var(--ink)", stroke: "var(--card)", strokeWidth: 3, pointerEvents: "none"
+            x: "x",
+            y: "y",
+            text: m => String(m.number),
+            dx: 7,
+            dy: -7,
+            textAnchor: "start",
+            fontSize: 10.5,
+            fill: "var(--ink)",
+            stroke: "var(--card)",
+            strokeWidth: 3,
+            pointerEvents: "none"
         }),
         ...arrows.map(own => Plot.text(own, {
-            x: m => clampTo(m.x, x), y: m => clampTo(m.y, y), text: arrow, textAnchor: anchor(own[0]),
-            fill: "color", fontSize: 12, ...named(own)
+            x: m => clampTo(m.x, x),
+            y: m => clampTo(m.y, y),
+            text: arrow,
+            textAnchor: anchor(own[0]),
+            fill: "color",
+            fontSize: 12,
+            ...named(own)
         }))
     ];
 }
@@ -120,24 +158,40 @@ function plot(options) {
         ...options
     });
     picture.setAttribute("role", "group");
-    picture.querySelectorAll("g[aria-label]").forEach(g => g.removeAttribute("aria-label"));  // of Plot, and of no use to readers
+    picture.querySelectorAll("g[aria-label]")
+        .forEach(g => g.removeAttribute("aria-label"));  // of Plot, and of no use to readers
     const marks = [...picture.querySelectorAll("[tabindex]")];
     rove(picture, marks);
     return picture;
 }
 
 /// A chart of marks on two axes; `under`: layers below them. Widths and heights are in CSS pixels at scale 1.
-function markChart({title, caption, width = 440, height = 300, x, y, marks, under = [], marginBottom = 44, ticks = {}}) {
+function markChart(
+    {title, caption, width = 440, height = 300, x, y, marks, under = [], marginBottom = 44, ticks = {}}) {
     const label = {labelAnchor: "center", labelArrow: "none"};
     const picture = plot({
-        width, height, marginLeft: 62, marginRight: 16, marginTop: 14, marginBottom, ariaLabel: title,
-        x: {...x, ...label}, y: {...y, ...label},
+        width,
+        height,
+        marginLeft: 62,
+        marginRight: 16,
+        marginTop: 14,
+        marginBottom,
+        ariaLabel: title,
+        x: {...x, ...label},
+        y: {...y, ...label},
         marks: [
             Plot.gridX({ticks: x.ticks, stroke: "var(--line)", strokeOpacity: 1}),
-            Plot.gridY({ticks: y.ticks, stroke: "var(--line)", strokeOpacity: 1}),
-            Plot.axisX({ticks: x.ticks, tickFormat: x.tickFormat, tickSize: 0, ...label, label: x.label, labelOffset: marginBottom - 8, ...ticks}),
-            Plot.axisY({ticks: y.ticks, tickFormat: y.tickFormat, tickSize: 0, ...label, label: y.label}),
-            ...under, ...markLayers(marks, x, y)
+            Plot.gridY({ticks: y.ticks, stroke: "var(--line)", strokeOpacity: 1}), Plot.axisX({
+                ticks: x.ticks,
+                tickFormat: x.tickFormat,
+                tickSize: 0,
+                ...label,
+                label: x.label,
+                labelOffset: marginBottom - 8,
+                ...ticks
+            }),
+            Plot.axisY({ticks: y.ticks, tickFormat: y.tickFormat, tickSize: 0, ...label, label: y.label}), ...under,
+            ...markLayers(marks, x, y)
         ]
     });
     return h("figure", {class: "chart"}, h("figcaption", {}, caption ?? title), picture);
@@ -146,9 +200,9 @@ function markChart({title, caption, width = 440, height = 300, x, y, marks, unde
 /// A mark's shape in `size` pixels, for legends and tables.
 function icon({color, symbol, hasOutline}, isHollow = false) {
     const stroke = isHollow ? color : hasOutline ? "var(--ink)" : color;
-    const picture = Plot.dot([[7, 7]], {
-                        x: "0", y: "1", symbol, r: 4.5, fill: isHollow ? "none" : color, stroke, strokeWidth: 1.2
-                    }).plot({width: 14, height: 14, margin: 0, axis: null, x: {type: "identity"}, y: {type: "identity"}});
+    const picture =
+        Plot.dot([[7, 7]], {x: "0", y: "1", symbol, r: 4.5, fill: isHollow ? "none" : color, stroke, strokeWidth: 1.2})
+            .plot({width: 14, height: 14, margin: 0, axis: null, x: {type: "identity"}, y: {type: "identity"}});
     picture.setAttribute("aria-hidden", "true");
     picture.classList.add("icon");
     return picture;
@@ -159,49 +213,29 @@ function legend(entries, actions = []) {
     const entry = e => {
         const content = [e.swatch ?? icon(e.style, e.isHollow), e.label];
         if (!e.toggle) return h("span", {}, content);
-        const button = h("button", {"aria-pressed": String(e.isShown), title: e.isShown ? "Hide in all charts" : "Show in all charts", click: e.toggle}, content);
+        const button =
+            h("button", {
+                "aria-pressed": String(e.isShown),
+                title: `${e.label}: ${e.isShown ? "hide" : "show"} in all charts`,
+                click: e.toggle
+            },
+              content);
         return button;
     };
-    return h("div", {class: "legend", role: "group", "aria-label": "Legend"}, entries.map(entry),
-             actions.map(([name, act]) => h("button", {class: "plain", click: act}, name)));
+    return h(
+        "div", {class: "legend", role: "group", "aria-label": "Legend"}, entries.map(entry),
+        actions.map(([name, act]) => h("button", {class: "plain", click: act}, name)));
 }
 
 /// The marks of `rows` get their point's colour, shape and number.
 function pointMark(row, more) {
     const isNumbered = comparedPoints.length <= mostNumbered && shownPoints.colourBy === "point";
     return {
-        ...styleOf(row), isHollow: isOneSeed(row), number: isNumbered ? pointNumber(row) : null,
-        data: {variant: row.variant, point: row.point, value: row.value}, open: () => openPoint(row), ...more
+        ...styleOf(row),
+        isHollow: isOneSeed(row),
+        number: isNumbered ? pointNumber(row) : null,
+        data: {variant: row.variant, point: row.point, value: row.value},
+        open: () => openPoint(row),
+        ...more
     };
-}
-
-/// Bars of stacked parts. `rows`: [{label, parts: [{value, fill, text, tip, data}], total: {low, high} or null}];
-/// `limits`: [{x, rows: [label], tip}], lines across the bars of these rows. A part shows its text where there is room.
-function stackedBars({title, caption, rows, xLabel, limits = [], width = 760, barHeight = 20, isShare = false}) {
-    const longest = Math.max(...rows.map(r => r.label.length)), marginLeft = Math.min(300, 16 + 6.8 * longest);
-    const parts = rows.flatMap(row => {
-        let start = 0;
-        return row.parts.map(p => ({...p, row: row.label, from: start, to: start += p.value, className: "bar", data: {value: p.value, ...p.data}}));
-    });
-    const ends = [...parts.map(p => p.to), ...rows.map(r => r.total?.high ?? 0), ...limits.map(l => l.x)];
-    const x = isShare ? {domain: [0, 1], ticks: [0, 0.2, 0.4, 0.6, 0.8, 1], tickFormat: percent} : linearAxis(ends, xLabel, true);
-    const pixels = (width - marginLeft - 20) / (x.domain[1] - x.domain[0]);
-    const hasRoom = p => p.text && (p.to - p.from) * pixels > 6.5 * p.text.length + 6;
-    const totals = rows.filter(r => r.total);
-    const picture = plot({
-        width, height: rows.length * (barHeight + 6) + 48, marginLeft, marginRight: 20, marginTop: 4, marginBottom: 44, ariaLabel: title,
-        x: {...x, label: xLabel}, y: {type: "band", domain: rows.map(r => r.label), label: null, padding: 0.2},
-        marks: [
-            Plot.gridX({ticks: x.ticks, stroke: "var(--line)", strokeOpacity: 1}),
-            Plot.axisX({ticks: x.ticks, tickFormat: x.tickFormat, tickSize: 0, label: xLabel, labelAnchor: "center", labelArrow: "none", labelOffset: 36}),
-            Plot.axisY({tickSize: 0, label: null, lineWidth: (marginLeft - 10) / 12, textOverflow: "ellipsis", fontSize: 12}),
-            Plot.barX(parts, {x1: "from", x2: "to", y: "row", fill: "fill", stroke: "var(--card)", strokeWidth: 0.7, ...named(parts)}),
-            Plot.text(parts.filter(hasRoom), {
-                x: p => (p.from + p.to) / 2, y: "row", text: "text", fill: "var(--ink)", stroke: "var(--card)", strokeWidth: 4, fontSize: 11, pointerEvents: "none"
-            }),
-            Plot.ruleY(totals, {y: "label", x1: r => r.total.low, x2: r => r.total.high, stroke: "var(--ink)", strokeWidth: 1.6, marker: "tick"}),
-            Plot.tickX(limits.flatMap(l => l.rows.map(row => ({...l, row}))), {x: "x", y: "row", stroke: "var(--ink)", strokeWidth: 2.5, strokeDasharray: "3 2"})
-        ]
-    });
-    return h("figure", {class: "chart wide"}, caption ? h("figcaption", {}, caption) : null, picture);
 }

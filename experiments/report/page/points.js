@@ -53,8 +53,8 @@ function pointText(row) {
 }
 
 const mayShow = row => shownPoints.hasSingleChanges || !isSingleChange(row);
-const matchesFilter = row => shownPoints.filter.toLowerCase().split(/\s+/).every(
-    word => pointLabel(row).toLowerCase().includes(word));
+const matchesFilter = row =>
+    shownPoints.filter.toLowerCase().split(/\s+/).every(word => pointLabel(row).toLowerCase().includes(word));
 /// Rows of the points that the reader has not filtered out.
 const filteredRows = rows => rows.filter(r => mayShow(r) && matchesFilter(r));
 /// Those of them that no legend switched off: what charts draw.
@@ -63,10 +63,8 @@ const chartedRows = rows => filteredRows(rows).filter(r => !shownPoints.hidden.h
 const symbolNames = ["circle", "square", "triangle", "diamond", "star", "cross", "wye", "hexagon"];
 
 /// Eight colours and eight shapes: shape and colour shift against each other, so that 64 pairs differ.
-const seriesStyle = index => ({
-    color: `var(--s${index % 8})`,
-    symbol: symbolNames[(index + Math.floor(index / 8)) % 8]
-});
+const seriesStyle = index =>
+    ({color: `var(--s${index % 8})`, symbol: symbolNames[(index + Math.floor(index / 8)) % 8]});
 
 /// The distinct values of a swept parameter, numbers in ascending order.
 const valuesOf = name => unique(allPoints.map(p => parametersOf(p)[name]).filter(v => v !== undefined))
@@ -92,9 +90,9 @@ function styleOf(row) {
 function legendGroups(rows) {
     const points = [...new Map(rows.map(r => [pointKey(r), r])).values()], by = shownPoints.colourBy;
     const name = p => by === "point" ? `${pointNumber(p)} ${pointLabel(p)}` :
-        by === "variant"             ? p.variant :
-        by in parametersOf(p)        ? `${by} = ${JSON.stringify(parametersOf(p)[by])}` :
-                                       `without ${by}`;
+        by === "variant"      ? p.variant :
+        by in parametersOf(p) ? `${by} = ${JSON.stringify(parametersOf(p)[by])}` :
+                                `without ${by}`;
     const ordered = by === "point" || by === "variant" ?
         points :
         [...points].sort((a, b) => compareCells(parametersOf(a)[by] ?? null, parametersOf(b)[by] ?? null, true));
@@ -113,11 +111,16 @@ const pointsChanged = () => pointListeners.forEach(f => f());
 /// A button per series: it shows and hides the series in all charts.
 function pointLegend(rows) {
     const groups = legendGroups(filteredRows(rows)), {hidden} = shownPoints;
-    const entries = groups.map(({label, keys, style}) => ({label, style, isShown: keys.some(k => !hidden.has(k)), toggle: () => {
-        const isShown = keys.some(k => !hidden.has(k));
-        keys.forEach(k => isShown ? hidden.add(k) : hidden.delete(k));
-        pointsChanged();
-    }}));
+    const entries = groups.map(({label, keys, style}) => ({
+                                   label,
+                                   style,
+                                   isShown: keys.some(k => !hidden.has(k)),
+                                   toggle: () => {
+                                       const isShown = keys.some(k => !hidden.has(k));
+                                       keys.forEach(k => isShown ? hidden.add(k) : hidden.delete(k));
+                                       pointsChanged();
+                                   }
+                               }));
     const all = hide => () => {
         groups.flatMap(g => g.keys).forEach(k => hide ? hidden.add(k) : hidden.delete(k));
         pointsChanged();
@@ -156,7 +159,8 @@ const shortShot = (() => {
     const shots = unique(report.errors.map(r => r.shot)), parts = shot => shot.split(".");
     const areScenesUnique = unique(shots.map(s => parts(s)[0])).length === shots.length;
     const isShared = (part, i) => i > 0 && shots.every(s => parts(s)[i] === part);
-    const short = new Map(shots.map(s => [s, areScenesUnique ? parts(s)[0] : parts(s).filter((part, i) => !isShared(part, i)).join(".")]));
+    const short = new Map(shots.map(
+        s => [s, areScenesUnique ? parts(s)[0] : parts(s).filter((part, i) => !isShared(part, i)).join(".")]));
     return shot => short.get(shot) ?? shot;
 })();
 
@@ -164,7 +168,8 @@ const shortShot = (() => {
 /// shown points change.
 function shotParts(shots, draw) {
     return shots.map((shot, i) => {
-        const body = h("div"), part = h("details", {open: i === 0, "data-shot": shot, class: "shot"}, h("summary", {}, shot), body);
+        const body = h("div"),
+              part = h("details", {open: i === 0, "data-shot": shot, class: "shot"}, h("summary", {}, shot), body);
         let isDrawn = false;
         const update = () => {
             if (part.open && !isDrawn) body.replaceChildren(...draw(shot));

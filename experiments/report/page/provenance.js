@@ -12,7 +12,8 @@ function madeText(row) {
     const {ssrlab = {}, device = {}} = makers[made.maker];
     return `made ${made.cell.finished}, commit ${commitText(ssrlab)}, ${device.name ?? "device not recorded"}`;
 }
-const commitText = ssrlab => String(ssrlab.commit ?? "not recorded").slice(0, 10) + (ssrlab.dirty ? " with changes" : "");
+const commitText = ssrlab =>
+    String(ssrlab.commit ?? "not recorded").slice(0, 10) + (ssrlab.dirty ? " with changes" : "");
 
 /// A link from a row to its maker.
 function madeCell(row) {
@@ -29,19 +30,30 @@ function showProvenance() {
         ["Clock", known(unique(proofs.map(p => p.method)).join(", "))],
         ["Clock proof", proofs.length ? proofs.map(clockProof).join(" | ") : "not recorded"],
         ["A/A floor of times", known(clock?.aa_floor, percent(clock?.aa_floor))],
-        ["Empty submit", known(proofs[0]?.empty_submit_ms, proofs.map(p => number(p.empty_submit_ms, 3)).join(", ") + " ms")],
+        [
+            "Empty submit",
+            known(proofs[0]?.empty_submit_ms, proofs.map(p => number(p.empty_submit_ms, 3)).join(", ") + " ms")
+        ],
         ["Foreign load, at most", foreignLoad(list(clock?.load))],
     ];
     const columns = [{name: "Cell"}, {name: "Started"}, {name: "Finished"}, {name: "Hash"}];
-    const cellRow = c => [c.what, known(c.started), known(c.finished), h("span", {class: "hash"}, String(c.cell ?? "").slice(0, 12))];
-    at("provenance").append(
-        ...(makers.length ? makers : [{}]).flatMap((maker, i) => [
-            h("div", {id: `maker-${i + 1}`}, factList(makerFacts(maker, makers.length > 1 ? i + 1 : 0))),
-            list(maker.cells).length ? folded(`${maker.cells.length} cells made by it`, scroller(table(columns, maker.cells.map(cellRow)))) : ""
-        ]),
-        factList(times));
+    const cellRow = c =>
+        [c.what, known(c.started), known(c.finished), h("span", {class: "hash"}, String(c.cell ?? "").slice(0, 12))];
+    at("provenance")
+        .append(
+            ...(makers.length ? makers : [{}])
+                .flatMap(
+                    (maker, i) =>
+                        [h("div", {id: `maker-${i + 1}`}, factList(makerFacts(maker, makers.length > 1 ? i + 1 : 0))),
+                         list(maker.cells).length ? folded(
+                                                        `${maker.cells.length} cells made by it`,
+                                                        scroller(table(columns, maker.cells.map(cellRow)))) :
+                                                    ""]),
+            factList(times));
     // A link into a folded part opens it.
-    addEventListener("hashchange", () => document.querySelector(location.hash || "#none")?.closest("details")?.setAttribute("open", ""));
+    addEventListener(
+        "hashchange",
+        () => document.querySelector(location.hash || "#none")?.closest("details")?.setAttribute("open", ""));
 }
 
 const factList = facts =>
@@ -56,20 +68,27 @@ function makerFacts(maker, place) {
         ["Device", known(device.name, [device.name, device.type && `(${device.type})`].filter(Boolean).join(" "))],
         ["Driver", known(device.driver, joined([device.driver, device.api && `Vulkan ${device.api}`]))],
         [
-            "Host",
-            known(host.cpu, joined([host.name, host.cpu, host.cores && `${host.cores} cores`, host.memory_gib && `${number(host.memory_gib)} GiB`]))
+            "Host", known(host.cpu, joined([
+                              host.name, host.cpu, host.cores && `${host.cores} cores`,
+                              host.memory_gib && `${number(host.memory_gib)} GiB`
+                          ]))
         ],
         ["Kernel", known(host.kernel)],
         ["ssrlab", known(ssrlab.version, joined([ssrlab.version, ssrlab.build, ssrlab.compiler]))],
         [
             "Commit",
-            h("span", {class: "hash"}, known(ssrlab.commit, String(ssrlab.commit).slice(0, 12)) + (ssrlab.dirty ? " with changes" : ""))
+            h("span", {class: "hash"},
+              known(ssrlab.commit, String(ssrlab.commit).slice(0, 12)) + (ssrlab.dirty ? " with changes" : ""))
         ],
         ["Run", `${known(maker.started)} to ${known(maker.finished)}`],
     ];
 }
 
-const verdictTexts = {passed: "passed", failed: "FAILED", not_judged: "NOT JUDGED, the machine was busy"};
+const verdictTexts = {
+    passed: "passed",
+    failed: "FAILED",
+    not_judged: "NOT JUDGED, the machine was busy"
+};
 
 const clockProof = proof =>
     list(proof.checks)

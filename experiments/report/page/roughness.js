@@ -24,19 +24,27 @@ function roughnessParts(rows) {
     if (!rows.length) return [];
     const specular = rows.filter(r => r.target === preferred(unique(rows.map(o => o.target)), "specular"));
     const metric = headlineMetric(specular), other = otherMetric(metric, specular);
-    const bias = rows.filter(r => r.metric === "bias" && r.target === preferred(unique(rows.map(o => o.target)), "incident"));
+    const bias =
+        rows.filter(r => r.metric === "bias" && r.target === preferred(unique(rows.map(o => o.target)), "incident"));
     const errors = [metric, other].filter(Boolean).map(key => specular.filter(r => metricKey(r) === key));
     const names = unique(errors.map(own => own[0].metric)).join(" and ");
     return [
         h("h3", {}, `Error: ${names} of target ${specular[0].target}`), roughnessCharts(errors),
-        ...(bias.length ? [
-            h("h3", {}, `Signed bias of target ${bias[0].target}: above 0 too bright, below too dark`), roughnessCharts([bias])
-        ] : [])
+        ...(bias.length ?
+                [
+                    h("h3", {}, `Signed bias of target ${bias[0].target}: above 0 too bright, below too dark`),
+                    roughnessCharts([bias])
+                ] :
+                [])
     ];
 }
 
-const roughnessCharts = groups => h("div", {class: "grid"}, unique(groups.flat().map(r => r.shot)).flatMap(
-    shot => groups.map(rows => rows.filter(r => r.shot === shot)).filter(rows => rows.length).map(roughnessChart)));
+const roughnessCharts = groups => h(
+    "div", {class: "grid"},
+    unique(groups.flat().map(r => r.shot))
+        .flatMap(
+            shot =>
+                groups.map(rows => rows.filter(r => r.shot === shot)).filter(rows => rows.length).map(roughnessChart)));
 
 function roughnessChart(rows) {
     const {metric, shot} = rows[0], isLog = better(metric) === "lower";
@@ -51,8 +59,17 @@ function roughnessChart(rows) {
     return lineChart({
         title: `${metric} by roughness, ${shot}`,
         caption: [`${shortShot(shot)}: ${metric}`, frames].filter(Boolean).join(": "),
-        x: {type: "linear", domain: [-0.6, masks.length - 0.4], ticks, tickFormat: i => text(masks[i]), label: "perceptual roughness"},
-        rows, place, tip, isLog
+        x: {
+            type: "linear",
+            domain: [-0.6, masks.length - 0.4],
+            ticks,
+            tickFormat: i => text(masks[i]),
+            label: "perceptual roughness"
+        },
+        rows,
+        place,
+        tip,
+        isLog
     });
 }
 
@@ -63,12 +80,22 @@ function lineChart({title, caption, x, rows, place, tip, isLog, size}) {
                       linearAxis([0, ...rows.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value])], yLabel);
     const sorted = [...rows].sort((a, b) => place(a) - place(b));
     const marks = sorted.map(row => pointMark(row, {
-        x: place(row), y: row.value, spanX: null, spanY: row.low === null ? null : [row.low, row.high], tip: tip(row), number: null, size
-    }));
+                                 x: place(row),
+                                 y: row.value,
+                                 spanX: null,
+                                 spanY: row.low === null ? null : [row.low, row.high],
+                                 tip: tip(row),
+                                 number: null,
+                                 size
+                             }));
     const under = [
-        ...(isLog ? [] : [Plot.ruleY([0], {stroke: "var(--faint)"})]),
-        Plot.line(sorted, {
-            x: place, y: r => clampTo(r.value, y), z: pointKey, stroke: r => styleOf(r).color, strokeWidth: 1.2, strokeOpacity: 0.6
+        ...(isLog ? [] : [Plot.ruleY([0], {stroke: "var(--faint)"})]), Plot.line(sorted, {
+            x: place,
+            y: r => clampTo(r.value, y),
+            z: pointKey,
+            stroke: r => styleOf(r).color,
+            strokeWidth: 1.2,
+            strokeOpacity: 0.6
         })
     ];
     return markChart({title, caption, x, y, marks, under, height: 270});

@@ -8,13 +8,16 @@ function showHead() {
     const {manifest} = report;
     const shots = list(manifest.shots).length;
     const parts = [
-        `${shots} ${shots === 1 ? "shot" : "shots"}`, `${allPoints.length} variant ${allPoints.length === 1 ? "point" : "points"}`,
+        `${shots} ${shots === 1 ? "shot" : "shots"}`,
+        `${allPoints.length} variant ${allPoints.length === 1 ? "point" : "points"}`,
         ...unique(makers.map(m => m.device?.name)), makers.map(m => m.started).sort()[0]
     ];
     at("subtitle").textContent = parts.filter(Boolean).join(" · ");
-    const {warnings} = report, count = `${warnings.length} ${warnings.length === 1 ? "warning" : "warnings"} of the study`;
-    at("warnings").replaceChildren(
-        warnings.length ? folded(count, h("ul", {}, warnings.map(text => h("li", {class: "warning"}, text)))) : "");
+    const {warnings} = report,
+          count = `${warnings.length} ${warnings.length === 1 ? "warning" : "warnings"} of the study`;
+    at("warnings")
+        .replaceChildren(
+            warnings.length ? folded(count, h("ul", {}, warnings.map(text => h("li", {class: "warning"}, text)))) : "");
 }
 
 function showReferences() {
@@ -52,7 +55,8 @@ function showNeeds() {
         if (!needs.length && !leftOut.length) continue;
         at("needs").append(
             h("details", {},
-              h("summary", {}, `${shot.shot}: ${leftOut.length ? leftOut.length + " parts left out" : "nothing left out"}`),
+              h("summary", {},
+                `${shot.shot}: ${leftOut.length ? leftOut.length + " parts left out" : "nothing left out"}`),
               table(
                   [{name: "Fact"}, {name: "Value"}, {name: "Why"}],
                   needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
@@ -83,14 +87,15 @@ function showParameters() {
         const first = points[0],
               stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
         at("parameters").append(h("h3", {}, first.title ?? name), h("p", {class: "note"}, [
-                                    first.source, stages.length && "Stages: " + stages.join(", "),
-                                    limitsNote(points)
+                                    first.source, stages.length && "Stages: " + stages.join(", "), limitsNote(points)
                                 ].filter(Boolean).join(". ").replaceAll("..", ".")));
         at("parameters").append(...parameterTables(points, name));
     }
 }
 
-const parameterText = value => value === undefined ? "–" : typeof value === "number" ? number(value, 6) : JSON.stringify(value);
+const parameterText = value => value === undefined ? "–" :
+    typeof value === "number"                      ? number(value, 6) :
+                                                     JSON.stringify(value);
 const mostColumns = 8;  // of points; more of them are rows
 
 /// What differs among the points of a variant, then what is equal for all of them.
@@ -106,11 +111,18 @@ function parameterTables(points, variant) {
                               [{name: "Parameter"}, ...points.map(p => ({name: p.point, number: true}))];
     const rows = areRows ? points.map(p => [p.point, ...differing.map(key => value(p, key))]) :
                            differing.map(key => [name(key), ...points.map(p => value(p, key))]);
-    const common = table([{name: "Parameter"}, {name: "Value", number: true}], equal.map(key => [name(key), value(points[0], key)]));
+    const common = table(
+        [{name: "Parameter"}, {name: "Value", number: true}], equal.map(key => [name(key), value(points[0], key)]));
     const isLong = rows.length > longTable;
     const shown = scroller(table(columns, rows));
     return [
-        ...(differing.length ? [isLong ? folded(`${rows.length} points, their ${differing.length} parameters that differ`, shown) : shown] : []),
-        ...(equal.length ? [differing.length && equal.length > 3 ? folded(`${equal.length} more, equal for all points`, common) : common] : [])
+        ...(differing.length ?
+                [isLong ? folded(`${rows.length} points, their ${differing.length} parameters that differ`, shown) :
+                          shown] :
+                []),
+        ...(equal.length ?
+                [differing.length && equal.length > 3 ? folded(`${equal.length} more, equal for all points`, common) :
+                                                        common] :
+                [])
     ];
 }

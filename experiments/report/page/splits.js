@@ -29,7 +29,8 @@ function showSplits() {
 const splitStyles = [seriesStyle(0), seriesStyle(1)];
 
 function drawSplits() {
-    const rows = filteredRows(report.splits.filter(s => s.target === splitChoice.target && s.mask === splitChoice.mask));
+    const rows =
+        filteredRows(report.splits.filter(s => s.target === splitChoice.target && s.mask === splitChoice.mask));
     const ends = part => [part.value, part.low ?? part.value, part.high ?? part.value];
     const scale = stripScale(rows.flatMap(s => [...ends(s.biasSquared), ...ends(s.variance)]), true);
     const columns = [

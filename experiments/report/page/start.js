@@ -14,25 +14,29 @@ addEventListener("beforeprint", () => {
     }
 });
 
-/// The browser paints, and answers its reader, in between.
-const pause = () => new Promise(done => setTimeout(done));
-
 /// Resolves when the pictures are there.
 async function showStudy() {
     showHead();
-    if (report.errors.length) {
+    if (report.errors.length)
         await showAnswers();
-        showExplorer();
-    } else {
+    else
         leaveOut("answers");
+    await new Promise(painted => setTimeout(painted));  // the first screen, before the rest is made
+    if (report.errors.length)
+        showExplorer();
+    else
         at("results").append(h("p", {class: "note"}, "results.csv has no rows."));
-    }
-    await pause();
-    await showViewer();
-    for (const show of [showHits, showStages, showRoughness, showSplits, showEffects, showTemporal, showReferences, showNeeds, showParameters, showProvenance]) {
-        await pause();
-        show();
-    }
+    showHits();
+    showStages();
+    showRoughness();
+    showSplits();
+    showEffects();
+    showTemporal();
+    showReferences();
+    showNeeds();
+    showParameters();
+    showProvenance();
+    return showViewer();
 }
 
 function showStabilityAlone() {

@@ -13,18 +13,32 @@ function stripScale(values, isLog, reference = null, leastAir = 0.12) {
 }
 
 const stripPlot = options => plot({
-    width: stripSize.width, marginLeft: stripSize.side, marginRight: stripSize.side, marginTop: 0, axis: null, ...options
+    width: stripSize.width,
+    marginLeft: stripSize.side,
+    marginRight: stripSize.side,
+    marginTop: 0,
+    axis: null,
+    ...options
 });
 
 /// `marks`: [{style, row: {value, low, high}, isHollow, tip, lane}]; lanes lie below each other.
 function strip({axis, reference}, marks) {
-    const lanes = Math.max(0, ...marks.map(m => m.lane ?? 0)) + 1, y = {type: "linear", domain: [-0.5, lanes - 0.5], reverse: true};
+    const lanes = Math.max(0, ...marks.map(m => m.lane ?? 0)) + 1,
+          y = {type: "linear", domain: [-0.5, lanes - 0.5], reverse: true};
     const places = marks.map(({style, row, isHollow, tip, lane}) => ({
-        ...style, isHollow, tip, x: row.value, y: lane ?? 0, data: {value: row.value},
-        spanX: row.low === null || row.low === undefined ? null : [row.low, row.high]
-    }));
+                                 ...style,
+                                 isHollow,
+                                 tip,
+                                 x: row.value,
+                                 y: lane ?? 0,
+                                 data: {value: row.value},
+                                 spanX: row.low === null || row.low === undefined ? null : [row.low, row.high]
+                             }));
     const picture = stripPlot({
-        height: lanes * stripSize.row + 6, marginBottom: 0, x: axis, y,
+        height: lanes * stripSize.row + 6,
+        marginBottom: 0,
+        x: axis,
+        y,
         marks: [
             Plot.gridX({ticks: axis.ticks, stroke: "var(--line)", strokeOpacity: 1}),
             ...(reference === null ? [] : [Plot.ruleX([reference], {stroke: "var(--faint)", strokeWidth: 1.2})]),
@@ -38,8 +52,19 @@ function strip({axis, reference}, marks) {
 /// The labels of the scale, for the last row of a table of strips.
 function stripAxis({axis}, label) {
     const picture = stripPlot({
-        height: 36, marginBottom: 36, x: axis, ariaLabel: label,
-        marks: [Plot.axisX({ticks: axis.ticks, tickFormat: axis.tickFormat, tickSize: 0, label, labelAnchor: "center", labelArrow: "none", labelOffset: 32})]
+        height: 36,
+        marginBottom: 36,
+        x: axis,
+        ariaLabel: label,
+        marks: [Plot.axisX({
+            ticks: axis.ticks,
+            tickFormat: axis.tickFormat,
+            tickSize: 0,
+            label,
+            labelAnchor: "center",
+            labelArrow: "none",
+            labelOffset: 32
+        })]
     });
     picture.classList.add("strip");
     return picture;

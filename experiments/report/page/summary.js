@@ -114,8 +114,7 @@ function summaryRow(row, rows, best, others, otherBest) {
     const ratio = againstNone(row, rows), time = totalTime(row), other = others.find(o => isSamePoint(o, row));
     return [
         row.shot, row.variant, cell(row.point, row.point, " ", badges(mistakesOfError(row))),
-        valueCell(row, best.has(row)),
-        ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
+        valueCell(row, best.has(row)), ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
         cell(row.floor, number(row.floor)),
         ...(rows.some(isLitNoisy) ? [cell(row.litNoise ?? null, number(row.litNoise))] : []),
         cell(
@@ -127,22 +126,22 @@ function summaryRow(row, rows, best, others, otherBest) {
         cell(
             row.seeds, row.seeds === null ? "–" : String(row.seeds),
             row.deviation === null ? "" : h("small", {}, ` (±${number(row.deviation, 2)})`)),
-        cell(row.pixels, String(row.pixels)),
-        madeCell(row)
+        cell(row.pixels, String(row.pixels)), madeCell(row)
     ];
 }
 
 function showSummary() {
-    const chosen = filteredRows(chosenRows()), ladder = ladderRows(choice.metric), rows = besideTheirShots(chosen, ladder);
+    const chosen = filteredRows(chosenRows()), ladder = ladderRows(choice.metric),
+          rows = besideTheirShots(chosen, ladder);
     const others = [...otherRows(), ...ladderRows(otherMetric(choice.metric, report.errors))];
     const best = clearlyBestRows(chosen), otherBest = clearlyBestRows(otherRows());
     const name = choice.metric.split("|")[0];
     const columns = [
         {name: "Shot"}, {name: "Variant"}, {name: "Point"}, {name: name, number: true},
         ...(others.length ? [{name: others[0].metric, number: true}] : []), {name: "Noise floor", number: true},
-        ...(rows.some(isLitNoisy) ? [{name: "Lit noise", number: true}] : []),
-        {name: "× none", number: true}, {name: "Total ms", number: true}, {name: "Seeds", number: true},
-        {name: "Pixels", number: true}, {name: "Made by"}
+        ...(rows.some(isLitNoisy) ? [{name: "Lit noise", number: true}] : []), {name: "× none", number: true},
+        {name: "Total ms", number: true}, {name: "Seeds", number: true}, {name: "Pixels", number: true},
+        {name: "Made by"}
     ];
     const whole =
         table(columns, rows.map(r => summaryRow(r, rows, best, others, otherBest)), {sortable: true, groupBy: 0});
@@ -167,13 +166,16 @@ function showSummary() {
                 `Noise floor and × none are those of ${name}.`,
         ladder.length &&
             "Truth ladder: the truth with less of its light, see How to read this. Nothing to rank, so never bold.",
-        rows.some(isLitNoisy) && "Lit noise: what the noise of the path-traced light that techniques read adds to the " +
-            "value; intervals reach down by it.",
+        rows.some(isLitNoisy) &&
+            "Lit noise: what the noise of the path-traced light that techniques read adds to the " +
+                "value; intervals reach down by it.",
         "Brackets: 95 % interval" +
-            (rows.some(intervalNote) ? "; seeds alone: without what the reference's noise adds, which the noise floor " +
-                                       "bounds, and so not ranked." :
-                                       ".") +
-            (rows.some(isOneSeed) ? " One seed of a technique that draws random numbers has none, and is not ranked." : ""),
+            (rows.some(intervalNote) ?
+                 "; seeds alone: without what the reference's noise adds, which the noise floor " +
+                     "bounds, and so not ranked." :
+                 ".") +
+            (rows.some(isOneSeed) ? " One seed of a technique that draws random numbers has none, and is not ranked." :
+                                    ""),
         "± after the seeds: their standard deviation."
     ].filter(Boolean).join(" ").replaceAll("..", ".");
 }

@@ -54,18 +54,19 @@ function temporalTable({title, metrics, hasDisoccluded}, all) {
         {name: "Shot"}, {name: "Point"}, ...shown.map(m => ({name: m + unitText(m), number: true})),
         ...(disoccluded.length ? [{name: "relmse, disoccluded", number: true}] : [])
     ];
-    const lines = shots
-                      .flatMap(shot => comparedPoints.map(point => {
-                          const isOwn = r => r.shot === shot && pointKey(r) === pointKey(point);
-                          const own = rows.filter(isOwn);
-                          return own.length ?
-                              [
-                                  shot, pointLabel(point), ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
-                                  ...(disoccluded.length ? [disoccludedCell(disoccluded.find(isOwn))] : [])
-                              ] :
-                              null;
-                      }))
-                      .filter(Boolean);
+    const lines =
+        shots
+            .flatMap(shot => comparedPoints.map(point => {
+                const isOwn = r => r.shot === shot && pointKey(r) === pointKey(point);
+                const own = rows.filter(isOwn);
+                return own.length ?
+                    [
+                        shot, pointLabel(point), ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
+                        ...(disoccluded.length ? [disoccludedCell(disoccluded.find(isOwn))] : [])
+                    ] :
+                    null;
+            }))
+            .filter(Boolean);
     const meanings = shown.flatMap(m => [h("b", {}, m), `: ${report.metrics[m]?.doc ?? "not known"}. `]);
     return [
         h("h3", {}, title), h("p", {class: "note"}, meanings),
@@ -110,9 +111,12 @@ function showFrames(rows) {
 }
 
 function drawFrames(all) {
-    const rows = all.filter(r => metricKey(r) === frameChoice.metric && r.mask === frameChoice.mask), shown = chartedRows(rows);
+    const rows = all.filter(r => metricKey(r) === frameChoice.metric && r.mask === frameChoice.mask),
+          shown = chartedRows(rows);
     at("frame-legend").replaceChildren(pointLegend(rows));
-    at("frame-charts").replaceChildren(...unique(shown.map(r => r.shot)).map(shot => frameChart(shot, shown.filter(r => r.shot === shot))));
+    at("frame-charts")
+        .replaceChildren(
+            ...unique(shown.map(r => r.shot)).map(shot => frameChart(shot, shown.filter(r => r.shot === shot))));
 }
 
 function frameChart(shot, rows) {
@@ -122,7 +126,13 @@ function frameChart(shot, rows) {
     return lineChart({
         title: `${metric} by frame, ${shot}`,
         caption: shortShot(shot) + (change === undefined ? "" : `: the scene changes at frame ${change}`),
-        x: {type: "linear", domain: [frames[0] - air, last + air], ticks: frames.filter((_, i) => i % step === 0), tickFormat: String, label: "frame"},
+        x: {
+            type: "linear",
+            domain: [frames[0] - air, last + air],
+            ticks: frames.filter((_, i) => i % step === 0),
+            tickFormat: String,
+            label: "frame"
+        },
         rows,
         place: row => Number(row.frame),
         tip: row => `${pointText(row)}\nframe ${row.frame}\n${rowText(row)}`,
