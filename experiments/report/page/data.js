@@ -109,7 +109,7 @@ function readData() {
         notes: raw.notes,
         images: raw.images,
         singleChanges: raw.single_changes,
-        answers: raw.answers ?? [],  // what each shot says, in sentences (experiments/report/answers.h)
+        answers: raw.answers ?? [],  // what each shot says, in sentences
         // What they speak of: of the physical error, and of what an eye sees.
         headline: {metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip", ...raw.headline},
         errors: raw.errors.map(error),  // those that speak for their shot

@@ -2,9 +2,10 @@
 
 const fullColour = 8;  // a ratio of that size, or its inverse, has the full colour
 
-/// What the cells of one shot and metric are divided by: the least error, or that of none; null where it is not told.
+/// What the cells of one shot and metric are divided by: the least error but for single seeds, which may be so by
+/// chance, or that of none; null where it is not told.
 function columnReference(rows) {
-    const positive = rows.filter(r => r.value > 0);
+    const positive = rows.filter(r => r.value > 0 && !isOneSeed(r));
     if (!positive.length || better(rows[0].metric) !== "lower") return null;
     if (shownPoints.relativeTo === "none") return positive.find(r => r.variant === "none") ?? null;
     return positive.reduce((least, r) => r.value < least.value ? r : least);

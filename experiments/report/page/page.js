@@ -145,6 +145,9 @@ const folded = (title, ...content) => h("details", {}, h("summary", {}, title), 
 const cell = (sort, ...content) => ({sort: sort === undefined ? null : sort, content: h("span", {}, ...content)});
 
 const tip = h("div", {class: "tip", hidden: true, role: "tooltip"});
+addEventListener("keydown", event => {
+    if (event.key === "Escape") tip.hidden = true;
+});
 
 /// Shows `text` beside the pointer, or beside the element for keyboard users.
 function withTip(element, text) {

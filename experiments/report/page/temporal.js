@@ -110,22 +110,24 @@ function showFrames(rows) {
     drawFrames(rows);
 }
 
+/// Charts of the chosen metric and of the one beside it, shot by shot.
 function drawFrames(all) {
-    const rows = all.filter(r => metricKey(r) === frameChoice.metric && r.mask === frameChoice.mask),
-          shown = chartedRows(rows);
-    at("frame-legend").replaceChildren(pointLegend(rows));
-    at("frame-charts")
-        .replaceChildren(
-            ...unique(shown.map(r => r.shot)).map(shot => frameChart(shot, shown.filter(r => r.shot === shot))));
+    const own = metric => all.filter(r => metricKey(r) === metric && r.mask === frameChoice.mask);
+    const groups = [frameChoice.metric, otherMetric(frameChoice.metric, all)].filter(Boolean).map(own);
+    at("frame-legend").replaceChildren(pointLegend(groups[0]));
+    const charts = unique(groups[0].map(r => r.shot))
+                       .flatMap(shot => groups.map(rows => chartedRows(rows).filter(r => r.shot === shot)));
+    at("frame-charts").replaceChildren(...charts.filter(rows => rows.length).map(frameChart));
 }
 
-function frameChart(shot, rows) {
-    const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b), {metric} = rows[0];
+function frameChart(rows) {
+    const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b), {metric, shot} = rows[0];
     const step = Math.ceil(frames.length / 8), last = frames.at(-1), air = Math.max(0.4, 0.03 * (last - frames[0]));
     const change = manifestShots().find(s => s.shot === shot)?.change;
     return lineChart({
         title: `${metric} by frame, ${shot}`,
-        caption: shortShot(shot) + (change === undefined ? "" : `: the scene changes at frame ${change}`),
+        caption:
+            `${shortShot(shot)}: ${metric}` + (change === undefined ? "" : `, the scene changes at frame ${change}`),
         x: {
             type: "linear",
             domain: [frames[0] - air, last + air],
