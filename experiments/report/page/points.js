@@ -136,8 +136,8 @@ const headlineMetric = rows => {
 /// have none.
 const otherMetric = (key, rows) => {
     const {metric, perceptual_metric: perceptual} = report.headline, keys = unique(rows.map(metricKey));
-    const others = key.startsWith(metric + "|") ? [perceptual, "relmse"] : [metric];
-    return others.map(other => keys.find(k => k.startsWith(other + "|"))).find(Boolean);
+    const others = key.startsWith(metric + "|") ? [perceptual, "mse", "relmse"] : [metric];
+    return others.map(other => keys.find(k => k !== key && k.startsWith(other + "|"))).find(Boolean);
 };
 const metricName = key => {
     const [metric, formula] = key.split("|");
