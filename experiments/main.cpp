@@ -270,11 +270,13 @@ int parse_and_run(int argc, char** argv) {
     describe_command_.callback([&] { describe_command(describe); });
 
     std::string what;
-    CLI::App& list_command_ = *app.add_subcommand("list", "List scenes, variants, tracers, metrics or devices");
+    CLI::App& list_command_ = *app.add_subcommand(
+        "list",
+        "List scenes, and what each tests; variants, and what each is; their presets; tracers, metrics or devices");
     list_command_.add_option("what", what)
         ->required()
-        ->check(CLI::IsMember({"scenes", "variants", "tracers", "metrics", "devices"}))
-        ->type_name("scenes|variants|tracers|metrics|devices");
+        ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "metrics", "devices"}))
+        ->type_name("scenes|variants|presets|tracers|metrics|devices");
     add_scene_path(list_command_, common);
     list_command_.callback([&] { list_command(what, common); });
 

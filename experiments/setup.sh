@@ -1,4 +1,4 @@
-# Sourced by experiments/quickstart.sh and tests/run.sh: what a fresh Debian 12 needs, and how ssrlab is built.
+# Sourced by experiments/quickstart.sh, experiments/docs.sh and tests/run.sh: what a fresh Debian 12 needs, and how ssrlab is built.
 
 # What building and running needs.
 build_packages=(
@@ -10,6 +10,8 @@ build_packages=(
 )
 # What only the tests need: the validation layer, and a browser for the report.
 test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium)
+# What only the website of the documents needs.
+docs_packages=(python3-sphinx python3-myst-parser furo)
 
 say() { printf '\n== %s\n' "$*"; }
 die() { printf 'error: %s\n' "$*" >&2; exit 3; }

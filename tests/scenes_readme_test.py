@@ -1,4 +1,4 @@
-"""What scenes/README.md promises: a scene and a camera for each artefact, a picture of each scene."""
+"""What scenes/README.md promises: a scene and a camera for each artefact, of each scene what it tests and a picture."""
 import json
 import re
 import struct
@@ -28,9 +28,14 @@ class Artefacts(unittest.TestCase):
             for text in (artefact, look, switch):
                 self.assertGreater(len(text.strip()), 3, number)
 
-    def test_each_scene_is_described(self):
+
+class About(unittest.TestCase):
+    def test_each_scene_says_in_a_sentence_what_it_tests_and_the_readme_says_the_same(self):
         for scene in NAMES:
-            self.assertRegex(README, rf"(?m)^\| {scene} \|")
+            about = (SCENES / scene / "about.txt").read_text(encoding="utf-8")
+            # 150 letters: with the name before it, a line of `ssrlab list scenes` stays below 180.
+            self.assertRegex(about, r"\A[A-Z][^\n|]{20,148}\.\n\Z", scene)
+            self.assertIn(f"\n| {scene} | {about.strip()} |", README)
 
 
 class Pictures(unittest.TestCase):

@@ -3,7 +3,7 @@
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
-#include "experiments/commands/needs.h"
+#include "experiments/measuring/needs.h"
 #include "experiments/results/csv.h"
 #include "experiments/study/progress.h"
 

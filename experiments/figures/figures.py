@@ -2,7 +2,7 @@
 error maps. Of the study, where it has such results: error and bias by roughness, bias and variance, effects of changes,
 temporal metrics, the error of each frame, and depth fetches per ray against the resolution.
 
-usage: figures.py RESULTS [--out DIR] [--target specular] [--metric relmse] [--mask reflective]
+usage: figures.py RESULTS [--out DIR] [--target specular] [--metric mse] [--mask reflective]
 
 It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv and the EXR images (experiments/RESULTS.md), and writes the same bytes
 whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
@@ -52,7 +52,7 @@ def parse_arguments():
     parser.add_argument("results", help="a folder that `ssrlab run` filled")
     parser.add_argument("--out", help="default: figures in the results folder")
     parser.add_argument("--target", default="specular", help="default: specular")
-    parser.add_argument("--metric", help="default: relmse where the study has it, else its first metric")
+    parser.add_argument("--metric", help="default: what the study is made to compare (`primary`), else its first metric")
     parser.add_argument("--mask", default="reflective", help="default: reflective")
     return parser.parse_args()
 

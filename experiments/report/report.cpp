@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "experiments/report/answers.h"
 #include "experiments/report/html_text.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
@@ -39,26 +40,20 @@ std::string script_text(const json& value) {
     return escaped;
 }
 
-/// What speaks first: the error that is ranked, and beside it what an eye sees. `data` may say others.
-json headline_of(const json& data) {
-    json headline = {{"metric", "mse"}, {"mask", "reflective"}, {"target", "specular"}, {"perceptual_metric", "flip"}};
-    headline.update(data.value("headline", json::object()));
-    return headline;
-}
-
 /// The rows of `metric` under the headline's target and mask; where there are none such, those of the first.
 std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> errors, const PointSet& singles,
-                                                const json& headline, const std::string& metric) {
-    std::vector<const MetricSummary*> rows = rows_for_shots(errors);
-    std::erase_if(rows, [&](const MetricSummary* e) { return singles.contains({e->variant, e->point}); });
+                                                const Headline& headline, const std::string& metric) {
+    std::vector<const MetricSummary*> rows;
+    for (const MetricSummary& e : errors)
+        if (e.speaks_for_shot && !singles.contains({e.variant, e.point})) rows.push_back(&e);
     const auto narrow = [&](const std::string MetricSummary::*column, const std::string& wanted) {
         const bool has_wanted = std::ranges::any_of(rows, [&](const MetricSummary* e) { return e->*column == wanted; });
         const std::string chosen = has_wanted || rows.empty() ? wanted : rows.front()->*column;
         std::erase_if(rows, [&](const MetricSummary* e) { return e->*column != chosen; });
     };
-    narrow(&MetricSummary::target, headline["target"]);
+    narrow(&MetricSummary::target, headline.target);
     narrow(&MetricSummary::metric, metric);
-    narrow(&MetricSummary::mask, headline["mask"]);
+    narrow(&MetricSummary::mask, headline.mask);
     return rows;
 }
 
@@ -95,14 +90,14 @@ std::string answers_html(const json& answers) {
 }
 
 /// What a reader without scripts gets: the answers, the warnings, and both errors of the headline in each shot.
-std::string static_part(const json& data, std::span<const MetricSummary> errors, const PointSet& singles) {
-    std::string html = answers_html(data.value("answers", json::array()));
+std::string static_part(const json& data, const Headline& headline, std::span<const MetricSummary> errors,
+                        const PointSet& singles) {
+    std::string html = answers_html(data["answers"]);
     for (const json& warning : data["warnings"])
         html += "<p class=\"warning\">" + html_text(warning.get<std::string>()) + "</p>\n";
-    const json headline = headline_of(data);
-    const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, headline, headline["metric"]),
+    const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, headline, headline.metric),
                                             others =
-                                                headline_rows(errors, singles, headline, headline["perceptual_metric"]);
+                                                headline_rows(errors, singles, headline, headline.perceptual_metric);
     if (!rows.empty()) html += static_table(rows, data["metrics"]);
     if (!others.empty() && others.front()->metric != rows.front()->metric)
         html += static_table(others, data["metrics"]);
@@ -156,18 +151,24 @@ void write_report(const std::filesystem::path& folder) {
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
     const ReportTables tables = read_report_tables(folder, manifest);
-    write_summaries(folder, tables.errors, tables.times);
+    write_rows(folder / "summary.csv", tables.errors);
+    write_rows(folder / "time_summary.csv", tables.times);
 
-    const std::vector<SingleChange> changes = single_changes(manifest, tables.effects);
-    const PointSet singles = points_of(changes);
-    json data = report_data(tables, changes);
+    const PointSet singles = single_changes(manifest);
+    json data = report_data(tables, singles);
+    const Headline headline = headline_of(manifest, tables.errors);
+    data["headline"] = {{"metric", headline.metric},
+                        {"mask", headline.mask},
+                        {"target", headline.target},
+                        {"perceptual_metric", headline.perceptual_metric}};
+    data["answers"] = answers_json(shot_answers(tables, manifest), headline);
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
     data["manifest"].erase("stale");   // not of this study as it is
     data["warnings"] = report_warnings(manifest, tables.errors, tables.times);
     data["defaults"] = parameter_defaults(manifest);
     data["stability"] = stability, data["is_study"] = true;
-    const std::string for_no_scripts = static_part(data, tables.errors, singles) + stability_part;
+    const std::string for_no_scripts = static_part(data, headline, tables.errors, singles) + stability_part;
 
     size_t used = script_text(data).size() + for_no_scripts.size() + 100'000;  // the template, descriptions and notes
     for (const auto& [name, text] : values) used += text.size();

@@ -19,10 +19,6 @@ struct ReportTables {
 /// results.csv must be there; tables that are not are empty. `manifest` is the folder's.
 ReportTables read_report_tables(const std::filesystem::path& folder, const nlohmann::json& manifest);
 
-/// The rows that speak for their shot: those over its frames ("all") where there are such, else those of its last
-/// frame.
-std::vector<const MetricSummary*> rows_for_shots(std::span<const MetricSummary> errors);
-
 /// What the page's scripts read (page/data.js): tables as arrays, with texts as indices into `texts`, since few texts
 /// are repeated many times. Of the single changes only what speaks for a shot, not each of its frames.
-nlohmann::json report_data(const ReportTables& tables, std::span<const SingleChange> changes);
+nlohmann::json report_data(const ReportTables& tables, const PointSet& single_changes);

@@ -23,33 +23,14 @@ std::vector<RunPoint> read_points(const json& manifest) {
     return points;
 }
 
-std::vector<std::string> differing_parameters(const json& a, const json& b) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : a.items())
-        if (!b.contains(name) || b[name] != value) names.push_back(name);
-    return names;
-}
-
 }  // namespace
 
-std::vector<SingleChange> single_changes(const json& manifest, std::span<const EffectRow> effects) {
-    PointSet baselines;
-    for (const EffectRow& e : effects)
-        if (e.against == baseline_name) baselines.insert({e.against_variant, e.against_point});
-    const std::vector<RunPoint> points = read_points(manifest);
-    std::vector<SingleChange> changes;
-    for (const RunPoint& p : points) {
-        const bool is_swept = p.point.find('=') != std::string::npos;  // else a preset, which is compared as a whole
-        if (!is_swept || baselines.contains({p.variant, p.point})) continue;
-        for (const RunPoint& baseline : points) {
-            if (baseline.variant != p.variant || !baselines.contains({baseline.variant, baseline.point})) continue;
-            const std::vector<std::string> names = differing_parameters(p.parameters, baseline.parameters);
-            if (names.size() != 1) continue;
-            changes.push_back({p.variant, p.point, names.front(), p.parameters[names.front()]});
-            break;
-        }
-    }
-    return changes;
+PointSet single_changes(const json& manifest) {
+    PointSet points;
+    const json variants = manifest.value("variants", json::array());
+    for (const json& v : variants)
+        if (v.is_object() && v.contains("single_change")) points.insert({v.value("variant", ""), v.value("point", "")});
+    return points;
 }
 
 json parameter_defaults(const json& manifest) {
@@ -76,11 +57,5 @@ PointSet points_not_repeatable(const json& manifest) {
     for (const json& v : variants)
         if (v.is_object() && v.contains("not_repeatable"))
             points.insert({v.value("variant", ""), v.value("point", "")});
-    return points;
-}
-
-PointSet points_of(std::span<const SingleChange> changes) {
-    PointSet points;
-    for (const SingleChange& c : changes) points.insert({c.variant, c.point});
     return points;
 }

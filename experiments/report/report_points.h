@@ -8,16 +8,9 @@
 #include <utility>
 #include <vector>
 
-/// A swept point that differs from a baseline of its variant in one parameter. A study may hold dozens: they belong
-/// into the list of effects, not into every table and chart.
-struct SingleChange {
-    std::string variant, point, parameter;
-    nlohmann::json value;
-};
-
-/// In the order of manifest.json's `variants`; the baselines are those that `effects` compares with. Manifests of other
-/// versions may lack any key: what is not known to be a single change is none.
-std::vector<SingleChange> single_changes(const nlohmann::json& manifest, std::span<const EffectRow> effects);
+/// Points that differ from a baseline of their variant in one swept parameter (study/config/comparisons.h), as the
+/// manifest has them. A study may hold dozens: they belong into the list of effects, not into every table and chart.
+PointSet single_changes(const nlohmann::json& manifest);
 
 /// {variant: {parameter: default}} of the manifest's variants, as this build has them; those that it does not know are
 /// left out.
@@ -28,5 +21,3 @@ PointSet points_without_seeds(const nlohmann::json& manifest);
 
 /// Points whose results differ from run to run.
 PointSet points_not_repeatable(const nlohmann::json& manifest);
-
-PointSet points_of(std::span<const SingleChange> changes);

@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/measuring/reference_noise.h"
+#include "experiments/results/columns.h"
 #include "metrics/seed_pairs.h"
 
 #include <nlohmann/json.hpp>
@@ -20,6 +21,22 @@ struct ResultRow {
     std::optional<double> uncorrected, low, high, floor;
     std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
     size_t pixels = 0, non_finite = 0, negative = 0;
+    bool speaks_for_shot = false;  ///< see mark_what_speaks(); false in cells
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &ResultRow::shot}, Column{"scene", &ResultRow::scene}, Column{"camera", &ResultRow::camera},
+            Column{"frame", &ResultRow::frame}, Column{"width", &ResultRow::width},
+            Column{"height", &ResultRow::height}, Column{"variant", &ResultRow::variant},
+            Column{"point", &ResultRow::point}, Column{"seed", &ResultRow::seed}, Column{"target", &ResultRow::target},
+            Column{"metric", &ResultRow::metric}, Column{"formula", &ResultRow::formula},
+            Column{"mask", &ResultRow::mask}, Column{"value", &ResultRow::value},
+            Column{"corrected", &ResultRow::is_corrected}, Column{"uncorrected", &ResultRow::uncorrected},
+            Column{"low", &ResultRow::low}, Column{"high", &ResultRow::high}, Column{"floor", &ResultRow::floor},
+            Column{"lit_noise", &ResultRow::lit_noise}, Column{"lit_half_width", &ResultRow::lit_half_width},
+            Column{"pixels", &ResultRow::pixels}, Column{"non_finite", &ResultRow::non_finite},
+            Column{"negative", &ResultRow::negative}, Column{"speaks", &ResultRow::speaks_for_shot});
+    }
 };
 
 /// One row of splits.csv: what of an error is the same for all seeds, and what differs.
@@ -36,6 +53,17 @@ struct SplitRow {
     std::vector<float> reference_noise;  ///< of bias_squared, see ReferenceNoise::sums
     /// In bias_squared, as ResultRow has them; empty where `mse` is not measured.
     std::optional<double> lit_noise, lit_half_width;
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &SplitRow::shot}, Column{"frame", &SplitRow::frame}, Column{"variant", &SplitRow::variant},
+            Column{"point", &SplitRow::point}, Column{"target", &SplitRow::target}, Column{"mask", &SplitRow::mask},
+            Column{"seeds", &SplitRow::seeds}, Column{"mse", &SplitRow::mse},
+            Column{"bias_squared", &SplitRow::bias_squared}, Column{"variance", &SplitRow::variance},
+            Column{"variance_low", &SplitRow::variance_low}, Column{"variance_high", &SplitRow::variance_high},
+            Column{"pixels", &SplitRow::pixels}, Column{"bias_squared_low", &SplitRow::bias_squared_low},
+            Column{"bias_squared_high", &SplitRow::bias_squared_high});
+    }
 };
 
 /// One row of times.csv.
@@ -48,6 +76,14 @@ struct TimeRow {
     std::string clock;
     std::optional<double> foreign_load = {};  ///< see CpuTimes; none where the system does not tell
     bool is_disturbed = false;                ///< other work took too much of the machine meanwhile
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &TimeRow::shot}, Column{"variant", &TimeRow::variant},
+                          Column{"point", &TimeRow::point}, Column{"seed", &TimeRow::seed},
+                          Column{"stage", &TimeRow::stage}, Column{"frame", &TimeRow::frame},
+                          Column{"milliseconds", &TimeRow::milliseconds}, Column{"clock", &TimeRow::clock},
+                          Column{"foreign_load", &TimeRow::foreign_load}, Column{"disturbed", &TimeRow::is_disturbed});
+    }
 };
 
 /// One row of hits.csv: what became of the rays that one pass traced.
@@ -61,6 +97,14 @@ struct HitRow {
     double rays = 0;  ///< mean over the seeds
     double value = 0;
     std::optional<double> low, high;  ///< over the seeds; none with a single one
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &HitRow::shot}, Column{"frame", &HitRow::frame}, Column{"variant", &HitRow::variant},
+            Column{"point", &HitRow::point}, Column{"stage", &HitRow::stage}, Column{"mask", &HitRow::mask},
+            Column{"quantity", &HitRow::quantity}, Column{"seeds", &HitRow::seeds}, Column{"rays", &HitRow::rays},
+            Column{"value", &HitRow::value}, Column{"low", &HitRow::low}, Column{"high", &HitRow::high});
+    }
 };
 
 /// What a run makes of one shot and variant point with all its seeds: the unit of work that is done once, kept, and

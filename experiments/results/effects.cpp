@@ -1,8 +1,6 @@
 #include "experiments/results/effects.h"
 
-#include "core/files.h"
 #include "experiments/measuring/lit_noise.h"
-#include "experiments/results/csv.h"
 #include "experiments/results/interval.h"
 #include "metrics/statistics.h"
 #include "metrics/temporal.h"
@@ -17,24 +15,6 @@ namespace {
 
 using Quantity = std::tuple<std::string, std::string, std::string, std::string>;  // shot, target, metric, mask
 Quantity quantity_of(const ResultRow& r) { return {r.shot, r.target, r.metric, r.mask}; }
-
-unsigned frame_number(const ResultRow& row) { return row.frame == "all" ? 0 : unsigned(std::stoul(row.frame)); }
-
-/// The rows that speak for their shot.
-std::vector<const ResultRow*> chosen_rows(std::span<const ResultRow> rows) {
-    std::set<Quantity> over_frames;
-    std::map<std::string, unsigned> last;
-    for (const ResultRow& r : rows) {
-        if (r.frame == "all") over_frames.insert(quantity_of(r));
-        last[r.shot] = std::max(last[r.shot], frame_number(r));
-    }
-    std::vector<const ResultRow*> chosen;
-    for (const ResultRow& r : rows)
-        if (is_error(r.metric) &&
-            (r.frame == "all" || (frame_number(r) == last[r.shot] && !over_frames.contains(quantity_of(r)))))
-            chosen.push_back(&r);
-    return chosen;
-}
 
 using Point = std::pair<std::string, std::string>;  // variant, point
 
@@ -252,7 +232,8 @@ std::vector<EffectRow> effects_in(Table& table, const std::vector<VariantConfig>
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
                                       const PointSet& not_repeatable, std::span<const ReferenceNoise> noise) {
     Table table;
-    for (const ResultRow* r : chosen_rows(rows)) table[quantity_of(*r)][{r->variant, r->point}].seeds[r->seed] = r;
+    for (const ResultRow& r : rows)
+        if (r.speaks_for_shot && is_error(r.metric)) table[quantity_of(r)][{r.variant, r.point}].seeds[r.seed] = &r;
     for (const ReferenceNoise& n : noise) {
         const auto points = table.find({n.shot, n.target, n.metric, n.mask});
         if (points == table.end()) continue;
@@ -280,15 +261,4 @@ void set_families(std::span<EffectRow> effects, const PrimaryComparisons& primar
     }
     const std::vector<double> adjusted = holm_adjusted(p);
     for (size_t i = 0; i < told.size(); ++i) told[i]->p_holm = adjusted[i];
-}
-
-void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects) {
-    std::string text =
-        "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,"
-        "ratio,low,high,interval,p,family,p_holm\n";
-    for (const EffectRow& e : effects)
-        text +=
-            csv_line(e.shot, e.frame, e.variant, e.point, e.against, e.against_variant, e.against_point, e.target,
-                     e.metric, e.formula, e.mask, e.seeds, e.ratio, e.low, e.high, e.interval, e.p, e.family, e.p_holm);
-    write_text(folder / "effects.csv", text);
 }

@@ -17,6 +17,18 @@ struct EffectRow {
     std::string interval;                ///< what the interval holds, or why there is none (interval.h)
     std::string family;                  ///< "primary" or "exploratory", see set_families()
     std::optional<double> p_holm;        ///< p adjusted for the whole primary family; none of exploratory effects
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &EffectRow::shot}, Column{"frame", &EffectRow::frame},
+            Column{"variant", &EffectRow::variant}, Column{"point", &EffectRow::point},
+            Column{"against", &EffectRow::against}, Column{"against_variant", &EffectRow::against_variant},
+            Column{"against_point", &EffectRow::against_point}, Column{"target", &EffectRow::target},
+            Column{"metric", &EffectRow::metric}, Column{"formula", &EffectRow::formula},
+            Column{"mask", &EffectRow::mask}, Column{"seeds", &EffectRow::seeds}, Column{"ratio", &EffectRow::ratio},
+            Column{"low", &EffectRow::low}, Column{"high", &EffectRow::high}, Column{"interval", &EffectRow::interval},
+            Column{"p", &EffectRow::p}, Column{"family", &EffectRow::family}, Column{"p_holm", &EffectRow::p_holm});
+    }
 };
 
 /// (variant, point)
@@ -24,8 +36,8 @@ using PointSet = std::set<std::pair<std::string, std::string>>;
 
 /// All comparisons_of() `variants` by errors for which less is better, over the seeds that both have
 /// (jackknifed_ratio()): the ratio of the mean errors, since a mean of the seeds' ratios would hide what few seeds with
-/// large errors cost. Of a shot's rows those over its frames count where there are such ("all"), else those of its last
-/// frame.
+/// large errors cost. Only rows that speak
+/// for their shot count.
 ///
 /// Intervals hold the scatter over the seeds and, where `noise` has both points, what the noise of their common
 /// reference leaves of the ratio. No interval and no p are given for a single seed of a point that depends on it, nor
@@ -43,6 +55,3 @@ std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::
 /// (holm_adjusted()): among many comparisons some come out small by chance. All others are exploratory: their intervals
 /// and p hold for each by itself, and what they suggest is for another study to show.
 void set_families(std::span<EffectRow> effects, const PrimaryComparisons& primary);
-
-/// effects.csv. Only the header where no baseline is marked.
-void write_effects(const std::filesystem::path& folder, std::span<const EffectRow> effects);

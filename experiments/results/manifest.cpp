@@ -2,7 +2,7 @@
 
 #include "core/exr.h"
 #include "core/png.h"
-#include "experiments/commands/needs.h"
+#include "experiments/measuring/needs.h"
 #include "experiments/results/file_name.h"
 #include "experiments/study/cell_store.h"
 #include "groundtruth/reference_audit.h"
@@ -17,6 +17,7 @@ namespace {
 
 nlohmann::json variant_entries(const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
+    const std::vector<SingleChange> changes = single_changes(config.variants);
     for (const VariantConfig& v : config.variants) {
         const VariantEntry& entry = find_variant(v.variant);
         const auto variant = make_variant(v.variant, v.parameters, v.preset);
@@ -26,6 +27,12 @@ nlohmann::json variant_entries(const Config& config) {
                            {"source", entry.source},
                            {"parameters", variant->params.values()},
                            {"depends_on_seed", variant->depends_on_seed()}});
+        if (!v.swept.empty()) entries.back()["swept"] = v.swept;
+        if (variant->asks_scene()) entries.back()["asks_scene"] = true;
+        if (v.is_baseline) entries.back()["baseline"] = true;
+        for (const SingleChange& c : changes)
+            if (c.variant == v.variant && c.point == v.point)
+                entries.back()["single_change"] = {{"parameter", c.parameter}, {"value", c.value}};
         if (variant->limits != Limits::none) entries.back()["limits"] = name_of(variant->limits);
         if (const std::string why = variant->not_repeatable(); !why.empty()) entries.back()["not_repeatable"] = why;
     }

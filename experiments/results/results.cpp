@@ -1,45 +1,55 @@
 #include "experiments/results/results.h"
 
 #include "core/error.h"
-#include "core/files.h"
-#include "experiments/results/csv.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <tuple>
 
-void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& cells) {
-    std::string rows =
-        "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,"
-        "uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative\n";
-    std::string splits =
-        "shot,frame,variant,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels,bias_"
-        "squared_low,bias_squared_high\n";
-    std::string times = "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n";
-    std::string hits = "shot,frame,variant,point,stage,mask,quantity,seeds,rays,value,low,high\n";
-    const size_t no_hits = hits.size();
-    for (const Cell& cell : cells) {
-        for (const ResultRow& r : cell.rows)
-            rows += csv_line(r.shot, r.scene, r.camera, r.frame, r.width, r.height, r.variant, r.point, r.seed,
-                             r.target, r.metric, r.formula, r.mask, r.value, r.is_corrected, r.uncorrected, r.low,
-                             r.high, r.floor, r.lit_noise, r.lit_half_width, r.pixels, r.non_finite, r.negative);
-        for (const SplitRow& s : cell.splits)
-            splits += csv_line(s.shot, s.frame, s.variant, s.point, s.target, s.mask, s.seeds, s.mse, s.bias_squared,
-                               s.variance, s.variance_low, s.variance_high, s.pixels, s.bias_squared_low,
-                               s.bias_squared_high);
-        for (const TimeRow& t : cell.times)
-            times += csv_line(t.shot, t.variant, t.point, t.seed, t.stage, t.frame, t.milliseconds, t.clock,
-                              t.foreign_load, t.is_disturbed);
-        for (const HitRow& h : cell.hits)
-            hits += csv_line(h.shot, h.frame, h.variant, h.point, h.stage, h.mask, h.quantity, h.seeds, h.rays, h.value,
-                             h.low, h.high);
+namespace {
+
+unsigned frame_number(const ResultRow& row) { return unsigned(std::strtoul(row.frame.c_str(), nullptr, 10)); }
+
+}  // namespace
+
+void mark_what_speaks(std::span<ResultRow> rows) {
+    using Quantity = std::tuple<std::string, std::string, std::string, std::string>;
+    const auto quantity_of = [](const ResultRow& r) { return Quantity{r.shot, r.target, r.metric, r.mask}; };
+    std::set<Quantity> over_frames;
+    std::map<std::string, unsigned> last;
+    for (const ResultRow& r : rows) {
+        if (r.frame == "all")
+            over_frames.insert(quantity_of(r));
+        else
+            last[r.shot] = std::max(last[r.shot], frame_number(r));
     }
-    write_text(folder / "results.csv", rows);
-    if (hits.size() > no_hits)
-        write_text(folder / "hits.csv", hits);
-    else
+    for (ResultRow& r : rows)
+        r.speaks_for_shot =
+            r.frame == "all" || (frame_number(r) == last[r.shot] && !over_frames.contains(quantity_of(r)));
+}
+
+StudyRows rows_of(const std::vector<Cell>& cells) {
+    StudyRows rows;
+    const auto append = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
+    for (const Cell& cell : cells) {
+        append(rows.results, cell.rows), append(rows.splits, cell.splits), append(rows.times, cell.times);
+        append(rows.hits, cell.hits), append(rows.reference_noise, cell.reference_noise);
+    }
+    mark_what_speaks(rows.results);
+    return rows;
+}
+
+void write_tables(const std::filesystem::path& folder, const StudyRows& rows) {
+    write_rows(folder / "results.csv", rows.results);
+    write_rows(folder / "splits.csv", rows.splits);
+    write_rows(folder / "times.csv", rows.times);
+    if (rows.hits.empty())
         std::filesystem::remove(folder / "hits.csv");  // of an earlier version of the study
-    write_text(folder / "splits.csv", splits);
-    write_text(folder / "times.csv", times);
+    else
+        write_rows(folder / "hits.csv", rows.hits);
 }
 
 MedianInterval median_interval(std::vector<double> values) {

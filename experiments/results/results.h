@@ -2,11 +2,27 @@
 #include "experiments/results/cell.h"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
 
-/// Writes results.csv, splits.csv and times.csv, and hits.csv if rays were judged, in the order of `cells`; the columns
-/// are those of experiments/RESULTS.md.
-void write_tables(const std::filesystem::path& folder, const std::vector<Cell>& cells);
+/// The rows of a study's cells, in their order.
+struct StudyRows {
+    std::vector<ResultRow> results;
+    std::vector<SplitRow> splits;
+    std::vector<TimeRow> times;
+    std::vector<HitRow> hits;
+    std::vector<ReferenceNoise> reference_noise;
+};
+/// With mark_what_speaks() done.
+StudyRows rows_of(const std::vector<Cell>& cells);
+
+/// Decides which frames speak for a shot, for tables, effects, report and figures: of each quantity (target, metric,
+/// mask) the rows over its frames ("all") where a point has such, else those of its last frame.
+void mark_what_speaks(std::span<ResultRow> rows);
+
+/// Writes results.csv, splits.csv and times.csv, and hits.csv if rays were judged; the columns are explained in
+/// experiments/RESULTS.md.
+void write_tables(const std::filesystem::path& folder, const StudyRows& rows);
 
 /// The median of the values and its distribution-free 95 % interval from order statistics (binomial with p = 1/2),
 /// which needs at least 6 values; with fewer the interval is the range.

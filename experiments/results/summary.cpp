@@ -1,8 +1,6 @@
 #include "experiments/results/summary.h"
 
 #include "core/error.h"
-#include "core/files.h"
-#include "experiments/results/csv.h"
 #include "experiments/results/interval.h"
 #include "experiments/results/results.h"
 #include "metrics/quantiles.h"
@@ -11,15 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
 namespace {
-
-unsigned small_count(const CsvReader& csv, const std::string& column) {
-    return unsigned(std::min<size_t>(csv.count(column), std::numeric_limits<unsigned>::max()));
-}
 
 double mean(const std::vector<double>& values) {
     double sum = 0;
@@ -88,7 +81,7 @@ MetricSummary summary_of(const std::vector<const ResultRow*>& rows, bool depends
     MetricSummary s{first.shot,   first.frame,  first.variant, first.point,
                     first.target, first.metric, first.formula, first.mask};
     s.seeds = unsigned(rows.size());
-    s.is_corrected = first.is_corrected;
+    s.is_corrected = first.is_corrected, s.speaks_for_shot = first.speaks_for_shot;
     for (const ResultRow* row : rows) {
         s.pixels = std::max(s.pixels, row->pixels);
         s.non_finite = std::max(s.non_finite, row->non_finite);
@@ -120,67 +113,6 @@ std::vector<std::vector<const Row*>> grouped(std::span<const Row> rows, KeyOf ke
 
 }  // namespace
 
-std::vector<ResultRow> read_result_rows(const std::filesystem::path& file) {
-    std::vector<ResultRow> rows;
-    for (CsvReader csv(file); csv.next();) {
-        ResultRow r;
-        r.shot = csv.text("shot"), r.scene = csv.text("scene"), r.camera = csv.text("camera");
-        r.frame = csv.text("frame"), r.width = small_count(csv, "width"), r.height = small_count(csv, "height");
-        r.variant = csv.text("variant"), r.point = csv.text("point"), r.seed = small_count(csv, "seed");
-        r.target = csv.text("target"), r.metric = csv.text("metric"), r.formula = csv.text("formula"),
-        r.mask = csv.text("mask");
-        r.value = csv.optional_number("value"), r.is_corrected = csv.count("corrected") != 0,
-        r.uncorrected = csv.optional_number("uncorrected");
-        r.low = csv.optional_number("low"), r.high = csv.optional_number("high"),
-        r.floor = csv.optional_number("floor");
-        r.lit_noise = csv.optional_number("lit_noise"), r.lit_half_width = csv.optional_number("lit_half_width");
-        r.pixels = csv.count("pixels"), r.non_finite = csv.count("non_finite"), r.negative = csv.count("negative");
-        rows.push_back(std::move(r));
-    }
-    return rows;
-}
-
-std::vector<SplitRow> read_split_rows(const std::filesystem::path& file) {
-    std::vector<SplitRow> rows;
-    for (CsvReader csv(file); csv.next();)
-        rows.push_back({csv.text("shot"), csv.text("frame"), csv.text("variant"), csv.text("point"), csv.text("target"),
-                        csv.text("mask"), small_count(csv, "seeds"), csv.number("mse"), csv.number("bias_squared"),
-                        csv.number("variance"), csv.optional_number("variance_low"),
-                        csv.optional_number("variance_high"), csv.count("pixels"),
-                        csv.optional_number("bias_squared_low"), csv.optional_number("bias_squared_high")});
-    return rows;
-}
-
-std::vector<HitRow> read_hit_rows(const std::filesystem::path& file) {
-    std::vector<HitRow> rows;
-    for (CsvReader csv(file); csv.next();)
-        rows.push_back({csv.text("shot"), csv.text("frame"), csv.text("variant"), csv.text("point"), csv.text("stage"),
-                        csv.text("mask"), csv.text("quantity"), small_count(csv, "seeds"), csv.number("rays"),
-                        csv.number("value"), csv.optional_number("low"), csv.optional_number("high")});
-    return rows;
-}
-
-std::vector<EffectRow> read_effect_rows(const std::filesystem::path& file) {
-    std::vector<EffectRow> rows;
-    for (CsvReader csv(file); csv.next();)
-        rows.push_back({csv.text("shot"), csv.text("frame"), csv.text("variant"), csv.text("point"),
-                        csv.text("against"), csv.text("against_variant"), csv.text("against_point"), csv.text("target"),
-                        csv.text("metric"), csv.text("formula"), csv.text("mask"), csv.count("seeds"),
-                        csv.optional_number("ratio"), csv.optional_number("low"), csv.optional_number("high"),
-                        csv.optional_number("p"), csv.text("interval"), csv.text("family"),
-                        csv.optional_number("p_holm")});
-    return rows;
-}
-
-std::vector<TimeRow> read_time_rows(const std::filesystem::path& file) {
-    std::vector<TimeRow> rows;
-    for (CsvReader csv(file); csv.next();)
-        rows.push_back({csv.text("shot"), csv.text("variant"), csv.text("point"), small_count(csv, "seed"),
-                        csv.text("stage"), small_count(csv, "frame"), csv.number("milliseconds"), csv.text("clock"),
-                        csv.optional_number("foreign_load"), csv.count("disturbed") != 0});
-    return rows;
-}
-
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds) {
     std::vector<MetricSummary> summaries;
     const auto key = [](const ResultRow& r) {
@@ -206,22 +138,4 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
                              m.low, m.high, double(disturbed) / double(group.size())});
     }
     return summaries;
-}
-
-void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors,
-                     std::span<const TimeSummary> times) {
-    std::string text =
-        "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,seed_deviation,"
-        "floor,lit_noise,corrected,pixels,non_finite,negative\n";
-    for (const MetricSummary& e : errors)
-        text += csv_line(e.shot, e.frame, e.variant, e.point, e.target, e.metric, e.formula, e.mask, e.seeds, e.value,
-                         e.low, e.high, e.interval, e.seed_deviation, e.floor, e.lit_noise, e.is_corrected, e.pixels,
-                         e.non_finite, e.negative);
-    write_text(folder / "summary.csv", text);
-
-    text = "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,disturbed_share\n";
-    for (const TimeSummary& t : times)
-        text += csv_line(t.shot, t.variant, t.point, t.stage, t.clock, t.frames, t.median, t.low, t.high,
-                         t.disturbed_share);
-    write_text(folder / "time_summary.csv", text);
 }

@@ -9,14 +9,6 @@
 #include <string>
 #include <vector>
 
-/// results.csv, splits.csv, effects.csv and times.csv as they were written. Every mistake in them is an Error that
-/// names file, line and column.
-std::vector<ResultRow> read_result_rows(const std::filesystem::path& file);
-std::vector<HitRow> read_hit_rows(const std::filesystem::path& file);
-std::vector<SplitRow> read_split_rows(const std::filesystem::path& file);
-std::vector<EffectRow> read_effect_rows(const std::filesystem::path& file);
-std::vector<TimeRow> read_time_rows(const std::filesystem::path& file);
-
 /// One metric of one variant point over all its seeds.
 struct MetricSummary {
     std::string shot, frame, variant, point, target, metric, formula, mask;
@@ -30,6 +22,22 @@ struct MetricSummary {
     std::optional<double> lit_noise;       ///< what the noise of the lit colour adds to the value (LitNoise)
     bool is_corrected = false;
     size_t pixels = 0, non_finite = 0, negative = 0;  ///< the last two are the worst seed's
+    bool speaks_for_shot = false;                     ///< see mark_what_speaks()
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &MetricSummary::shot}, Column{"frame", &MetricSummary::frame},
+            Column{"variant", &MetricSummary::variant}, Column{"point", &MetricSummary::point},
+            Column{"target", &MetricSummary::target}, Column{"metric", &MetricSummary::metric},
+            Column{"formula", &MetricSummary::formula}, Column{"mask", &MetricSummary::mask},
+            Column{"seeds", &MetricSummary::seeds}, Column{"value", &MetricSummary::value},
+            Column{"low", &MetricSummary::low}, Column{"high", &MetricSummary::high},
+            Column{"interval", &MetricSummary::interval}, Column{"ranked", &MetricSummary::holds_all_noise},
+            Column{"seed_deviation", &MetricSummary::seed_deviation}, Column{"floor", &MetricSummary::floor},
+            Column{"lit_noise", &MetricSummary::lit_noise}, Column{"corrected", &MetricSummary::is_corrected},
+            Column{"pixels", &MetricSummary::pixels}, Column{"non_finite", &MetricSummary::non_finite},
+            Column{"negative", &MetricSummary::negative}, Column{"speaks", &MetricSummary::speaks_for_shot});
+    }
 };
 
 /// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same
@@ -49,9 +57,14 @@ struct TimeSummary {
     size_t frames = 0;
     double median = 0, low = 0, high = 0;  ///< ms; the range where there are fewer than 6 frames
     double disturbed_share = 0;            ///< of the frames: other work took too much of the machine meanwhile
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &TimeSummary::shot}, Column{"variant", &TimeSummary::variant},
+                          Column{"point", &TimeSummary::point}, Column{"stage", &TimeSummary::stage},
+                          Column{"clock", &TimeSummary::clock}, Column{"frames", &TimeSummary::frames},
+                          Column{"median_ms", &TimeSummary::median}, Column{"low_ms", &TimeSummary::low},
+                          Column{"high_ms", &TimeSummary::high},
+                          Column{"disturbed_share", &TimeSummary::disturbed_share});
+    }
 };
 std::vector<TimeSummary> summarise(std::span<const TimeRow> rows);
-
-/// Writes summary.csv and time_summary.csv, which the report and the figures show.
-void write_summaries(const std::filesystem::path& folder, std::span<const MetricSummary> errors,
-                     std::span<const TimeSummary> times);

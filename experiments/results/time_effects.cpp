@@ -71,20 +71,3 @@ std::vector<TimeEffectRow> time_effects(std::span<const TimeRow> times, const st
         }
     return effects;
 }
-
-void write_time_effects(const std::filesystem::path& folder, std::span<const TimeEffectRow> effects) {
-    std::string text = "shot,variant,point,against,against_variant,against_point,stage,clock,rounds,ratio,low,high\n";
-    for (const TimeEffectRow& e : effects)
-        text += csv_line(e.shot, e.variant, e.point, e.against, e.against_variant, e.against_point, e.stage, e.clock,
-                         e.rounds, e.ratio, e.low, e.high);
-    write_text(folder / "time_effects.csv", text);
-}
-
-std::vector<TimeEffectRow> read_time_effect_rows(const std::filesystem::path& file) {
-    std::vector<TimeEffectRow> rows;
-    for (CsvReader csv(file); csv.next();)
-        rows.push_back({csv.text("shot"), csv.text("variant"), csv.text("point"), csv.text("against"),
-                        csv.text("against_variant"), csv.text("against_point"), csv.text("stage"), csv.text("clock"),
-                        csv.count("rounds"), csv.number("ratio"), csv.number("low"), csv.number("high")});
-    return rows;
-}

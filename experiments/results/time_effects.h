@@ -12,6 +12,16 @@ struct TimeEffectRow {
     size_t rounds = 0;  ///< frames in which both were timed
     double ratio = 1;   ///< median over the rounds of time / time of the other
     double low = 1, high = 1;
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &TimeEffectRow::shot}, Column{"variant", &TimeEffectRow::variant},
+                          Column{"point", &TimeEffectRow::point}, Column{"against", &TimeEffectRow::against},
+                          Column{"against_variant", &TimeEffectRow::against_variant},
+                          Column{"against_point", &TimeEffectRow::against_point},
+                          Column{"stage", &TimeEffectRow::stage}, Column{"clock", &TimeEffectRow::clock},
+                          Column{"rounds", &TimeEffectRow::rounds}, Column{"ratio", &TimeEffectRow::ratio},
+                          Column{"low", &TimeEffectRow::low}, Column{"high", &TimeEffectRow::high});
+    }
 };
 
 /// The median of paired values and its 95 % interval from order statistics: the ranks n / 2 -+ 1.96 sqrt(f n) / 2 of a
@@ -31,7 +41,3 @@ PairedMedian paired_median(std::span<const double> in_order_of_time);
 /// All comparisons_of() `variants` by times.csv's rows. The points took turns in each frame, so that the ratio of one
 /// frame's times is free of what the frame costs and of slow drifts.
 std::vector<TimeEffectRow> time_effects(std::span<const TimeRow> times, const std::vector<VariantConfig>& variants);
-
-/// time_effects.csv.
-void write_time_effects(const std::filesystem::path& folder, std::span<const TimeEffectRow> effects);
-std::vector<TimeEffectRow> read_time_effect_rows(const std::filesystem::path& file);

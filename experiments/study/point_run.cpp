@@ -2,6 +2,7 @@
 
 #include "core/gbuffer/composite.h"
 #include "core/gpu/device.h"
+#include "experiments/measuring/error_causes.h"
 #include "experiments/measuring/exact_rays.h"
 #include "experiments/measuring/frame_means.h"
 #include "experiments/measuring/judged_hits.h"
@@ -54,6 +55,7 @@ struct PointRun {
     size_t rendered = 0;
     std::map<unsigned, ExactRays> exact_rays = {};  ///< by frame
     std::map<unsigned, JudgedHits> judged = {};     ///< by frame
+    std::map<unsigned, ErrorCauses> causes = {};    ///< by frame
 
     const FrameStep& last_step() const { return shot.steps.back(); }
     ResultRow row(const std::string& frame, unsigned seed) const {
@@ -174,20 +176,31 @@ bool judges_rays(const PointRun& point, const SeedRun& run, const FrameStep& ste
            size_t(std::ranges::find(seeds, run.seed) - seeds.begin()) < point.config.hits->seeds;
 }
 
-/// The rays that were recorded in this step against what they truly meet.
+/// What `specular` is compared with; null where it is not measured.
+const MetricReference* specular_reference(const PoseTruth& pose) {
+    const auto found = pose.targets.find("specular");
+    return found != pose.targets.end() ? &found->second : pose.frame_reference ? &*pose.frame_reference : nullptr;
+}
+
+/// The rays that were recorded in this step against what they truly meet, and the error that lies on their pixels.
 void judge_rays(PointRun& point, SeedRun& run, const FrameStep& step, const CameraData& camera,
-                std::span<const Mask> masks) {
+                const HostImage& specular, std::span<const Mask> masks) {
+    const FrameTruth* frame_truth = point.truth.frame(step);
+    const MetricReference* reference = frame_truth ? specular_reference(*frame_truth->pose) : nullptr;
+    const bool has_causes = reference && point.config.hits->every == 1;  // neighbours' rays are needed
     const ResultRow row = point.row(std::to_string(step.frame), run.seed);
     const bool is_shown = &step == &point.last_step() && run.seed == point.variant.seeds.front();
     for (const RecordedRays& recorded : run.probe->recorded) {
         const std::vector<ExactHit> truth = exact_rays(point, step, camera).hits(recorded, point.config.hits->every);
         point.judged[step.frame].add(run.seed, recorded, truth, point.shot.config.extent, point.config.hits->every,
                                      {masks.begin(), masks.end()});
+        if (has_causes) point.causes[step.frame].add(recorded, truth, point.shot.config.extent);
         if (is_shown && point.config.hits->every == 1)
             point.cell.images.push_back(save_verdict_image(point.settings.out, row, point.settings.image_suffix,
                                                            recorded.stage,
                                                            map_of_verdicts(recorded, truth, point.shot.config.extent)));
     }
+    if (has_causes) point.causes[step.frame].finish(*reference, specular, {masks.begin(), masks.end()});
     run.probe->recorded.clear();
 }
 
@@ -203,6 +216,8 @@ void add_hits(PointRun& point) {
                             .low = {},
                             .high = {}};
         for (HitRow& row : judged.rows(shared)) point.cell.hits.push_back(std::move(row));
+        if (const auto causes = point.causes.find(frame); causes != point.causes.end())
+            for (HitRow& row : causes->second.rows(shared)) point.cell.hits.push_back(std::move(row));
     }
 }
 
@@ -217,7 +232,7 @@ void render_step(PointRun& point, SeedRun& run, const FrameStep& step, const Fra
                                                          truth ? truth->reflectance : HostImage{});
         measure_step(point, run, step, images);
         if (run.probe->is_recording)
-            judge_rays(point, run, step, frame.camera,
+            judge_rays(point, run, step, frame.camera, images.specular,
                        truth ? masks_of(*truth, images.confidence, point.config) : std::vector<Mask>{everywhere});
         const bool is_kept = &step == &point.last_step() && run.seed == point.variant.seeds.front();
         if (is_kept && point.config.has_reference)

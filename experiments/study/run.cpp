@@ -6,6 +6,7 @@
 #include "core/json.h"
 #include "experiments/measuring/rung_errors.h"
 #include "experiments/measuring/timing.h"
+#include "experiments/report/answers.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_points.h"
 #include "experiments/results/effects.h"
@@ -185,14 +186,8 @@ void handle_stale_files(const StudyRun& study, nlohmann::json& manifest) {
 /// Writes what is finished so far, so that a long study can be read while it runs.
 void write_results(StudyRun& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
-    std::vector<ResultRow> rows;
-    std::vector<SplitRow> splits;
-    std::vector<ReferenceNoise> noise;
-    std::vector<TimeRow> times;
-    const auto append = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
+    const StudyRows rows = rows_of(study.finished);
     for (const Cell& cell : study.finished) {
-        append(rows, cell.rows), append(splits, cell.splits);
-        append(noise, cell.reference_noise), append(times, cell.times);
         for (const nlohmann::json& entry : cell.images) manifest["images"].push_back(entry);
         for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
         if (!cell.timing.is_null()) add_timing(manifest, cell.timing);
@@ -202,14 +197,14 @@ void write_results(StudyRun& study, bool is_last) {
     manifest["written"] = {{"ssrlab", study.maker["ssrlab"]}, {"at", time_stamp()}};
     if (is_last) handle_stale_files(study, manifest);
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
-    write_tables(study.settings.out, study.finished);
+    write_tables(study.settings.out, rows);
     const auto not_repeatable = points_not_repeatable(study.manifest);
     const std::vector<VariantConfig>& variants = study.config.variants;
-    std::vector<EffectRow> effects = paired_effects(rows, variants, not_repeatable, noise);
-    append(effects, split_effects(splits, variants, not_repeatable));
+    std::vector<EffectRow> effects = paired_effects(rows.results, variants, not_repeatable, rows.reference_noise);
+    std::ranges::move(split_effects(rows.splits, variants, not_repeatable), std::back_inserter(effects));
     set_families(effects, study.config.primary);
-    write_effects(study.settings.out, effects);
-    write_time_effects(study.settings.out, time_effects(times, variants));
+    write_rows(study.settings.out / "effects.csv", effects);
+    write_rows(study.settings.out / "time_effects.csv", time_effects(rows.times, variants));
     write_report(study.settings.out);
     if (is_last && manifest.contains("stale"))
         study.progress.say("note: " + std::to_string(manifest["stale"]["cells"].size()) + " cells and " +
@@ -229,6 +224,15 @@ nlohmann::json read_manifest_before(const std::filesystem::path& file) {
     } catch (const Error&) {
         return {};
     }
+}
+
+/// What a reader wants to know first, once for each shot.
+void say_answers(StudyRun& study) {
+    const std::filesystem::path& out = study.settings.out;
+    const nlohmann::json manifest = read_json(out / "manifest.json");
+    for (const ShotAnswer& answer : shot_answers(read_report_tables(out, manifest), manifest))
+        study.progress.say("\n" + answer.shot + ": " + answer.sentence +
+                           (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence));
 }
 
 }  // namespace
@@ -262,6 +266,7 @@ void run_study(const Config& config, const RunSettings& settings) {
             run_gbuffer_shot(study, shot);
         write_results(study, &shot == &config.shots.back());
     }
+    say_answers(study);
     study.progress.say("\nReport: " +
                        std::filesystem::absolute(settings.out / "report.html").lexically_normal().string());
 }

@@ -54,19 +54,21 @@ struct CellTask {
 
 /// A result while the study runs: one number that matters, over the seeds.
 void say_result(StudyRun& study, const Cell& cell) {
+    const PrimaryComparisons& shown = study.config.primary;
     std::map<std::string, std::vector<double>> values;  // by frame
     size_t non_finite = 0;                              // pixels, of the worst seed
     for (const ResultRow& r : cell.rows)
-        if (r.target == "specular" && r.metric == "relmse" && r.mask == "reflective" && r.value)
+        if (r.target == shown.target && r.metric == shown.metric && r.mask == shown.mask && r.value)
             values[r.frame].push_back(*r.value), non_finite = std::max(non_finite, size_t(r.non_finite));
     if (values.empty()) return;
     const auto& [frame, seeds] = *values.rbegin();  // "all" comes after every number
     double sum = 0;
     for (const double value : seeds) sum += value;
-    char line[200];
-    std::snprintf(line, sizeof line, "  %-24s %-32s relmse of reflective pixels %.4g (frame %s, %zu seed%s)",
-                  cell.rows.front().variant.c_str(), cell.rows.front().point.c_str(), sum / double(seeds.size()),
-                  frame.c_str(), seeds.size(), seeds.size() == 1 ? "" : "s");
+    char line[240];
+    std::snprintf(line, sizeof line, "  %-24s %-32s %s of %s pixels %.4g (frame %s, %zu seed%s)",
+                  cell.rows.front().variant.c_str(), cell.rows.front().point.c_str(), shown.metric.c_str(),
+                  shown.mask.c_str(), sum / double(seeds.size()), frame.c_str(), seeds.size(),
+                  seeds.size() == 1 ? "" : "s");
     const std::string left_out =
         non_finite > 0 ? ", without " + std::to_string(non_finite) + " that are not finite" : "";
     study.progress.say(line + left_out);

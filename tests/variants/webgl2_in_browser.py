@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "experiments"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "experiments", "report"))
 from report_browser import open_browser
 
 # On the CPU, whatever the machine has: what compiles is decided by ANGLE, not by the driver behind it.

@@ -41,7 +41,6 @@ VariantEntry amd_sssr_entry() {
         .description =
             "One ray per quad or pixel, drawn from the visible normals with blue noise, is marched through a depth "
             "pyramid; rays are accumulated over frames, filtered in space and clipped to their neighbourhood.",
-        .needs = {"has_reflective", "min_roughness"},
         .presets =
             {{"slides",
               "distances in the traversal loop as the slides of 2020 print them",

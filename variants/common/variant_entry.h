@@ -19,8 +19,6 @@ struct VariantLimits {
 /// One row of the table of techniques.
 struct VariantEntry {
     std::string name, title, source, description;
-    std::vector<std::string>
-        needs;  ///< names of scene facts (core/gbuffer/scene_facts.h) without which it leaves stages out
     std::vector<Preset> presets;
     VariantLimits limits{};
     std::function<std::unique_ptr<Variant>()> create;

@@ -37,7 +37,6 @@ VariantEntry diligent_ssr_entry() {
             "with a "
             "confidence in place of an environment; neighbours' rays are reused by ratio estimators, history is "
             "accumulated, and what stays noisy is filtered.",
-        .needs = {"has_reflective", "min_roughness"},
         .presets = {{"documented",
                      "April 2024, as its document describes it",
                      {{"mask", "stencil"},

@@ -49,7 +49,6 @@ VariantEntry four_mode_ssr_entry() {
             "A fixed stride, a march through a depth pyramid, several rays of the GGX lobe, or these blended over "
             "time; with "
             "the document's fades, and its composite where a study asks for it.",
-        .needs = {"has_reflective", "min_roughness"},
         .presets = {{"low", "the document's table: 32 steps, 4 of refinement, stride 2, 1 ray", quality(32, 4, 2, 1)},
                     {"medium", "48 steps, 6 of refinement, stride 1.5, 2 rays", quality(48, 6, 1.5, 2)},
                     {"high", "64 steps, 8 of refinement, stride 1, 4 rays: the document's default",

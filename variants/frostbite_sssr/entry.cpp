@@ -12,7 +12,6 @@ VariantEntry frostbite_sssr_entry() {
             "Probes decide how many rays each tile gets; a hierarchical march serves smooth surfaces and linear steps "
             "rough ones; each pixel weighs its neighbours' rays by its own BRDF, takes their colours from mip levels, "
             "and blends with what it reflected in the frame before.",
-        .needs = {"has_reflective", "min_roughness"},
         .presets =
             {{"frostbite_2015",
               "the configuration whose times were published: 1 ray per half-resolution pixel, 4 taps, 0.7 of the "

@@ -9,7 +9,6 @@ VariantEntry mcguire_dda_entry() {
         .description =
             "One mirror ray per pixel, walked pixel by pixel along its line on the screen until it passes "
             "behind a surface.",
-        .needs = {"has_reflective", "min_roughness"},
         .presets = {{"published",
                      "the first interval starts at the ray's origin, as in the paper",
                      {{"dda.interval_from_origin", true}}},

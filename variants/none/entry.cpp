@@ -7,7 +7,6 @@ VariantEntry none_entry() {
         .title = "No screen-space reflections",
         .source = "ssrlab",
         .description = "Confidence 0 everywhere: the fallback alone, against which every technique is read.",
-        .needs = {},
         .presets = {},
         .create = [] { return std::make_unique<None>(); },
     };

@@ -22,7 +22,6 @@ VariantEntry simple_ssr_entry() {
             "A few rays per pixel, drawn by one of five rules, marched by any tracer, shown as their mean, with or "
             "without a "
             "blur of one size for near and far.",
-        .needs = {"has_reflective", "min_roughness"},
         .presets =
             {{"slides_mirror",
               "mirror rays alone, steps in view space, the previous frame's colour",

@@ -13,7 +13,7 @@ MOST_VARIANTS = 4
 BOX_COLORS = ["#e69f00", "#56b4e9"]
 
 
-def _display(image, exposure):
+def display(image, exposure):
     """sRGB (IEC 61966-2-1) at this exposure; pixels that are not finite are magenta."""
     linear = np.clip(np.nan_to_num(image.astype(np.float64) * 2.0**exposure), 0.0, 1.0)
     coded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
@@ -21,7 +21,7 @@ def _display(image, exposure):
     return coded
 
 
-def _absolute_error(image, reference):
+def absolute_error(image, reference):
     """Mean over channels of |d|; NaN where a pixel is not finite."""
     with np.errstate(invalid="ignore"):
         error = np.abs(image.astype(np.float64) - reference.astype(np.float64)).mean(axis=-1)
@@ -50,7 +50,7 @@ def crop_boxes(error, count):
     return boxes
 
 
-def _show(axes, picture, **options):
+def show(axes, picture, **options):
     axes.imshow(picture, interpolation="nearest", **options)
     axes.set_xticks([])
     axes.set_yticks([])
@@ -90,7 +90,7 @@ def draw(results, shot, errors, chosen):
     for key in keys:
         if images[key].shape != reference.shape:
             raise ResultsError(f"the images of shot {shot} differ in size: {label(*key)} is not like the reference")
-    maps = {key: _absolute_error(images[key], reference) for key in keys}
+    maps = {key: absolute_error(images[key], reference) for key in keys}
     techniques = [maps[k] for k in keys if k[0] != "none"] or list(maps.values())
     boxes = crop_boxes(np.nanmean(np.nan_to_num(np.stack(techniques)), axis=0), 2)
     maximum = max(float(np.nanquantile(m, 0.99)) for m in maps.values()) or 1.0
@@ -119,7 +119,7 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
     figure.set_constrained_layout_pads(w_pad=0.02, h_pad=0.02, wspace=0.01, hspace=0.01)
     grid = figure.subplots(len(ratios), len(images), squeeze=False, gridspec_kw={"height_ratios": ratios})
     for column, (key, image) in enumerate(images.items()):
-        _show(grid[0, column], _display(image, exposure))
+        show(grid[0, column], display(image, exposure))
         error = errors.get((shot, *key))
         number = (
             ""
@@ -169,14 +169,14 @@ def _compose(results, shot, target, errors, chosen, images, maps, boxes, maximum
 def _draw_crop(picture_axes, map_axes, image, reference, error, box, color, exposure, maximum):
     x, y, w, h = box
     part = np.s_[y : y + h, x : x + w]
-    _show(picture_axes, _display(image[part], exposure))
+    show(picture_axes, display(image[part], exposure))
     _frame(picture_axes, color)
     if error is None:
         map_axes.axis("off")
         return
     colors = plt.get_cmap("magma").copy()
     colors.set_bad("#ff00ff")
-    _show(map_axes, error[part], cmap=colors, vmin=0, vmax=maximum)
+    show(map_axes, error[part], cmap=colors, vmin=0, vmax=maximum)
     _frame(map_axes, color)
     squared = (image[part].astype(np.float64) - reference[part]) ** 2
     map_axes.set_xlabel(

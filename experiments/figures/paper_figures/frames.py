@@ -4,7 +4,14 @@ from matplotlib.ticker import MaxNLocator
 
 from paper_figures import style
 from paper_figures.lines import draw_lines
-from paper_figures.results import frame_number, label
+from paper_figures.results import ResultsError, label
+
+
+def _frame_number(row):
+    try:
+        return int(row["frame"])
+    except ValueError as e:
+        raise ResultsError(f"summary.csv: 'frame' = \"{row['frame']}\" is neither a number nor all") from e
 
 
 def draw(results, chosen):
@@ -18,10 +25,10 @@ def draw(results, chosen):
         return None
     figure, panels, legend = style.panels(len(shots))
     for axes, shot in zip(panels, shots):
-        own = sorted((r for r in rows if r["shot"] == shot), key=lambda r: frame_number(r))
+        own = sorted((r for r in rows if r["shot"] == shot), key=_frame_number)
         lines = {
             key: [
-                (frame_number(r), results.measured(r))
+                (_frame_number(r), results.measured(r))
                 for r in own
                 if (r["variant"], r["point"]) == key and results.measured(r) is not None
             ]

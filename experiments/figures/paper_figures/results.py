@@ -35,26 +35,11 @@ def label(variant, point):
     return variant if point in ("", "default") else f"{variant} {point}"
 
 
-def frame_number(row):
-    """None for "all"."""
-    try:
-        return None if row["frame"] == "all" else int(row["frame"])
-    except ValueError as e:
-        raise ResultsError(f"summary.csv: 'frame' = \"{row['frame']}\" is neither a number nor all") from e
-
-
-def rows_for_shots(rows):
-    """Of each quantity the rows over its shot's frames ("all"), else those of the shot's last frame."""
-    over_frames = {(r["shot"], r["target"], r["metric"], r["mask"]) for r in rows if r["frame"] == "all"}
-    last = {}
-    for r in rows:
-        last[r["shot"]] = max(last.get(r["shot"], 0), frame_number(r) or 0)
-    return [
-        r
-        for r in rows
-        if r["frame"] == "all"
-        or (frame_number(r) == last[r["shot"]] and (r["shot"], r["target"], r["metric"], r["mask"]) not in over_frames)
-    ]
+def rows_that_speak(rows):
+    """Of each shot those over its frames, or of its last one, as `ssrlab run` decided."""
+    if rows and "speaks" not in rows[0]:
+        raise ResultsError("summary.csv has no column 'speaks': another version of ssrlab made it; run the study again")
+    return [r for r in rows if r["speaks"] == "1"]
 
 
 class Results:
@@ -62,7 +47,7 @@ class Results:
         self.folder = folder
         self.manifest = self._read_manifest()
         self.all_errors = self.read_csv("summary.csv")
-        self.errors = rows_for_shots(self.all_errors)
+        self.errors = rows_that_speak(self.all_errors)
         self.times = self.read_csv("time_summary.csv")
         self.splits = self.read_csv("splits.csv", is_optional=True)
         self.effects = self.read_csv("effects.csv", is_optional=True)
@@ -94,19 +79,11 @@ class Results:
 
     def _single_changes(self):
         """(variant, point) to (parameter, value) of the swept points that differ from a baseline in one parameter."""
-        values = {(v["variant"], v["point"]): v.get("parameters", {}) for v in self.manifest.get("variants", [])}
-        baselines = dict.fromkeys(
-            (e["against_variant"], e["against_point"]) for e in self.effects if e["against"] == "baseline"
-        )
-        changes = {}
-        for key, own in values.items():
-            if key in baselines or "=" not in key[1]:
-                continue
-            for baseline in baselines:
-                differing = [n for n, v in own.items() if values.get(baseline, {}).get(n) != v]
-                if baseline[0] == key[0] and len(differing) == 1:
-                    changes.setdefault(key, (differing[0], own[differing[0]]))
-        return changes
+        return {
+            (v["variant"], v["point"]): (v["single_change"]["parameter"], v["single_change"]["value"])
+            for v in self.manifest.get("variants", [])
+            if "single_change" in v
+        }
 
     def points(self):
         """The compared (variant, point), in the order of the study; single changes have a figure of their own."""
@@ -140,8 +117,10 @@ class Results:
         )
 
     def headline_metric(self):
+        """That which the study is made to compare, else the first."""
         found = list(dict.fromkeys(r["metric"] for r in self.errors))
-        return "relmse" if "relmse" in found or not found else found[0]
+        primary = self.manifest.get("primary", {}).get("metric", "mse")
+        return primary if primary in found or not found else found[0]
 
     def errors_of(self, target, metric, mask):
         """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out, and so are single changes."""

@@ -6,7 +6,8 @@ import json
 import math
 from dataclasses import dataclass
 
-from paper_figures.results import ResultsError, rows_for_shots
+from paper_figures.results import ResultsError, rows_that_speak
+from paper_tables import agreement
 
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low", "high")),
@@ -15,6 +16,8 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
     "hits": ("hits.csv", ("value", "low", "high")),
+    "agreement": ("summary.csv", ("value", "low", "high")),  # of metrics with each other, and ...
+    "eye": ("summary.csv", ("value", "low", "high")),  # ... with people: agreement.py
 }
 SHARES = ("hits",)  # may be 0: their mean over shots is the arithmetic one
 NOT_SHARES = ("fetches", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
@@ -101,9 +104,13 @@ class Selection:
         rows = results.read_csv(SOURCES[table.of][0])
         if table.of == "splits":
             rows = list(_split_rows(rows))
-        if table.of == "results":
-            rows = rows_for_shots(rows)
+        if table.of in ("results", "agreement", "eye"):
+            rows = rows_that_speak(rows)
         self.rows = [r for r in rows if all(self._is_inside(r, k) for k in table.where)]
+        if table.of == "agreement":
+            self.rows = list(agreement.agreement_rows(self.rows))
+        if table.of == "eye":
+            self.rows = list(agreement.eye_rows(self.rows, agreement.read_judgements()))
         if not self.rows:
             raise ResultsError(f"table '{table.name}': {SOURCES[table.of][0]} has no row where {json.dumps(table.where)}")
         self.disturbed = {_timed(r): _number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
@@ -208,7 +215,18 @@ def _arithmetic_mean(parts):
     return result
 
 
+def _mean_of_sample(table, parts):
+    """Of what has no interval by itself, over shots or pairs that are taken as a sample."""
+    mean = agreement.mean_over_shots if table.of == "agreement" else agreement.share_of_pairs
+    result = Cell(parts[0].table, parts[0].row, parts[0].column, *mean([c.value for c in parts]), mean_of=len(parts))
+    if table.of == "agreement":
+        result.least, result.most = min(c.value for c in parts), max(c.value for c in parts)
+    return result
+
+
 def _mean(table, parts):
+    if table.of in ("agreement", "eye"):
+        return _mean_of_sample(table, parts)
     return _arithmetic_mean(parts) if table.of in SHARES else _geometric_mean(parts)
 
 

@@ -16,3 +16,13 @@ struct PointComparison {
 /// Every point against every point marked as a baseline, and those with VariantConfig::against against that. `variants`
 /// must outlive them.
 std::vector<PointComparison> comparisons_of(const std::vector<VariantConfig>& variants);
+
+/// A swept point that differs from a baseline of its variant in one parameter. A study may hold dozens: they belong
+/// into the list of effects, not into every table and chart.
+struct SingleChange {
+    std::string variant, point, parameter;
+    nlohmann::json value;
+};
+
+/// In the order of `variants`.
+std::vector<SingleChange> single_changes(const std::vector<VariantConfig>& variants);

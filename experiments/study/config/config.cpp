@@ -240,6 +240,7 @@ void read_variant(JsonObject entry, const std::optional<std::vector<unsigned>>& 
             VariantConfig variant{.variant = name,
                                   .preset = preset,
                                   .parameters = parameters,
+                                  .swept = point,
                                   .point = preset,
                                   .seeds = {},
                                   .is_baseline = is_baseline,

@@ -34,6 +34,7 @@ struct VariantConfig {
     std::string variant;
     std::string preset;         ///< "": none
     nlohmann::json parameters;  ///< values that differ from the preset's or default ones
+    nlohmann::json swept;       ///< those of them that its `sweep` or `each` gave it; an empty object if it has neither
     std::string point;          ///< its label in results: the preset and the swept values, or "default"
     std::vector<unsigned> seeds;
     bool depends_on_seed = true;  ///< else one seed tells all, see Variant::depends_on_seed()
@@ -59,7 +60,7 @@ struct JudgedRays {
 
 /// The comparisons that a study is made for: one error of all points and shots. All others are exploratory.
 struct PrimaryComparisons {
-    std::string metric = "relmse", mask = "reflective", target = "specular";
+    std::string metric = "mse", mask = "reflective", target = "specular";
 };
 
 /// Seeds of a point whose result depends on them, if the config names none: few seeds give wide intervals, and those of

@@ -33,7 +33,7 @@ void check_tables(JsonObject& config) {
         if (!names.insert(name).second) fail(table.where(), ": two tables are called '", name, "'");
         table.text("caption");
         table.any("of");
-        table.choice("of", {"effects", "results", "splits", "times", "time_effects", "hits"}, "");
+        table.choice("of", {"effects", "results", "splits", "times", "time_effects", "hits", "agreement", "eye"}, "");
         check_object(table, "where");
         check_names(table, "rows");
         check_names(table, "columns");

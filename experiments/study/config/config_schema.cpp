@@ -55,7 +55,7 @@ json table_schema() {
     const json text = {{"type", "string"}}, any_object = {{"type", "object"}};
     return object({{"name", text},
                    {"caption", text},
-                   {"of", {{"enum", {"effects", "results", "splits", "times", "time_effects", "hits"}}}},
+                   {"of", {{"enum", {"effects", "results", "splits", "times", "time_effects", "hits", "agreement", "eye"}}}},
                    {"where", any_object},
                    {"rows", one_or_more(text)},
                    {"columns", one_or_more(text)},

@@ -154,6 +154,19 @@ TEST_F(CommandLine, EveryCommandExplainsItself) {
     EXPECT_NE(ssrlab("describe --schema").text.find("\"dda.max_steps\""), std::string::npos);
 }
 
+TEST_F(CommandLine, ListsWhatEachThingIs) {
+    fs::create_directories(folder / "more/my_scene");
+    write_text(folder / "more/my_scene/scene.json", "{}");
+    const std::string scenes = ssrlab("list scenes --scene-path more").text;
+    EXPECT_NE(scenes.find("\nfence   "), std::string::npos) << scenes;
+    EXPECT_NE(scenes.find(" Poles of 2 cm"), std::string::npos) << scenes;
+    EXPECT_NE(scenes.find("\nmy_scene\n"), std::string::npos) << "it has no about.txt\n" << scenes;
+    const std::string variants = ssrlab("list variants").text;
+    EXPECT_NE(variants.find("none: No screen-space reflections\n    Confidence 0 everywhere"), std::string::npos)
+        << variants;
+    EXPECT_NE(ssrlab("list presets").text.find("\namd_sssr:corrected\n    every defect mended"), std::string::npos);
+}
+
 TEST_F(CommandLine, SavesGBuffers) {
     const Outcome o = ssrlab("gbuffer fence --size 33 21 --out g --reversed-depth");
     EXPECT_EQ(o.code, 0) << o.text;

@@ -133,7 +133,7 @@ TEST_F(StudyTest, InAFurnaceTheScreenTellsAll) {
     const nlohmann::json entries = read_json(out / "manifest.json")["shots"][0]["truth_ladder"];
     for (const char* rung : {"camera_radiance", "on_screen"})
         EXPECT_NEAR(entry_of(entries, rung, "incident", "mse", "reflective")["value"].get<double>(), 0.0, 1e-9) << rung;
-    const auto rows = read_result_rows(out / "results.csv");
+    const auto rows = read_rows<ResultRow>(out / "results.csv");
     for (const char* target : {"incident", "camera_radiance", "on_screen"})
         EXPECT_NEAR(row_value(rows, "none", target, "mse", "reflective"), 0.0, 1e-6) << target;
 }
@@ -143,7 +143,7 @@ TEST_F(StudyTest, WhatTheScreenShowsIsTheTruthWhereItShowsAll) {
     // hidden, so all rungs are one.
     const fs::path out = run(config(R"("mirror_pillars")", with_ladder), "a");
     const nlohmann::json entries = read_json(out / "manifest.json")["shots"][0]["truth_ladder"];
-    const auto rows = read_result_rows(out / "results.csv");
+    const auto rows = read_rows<ResultRow>(out / "results.csv");
     const double none = row_value(rows, "none", "incident", "mse", "reflective");
     const nlohmann::json limit = entry_of(entries, "on_screen", "incident", "mse", "reflective");
     // Samples are shared, and what is met radiates alike in all directions.
@@ -159,7 +159,7 @@ TEST_F(StudyTest, AWallThatHidesBoundsWhatSsrCanDo) {
     const Config study = config(R"("offscreen_mirror")", with_ladder);
     const fs::path out = run(study, "a");
     const nlohmann::json manifest = read_json(out / "manifest.json");
-    const auto rows = read_result_rows(out / "results.csv");
+    const auto rows = read_rows<ResultRow>(out / "results.csv");
     const nlohmann::json& entries = manifest["shots"][0]["truth_ladder"];
     const nlohmann::json limit = entry_of(entries, "on_screen", "specular", "mse", "reflective");
     EXPECT_GT(limit["low"].get<double>(), 0.0) << "most of what this mirror shows is behind the camera";
@@ -170,7 +170,7 @@ TEST_F(StudyTest, AWallThatHidesBoundsWhatSsrCanDo) {
                   0.5 * row_value(rows, variant, "incident", "mse", "reflective"))
             << "the rung forgives what no technique can know";
     size_t splits = 0, references = 0, maps = 0;
-    for (const SplitRow& s : read_split_rows(out / "splits.csv")) splits += s.target == "on_screen";
+    for (const SplitRow& s : read_rows<SplitRow>(out / "splits.csv")) splits += s.target == "on_screen";
     for (const nlohmann::json& i : manifest["images"])
         if (i["target"] == "on_screen") ++(i["kind"] == "reference" ? references : maps);
     EXPECT_GT(splits, 0u);
@@ -203,7 +203,7 @@ TEST_F(StudyTest, OnlyTheMeasuredFrameHasALadderAndOtherReferencesStay) {
     EXPECT_EQ(both.size(), 3u) << "that of frame 4 needs no ladder and is taken from the cache";
     for (const auto& [name, has_ladder] : plain) EXPECT_FALSE(has_ladder) << name;
     EXPECT_EQ(std::ranges::count_if(both, [](const auto& r) { return r.second; }), 1);
-    for (const ResultRow& r : read_result_rows(out / "results.csv"))
+    for (const ResultRow& r : read_rows<ResultRow>(out / "results.csv"))
         if (r.target == "on_screen") {
             EXPECT_EQ(r.frame, "5");
         }

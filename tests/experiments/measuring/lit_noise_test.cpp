@@ -155,7 +155,7 @@ TEST_F(StudyTest, DirectLightHasNoNoise) {
     for (const char* lit : {"\"direct\"", "\"path_traced\""}) {
         write_text(folder / "study.json", rest + lit + "}");
         const auto rows =
-            read_result_rows(run(read_config(folder / "study.json"), lit[1] + std::string("out")) / "results.csv");
+            read_rows<ResultRow>(run(read_config(folder / "study.json"), lit[1] + std::string("out")) / "results.csv");
         ASSERT_FALSE(rows.empty());
         for (const ResultRow& r : rows) EXPECT_EQ(r.lit_noise.has_value(), lit[1] == 'p') << r.mask;
     }

@@ -1,6 +1,7 @@
 // Effects hold the noise of the reference that both of their errors are made with.
 #include "experiments/results/effects.h"
 #include "experiments/results/interval.h"
+#include "experiments/results/results.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -57,6 +58,7 @@ EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, b
         {.variant = "v", .point = "base", .depends_on_seed = seeds > 0, .is_baseline = true},
         {.variant = "v", .point = "better", .depends_on_seed = seeds > 0}};
     if (!has_noise) noise.clear();
+    mark_what_speaks(rows);
     return paired_effects(rows, variants, {}, noise).at(0);
 }
 

@@ -261,6 +261,6 @@ void write_report_fixture(const std::filesystem::path& folder) {
                 for (const json& image : cells.back().images) manifest["images"].push_back(image);
             }
     }
-    write_tables(folder, cells);
+    write_tables(folder, rows_of(cells));
     write_text(folder / "manifest.json", manifest.dump(1));
 }

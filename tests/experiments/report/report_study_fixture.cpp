@@ -254,6 +254,10 @@ json study_manifest(const std::vector<StudyShot>& shots) {
                                         {"source", ""},
                                         {"parameters", p.parameters},
                                         {"depends_on_seed", p.variant != "none"}});
+        if (const size_t swept = p.point.find(' '); swept != std::string::npos) {
+            const std::string name = p.point.substr(swept + 1, p.point.find('=') - swept - 1);
+            manifest["variants"].back()["single_change"] = {{"parameter", name}, {"value", p.parameters[name]}};
+        }
         if (!p.not_repeatable.empty()) manifest["variants"].back()["not_repeatable"] = p.not_repeatable;
     }
     return manifest;
@@ -276,9 +280,6 @@ void add_rung_images(const std::filesystem::path& folder, const std::string& sho
 void write_study_fixture(const std::filesystem::path& folder) {
     const std::vector<StudyShot> shots = study_shots();
     std::vector<Cell> cells;
-    std::vector<ResultRow> rows;
-    std::vector<SplitRow> splits;
-    std::vector<TimeRow> times;
     for (const StudyShot& shot : shots) {
         for (const StudyPoint& point : study_points) {
             Cell cell;
@@ -291,9 +292,6 @@ void write_study_fixture(const std::filesystem::path& folder) {
             if (point.point == "first" || point.point == "mended") add_hits(shot, point, cell);
             if (point.point == "first") add_times(shot, point, 1, cell);
             if (point.point == "mended") add_times(shot, point, 2, cell);
-            times.insert(times.end(), cell.times.begin(), cell.times.end());
-            rows.insert(rows.end(), cell.rows.begin(), cell.rows.end());
-            splits.insert(splits.end(), cell.splits.begin(), cell.splits.end());
             cells.push_back(std::move(cell));
         }
     }
@@ -306,14 +304,15 @@ void write_study_fixture(const std::filesystem::path& folder) {
             variant.against = {{"float_histories", false}}, variant.against_point = "first round_up_tiles=true";
         variants.push_back(variant);
     }
-    write_tables(folder, cells);
-    std::vector<EffectRow> effects = paired_effects(rows, variants);
-    for (EffectRow& e : split_effects(splits, variants)) effects.push_back(std::move(e));
+    const StudyRows rows = rows_of(cells);
+    write_tables(folder, rows);
+    std::vector<EffectRow> effects = paired_effects(rows.results, variants);
+    for (EffectRow& e : split_effects(rows.splits, variants)) effects.push_back(std::move(e));
     for (EffectRow& e : effects)
         if (e.point == "first race=true") e.low = e.high = e.p = std::nullopt, e.interval = interval::not_repeatable;
     set_families(effects, {});
-    write_effects(folder, effects);
-    write_time_effects(folder, time_effects(times, variants));
+    write_rows(folder / "effects.csv", effects);
+    write_rows(folder / "time_effects.csv", time_effects(rows.times, variants));
     json manifest = study_manifest(shots);
     add_rung_images(folder, shots.front().name, manifest["images"]);
     write_text(folder / "manifest.json", manifest.dump(1));

@@ -22,21 +22,16 @@ TEST_F(StudyReport, ReadsEffectsAsTheyWereWritten) {
     const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
     write_text(folder / "before.csv", read_text(folder / "effects.csv"));
     ASSERT_FALSE(tables.effects.empty());
-    write_effects(folder, tables.effects);
+    write_rows(folder / "effects.csv", tables.effects);
     EXPECT_EQ(read_text(folder / "effects.csv"), read_text(folder / "before.csv"));
 }
 
 TEST_F(StudyReport, TellsSingleChangesFromPresets) {
-    const auto manifest = read_json(folder / "manifest.json");
-    const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
-    const std::vector<SingleChange> changes = single_changes(manifest, tables.effects);
-    ASSERT_EQ(changes.size(), 3u);
-    EXPECT_EQ(changes[0].point, "first float_histories=true");
-    EXPECT_EQ(changes[0].parameter, "float_histories");
-    EXPECT_EQ(changes[0].value, true);
-    EXPECT_EQ(changes[1].parameter, "round_up_tiles");
-    EXPECT_TRUE(single_changes(manifest, {}).empty());  // without a baseline nothing is a change of one
-    EXPECT_TRUE(single_changes(nlohmann::json::object(), tables.effects).empty());
+    const PointSet changes = single_changes(read_json(folder / "manifest.json"));
+    EXPECT_EQ(changes, (PointSet{{"sssr", "first float_histories=true"},
+                                 {"sssr", "first race=true"},
+                                 {"sssr", "first round_up_tiles=true"}}));
+    EXPECT_TRUE(single_changes(nlohmann::json::object()).empty());
 }
 
 TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredVariants) {
@@ -54,10 +49,10 @@ TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredVariants) {
 TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
     const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
     size_t over_frames = 0, of_last = 0;
-    for (const MetricSummary* e : rows_for_shots(tables.errors)) {
-        if (e->metric != "relmse" || e->mask != "reflective") continue;
-        const bool has_frames = e->shot == study_moving_shot || e->shot == study_step_shot;
-        EXPECT_EQ(e->frame, has_frames ? "all" : "0") << e->shot;
+    for (const MetricSummary& e : tables.errors) {
+        if (!e.speaks_for_shot || e.metric != "relmse" || e.mask != "reflective") continue;
+        const bool has_frames = e.shot == study_moving_shot || e.shot == study_step_shot;
+        EXPECT_EQ(e.frame, has_frames ? "all" : "0") << e.shot;
         ++(has_frames ? over_frames : of_last);
     }
     EXPECT_EQ(over_frames, 2u * 7u);
@@ -66,15 +61,19 @@ TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
 
 TEST_F(StudyReport, CarriesEachFrameOfPresetsAlone) {
     const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
-    const auto changes = single_changes(read_json(folder / "manifest.json"), tables.effects);
-    const nlohmann::json data = report_data(tables, changes);
-    EXPECT_EQ(data["effects"].size(), tables.effects.size());
-    EXPECT_EQ(data["splits"].size(), 7u * 5u);
+    const nlohmann::json data = report_data(tables, single_changes(read_json(folder / "manifest.json")));
+    EXPECT_EQ(data["effects"]["rows"].size(), tables.effects.size());
+    EXPECT_EQ(data["splits"]["rows"].size(), 7u * 5u);
+    const std::vector<std::string> columns = data["frames"]["columns"];
+    const auto text = [&](const nlohmann::json& row, const char* column) {
+        const auto at = size_t(std::ranges::find(columns, column) - columns.begin());
+        return data["texts"][row.at(at).get<size_t>()].get<std::string>();
+    };
     size_t frames = 0;
-    for (const auto& row : data["frames"]) {
-        const std::string point = data["texts"][row[2].get<size_t>()];
+    for (const auto& row : data["frames"]["rows"]) {
+        const std::string point = text(row, "point");
         EXPECT_EQ(point.find('='), std::string::npos) << point;
-        if (data["texts"][row[6].get<size_t>()] == "reflective") ++frames;
+        if (text(row, "mask") == "reflective") ++frames;
     }
     EXPECT_EQ(frames, 4u * (4u + 16u));  // none and three presets, in all frames of both shots that have several
 }

@@ -173,8 +173,8 @@ TEST_F(Report, ReducesImagesToTheBudgetAndSaysSo) {
 }
 
 TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
-    const auto errors = summarise(read_result_rows(folder / "results.csv"));
-    const auto times = summarise(read_time_rows(folder / "times.csv"));
+    const auto errors = summarise(read_rows<ResultRow>(folder / "results.csv"));
+    const auto times = summarise(read_rows<TimeRow>(folder / "times.csv"));
     auto manifest = read_json(folder / "manifest.json");
     const auto warnings = report_warnings(manifest, errors, times);
     EXPECT_TRUE(contains(warnings, "This study: a clause that the study has to say."));
@@ -200,8 +200,8 @@ TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
 }
 
 TEST_F(Report, WarnsOfDisturbedTimesAndOfSeveralMakers) {
-    const auto errors = summarise(read_result_rows(folder / "results.csv"));
-    auto rows = read_time_rows(folder / "times.csv");
+    const auto errors = summarise(read_rows<ResultRow>(folder / "results.csv"));
+    auto rows = read_rows<TimeRow>(folder / "times.csv");
     auto manifest = read_json(folder / "manifest.json");
     const auto now = [&] { return report_warnings(manifest, errors, summarise(rows)); };
     const size_t before = now().size();
@@ -221,7 +221,7 @@ TEST_F(Report, WarnsOfDisturbedTimesAndOfSeveralMakers) {
 }
 
 TEST_F(Report, WarnsOfLightThatIsTooNoisy) {
-    auto errors = summarise(read_result_rows(folder / "results.csv"));
+    auto errors = summarise(read_rows<ResultRow>(folder / "results.csv"));
     const auto manifest = read_json(folder / "manifest.json");
     const size_t before = report_warnings(manifest, errors, {}).size();
     for (MetricSummary& e : errors) e.lit_noise = 0.09 * std::abs(*e.value);

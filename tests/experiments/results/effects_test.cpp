@@ -4,6 +4,7 @@
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/splits.h"
 #include "experiments/results/interval.h"
+#include "experiments/results/results.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -31,6 +32,12 @@ ResultRow row(const std::string& frame, const std::string& point, unsigned seed,
 const std::vector<VariantConfig> two_points = {{.variant = "v", .point = "base", .is_baseline = true},
                                                {.variant = "v", .point = "better"}};
 
+std::vector<EffectRow> effects_of(std::vector<ResultRow> rows, const std::vector<VariantConfig>& variants,
+                                  const PointSet& not_repeatable = {}) {
+    mark_what_speaks(rows);
+    return paired_effects(rows, variants, not_repeatable);
+}
+
 }  // namespace
 
 TEST(Effects, AreRatiosPairedBySeed) {
@@ -46,7 +53,7 @@ TEST(Effects, AreRatiosPairedBySeed) {
                                                             : 0.55)));
         rows.push_back(row("0", "base", seed, "bias", -1)), rows.push_back(row("0", "better", seed, "bias", -1));
     }
-    const std::vector<EffectRow> effects = paired_effects(rows, two_points);
+    const std::vector<EffectRow> effects = effects_of(rows, two_points);
     ASSERT_EQ(effects.size(), 1u) << "signed biases have no ratio";
     const EffectRow& e = effects.front();
     EXPECT_EQ(e.point, "better");
@@ -71,7 +78,7 @@ TEST(Effects, AreAlsoToldAgainstThePointThatIsOtherwiseTheSame) {
         for (unsigned seed = 0; seed < 3; ++seed)
             rows.push_back(row("0", point, seed, "mse", error * (1 + 0.01 * double(seed * (point == "base" ? 1 : 2)))));
     std::map<std::string, const EffectRow*> found;
-    const std::vector<EffectRow> effects = paired_effects(rows, variants);
+    const std::vector<EffectRow> effects = effects_of(rows, variants);
     for (const EffectRow& e : effects) found[e.point + "/" + e.against + "/" + e.against_point] = &e;
     ASSERT_EQ(effects.size(), 3u);
     ASSERT_EQ(found.size(), 3u);
@@ -86,19 +93,19 @@ TEST(Effects, CompareWithAPointWithoutSeeds) {
     std::vector<ResultRow> rows = {row("0", "base", 0, "mse", 2)};
     for (unsigned seed = 3; seed < 6; ++seed) rows.push_back(row("0", "better", seed, "mse", 0.9 + 0.1 * (seed - 3)));
     std::vector<VariantConfig> variants = two_points;
-    EXPECT_EQ(paired_effects(rows, variants).at(0).interval, interval::no_value) << "no seed in common";
+    EXPECT_EQ(effects_of(rows, variants).at(0).interval, interval::no_value) << "no seed in common";
     variants[0].depends_on_seed = false;
-    const EffectRow e = paired_effects(rows, variants).at(0);
+    const EffectRow e = effects_of(rows, variants).at(0);
     EXPECT_EQ(e.seeds, 3u);
     EXPECT_NEAR(*e.ratio, 0.5, 1e-12);
     // Student's interval of the mean of 0.9, 1, 1.1 over 2: 4.303 * 0.1 / sqrt(3) / 2 about 0.5, a little more above
     // than below as the logarithm is what is normal.
     EXPECT_NEAR(*e.high / *e.low, std::exp(2 * 4.3027 * 0.1 / std::sqrt(3.0)), 0.005);
     std::swap(variants[0].is_baseline, variants[1].is_baseline);
-    EXPECT_NEAR(*paired_effects(rows, variants).at(0).low, 1 / *e.high, 1e-12);
+    EXPECT_NEAR(*effects_of(rows, variants).at(0).low, 1 / *e.high, 1e-12);
     // Nothing is random but the reference, of which nothing is known.
     rows.back().seed = 0, variants[1].depends_on_seed = false;
-    EXPECT_EQ(paired_effects(std::vector{rows.front(), rows.back()}, variants).at(0).interval,
+    EXPECT_EQ(effects_of(std::vector{rows.front(), rows.back()}, variants).at(0).interval,
               interval::unknown_reference);
 }
 
@@ -106,7 +113,7 @@ TEST(Effects, PairSeedsByTheirNumber) {
     std::vector<ResultRow> rows;
     for (unsigned seed = 0; seed < 4; ++seed) rows.push_back(row("0", "base", seed, "mse", std::pow(10.0, seed)));
     for (const unsigned seed : {1, 3}) rows.push_back(row("0", "better", seed, "mse", 0.5 * std::pow(10.0, seed)));
-    const std::vector<EffectRow> effects = paired_effects(rows, two_points);
+    const std::vector<EffectRow> effects = effects_of(rows, two_points);
     ASSERT_EQ(effects.size(), 1u);
     EXPECT_EQ(effects[0].seeds, 2u);
     EXPECT_NEAR(*effects[0].ratio, 0.5, 1e-12) << "rounding of logarithms";
@@ -126,7 +133,7 @@ TEST(Effects, OfThePrimaryErrorAreOneFamilyAndAllOthersExploratory) {
                     r.shot = key.first, r.target = key.second;
                     rows.push_back(r);
                 }
-    std::vector<EffectRow> effects = paired_effects(rows, two_points);
+    std::vector<EffectRow> effects = effects_of(rows, two_points);
     ASSERT_EQ(effects.size(), 8u);
     set_families(effects, {.metric = "mse", .mask = "all", .target = "specular"});
     const auto effect_of = [&](const std::string& shot, const std::string& target, const std::string& metric) {
@@ -160,7 +167,7 @@ TEST(Effects, OfRowsOverFramesComeBeforeThoseOfOneFrame) {
                 rows.push_back(row(frame, "base", seed, "flip", 1 + seed));
                 rows.push_back(row(frame, "better", seed, "flip", (1 + seed) * share));
             }
-        const std::vector<EffectRow> effects = paired_effects(rows, two_points);
+        const std::vector<EffectRow> effects = effects_of(rows, two_points);
         ASSERT_EQ(effects.size(), 2u);
         for (const EffectRow& e : effects) {
             EXPECT_EQ(e.frame, e.metric == "mse" ? "all" : "11") << order;
@@ -173,11 +180,11 @@ TEST(Effects, OfRowsOverFramesComeBeforeThoseOfOneFrame) {
 TEST(Effects, AreNotMadeUp) {
     // An error that the correction for noise brought to or below 0 has no ratio, and a single seed no interval.
     std::vector<EffectRow> effects =
-        paired_effects(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", -1e-9)}, two_points);
+        effects_of(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", -1e-9)}, two_points);
     ASSERT_EQ(effects.size(), 1u);
     EXPECT_FALSE(effects[0].ratio);
     effects =
-        paired_effects(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", 0.25)}, two_points);
+        effects_of(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", 0.25)}, two_points);
     EXPECT_EQ(effects[0].ratio, 0.25);
     EXPECT_FALSE(effects[0].low || effects[0].high || effects[0].p || effects[0].p_holm);
     EXPECT_EQ(effects[0].interval, interval::one_seed);
@@ -185,10 +192,10 @@ TEST(Effects, AreNotMadeUp) {
     std::vector<ResultRow> equal;
     for (const char* point : {"base", "better"})
         for (unsigned seed = 0; seed < 2; ++seed) equal.push_back(row("0", point, seed, "mse", 1 + seed));
-    effects = paired_effects(equal, two_points);
+    effects = effects_of(equal, two_points);
     EXPECT_EQ(effects[0].ratio, 1.0);
     EXPECT_EQ(effects[0].p, 1.0);
-    EXPECT_TRUE(paired_effects(std::vector{row("0", "other", 0, "mse", 1)}, two_points).empty());
+    EXPECT_TRUE(effects_of(std::vector{row("0", "other", 0, "mse", 1)}, two_points).empty());
 }
 
 TEST(Effects, OfWhatVariesFromRunToRunAreRatiosAlone) {
@@ -201,7 +208,7 @@ TEST(Effects, OfWhatVariesFromRunToRunAreRatiosAlone) {
     std::vector<VariantConfig> points = two_points;
     points.push_back({.variant = "v", .point = "third"});
     for (const char* varies : {"base", "better"}) {
-        const std::vector<EffectRow> effects = paired_effects(rows, points, {{"v", varies}});
+        const std::vector<EffectRow> effects = effects_of(rows, points, {{"v", varies}});
         ASSERT_EQ(effects.size(), 2u);
         for (const EffectRow& e : effects) {
             EXPECT_LT(e.ratio, 1.0);
@@ -220,7 +227,7 @@ TEST(Effects, OfUnboundedErrorsAreThoseOfTheirMeans) {
         rows.push_back(row("0", "base", seed, "mse", 1));
         rows.push_back(row("0", "better", seed, "mse", seed == 5 ? 8 : 0.7));
     }
-    const EffectRow e = paired_effects(rows, two_points).at(0);
+    const EffectRow e = effects_of(rows, two_points).at(0);
     EXPECT_NEAR(*e.ratio, 12.9 / 8, 1e-12);
     EXPECT_LT(*e.low, 1);
     EXPECT_GT(*e.p, 0.05) << "a single firefly may be chance";
@@ -238,7 +245,7 @@ TEST(Effects, HoldWhatNoisyLightMayHaveAdded) {
             rows.push_back(row("0", "better", seed, "mse", 1.05 * own * common));
             if (is_noisy) rows.back().lit_noise = 0.1 * *rows.back().value, rows.back().lit_half_width = 0;
         }
-        effects[is_noisy] = paired_effects(rows, two_points).at(0);
+        effects[is_noisy] = effects_of(rows, two_points).at(0);
     }
     const EffectRow &clean = effects[false], &noisy = effects[true];
     EXPECT_EQ(*noisy.ratio, *clean.ratio);
@@ -253,9 +260,9 @@ TEST(Effects, NeedAValueOfEverySeed) {
     for (unsigned seed = 0; seed < 3; ++seed)
         for (const char* point : {"base", "better"}) rows.push_back(row("0", point, seed, "mse", 1));
     rows[2].value.reset();
-    EXPECT_FALSE(paired_effects(rows, two_points).at(0).ratio) << "a missing value is no 0";
+    EXPECT_FALSE(effects_of(rows, two_points).at(0).ratio) << "a missing value is no 0";
     rows[2].value = 0;  // nor is an error of 0 a missing one
-    EXPECT_NEAR(*paired_effects(rows, two_points).at(0).ratio, 1.5, 1e-12);
+    EXPECT_NEAR(*effects_of(rows, two_points).at(0).ratio, 1.5, 1e-12);
 }
 
 TEST(Effects, TellBiasFromVariance) {

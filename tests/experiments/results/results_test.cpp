@@ -31,7 +31,7 @@ TEST(Tables, QuoteWhatNeedsIt) {
                           .clock = "host_fence",
                           .foreign_load = 0.25,
                           .is_disturbed = true});
-    write_tables(folder, {cell});
+    write_tables(folder, rows_of({cell}));
     EXPECT_EQ(read_text(folder / "times.csv"),
               "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"
               "a.b.1x1,v,\"x=\"\"1,2\"\"\",3,s,4,0.5,host_fence,0.25,1\n");
@@ -54,8 +54,8 @@ TEST(Tables, GiveSplitsAFileOfTheirOwn) {
                            .variance_low = {},
                            .variance_high = {},
                            .pixels = 9});
-    write_tables(folder, {cell});
-    const std::vector<SplitRow> rows = read_split_rows(folder / "splits.csv");
+    write_tables(folder, rows_of({cell}));
+    const std::vector<SplitRow> rows = read_rows<SplitRow>(folder / "splits.csv");
     ASSERT_EQ(rows.size(), 1u);
     EXPECT_EQ(rows[0].frame, "7");
     EXPECT_EQ(rows[0].variance, 0.25);

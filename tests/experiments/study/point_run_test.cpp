@@ -11,8 +11,8 @@ TEST_F(StudyTest, AHeldPoseDoesNotFlickerAndHasOneReference) {
         R"(], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}})";
     write_text(folder / "held.json", "{\"shots\": [" + shot + R"(, "warm_up": 2, "repeat": 3})" + rest);
     write_text(folder / "once.json", "{\"shots\": [" + shot + "}" + rest);
-    const auto held = read_result_rows(run(read_config(folder / "held.json"), "held") / "results.csv"),
-               once = read_result_rows(run(read_config(folder / "once.json"), "once") / "results.csv");
+    const auto held = read_rows<ResultRow>(run(read_config(folder / "held.json"), "held") / "results.csv"),
+               once = read_rows<ResultRow>(run(read_config(folder / "once.json"), "once") / "results.csv");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "cache"), {}), 2) << "one reference and its lock";
     size_t flickers = 0, equal = 0;
     for (const ResultRow& r : held) {
@@ -38,8 +38,8 @@ TEST_F(StudyTest, EachFrameIsMeasuredAgainstItsOwnTruth) {
         R"(}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": "mse", "timing": {"frames": 0}})";
     write_text(folder / "three.json", shot + R"([4, 5, 6], "warm_up": 1)" + rest);
     write_text(folder / "one.json", shot + "[5]" + rest);
-    const auto three = read_result_rows(run(read_config(folder / "three.json"), "three") / "results.csv"),
-               one = read_result_rows(run(read_config(folder / "one.json"), "one") / "results.csv");
+    const auto three = read_rows<ResultRow>(run(read_config(folder / "three.json"), "three") / "results.csv"),
+               one = read_rows<ResultRow>(run(read_config(folder / "one.json"), "one") / "results.csv");
     const auto value = [](const std::vector<ResultRow>& rows, const std::string& frame, const std::string& metric,
                           const std::string& mask) {
         for (const ResultRow& r : rows)
@@ -70,7 +70,7 @@ TEST_F(StudyTest, AStepGhostsOnlyWhereSomethingRemembers) {
         R"("change": 30, "repeat": 12}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "timing": {"frames": 0}})";
     write_text(folder / "step.json", shot + "[29, 30], " + rest);
     size_t ghosts = 0;
-    for (const ResultRow& r : read_result_rows(run(read_config(folder / "step.json"), "step") / "results.csv"))
+    for (const ResultRow& r : read_rows<ResultRow>(run(read_config(folder / "step.json"), "step") / "results.csv"))
         if (r.metric == "ghost_length" && (r.mask == "all" || r.mask == "reflective")) {
             EXPECT_EQ(r.value, 0.0) << r.mask;
             ++ghosts;
@@ -93,7 +93,7 @@ TEST_F(StudyTest, AHistoryGhosts) {
                       "parameters": {"max_samples": 12, "min_history_samples": 6, "clip_scale": 100}}],
         "metrics": "mse", "targets": "specular", "masks": "reflective", "seeds": 1, "timing": {"frames": 0}})");
     std::map<std::string, std::optional<double>> lengths;
-    for (const ResultRow& r : read_result_rows(run(read_config(folder / "step.json"), "step") / "results.csv"))
+    for (const ResultRow& r : read_rows<ResultRow>(run(read_config(folder / "step.json"), "step") / "results.csv"))
         if (r.frame == "all") lengths[r.metric] = r.value;
     for (const char* metric : {"ghost_length", "settling_length"}) {
         ASSERT_TRUE(lengths[metric]) << metric;
@@ -110,8 +110,8 @@ TEST_F(StudyTest, SeedsKnowNothingOfEachOther) {
         "reference": {"samples": 16}, "variants": [{"variant": "amd_sssr", "preset": "corrected"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, )";
     write_text(folder / "both.json", shot + R"("seeds": [3, 7]})");
     write_text(folder / "alone.json", shot + R"("seeds": [7]})");
-    const auto both = read_result_rows(run(read_config(folder / "both.json"), "both") / "results.csv");
-    const auto alone = read_result_rows(run(read_config(folder / "alone.json"), "alone") / "results.csv");
+    const auto both = read_rows<ResultRow>(run(read_config(folder / "both.json"), "both") / "results.csv");
+    const auto alone = read_rows<ResultRow>(run(read_config(folder / "alone.json"), "alone") / "results.csv");
     size_t equal = 0, different = 0;
     for (const ResultRow& r : alone)
         for (const ResultRow& o : both) {

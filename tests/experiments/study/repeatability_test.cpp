@@ -43,7 +43,7 @@ TEST_F(StudyTest, SaysWhichPointsDifferFromRunToRun) {
     for (const size_t i : {0, 2}) EXPECT_FALSE(manifest["variants"][i].contains("not_repeatable"));
     const std::string point = manifest["variants"][1]["point"];
 
-    const std::vector<EffectRow> effects = read_effect_rows(out / "effects.csv");
+    const std::vector<EffectRow> effects = read_rows<EffectRow>(out / "effects.csv");
     ASSERT_EQ(effects.size(), 2u * 3u) << "on the squared error and its parts";
     for (const EffectRow& e : effects) {
         if (e.metric != "mse") continue;

@@ -25,12 +25,14 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
     EXPECT_TRUE(hits.starts_with("shot,frame,variant,point,stage,mask,quantity,seeds,rays,value,low,high\n"));
 
     std::map<std::string, double> verdicts;  // sums by point, pass and mask
+    std::map<std::string, double> causes;  // of the error, likewise
     std::map<std::string, unsigned> seeds;
-    for (const HitRow& r : read_hit_rows(folder / "judged/hits.csv")) {
+    for (const HitRow& r : read_rows<HitRow>(folder / "judged/hits.csv")) {
         const std::string where = r.point + " " + r.stage + " " + r.mask;
         EXPECT_EQ(r.shot, "mirror_pillars.main.48x27");
         EXPECT_NE(r.variant, "none");
         EXPECT_GT(r.rays, 0) << where;
+        if (r.stage == "error") causes[where] += r.value;
         for (const char* verdict : {"right", "wrong_place", "false_hit", "avoidable_miss", "unavoidable_miss", "empty"})
             if (r.quantity == verdict) verdicts[where] += r.value;
         if (r.quantity == "correct" && r.point.find("exact_scene") != std::string::npos) {
@@ -43,6 +45,8 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
     EXPECT_GE(verdicts.size(), 2u * 3) << "two masks of a pass and more for each of three points";
     // Each value is rounded to 6 digits.
     for (const auto& [where, sum] : verdicts) EXPECT_NEAR(sum, 1, 1e-5) << where;
+    EXPECT_EQ(causes.size(), 2u * 3);
+    for (const auto& [where, sum] : causes) EXPECT_NEAR(sum, 1, 1e-5) << where;
     EXPECT_EQ(seeds["frostbite_sssr"], 2u) << "of the point's three, as many as are asked for";
     EXPECT_EQ(seeds["mcguire_dda"], 1u) << "without chance one tells all";
 
@@ -75,7 +79,7 @@ TEST_F(StudyTest, JudgesOnePixelInEvery) {
                    R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}], "reference": {"samples": 16},
 "variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "masks": "all", "timing": {"frames": 0}, "lit": "direct", "hits": )" +
                        hits + "}");
-        for (const HitRow& r : read_hit_rows(run(read_config(folder / "study.json"), out) / "hits.csv"))
+        for (const HitRow& r : read_rows<HitRow>(run(read_config(folder / "study.json"), out) / "hits.csv"))
             if (r.quantity == "right") return r.rays;
         return 0.0;
     };

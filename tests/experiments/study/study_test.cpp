@@ -34,15 +34,15 @@ TEST_F(StudyTest, RepeatsItselfAndContinues) {
 }
 
 TEST_F(StudyTest, LinearTracingBeatsNothingOnMirrors) {
-    const auto rows = read_result_rows(run(config(R"("mirror_pillars")"), "a") / "results.csv");
+    const auto rows = read_rows<ResultRow>(run(config(R"("mirror_pillars")"), "a") / "results.csv");
     EXPECT_LT(value_of(rows, "mcguire_dda", "mse", "reflective"), 0.5 * value_of(rows, "none", "mse", "reflective"));
     for (const ResultRow& r : rows) EXPECT_EQ(r.non_finite, 0u);
 }
 
 TEST_F(StudyTest, LeavingOutChangesNothing) {
     const Config study = config(R"(["all_rough", "sky_only", "fence"])");
-    const auto lean = read_result_rows(run(study, "lean") / "results.csv"),
-               all = read_result_rows(run(study, "all", true) / "results.csv");
+    const auto lean = read_rows<ResultRow>(run(study, "lean") / "results.csv"),
+               all = read_rows<ResultRow>(run(study, "all", true) / "results.csv");
     ASSERT_EQ(lean.size(), all.size());
     // The rasteriser's and the variants' images are the same bits. The path tracer's extra features are identities that
     // round in other places: 1e-7 of a radiance, some hundred times that where a metric subtracts; its noise is 1e-2.
@@ -67,7 +67,7 @@ TEST_F(StudyTest, LeavingOutChangesNothing) {
 }
 
 TEST_F(StudyTest, SkyIsExact) {
-    const auto rows = read_result_rows(run(config(R"("sky_only")"), "a") / "results.csv");
+    const auto rows = read_rows<ResultRow>(run(config(R"("sky_only")"), "a") / "results.csv");
     ASSERT_FALSE(rows.empty());
     for (const ResultRow& r : rows) {
         if (r.metric != "mse" || r.target == "incident") continue;
@@ -113,7 +113,7 @@ TEST_F(StudyTest, OtherSeedsMakeNewCells) {
     Config study = config(R"("fence")");
     for (const unsigned seed : {0, 7}) {
         for (VariantConfig& variant : study.variants) variant.seeds = {seed};
-        const auto rows = read_result_rows(run(study, "a") / "results.csv");
+        const auto rows = read_rows<ResultRow>(run(study, "a") / "results.csv");
         ASSERT_FALSE(rows.empty());
         for (const ResultRow& r : rows) EXPECT_EQ(r.seed, seed);
     }
@@ -123,7 +123,7 @@ TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
     Config study = config(R"("fence")");
     study.timing = {.frames = 15, .warm_up = 2};
     const fs::path out = run(study, "a");
-    const auto times = read_time_rows(out / "times.csv");
+    const auto times = read_rows<TimeRow>(out / "times.csv");
     const auto frames_of = [&](const std::string& variant, const std::string& stage) {
         return std::ranges::count_if(times, [&](const TimeRow& t) { return t.variant == variant && t.stage == stage; });
     };
@@ -154,8 +154,8 @@ TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
     write_text(
         folder / "scene.json",
         R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54]}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
-    const auto capture = read_result_rows(run(read_config(folder / "capture.json"), "a") / "results.csv"),
-               scene = read_result_rows(run(read_config(folder / "scene.json"), "b") / "results.csv");
+    const auto capture = read_rows<ResultRow>(run(read_config(folder / "capture.json"), "a") / "results.csv"),
+               scene = read_rows<ResultRow>(run(read_config(folder / "scene.json"), "b") / "results.csv");
     ASSERT_EQ(capture.size(), scene.size());
     for (size_t i = 0; i < scene.size(); ++i)
         EXPECT_EQ(capture[i].value, scene[i].value)
@@ -164,7 +164,7 @@ TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
     // Without a truth it is rendered all the same.
     Config alone = read_config(folder / "capture.json");
     alone.shots.front().reference.clear();
-    EXPECT_TRUE(read_result_rows(run(alone, "alone") / "results.csv").empty());
+    EXPECT_TRUE(read_rows<ResultRow>(run(alone, "alone") / "results.csv").empty());
     EXPECT_FALSE(read_json(folder / "alone/manifest.json")["images"].empty());
 
     // The truth of another scene may have the same size.

@@ -131,7 +131,7 @@ TEST_F(TemporaryConfig, NamesThePrimaryComparisons) {
             read(R"({"scene": "fence"})", more + R"(, "variants": [{"variant": "none"}])").primary;
         return p.metric + " " + p.mask + " " + p.target;
     };
-    EXPECT_EQ(primary(""), "relmse reflective specular");
+    EXPECT_EQ(primary(""), "mse reflective specular");
     EXPECT_EQ(primary(R"(, "metrics": ["ssim", "flip"], "frame_metrics": [], "masks": ["all"], "targets": "image")"),
               "flip all image");
     EXPECT_EQ(primary(R"(, "primary": {"metric": "mse", "mask": "edge"})"), "mse edge specular");

@@ -1,4 +1,4 @@
-#include "experiments/commands/needs.h"
+#include "experiments/measuring/needs.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "experiments/commands/needs.h"
+#include "experiments/measuring/needs.h"
 
 #include "core/gbuffer/rasterizer.h"
 #include "experiments/measuring/render_variant.h"

@@ -1,0 +1,143 @@
+// The commands that say what there is: describe, list.
+#include "core/files.h"
+#include "core/gpu/device.h"
+#include "core/scene/load_scene.h"
+#include "experiments/commands/commands.h"
+#include "experiments/study/config/config_schema.h"
+#include "metrics/metric.h"
+#include "metrics/temporal.h"
+#include "variants/registry.h"
+#include "variants/tracers/tracers.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+namespace {
+
+std::string part_of(const TracerEntry& tracer) { return tracer.part.empty() ? tracer.name : tracer.part; }
+
+void describe_tracer(const TracerEntry& tracer, const ParameterSet& params) {
+    std::cout << tracer.name << ": " << tracer.title << "\n  " << tracer.description << "\n  Source: " << tracer.source
+              << '\n';
+    if (!tracer.fits_webgl2) std::cout << "  Does not fit WebGL 2\n";
+    std::cout << params.help(part_of(tracer));
+}
+
+/// The tracers that a technique may use, each with its parameters, those of a shared part once.
+void describe_tracers(const ParameterSet& params) {
+    std::set<std::string> described;
+    for (const TracerEntry& tracer : tracer_table()) {
+        if (!described.insert(part_of(tracer)).second || params.help(part_of(tracer)).empty()) continue;
+        std::cout << "\nParameters of the tracer " << tracer.name << ":\n" << params.help(part_of(tracer));
+    }
+}
+
+bool is_tracer(const std::string& name) {
+    return std::ranges::any_of(tracer_table(), [&](const TracerEntry& tracer) { return tracer.name == name; });
+}
+
+/// The text in indented lines of 100 columns at most, broken at spaces; a longer word stands alone.
+std::string indented(const std::string& text, size_t indent) {
+    constexpr size_t columns = 100;
+    std::istringstream words(text);
+    std::string lines, line;
+    for (std::string word; words >> word;) {
+        if (!line.empty() && indent + line.size() + 1 + word.size() > columns) {
+            lines += std::string(indent, ' ') + line + '\n';
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + word;
+    }
+    return lines + std::string(indent, ' ') + line + '\n';
+}
+
+/// What a scene tests: the line of about.txt beside its scene.json; "" where there is none.
+std::string about_scene(const std::string& name, const std::vector<std::filesystem::path>& search_path) {
+    for (const std::filesystem::path& folder : search_path) {
+        if (!std::filesystem::exists(folder / name / "scene.json")) continue;
+        const std::filesystem::path about = folder / name / "about.txt";
+        const std::string text = std::filesystem::exists(about) ? read_text(about) : "";
+        return text.substr(0, text.find('\n'));
+    }
+    return "";
+}
+
+void list_scenes_with_tests(const std::vector<std::filesystem::path>& search_path) {
+    const std::vector<std::string> names = list_scenes(search_path);
+    size_t width = 0;
+    for (const std::string& name : names) width = std::max(width, name.size());
+    for (const std::string& name : names) {
+        const std::string about = about_scene(name, search_path);
+        std::cout << name << (about.empty() ? "" : std::string(width + 2 - name.size(), ' ') + about) << '\n';
+    }
+}
+
+void list_variants() {
+    for (const VariantEntry& entry : variant_table())
+        std::cout << entry.name << ": " << entry.title << '\n'
+                  << indented(entry.description, 4) << indented("Source: " + entry.source, 4);
+}
+
+/// By the names that `--variants` of other commands take.
+void list_presets() {
+    for (const VariantEntry& entry : variant_table())
+        for (const Preset& preset : entry.presets)
+            std::cout << entry.name << ':' << preset.name << '\n' << indented(preset.meaning, 4);
+}
+
+}  // namespace
+
+void describe_command(const DescribeOptions& options) {
+    if (options.as_schema) {
+        std::cout << config_schema(options.variant).dump(2) << '\n';
+        return;
+    }
+    if (is_tracer(options.variant)) {
+        ParameterSet params;
+        for (const TracerEntry& tracer : tracer_table())
+            if (part_of(tracer) == part_of(find_tracer(options.variant))) tracer.create(params);
+        return describe_tracer(find_tracer(options.variant), params);
+    }
+    if (!options.variant.empty()) find_variant(options.variant);
+    for (const VariantEntry& entry : variant_table()) {
+        if (!options.variant.empty() && entry.name != options.variant) continue;
+        std::cout << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source
+                  << "\n";
+        if (const std::string limits = limits_text(entry.limits); !limits.empty())
+            std::cout << "  Enforced limits: " << limits << '\n';
+        const std::unique_ptr<Variant> variant = make_variant(entry.name);
+        const std::string parameters = variant->params.help();
+        std::cout << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
+        describe_tracers(variant->params);
+        if (!entry.presets.empty()) std::cout << "\nPresets:\n";
+        for (const Preset& preset : entry.presets)
+            std::cout << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
+        std::cout << '\n';
+    }
+}
+
+void list_command(const std::string& what, const CommonOptions& common) {
+    if (what == "scenes") list_scenes_with_tests(scene_search_path(common.scene_path));
+    if (what == "variants") list_variants();
+    if (what == "presets") list_presets();
+    if (what == "tracers")
+        for (const TracerEntry& tracer : tracer_table())
+            std::printf("%-22s %s (%s)\n", tracer.name.c_str(), tracer.title.c_str(), tracer.source.c_str());
+    if (what == "metrics") {
+        const auto print = [](const auto& metric) {
+            std::printf("%-25s %-26s %s\n", metric.name.c_str(), metric.formula.c_str(), metric.doc.c_str());
+        };
+        for (const Metric& metric : all_metrics()) print(metric);
+        std::printf("\nOf shots that move or repeat a frame:\n");
+        for (const TemporalMetric& metric : temporal_metrics()) print(metric);
+    }
+    if (what == "devices") {
+        const std::vector<DeviceInfo> devices = list_devices();
+        for (size_t i = 0; i < devices.size(); ++i)
+            std::printf("%zu  %s (%s, %s, Vulkan %s)\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
+                        devices[i].driver.c_str(), devices[i].api.c_str());
+    }
+}

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Sheets of pictures for people to judge which of two results is nearer to the truth, without knowing their names.
+
+    judge.py sheets RESULTS OUT [--pairs N] [--seed S]    draws pairs; OUT has pair_<n>.png and key.csv
+    judge.py enter OUT ANSWERS.csv                        ANSWERS: pair,nearer (left, right or neither); adds them to
+                                                          experiments/findings/judgements.csv
+
+Half of the pairs are drawn from all, half from those that two of the metrics order differently. `ssrlab tables` counts how
+often each metric agrees (a table "of": "eye").
+"""
+import argparse
+import csv
+import itertools
+import os
+import random
+import sys
+
+sys.dont_write_bytecode = True
+try:
+    import numpy as np
+    from PIL import Image
+except ImportError as missing:
+    sys.exit(f"error: {missing}: install python3-numpy and python3-pil, and run this with Debian's python3")
+
+from paper_figures.crops import display
+from paper_figures.exr import read_exr_rgb
+from paper_figures.results import Results, ResultsError
+from paper_tables.agreement import HIGHER_IS_BETTER, JUDGEMENTS
+
+METRICS = ("mse", "relmse", "flip")
+COLUMNS = ("shot", "first", "first_point", "second", "second_point", "nearer")
+SCALE = 2  # pixels are shown so large: as many on a side
+GAP = 12
+
+
+def values_of(results):
+    """{shot: {(variant, point): {metric: badness}}} of the reflection, of the pixels that reflect."""
+    found = {}
+    for row in results.errors:
+        if row["target"] == "specular" and row["mask"] == "reflective" and row["metric"] in METRICS and row["value"]:
+            sign = -1 if row["metric"] in HIGHER_IS_BETTER else 1
+            points = found.setdefault(row["shot"], {})
+            points.setdefault((row["variant"], row["point"]), {})[row["metric"]] = sign * float(row["value"])
+    return found
+
+
+def disagree(a, b):
+    orders = {a[m] < b[m] for m in METRICS if m in a and m in b}
+    return len(orders) > 1
+
+
+def draw_pairs(results, count, rng):
+    """[(shot, point, point)], without repetition: as many of each shot as it takes."""
+    every, disputed = [], []
+    for shot, points in values_of(results).items():
+        for a, b in itertools.combinations(points, 2):
+            every.append((shot, a, b))
+            if disagree(points[a], points[b]):
+                disputed.append((shot, a, b))
+    chosen = rng.sample(disputed, min(count // 2, len(disputed)))
+    rest = [pair for pair in every if pair not in set(chosen)]
+    chosen += rng.sample(rest, min(count - len(chosen), len(rest)))
+    rng.shuffle(chosen)
+    return [(shot, *rng.sample((a, b), 2)) for shot, a, b in chosen]
+
+
+def picture(results, shot, point):
+    """The specular light, at the shot's exposure; `point` None: the truth."""
+    for image in results.manifest["images"]:
+        is_wanted = image["kind"] == "reference" if point is None else (image["variant"], image.get("point")) == point and image["kind"] == "result"
+        if image["shot"] == shot and image["target"] == "specular" and is_wanted:
+            exposure = next(s["exposure_ev"] for s in results.manifest["shots"] if s["shot"] == shot)
+            shown = np.round(255 * display(read_exr_rgb(os.path.join(results.folder, image["exr"])), exposure))
+            return np.kron(shown.astype(np.uint8), np.ones((SCALE, SCALE, 1), dtype=np.uint8))
+    raise ResultsError(f"{results.folder} has no picture of {shot}, {point}")
+
+
+def sheet(results, shot, left, right):
+    """The truth above the two."""
+    truth = picture(results, shot, None)
+    height, width, _ = truth.shape
+    page = np.full((2 * height + GAP, 2 * width + GAP, 3), 128, dtype=np.uint8)
+    page[:height, (width + GAP) // 2 : (width + GAP) // 2 + width] = truth
+    page[height + GAP :, :width] = picture(results, shot, left)
+    page[height + GAP :, width + GAP :] = picture(results, shot, right)
+    return page
+
+
+def make_sheets(arguments):
+    results = Results(arguments.results)
+    os.makedirs(arguments.out, exist_ok=True)
+    with open(os.path.join(arguments.out, "key.csv"), "w", newline="", encoding="utf-8") as stream:
+        key = csv.writer(stream, lineterminator="\n")
+        key.writerow(("pair",) + COLUMNS[:-1])
+        for number, (shot, left, right) in enumerate(draw_pairs(results, arguments.pairs, random.Random(arguments.seed)), 1):
+            Image.fromarray(sheet(results, shot, left, right)).save(os.path.join(arguments.out, f"pair_{number}.png"))
+            key.writerow((number, shot, *left, *right))
+
+
+def enter(arguments):
+    with open(os.path.join(arguments.out, "key.csv"), newline="", encoding="utf-8") as stream:
+        key = {row["pair"]: row for row in csv.DictReader(stream)}
+    named = {"left": "first", "right": "second", "neither": "neither"}
+    is_new = not os.path.exists(JUDGEMENTS)
+    with open(arguments.answers, newline="", encoding="utf-8") as stream, open(JUDGEMENTS, "a", newline="", encoding="utf-8") as out:
+        judgements = csv.writer(out, lineterminator="\n")
+        if is_new:
+            judgements.writerow(COLUMNS)
+        for answer in csv.DictReader(stream):
+            judgements.writerow([key[answer["pair"]][c] for c in COLUMNS[:-1]] + [named[answer["nearer"]]])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True)
+    sheets = commands.add_parser("sheets")
+    sheets.add_argument("results"), sheets.add_argument("out")
+    sheets.add_argument("--pairs", type=int, default=40), sheets.add_argument("--seed", type=int, default=1)
+    sheets.set_defaults(run=make_sheets)
+    entering = commands.add_parser("enter")
+    entering.add_argument("out"), entering.add_argument("answers")
+    entering.set_defaults(run=enter)
+    arguments = parser.parse_args()
+    try:
+        arguments.run(arguments)
+    except (ResultsError, OSError, KeyError) as mistake:
+        sys.exit(f"error: {mistake}")
+
+
+if __name__ == "__main__":
+    main()

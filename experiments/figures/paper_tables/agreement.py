@@ -1,0 +1,96 @@
+"""How far metrics agree with each other, and with people who looked: rows for tables, as a study's files would hold them."""
+
+import csv
+import itertools
+import math
+import os
+
+from paper_figures.results import ResultsError
+
+HIGHER_IS_BETTER = ("ssim", "psnr")
+# Pairs of images, without names and in an order drawn anew, of which somebody said which is nearer to the truth
+# (experiments/figures/judge.py).
+JUDGEMENTS = os.path.abspath(os.path.join(os.path.dirname(__file__), "../../findings/judgements.csv"))
+
+
+def _badness(row):
+    value = float(row["value"])
+    return -value if row["metric"] in HIGHER_IS_BETTER else value
+
+
+def _by_shot(rows):
+    """{shot: {metric: {(variant, point): badness}}} of the rows that have a value."""
+    found = {}
+    for row in rows:
+        if row["value"]:
+            found.setdefault(row["shot"], {}).setdefault(row["metric"], {})[(row["variant"], row["point"])] = _badness(row)
+    return found
+
+
+def kendall_tau(first, second):
+    """Kendall's rank correlation of two lists (tau a, of the pairs that neither ties); None where all are tied."""
+    concordant = discordant = 0
+    for i, j in itertools.combinations(range(len(first)), 2):
+        product = (first[i] - first[j]) * (second[i] - second[j])
+        concordant += product > 0
+        discordant += product < 0
+    pairs = concordant + discordant
+    return (concordant - discordant) / pairs if pairs else None
+
+
+def agreement_rows(rows):
+    """For each shot and pair of metrics Kendall's tau between the orders in which they put the points."""
+    for shot, metrics in _by_shot(rows).items():
+        for metric, against in itertools.product(metrics, metrics):
+            points = [p for p in metrics[metric] if p in metrics[against]]
+            tau = kendall_tau([metrics[metric][p] for p in points], [metrics[against][p] for p in points])
+            if len(points) > 2 and tau is not None:
+                yield {"shot": shot, "metric": metric, "against": against, "value": tau}
+
+
+def read_judgements(file=JUDGEMENTS):
+    with open(file, newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def eye_rows(rows, judgements):
+    """For each metric and pair that was decided, 1 if the metric puts the two points in the order of the judgement."""
+    found = _by_shot(rows)
+    for number, judged in enumerate(judgements):
+        if judged["nearer"] not in ("first", "second"):
+            continue
+        if judged["shot"] not in found:
+            raise ResultsError(f"{JUDGEMENTS} judges {judged['shot']}, of which these results have no rows")
+        for metric, values in found[judged["shot"]].items():
+            first, second = (values.get((judged[n], judged[n + "_point"])) for n in ("first", "second"))
+            if first is None or second is None:
+                raise ResultsError(f"{JUDGEMENTS}: pair {number + 1} of {judged['shot']} is not among these results")
+            yield {
+                "shot": judged["shot"],
+                "pair": str(number),
+                "metric": metric,
+                "what": "pairs ordered alike",
+                "value": float((first < second) == (judged["nearer"] == "first")),
+            }
+
+
+def mean_over_shots(values):
+    """(mean, low, high): Student's 95 % interval, the shots taken as a sample; none below four of them."""
+    n = len(values)
+    mean = sum(values) / n
+    if n < 4:
+        return mean, None, None
+    # Its quantile by Cornish and Fisher (Abramowitz and Stegun 26.7.5): right to 0.5 % from 3 degrees of freedom on.
+    z, degrees = 1.959964, n - 1
+    quantile = z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2)
+    half = quantile * math.sqrt(sum((v - mean) ** 2 for v in values) / degrees / n)
+    return mean, mean - half, mean + half
+
+
+def share_of_pairs(values):
+    """(share, low, high): Wilson's 95 % interval."""
+    n, z = len(values), 1.959964
+    share = sum(values) / n
+    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
+    half = z * math.sqrt(share * (1 - share) / n + z * z / (4 * n * n)) / (1 + z * z / n)
+    return share, middle - half, middle + half

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""The pictures of the repository's README, in experiments/figures/readme.
+
+usage: experiments/figures/readme_pictures.py [RESULTS]
+
+error_time.png is drawn from experiments/summaries/best.csv. With RESULTS, a folder that `ssrlab run
+experiments/configs/readme.json` filled, comparison.png too. Needs Debian's python3-matplotlib, -numpy and -pil.
+"""
+
+import argparse
+import hashlib
+import io
+import sys
+from pathlib import Path
+
+try:
+    import matplotlib
+    import numpy as np
+    from PIL import Image, PngImagePlugin
+except ImportError as missing:
+    sys.exit(f"error: {missing}: install python3-matplotlib, python3-numpy and python3-pil")
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how it draws)
+from matplotlib.cm import ScalarMappable  # noqa: E402
+from matplotlib.colors import Normalize  # noqa: E402
+
+from paper_figures import crops, style  # noqa: E402
+from paper_figures.results import Results, ResultsError, label  # noqa: E402
+from paper_tables import summary_file  # noqa: E402
+
+FOLDER = Path(__file__).resolve().parent
+SUMMARY = FOLDER.parent / "summaries/best.csv"
+OUT = FOLDER / "readme"
+SHOTS = ("contact_hardening", "moving_emitter", "metal_corner")  # still, in motion, at a larger size
+DOTS_PER_INCH = 150  # 1050 pixels across: what hosts show of a README is narrower
+SCENE, DISCS = np.s_[34:172], np.s_[104:172]  # rows of the comparison's images, and of its error maps, which are 0 above
+COLOURS = 256  # of the palette: the files are a third as large as with all colours, and look the same
+
+
+def digest(file):
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def save(figure, name, made_from):
+    """`made_from` is kept in the file's text "Source", by which a test knows whether the picture is up to date."""
+    drawn = io.BytesIO()
+    figure.savefig(drawn, dpi=DOTS_PER_INCH, format="png")
+    plt.close(figure)
+    picture = Image.open(drawn).convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    notes = PngImagePlugin.PngInfo()
+    notes.add_text("Source", made_from)
+    OUT.mkdir(exist_ok=True)
+    file = OUT / f"{name}.png"
+    picture.save(file, optimize=True, pnginfo=notes)
+    print(f"{file}: {file.stat().st_size} bytes")
+
+
+def whiskers(cell):
+    return [[cell.value - cell.low], [cell.high - cell.value]]
+
+
+def draw_error_time():
+    """A panel per shot; a technique's presets are joined, from the published one to the one that a search found."""
+    _, tables = summary_file.read(str(SUMMARY))
+    cells = {name: {(c.row, c.column): c for c in tables[name][1]} for name in ("errors", "times")}
+    rows = list(dict.fromkeys(row for row, _ in cells["errors"]))
+    techniques = list(dict.fromkeys(row.split(",")[0] for row in rows if row != "none"))
+    figure, panels, legend = style.panels(len(SHOTS), height=5.0)
+    for axes, scene in zip(panels, SHOTS):
+        shot = next(column for _, column in cells["errors"] if column.startswith(scene + "."))
+        none = cells["errors"]["none", shot]
+        axes.axhline(none.value, color="#666666", linestyle="--", label="no reflections but the environment")
+        for index, technique in enumerate(techniques):
+            color, mark = style.series(index)
+            presets = [row for row in rows if row.split(",")[0] == technique]
+            places = [(cells["times"][row, shot], cells["errors"][row, shot]) for row in presets]
+            axes.plot([t.value for t, _ in places], [e.value for _, e in places], color=color, linewidth=0.7)
+            for row, (time, error) in zip(presets, places):
+                is_best = row.endswith(", best")
+                axes.errorbar([time.value], [error.value], xerr=whiskers(time), yerr=whiskers(error), fmt=mark, color=color,
+                              markerfacecolor=color if is_best else "white", label=technique if is_best else None)
+        size = shot.split(".")[2]
+        axes.set(xscale="log", yscale="log", xlabel="time of a frame (ms)", title=f"{scene}, {size}" + ", in motion" * (".f" in shot))
+        style.log_axis(axes.xaxis)
+        style.log_axis(axes.yaxis)
+        axes.margins(0.12)
+    panels[0].set_ylabel("relMSE of the reflection")
+    style.draw_legend(legend, panels)
+    save(figure, "error_time", digest(SUMMARY))
+
+
+def draw_comparison(folder):
+    """Two rows of three images, each above its error map; below the truth's stands the maps' scale."""
+    results = Results(folder)
+    shot = results.shots()[0]
+    images = results.images_of(shot, "image")
+    errors = results.errors_of("specular", "relmse", "reflective")
+    truth = images.pop(("reference", ""))
+    maps = {key: crops.absolute_error(image, truth) for key, image in images.items()}
+    most = float(np.nanquantile(np.stack(list(maps.values())), 0.99))
+    columns, heights = 3, [rows.stop - rows.start for rows in (SCENE, DISCS)]
+    size = (style.DOUBLE_COLUMN, 0.49 * style.DOUBLE_COLUMN)
+    figure, grid = plt.subplots(4, columns, figsize=size, layout="constrained", height_ratios=2 * heights)
+    figure.set_constrained_layout_pads(w_pad=0.02, h_pad=0.02, wspace=0.01, hspace=0.01)
+    for index, (key, image) in enumerate([(("truth", ""), truth), *images.items()]):
+        top, below = grid[index // columns * 2 : index // columns * 2 + 2, index % columns]
+        crops.show(top, crops.display(image[SCENE], results.exposure(shot)))
+        if key not in maps:
+            top.set_title("path-traced truth (the others: relMSE)")
+            below.axis("off")
+            scale = below.inset_axes([0.1, 0.8, 0.8, 0.16])
+            bar = figure.colorbar(ScalarMappable(Normalize(0, most), "magma"), cax=scale, orientation="horizontal", extend="max")
+            bar.set_label("absolute error, mean over channels")
+            continue
+        error = errors[(shot, *key)]
+        value, low, high = (style.number(x) for x in (error.value, error.low, error.high))
+        top.set_title(f"{label(*key)}: {value} [{low}, {high}]")
+        crops.show(below, maps[key][DISCS], cmap="magma", vmin=0, vmax=most)
+    save(figure, "comparison", digest(FOLDER.parent / "configs/readme.json"))
+
+
+def main():
+    parser = argparse.ArgumentParser(description="The pictures of the README (PNG).")
+    parser.add_argument("results", nargs="?", help="a folder that `ssrlab run experiments/configs/readme.json` filled")
+    arguments = parser.parse_args()
+    style.apply()
+    try:
+        draw_error_time()
+        if arguments.results:
+            draw_comparison(arguments.results)
+    except ResultsError as mistake:
+        print(f"error: {mistake}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

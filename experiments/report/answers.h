@@ -1,0 +1,39 @@
+#pragma once
+#include "experiments/report/report_data.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// By which error a study answers: the one that it is made to compare (manifest.json's `primary`), and one that is near
+/// to what people see (flip, else ssim; empty if it measures neither).
+struct Headline {
+    std::string metric, mask, target, perceptual_metric;
+};
+Headline headline_of(const nlohmann::json& manifest, std::span<const MetricSummary> errors);
+
+/// A point of a study with its error in a shot.
+struct AnswerPoint {
+    std::string variant, point;
+    double value = 0;
+    std::optional<double> low, high;  ///< 95 % interval
+};
+
+/// What a study says of one shot at first sight: which technique, at which cost, and how certain that is. Points that
+/// ask the scene where rays end (exact_scene) take no part: no engine can have them.
+struct ShotAnswer {
+    std::string shot;
+    std::optional<AnswerPoint> best;      ///< least error of those whose interval holds all noise
+    std::vector<AnswerPoint> tied;        ///< whose intervals overlap that of `best`
+    std::optional<AnswerPoint> baseline;  ///< `none`, where it was run: no reflections but the environment's
+    std::optional<AnswerPoint> limit;  ///< error of the truth ladder's rung on_screen: see groundtruth/truth_ladder.h
+    std::vector<AnswerPoint> front;    ///< that no other beats in both error and time, by ascending time; a hint, by
+                                       ///< means and medians alone
+    std::string sentence, perceptual_sentence;  ///< the latter is empty where no perceptual error was measured
+};
+
+/// One for each shot that has an error of the headline, in the order of the results.
+std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const nlohmann::json& manifest);
+
+nlohmann::json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headline);

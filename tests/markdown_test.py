@@ -1,0 +1,83 @@
+"""Links between the Markdown files, to their headings, and the paths that they name, lead somewhere; pictures are of today."""
+import hashlib
+import os
+import re
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def all_files():
+    """Of the repository: without what .gitignore names, and git's own."""
+    for folder, folders, names in os.walk(ROOT):
+        is_root = folder == str(ROOT)
+        ignored = r"\.git|__pycache__" + (r"|build(-.*)?|results" if is_root else "")
+        folders[:] = [name for name in folders if not re.fullmatch(ignored, name)]
+        yield from (os.path.relpath(os.path.join(folder, name), ROOT) for name in names)
+
+
+FILES = set(all_files())
+FOLDERS = {str(parent) for file in FILES for parent in Path(file).parents}
+NAME = r"(?:README|RESULTS|[a-z0-9_]+)\.(?:cpp|h|py|js|md|sh|csv|json|glsl|comp|frag|cmake)"
+DOCUMENTS = sorted(file for file in FILES if file.endswith(".md"))
+
+
+def without_code(text, keeps_inline=False):
+    """The text without its blocks of code, and without code in lines of prose."""
+    text = re.sub(r"(?ms)^```.*?^```", "", text)
+    text = re.sub(r"(?m)(?<=\n\n)(?: {4}.*\n|\n)+", "\n", text)
+    return text if keeps_inline else re.sub(r"`[^`\n]+`", "code", text)
+
+
+def anchors(document):
+    """The names that its headings have on the repository's host: small letters, '-' for spaces, -1 after the second."""
+    found = []
+    for title in re.findall(r"(?m)^#{1,6} (.+)$", without_code((ROOT / document).read_text(encoding="utf-8"), True)):
+        name = re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
+        same = sum(re.fullmatch(re.escape(name) + r"(-\d+)?", other) is not None for other in found)
+        found.append(f"{name}-{same}" if same else name)
+    return found
+
+
+class Markdown(unittest.TestCase):
+    def test_links_and_their_anchors_lead_somewhere(self):
+        count = 0
+        for document in DOCUMENTS:
+            text = without_code((ROOT / document).read_text(encoding="utf-8"))
+            for link in re.findall(r"\]\(([^)\s]+)\)", text):
+                if re.match(r"https?:|mailto:", link):
+                    continue
+                count += 1
+                path, _, anchor = link.partition("#")
+                target = os.path.normpath(os.path.join(os.path.dirname(document), path)) if path else document
+                self.assertTrue(target in FILES or target in FOLDERS, f"{document}: {link}")
+                if anchor:
+                    self.assertIn(anchor, anchors(target), f"{document}: {link}")
+        self.assertGreater(count, 50)
+
+    def test_paths_that_they_name_exist(self):
+        """From the root, or from the document's own folder: `core/files.h`, `configs/best.json`."""
+        count = 0
+        for document in DOCUMENTS:
+            text = (ROOT / document).read_text(encoding="utf-8")
+            for path in re.findall(rf"(?<![\w./*-])((?:[\w-]+/)+{NAME})\b", text):
+                first = path.split("/")[0]
+                near = os.path.normpath(os.path.join(os.path.dirname(document), path))
+                if first not in FOLDERS and os.path.dirname(near) not in FOLDERS:
+                    continue  # of a results folder, or another project's
+                count += 1
+                self.assertTrue({path, near} & FILES, f"{document}: {path}")
+        self.assertGreater(count, 100)
+
+    def test_pictures_of_the_readme_were_drawn_from_what_is_committed(self):
+        """Else draw them anew: experiments/figures/readme_pictures.py."""
+        made_from = {"error_time": "summaries/best.csv", "comparison": "configs/readme.json"}
+        for name, source in made_from.items():
+            picture = (ROOT / f"experiments/figures/readme/{name}.png").read_bytes()
+            digest = hashlib.sha256((ROOT / "experiments" / source).read_bytes()).hexdigest()
+            self.assertTrue(b"tEXtSource\0" + digest.encode() in picture, f"{name}.png is not of this {source}")
+
+
+if __name__ == "__main__":
+    unittest.main()
