@@ -109,9 +109,8 @@ function readData() {
         notes: raw.notes,
         images: raw.images,
         singleChanges: raw.single_changes,
+        headline: raw.headline ?? null,
         answers: raw.answers ?? [],  // what each shot says, in sentences
-        // What they speak of: of the physical error, and of what an eye sees.
-        headline: {metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip", ...raw.headline},
         errors: raw.errors.map(error),  // those that speak for their shot
         frames: raw.frames.map(error),  // those of each frame, where the ones above are over all of them
         splits: raw.splits.map(split),
