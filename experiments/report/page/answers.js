@@ -57,7 +57,7 @@ const mostWhole = 4;  // sentences; of more shots only the chosen one's is shown
 
 /// Rows of the shot that the headline speaks of, by the name of a metric.
 const headlineRows = (shot, metric) => {
-    const {target, mask} = report.headline;
+    const {target, mask} = headline;
     const of = report.errors.filter(r => r.shot === shot && r.metric === metric && r.value !== null);
     const narrow = (rows, key, wanted) => rows.filter(r => r[key] === preferred(unique(rows.map(r => r[key])), wanted));
     return narrow(narrow(of, "target", target), "mask", mask);
@@ -104,7 +104,7 @@ function drawAnswerCharts() {
 function answerPictures(shot) {
     const own = report.images.map((image, index) => ({...image, index})).filter(i => i.shot === shot);
     const target = preferred(unique(own.map(i => i.target)), "image"), answer = answerOf(shot);
-    const {metric} = report.headline;
+    const {metric} = headline;
     const text = p => `${metric} ${number(p.value, 3)} ${interval(p, 3)}`;
     const of = (title, point) => point && {
         title: `${title}: ${pointLabel(point)}`,

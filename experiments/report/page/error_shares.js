@@ -12,9 +12,9 @@ const errorRows = shot =>
 
 /// [{row, error, by, limit}] of the points of a shot: shares by verdict, and the error that they are shares of.
 function errorShares(shot) {
-    const groups = new Map(), {metric, target} = report.headline;
+    const groups = new Map(), {metric, target} = sharedError;
     for (const r of filteredRows(errorRows(shot))) {
-        if (r.mask !== preferred(unique(errorRows(shot).map(o => o.mask)), report.headline.mask)) continue;
+        if (r.mask !== preferred(unique(errorRows(shot).map(o => o.mask)), headline.mask)) continue;
         if (!groups.has(pointKey(r))) groups.set(pointKey(r), {row: r, by: new Map()});
         groups.get(pointKey(r)).by.set(r.quantity.slice("error: ".length), r);
     }
@@ -25,6 +25,11 @@ function errorShares(shot) {
                                                 e.mask === g.row.mask && e.value > 0)
                                     }));
 }
+
+const sharedError = {
+    metric: "mse",
+    target: "specular"
+};  // what hits.csv shares out
 
 const shareOf = (by, ...keys) => keys.reduce((sum, key) => sum + (by.get(key)?.value ?? 0), 0);
 
@@ -45,7 +50,7 @@ function showErrorShares() {
 }
 
 function errorSharesPart(shot) {
-    const groups = errorShares(shot), {metric, target} = report.headline;
+    const groups = errorShares(shot), {metric, target} = sharedError;
     if (!groups.length) return [];
     const isAbsolute = groups.every(g => g.error);
     const rows = groups.map(g => ({

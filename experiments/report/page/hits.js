@@ -25,7 +25,7 @@ function showHits() {
         return;
     }
     const masks = unique(rays.map(r => r.mask));
-    hitChoice.mask = preferred(masks, report.headline.mask);
+    hitChoice.mask = preferred(masks, headline.mask);
     const parts = shotParts(unique(rays.map(r => r.shot)), hitPart);
     at("hits").append(h("div", {class: "controls"}, select("Mask", masks, hitChoice.mask, value => {
                             hitChoice.mask = value;

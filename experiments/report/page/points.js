@@ -1,5 +1,11 @@
 // The points that a study compares: which are shown, and the number, colour and shape that each keeps on the page.
 
+/// What the page speaks of first: the error that a study compares by, and what an eye sees; manifests of other versions
+/// may not tell.
+const headline = Object.fromEntries(
+    Object.entries({metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip"})
+        .map(([key, usual]) => [key, report.headline?.[key] || usual]));
+
 const pointKey = row => row.variant + "|" + row.point;
 const singleChangeKeys = new Set(report.singleChanges.map(pointKey));
 const isSingleChange = row => singleChangeKeys.has(pointKey(row));
@@ -130,12 +136,12 @@ function pointLegend(rows) {
 
 const headlineMetric = rows => {
     const keys = unique(rows.map(metricKey));
-    return preferred(keys, keys.find(m => m.startsWith(report.headline.metric + "|")));
+    return preferred(keys, keys.find(m => m.startsWith(headline.metric + "|")));
 };
 /// The metric that is read beside it: physical and perceptual errors order techniques differently. Undefined if `rows`
 /// have none.
 const otherMetric = (key, rows) => {
-    const {metric, perceptual_metric: perceptual} = report.headline, keys = unique(rows.map(metricKey));
+    const {metric, perceptual_metric: perceptual} = headline, keys = unique(rows.map(metricKey));
     const others = key.startsWith(metric + "|") ? [perceptual, "mse", "relmse"] : [metric];
     return others.map(other => keys.find(k => k !== key && k.startsWith(other + "|"))).find(Boolean);
 };

@@ -23,9 +23,9 @@ const preferred = (values, value) => values.includes(value) ? value : values[0];
 function showChoice() {
     const targets = unique(report.errors.map(r => r.target)), metrics = unique(report.errors.map(metricKey)),
           masks = unique(report.errors.map(r => r.mask));
-    choice.target = preferred(targets, report.headline.target);
+    choice.target = preferred(targets, headline.target);
     choice.metric = headlineMetric(report.errors);
-    choice.mask = preferred(masks, report.headline.mask);
+    choice.mask = preferred(masks, headline.mask);
     const changed = key => value => {
         choice[key] = value;
         choiceListeners.forEach(f => f());
