@@ -104,7 +104,7 @@ std::string static_part(const json& data, std::span<const MetricSummary> errors,
                                             others =
                                                 headline_rows(errors, singles, headline, headline["perceptual_metric"]);
     if (!rows.empty()) html += static_table(rows, data["metrics"]);
-    if (!others.empty() && others.front()->metric != rows.front()->metric)
+    if (!others.empty() && others.front()->metric == headline["perceptual_metric"])
         html += static_table(others, data["metrics"]);
     return html;
 }
