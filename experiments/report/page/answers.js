@@ -44,7 +44,12 @@ function drawAnswers(shots) {
                       title: [shot, answerOf(shot)?.sentence].filter(Boolean).join("\n")
                   },
                     answerText(shot)))));
-    at("answer-shots").classList.toggle("many", shots.length > mostWhole);
+    at("answer-shots")
+        .style.setProperty(
+            "--lines",
+            shots.length <= mostWhole        ? "none" :
+                shots.length <= mostTwoLines ? 2 :
+                                               1);
     const perceptual = answerOf(answerChoice.shot)?.perceptual_sentence;
     at("answer-note").replaceChildren(perceptual ?? "", " ", disagreementText(answerChoice.shot) ?? "");
     drawAnswerCharts();
@@ -53,7 +58,8 @@ function drawAnswers(shots) {
 
 const answerText = shot =>
     h("span", {}, h("b", {}, shortShot(shot)), " ", answerOf(shot)?.sentence ?? "No technique is named.");
-const mostWhole = 4;  // sentences; of more shots only the chosen one's is shown whole
+// Of many shots only the chosen one's sentence is shown whole, of others two lines or one.
+const mostWhole = 3, mostTwoLines = 6;
 
 /// Rows of the shot that the headline speaks of, by the name of a metric.
 const headlineRows = (shot, metric) => {

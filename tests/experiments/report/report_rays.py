@@ -82,4 +82,4 @@ def test_error_shares(page, folder, shot):
         "Of sssr · first's error 37.5 % lies where the truth is not on the screen, 50 % where the march erred, "
         "12.5 % where the ray was right (filter, fallback, view dependence)."
     )
-    equal(sentences[0], wanted, "the sentence")
+    check(wanted in sentences, f"{wanted!r} is not among {sentences}")
