@@ -99,7 +99,7 @@ std::string static_part(const json& data, const Headline& headline, std::span<co
                                             others =
                                                 headline_rows(errors, singles, headline, headline.perceptual_metric);
     if (!rows.empty()) html += static_table(rows, data["metrics"]);
-    if (!others.empty() && others.front()->metric == headline["perceptual_metric"])
+    if (!others.empty() && others.front()->metric == headline.perceptual_metric)
         html += static_table(others, data["metrics"]);
     return html;
 }
