@@ -56,8 +56,10 @@ function drawAnswers(shots) {
     return drawAnswerPictures();
 }
 
+/// The outer box may cut the text off after some lines; the inner one keeps it one text.
 const answerText = shot =>
-    h("span", {}, h("b", {}, shortShot(shot)), " ", answerOf(shot)?.sentence ?? "No technique is named.");
+    h("span", {class: "cut"},
+      h("span", {}, h("b", {}, shortShot(shot)), " ", answerOf(shot)?.sentence ?? "No technique is named."));
 // Of many shots only the chosen one's sentence is shown whole, of others two lines or one.
 const mostWhole = 3, mostTwoLines = 6;
 

@@ -2,6 +2,8 @@
 
 const fullColour = 8;  // a ratio of that size, or its inverse, has the full colour
 
+const mostWideColumns = 14;  // more of them have narrow cells below upright names
+
 /// What the cells of one shot and metric are divided by: the least error but for single seeds, which may be so by
 /// chance, or that of none; null where it is not told.
 function columnReference(rows) {
@@ -73,8 +75,8 @@ function matrix(groups, order) {
         ].filter(Boolean);
     });
     const element =
-        h("table", {class: "matrix"}, h("caption", {}, matrixCaption(columns)), h("thead", {}, head),
-          h("tbody", {}, lines));
+        h("table", {class: columns.length > mostWideColumns ? "matrix dense" : "matrix"},
+          h("caption", {}, matrixCaption(columns)), h("thead", {}, head), h("tbody", {}, lines));
     rove(element, buttons);
     return scroller(element);
 }

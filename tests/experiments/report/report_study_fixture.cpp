@@ -310,7 +310,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
     for (EffectRow& e : split_effects(rows.splits, variants)) effects.push_back(std::move(e));
     for (EffectRow& e : effects)
         if (e.point == "first race=true") e.low = e.high = e.p = std::nullopt, e.interval = interval::not_repeatable;
-    set_families(effects, {});
+    set_families(effects, {.metric = "relmse", .mask = "reflective", .target = "specular"});
     write_rows(folder / "effects.csv", effects);
     write_rows(folder / "time_effects.csv", time_effects(rows.times, variants));
     json manifest = study_manifest(shots);
