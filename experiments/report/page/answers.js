@@ -110,7 +110,9 @@ function drawAnswerCharts() {
 
 /// [{title, image, row}]: truth, best and base line.
 function answerPictures(shot) {
-    const own = report.images.map((image, index) => ({...image, index})).filter(i => i.shot === shot);
+    const ofShot = report.images.map((image, index) => ({...image, index})).filter(i => i.shot === shot);
+    const frames = ofShot.map(i => Number(i.frame ?? 0)),
+          own = ofShot.filter((_, i) => frames[i] === Math.max(...frames));
     const target = preferred(unique(own.map(i => i.target)), "image"), answer = answerOf(shot);
     const {metric} = headline;
     const text = p => `${metric} ${number(p.value, 3)} ${interval(p, 3)}`;
@@ -132,10 +134,10 @@ async function drawAnswerPictures() {
     const hasPictures = wanted.some(p => p.image) && typeof DecompressionStream !== "undefined";
     at("answer-pictures").hidden = !hasPictures;
     if (!hasPictures) return;
-    const images = await Promise.all(wanted.map(p => p.image && loadImage(p.image.index)));
+    const images = await Promise.all(wanted.map(p => p.image && loadImage(p.image.index).catch(() => null)));
     if (answerChoice.shot !== shot) return;  // another choice was made meanwhile
     const exposure = manifestShots().find(s => s.shot === shot)?.exposure_ev,
-          codes = displayTable(Number.isFinite(exposure) ? exposure : 0);
+          codes = displayTable(Number.isFinite(exposure) ? exposure : 0, "none");
     at("answer-pictures").replaceChildren(...wanted.map(({title, text, row}, i) => {
         const caption = h("figcaption", {}, h("b", {}, title), " ", h("small", {}, text));
         if (!images[i])

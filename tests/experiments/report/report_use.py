@@ -4,7 +4,7 @@ import json
 import os
 import re
 
-from report_browser import By, Select, check, choose_in, equal, until_ready
+from report_browser import By, WebDriverWait, check, choose_in, equal, until_ready
 
 AXE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vendor", "axe.min.js")
 BEST, BASELINE = ("mcguire_dda", "stride=1"), ("mcguire_dda", "stride=4")
@@ -52,7 +52,8 @@ def test_answers(page, shots):
         check(texts(page, "#answer-note")[0].startswith(f"To eyes, too, in {shot}."), "the chosen shot's note")
         captions = page.execute_script("return [...document.querySelectorAll('#answer-charts figcaption')].map(c => c.innerText)")
         check(all(c.startswith(shots[shot].split(".")[0]) for c in captions), f"charts of the chosen shot: {captions}")
-        page.execute_async_script("Promise.all([...loading.values()]).then(() => setTimeout(arguments[0]))")
+        labels = "return [...document.querySelectorAll('#answer-pictures canvas')].map(c => c.getAttribute('aria-label'))"
+        WebDriverWait(page, 20).until(lambda p: all(shots[shot] in label for label in p.execute_script(labels)))
     titles = texts(page, "#answer-pictures b")
     equal(titles, ["truth", "best: mcguire_dda · stride=1", "base line: mcguire_dda · stride=4"], "pictures")
     colours = page.execute_script(
