@@ -27,14 +27,15 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
     const mistakes =
         row => [...mistakesOfError(row), ...(hasTimes ? mistakesOfTime(row) : [])].map(m => `\n! ${m.text}`).join("");
     const timeText = time => hasTimes ? `\n${number(time.value)} ms ${interval(time)}, ${time.frames} frames` : "";
-    const marks = points.map(({row, time}) => pointMark(row, {
-                                 x: time.value,
-                                 y: row.value,
-                                 spanX: time.low === null ? null : [time.low, time.high],
-                                 spanY: row.low === null ? null : [row.low, row.high],
-                                 size: rows.length > 40 ? 3.6 : 4.5,
-                                 tip: `${pointText(row)}\n${rowText(row)}${timeText(time)}${mistakes(row)}`
-                             }));
+    const marks = points.map(
+        ({row, time}) => pointMark(row, {
+            x: time.value,
+            y: row.value,
+            spanX: time.low === null ? null : [time.low, time.high],
+            spanY: row.low === null ? null : [row.low, row.high],
+            size: rows.length > 40 ? 3.6 : 4.5,
+            tip: [pointLabel(row), rowText(row) + timeText(time) + mistakes(row), ...parameterLines(row)].join("\n")
+        }));
     const limit =
         ladderOf(shot, {target, metricKey: metricKey(rows[0]), mask}).find(r => r.rung === "on_screen" && r.value > 0);
     const under = [

@@ -46,17 +46,18 @@ const sweptParameters = (() => {
 })();
 
 const mostParameters = 8;  // in a tip
-/// What the point is, for tips: its name, and the parameters that differ among its variant's points.
-function pointText(row) {
+/// For tips: the parameters that differ among the points of the variant; a swept point's name has them already.
+function parameterLines(row) {
+    if (row.point.includes("=")) return [];
     const names = sweptParameters.get(row.variant) ?? [], parameters = parametersOf(row);
-    // A swept point's name has its values already.
-    const told = row.point.includes("=") ? [] : names.slice(0, mostParameters);
-    const rest = row.point.includes("=") ? 0 : names.length - told.length;
+    const told = names.slice(0, mostParameters), rest = names.length - told.length;
     return [
-        pointLabel(row), ...told.map(name => `${name} = ${JSON.stringify(parameters[name])}`),
+        ...told.map(name => `${name} = ${JSON.stringify(parameters[name])}`),
         ...(rest ? [`and ${rest} more parameters, see Parameters`] : [])
-    ].join("\n");
+    ];
 }
+/// What the point is, for tips: its name, and those parameters.
+const pointText = row => [pointLabel(row), ...parameterLines(row)].join("\n");
 
 const mayShow = row => shownPoints.hasSingleChanges || !isSingleChange(row);
 const matchesFilter = row =>
