@@ -12,6 +12,7 @@
 #include "experiments/stability/stability_report.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 
 namespace {
@@ -21,11 +22,11 @@ using nlohmann::json;
 constexpr size_t page_bytes = 15'000'000;  ///< a page is mailed and opened on slow machines: larger ones are not
 
 /// The page's scripts, in the order in which they build on each other.
-constexpr const char* scripts[] = {"data.js",         "page.js",      "sections.js",   "points.js",  "axes.js",
-                                   "line_chart.js",   "strips.js",    "ladder.js",     "summary.js", "overview.js",
-                                   "charts.js",       "roughness.js", "splits.js",     "hits.js",    "effects.js",
-                                   "temporal.js",     "stability.js", "image_data.js", "panes.js",   "viewer.js",
-                                   "viewer_input.js", "start.js"};
+constexpr const char* scripts[] = {
+    "data.js",     "page.js",      "points.js",       "sections.js", "plots.js",      "bars.js",         "strips.js",
+    "ladder.js",   "mistakes.js",  "provenance.js",   "summary.js",  "error_time.js", "answers.js",      "matrix.js",
+    "explore.js",  "hits.js",      "error_shares.js", "stages.js",   "roughness.js",  "splits.js",       "effects.js",
+    "temporal.js", "stability.js", "image_data.js",   "panes.js",    "viewer.js",     "viewer_input.js", "start.js"};
 
 std::string part(const std::string& name) {
     return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report/page" / name);
@@ -39,9 +40,9 @@ std::string script_text(const json& value) {
     return escaped;
 }
 
-/// The rows of `metric` of what is reflected; where there are none such, those of the first target, metric and mask.
+/// The rows of `metric` under the headline's target and mask; where there are none such, those of the first.
 std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> errors, const PointSet& singles,
-                                                const std::string& metric) {
+                                                const Headline& headline, const std::string& metric) {
     std::vector<const MetricSummary*> rows;
     for (const MetricSummary& e : errors)
         if (e.speaks_for_shot && !singles.contains({e.variant, e.point})) rows.push_back(&e);
@@ -50,35 +51,56 @@ std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> e
         const std::string chosen = has_wanted || rows.empty() ? wanted : rows.front()->*column;
         std::erase_if(rows, [&](const MetricSummary* e) { return e->*column != chosen; });
     };
-    narrow(&MetricSummary::target, "specular");
+    narrow(&MetricSummary::target, headline.target);
     narrow(&MetricSummary::metric, metric);
-    narrow(&MetricSummary::mask, "reflective");
+    narrow(&MetricSummary::mask, headline.mask);
     return rows;
 }
 
-std::string static_table(const std::vector<const MetricSummary*>& rows) {
+/// Four digits, as the page's scripts show numbers.
+std::string number_text(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.4g", value);
+    return buffer;
+}
+
+std::string static_table(const std::vector<const MetricSummary*>& rows, const json& metrics) {
     const MetricSummary& chosen = *rows.front();
-    std::string html =
-        "<table><caption>" + html_text(chosen.metric + " of target " + chosen.target + " on mask " + chosen.mask) +
-        "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>Low<th>High<th>Floor</tr></thead><tbody>\n";
-    const auto cell = [](const std::optional<double>& value) {
-        return "<td>" + (value ? json(*value).dump() : "&ndash;");
-    };
+    const std::string unit = metrics.value(chosen.metric, json::object()).value("unit", "1");
+    std::string html = "<table><caption>" +
+                       html_text(chosen.metric + (unit == "1" ? "" : " (" + unit + ")") + " of target " +
+                                 chosen.target + " on mask " + chosen.mask) +
+                       "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>95 % interval<th>Noise "
+                       "floor</tr></thead><tbody>\n";
+    const auto number = [](const std::optional<double>& value) { return value ? number_text(*value) : "&ndash;"; };
     for (const MetricSummary* e : rows)
         html += "<tr><td>" + html_text(e->shot) + "<td>" + html_text(e->variant) + "<td>" + html_text(e->point) +
-                cell(e->value) + cell(e->low) + cell(e->high) + cell(e->floor) + "</tr>\n";
+                "<td>" + number(e->value) + "<td>" +
+                (e->low && e->high ? number(e->low) + " to " + number(e->high) : "&ndash;") + "<td>" +
+                number(e->floor) + "</tr>\n";
     return html + "</tbody></table>\n";
 }
 
-/// What a reader without scripts gets: the warnings, and the relative and the absolute error of each shot.
-std::string static_part(const std::vector<std::string>& warnings, std::span<const MetricSummary> errors,
-                        const PointSet& singles) {
+std::string answers_html(const json& answers) {
     std::string html;
-    for (const std::string& warning : warnings) html += "<p class=\"warning\">" + html_text(warning) + "</p>\n";
-    const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, "relmse"),
-                                            others = headline_rows(errors, singles, "mse");
-    if (!rows.empty()) html += static_table(rows);
-    if (!others.empty() && others.front()->metric != rows.front()->metric) html += static_table(others);
+    for (const json& answer : answers)
+        html += "<li><b>" + html_text(answer.value("shot", "")) + "</b> " + html_text(answer.value("sentence", "")) +
+                " " + html_text(answer.value("perceptual_sentence", "")) + "</li>\n";
+    return html.empty() ? "" : "<h2>Answers</h2>\n<ol>\n" + html + "</ol>\n";
+}
+
+/// What a reader without scripts gets: the answers, the warnings, and both errors of the headline in each shot.
+std::string static_part(const json& data, const Headline& headline, std::span<const MetricSummary> errors,
+                        const PointSet& singles) {
+    std::string html = answers_html(data["answers"]);
+    for (const json& warning : data["warnings"])
+        html += "<p class=\"warning\">" + html_text(warning.get<std::string>()) + "</p>\n";
+    const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, headline, headline.metric),
+                                            others =
+                                                headline_rows(errors, singles, headline, headline.perceptual_metric);
+    if (!rows.empty()) html += static_table(rows, data["metrics"]);
+    if (!others.empty() && others.front()->metric == headline.perceptual_metric)
+        html += static_table(others, data["metrics"]);
     return html;
 }
 
@@ -99,7 +121,7 @@ json image_description(const ReportImage& image) {
             {"target", image.target}, {"seed", image.seed},       {"width", image.width}, {"height", image.height}};
 }
 
-/// `values`: style, script and, where there are any, images.
+/// `values`: style, plot, script and, where there are any, images.
 void write_page(const std::filesystem::path& folder, const std::string& title, const json& data,
                 std::map<std::string, std::string> values, const std::string& for_no_scripts) {
     values["title"] = html_text(title);
@@ -116,7 +138,7 @@ void write_page(const std::filesystem::path& folder, const std::string& title, c
 void write_report(const std::filesystem::path& folder) {
     const json stability = stability_report_data(folder);
     const std::string stability_part = stability.is_null() ? "" : stability_html(stability);
-    std::map<std::string, std::string> values = {{"style", part("style.css")}};
+    std::map<std::string, std::string> values = {{"style", part("style.css")}, {"plot", part("vendor/plot.js")}};
     for (const char* name : scripts) values["script"] += part(name);
     if (!stability.is_null() && !std::filesystem::exists(folder / "manifest.json")) {
         // No study: the page has this one section.
@@ -133,7 +155,6 @@ void write_report(const std::filesystem::path& folder) {
     write_rows(folder / "time_summary.csv", tables.times);
 
     const PointSet singles = single_changes(manifest);
-    const std::vector<std::string> warnings = report_warnings(manifest, tables.errors, tables.times);
     json data = report_data(tables, singles);
     const Headline headline = headline_of(manifest, tables.errors);
     data["headline"] = {{"metric", headline.metric},
@@ -144,10 +165,10 @@ void write_report(const std::filesystem::path& folder) {
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
     data["manifest"].erase("stale");   // not of this study as it is
-    data["warnings"] = warnings;
+    data["warnings"] = report_warnings(manifest, tables.errors, tables.times);
     data["defaults"] = parameter_defaults(manifest);
     data["stability"] = stability, data["is_study"] = true;
-    const std::string for_no_scripts = static_part(warnings, tables.errors, singles) + stability_part;
+    const std::string for_no_scripts = static_part(data, headline, tables.errors, singles) + stability_part;
 
     size_t used = script_text(data).size() + for_no_scripts.size() + 100'000;  // the template, descriptions and notes
     for (const auto& [name, text] : values) used += text.size();

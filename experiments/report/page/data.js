@@ -26,7 +26,7 @@ function readData() {
         manifest: raw.manifest,
         metrics: raw.metrics,
         defaults: raw.defaults,  // variant to {parameter: value}, of those that this build knows
-        headline: raw.headline ?? null,  // experiments/report/answers.h
+        headline: raw.headline ?? null,  // of studies, as their answers: experiments/report/answers.h
         answers: raw.answers ?? [],
         warnings: raw.warnings,
         notes: raw.notes,

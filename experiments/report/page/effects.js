@@ -8,7 +8,8 @@ const effectChoice = {
     shot: "all shots",
     scale: "all"
 };
-const significant = 0.05;  // of p after Holm's correction
+const hiddenShots = new Set();  // by the legend
+const significant = 0.05;       // of p after Holm's correction
 const errorParts = {
     bias_squared: "bias²",
     variance: "variance"
@@ -58,7 +59,7 @@ function showEffects() {
         h("div", {class: "controls"}, box("Against", "against"), box("Shot", "shot"), box("Target", "target"),
           box("Metric", "metric", metricName), box("Mask", "mask"), box("Scale", "scale", o => scales[o])),
         h("p", {class: "note", id: "effect-family"}), h("div", {id: "effect-legend"}),
-        h("div", {class: "scroll strips", id: "effect-table"}));
+        scroller(h("div", {class: "strips", id: "effect-table"})));
     drawEffects();
 }
 
@@ -77,10 +78,12 @@ function effectGroups(rows) {
                                                  doc: docs[c.variant]?.[c.parameter] ?? "",
                                                  rows: of(pointKey(c)).filter(isChangeOfBaseline)
                                              }));
-    const wholes =
-        unique(rows.filter(e => !isChangeOfBaseline(e)).map(pointKey)).map(key => ({
-            label: pointLabel(of(key)[0]), doc: isBaseline ? "all that it changes, together" : "", rows: of(key)
-        }));
+    const wholes = unique(rows.filter(e => !isChangeOfBaseline(e)).map(pointKey))
+                       .map(key => ({
+                                label: pointLabel(of(key)[0]),
+                                doc: isBaseline ? "all that it changes, together" : "",
+                                rows: of(key)
+                            }));
     return [...singles, ...wholes].filter(g => g.rows.length);
 }
 
@@ -102,8 +105,7 @@ function drawEffects() {
     const isAll = effectChoice.shot === "all shots", shots = effectShots();
     const rows = effectsShown().filter(e => isChosen(e) && (isAll || e.shot === effectChoice.shot));
     const scale = effectScale(rows, !isAll);
-    const legend = h("div", {class: "legend"}, shots.map((s, i) => legendEntry(i, s)));
-    at("effect-legend").replaceChildren(isAll ? legend : "");
+    at("effect-legend").replaceChildren(isAll ? shotLegend(shots) : "");
     const hasTimes = totalTimeEffects(rows).length > 0;
     const others = [...otherEffects(), ...(hasTimes ? [{name: "time", rows: totalTimeEffects(rows)}] : [])];
     at("effect-family").textContent = familyText(rows);
@@ -116,17 +118,33 @@ function drawEffects() {
     const lines = effectGroups(rows).map(
         g =>
             [h("div", {class: "change"}, h("b", {}, g.label), g.doc ? h("small", {}, g.doc) : null, repeatNote(g.rows)),
-             strip(scale, g.rows.filter(e => e.value !== null).map(e => effectMark(e, shots, isAll))),
+             strip(
+                 scale,
+                 g.rows.filter(e => e.value !== null && !(isAll && hiddenShots.has(e.shot)))
+                     .map(e => effectMark(e, shots, isAll))),
              ...cells(g.rows)]);
     const label = `${metricName(effectChoice.metric)}: ratio, logarithmic`;
     lines.push(["", stripAxis(scale, label), ...columns.slice(2).map(() => "")]);
     at("effect-table").replaceChildren(table(columns, lines));
 }
 
+/// A button per shot: it shows and hides that shot's marks.
+const shotLegend = shots =>
+    legend(shots.map((shot, i) => ({
+                         label: shortShot(shot),
+                         style: seriesStyle(i),
+                         isShown: !hiddenShots.has(shot),
+                         toggle: () => {
+                             hiddenShots.has(shot) ? hiddenShots.delete(shot) : hiddenShots.add(shot);
+                             drawEffects();
+                         }
+                     })));
+
 function familyText(rows) {
     const {metric, mask, target} = report.manifest.primary ?? {};
     if (rows.some(e => e.isPrimary))
-        return `Primary: ${metric} of ${target}, ${mask} pixels, all points and shots, is what this study was made to ` +
+        return `Primary: ${metric} of ${target}, ${
+                   mask} pixels, all points and shots, is what this study was made to ` +
             "compare. Filled marks differ from 1 after Holm's correction over all of these.";
     return "Exploratory: not among the comparisons that this study was made for" +
         (metric ? ` (${metric} of ${target}, ${mask} pixels)` : "") +
@@ -141,8 +159,7 @@ const pooledColumns = others =>
 const pName = () => effectsShown().some(e => isChosen(e) && e.isPrimary) ? "p (Holm)" : "p, exploratory";
 const effectColumns = others =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true},
-     ...otherColumns(others, "ratio"), {name: pName(), number: true}, {name: "Seeds", number: true},
-     {name: "Result"}];
+     ...otherColumns(others, "ratio"), {name: pName(), number: true}, {name: "Seeds", number: true}, {name: "Result"}];
 
 /// All ratios fit unless a narrower scale is asked for; an interval of few seeds may reach far beyond them and is cut.
 function effectScale(rows, hasIntervals) {
@@ -181,7 +198,7 @@ const pText = e => e.isPrimary ? `p (Holm) ${number(e.holm, 2)}` : `p ${number(e
 
 function effectMark(e, shots, isAll) {
     return {
-        series: isAll ? shots.indexOf(e.shot) : 0,
+        style: seriesStyle(isAll ? shots.indexOf(e.shot) : 0),
         row: isAll ? {value: e.value} : e,
         isHollow: !isSignificant(e),
         tip: `${e.shot}\n${e.point}\n${e.metric} × ${number(e.value)} ${interval(e)}\n${
@@ -205,9 +222,8 @@ function pooledCells(rows, others) {
     const countCell = n => isPrimary ? cell(n, n ? h("b", {}, String(n)) : "0") : cell(null, "–");
     const told = count(e => e.value > 0);
     return [
-        meanCell(rows), ...others.map(meanCell),
-        countCell(count(e => isSignificant(e) && e.value < 1)), countCell(count(e => isSignificant(e) && e.value > 1)),
-        cell(told, String(told))
+        meanCell(rows), ...others.map(meanCell), countCell(count(e => isSignificant(e) && e.value < 1)),
+        countCell(count(e => isSignificant(e) && e.value > 1)), cell(told, String(told))
     ];
 }
 
@@ -223,7 +239,9 @@ function whyNoRatio(e) {
 }
 
 const exploratoryText = e => "exploratory: the interval " +
-    (e.high < 1 ? "lies below 1" : e.low > 1 ? "lies above 1" : "holds 1");
+    (e.high < 1    ? "lies below 1" :
+         e.low > 1 ? "lies above 1" :
+                     "holds 1");
 
 function effectCells(e, others) {
     const result = e.value === null                              ? whyNoRatio(e) :
@@ -235,8 +253,7 @@ function effectCells(e, others) {
                                                                    `${number(100 * (e.value - 1), 2)} % more error`;
     const ratioCell = r => cell(r.value, number(r.value), " ", h("small", {}, interval(r)));
     return [
-        ratioCell(e), ...others.map(other => other ? ratioCell(other) : "–"),
-        cell(shownP(e), number(shownP(e), 2)), cell(e.seeds, String(e.seeds)),
-        isSignificant(e) ? h("b", {}, result) : result
+        ratioCell(e), ...others.map(other => other ? ratioCell(other) : "–"), cell(shownP(e), number(shownP(e), 2)),
+        cell(e.seeds, String(e.seeds)), isSignificant(e) ? h("b", {}, result) : result
     ];
 }

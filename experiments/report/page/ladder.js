@@ -2,26 +2,29 @@
 
 const isLadderRung = target => target === "camera_radiance" || target === "on_screen";
 
+/// Errors of the rungs in one shot, of its last frame.
+const ladderOf = (shot, {target, metricKey: key, mask}) =>
+    list(manifestShots().find(s => s.shot === shot)?.truth_ladder)
+        .filter(r => r.target === target && metricKey(r) === key && r.mask === mask);
+
 /// Errors of the rungs against the chosen target, under the chosen mask, as rows like those of variants; of the last
 /// frame alone.
 function ladderRows(key) {
     return manifestShots().flatMap(
-        shot => list(shot.truth_ladder)
-                    .filter(r => r.target === choice.target && metricKey(r) === key && r.mask === choice.mask)
-                    .map(
-                        r => ({
-                            ...r,
-                            shot: shot.shot,
-                            frame: String(shot.frame),
-                            isRanked: false,
-                            variant: "truth ladder",
-                            point: r.rung + (list(shot.frames).length > 1 ? ", last frame" : ""),
-                            floor: null,
-                            corrected: better(r.metric) === "lower",
-                            seeds: null,
-                            deviation: null,
-                            nonFinite: 0
-                        })));
+        shot => ladderOf(shot.shot, {target: choice.target, metricKey: key, mask: choice.mask})
+                    .map(r => ({
+                             ...r,
+                             shot: shot.shot,
+                             frame: String(shot.frame),
+                             isRanked: false,
+                             variant: "truth ladder",
+                             point: r.rung + (list(shot.frames).length > 1 ? ", last frame" : ""),
+                             floor: null,
+                             corrected: better(r.metric) === "lower",
+                             seeds: null,
+                             deviation: null,
+                             nonFinite: 0
+                         })));
 }
 
 /// The rows of each shot, and then its rungs.

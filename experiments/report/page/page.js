@@ -107,9 +107,47 @@ function compareCells(a, b, up) {
     return up ? order : -order;
 }
 
+/// Makes `element` a button to pointer, keys and screen readers.
+function clickable(element, act) {
+    element.setAttribute("role", "button");
+    element.classList.add("clickable");
+    element.addEventListener("click", act);
+    element.addEventListener("keydown", event => {
+        if (event.key !== "Enter" && event.key !== " ") return;
+        event.preventDefault();
+        act(event);
+    });
+}
+
+/// A word of warning beside what it concerns; `why` is read out, and shown beside the pointer.
+function badge(text, why) {
+    const element = h("span", {class: "badge"}, text);
+    withTip(element, `${text}: ${why}`);
+    return element;
+}
+
+// A box that scrolls is a tab stop, so that arrow keys reach all of it; its height changes with its content.
+const scrollWatcher = new ResizeObserver(entries => entries.forEach(({target}) => {
+    if (target.scrollWidth > target.clientWidth + 1 || target.scrollHeight > target.clientHeight + 1)
+        target.tabIndex = 0;
+    else
+        target.removeAttribute("tabindex");
+}));
+function scroller(...content) {
+    const box = h("div", {class: "scroll"}, content);
+    scrollWatcher.observe(box);
+    return box;
+}
+
+/// A folded part; printing opens all of them.
+const folded = (title, ...content) => h("details", {}, h("summary", {}, title), ...content);
+
 const cell = (sort, ...content) => ({sort: sort === undefined ? null : sort, content: h("span", {}, ...content)});
 
 const tip = h("div", {class: "tip", hidden: true, role: "tooltip"});
+addEventListener("keydown", event => {
+    if (event.key === "Escape") tip.hidden = true;
+});
 
 /// Shows `text` beside the pointer, or beside the element for keyboard users.
 function withTip(element, text) {

@@ -1,34 +1,150 @@
-// Which points tables and charts compare, and the colour and mark that each keeps throughout the page.
+// The points that a study compares: which are shown, and the number, colour and shape that each keeps on the page.
+
+/// What the page speaks of first: the error that a study compares by, and what an eye sees; manifests of other versions
+/// may not tell.
+const headline = Object.fromEntries(
+    Object.entries({metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip"})
+        .map(([key, usual]) => [key, report.headline?.[key] || usual]));
 
 const pointKey = row => row.variant + "|" + row.point;
 const singleChangeKeys = new Set(report.singleChanges.map(pointKey));
 const isSingleChange = row => singleChangeKeys.has(pointKey(row));
+const isSamePoint = (a, b) => a.shot === b.shot && pointKey(a) === pointKey(b);
 
-const comparedPoints = unique(report.errors.filter(r => !isSingleChange(r)).map(pointLabel));
-const mostSeries = 8;  // as many colours as can be told apart
-const charted = comparedPoints.slice(0, mostSeries);
-const chartedIndex = row => isSingleChange(row) ? -1 : charted.indexOf(pointLabel(row));
+const allPoints = [...new Map(report.errors.map(r => [pointKey(r), {variant: r.variant, point: r.point}])).values()];
+const comparedPoints = allPoints.filter(p => !isSingleChange(p));
+const places = new Map(allPoints.map((p, i) => [pointKey(p), i]));
+/// Counted from 1 in the order of the study: what tells marks apart where colours do not.
+const pointNumber = row => places.get(pointKey(row)) + 1;
+const variants = unique(allPoints.map(p => p.variant));
+const mostNumbered = 30;  // more numbers than that cover each other
 
-/// Rows of the charted points, single changes left out.
-const chartedRows = rows => rows.filter(r => chartedIndex(r) >= 0);
+/// What the reader chose to see. `hidden`: keys of points that legends switched off.
+const shownPoints = {
+    filter: "",
+    sort: "study",
+    isGrouped: false,
+    relativeTo: "best",  // or none: what cells of the matrix are divided by
+    colourBy: comparedPoints.length <= mostNumbered ? "point" : "variant",
+    // A grid has holes without them; a list of changes to a baseline is told by its effects.
+    hasSingleChanges: comparedPoints.some(p => (p.point.match(/=/g) ?? []).length > 1),
+    hidden: new Set()
+};
 
-/// Marks and names; where there are more points than colours, that too.
-function pointLegend() {
-    const hidden = comparedPoints.length - charted.length;
-    return h(
-        "div", {class: "legend"}, charted.map((name, i) => legendEntry(i, name)),
-        hidden ? h("span", {class: "note"},
-                   `The first ${charted.length} of ${comparedPoints.length} points; all are in summary.csv.`) :
-                 null);
+const parametersByPoint = new Map(list(report.manifest.variants).map(v => [pointKey(v), v.parameters ?? {}]));
+const parametersOf = row => parametersByPoint.get(pointKey(row)) ?? {};
+
+/// Names of parameters in which points of one variant differ.
+const sweptParameters = (() => {
+    const swept = new Map();
+    for (const variant of variants) {
+        const all = allPoints.filter(p => p.variant === variant).map(parametersOf);
+        const names = unique(all.flatMap(Object.keys));
+        swept.set(variant, names.filter(name => unique(all.map(p => JSON.stringify(p[name]))).length > 1));
+    }
+    return swept;
+})();
+
+const mostParameters = 8;  // in a tip
+/// For tips: the parameters that differ among the points of the variant; a swept point's name has them already.
+function parameterLines(row) {
+    if (row.point.includes("=")) return [];
+    const names = sweptParameters.get(row.variant) ?? [], parameters = parametersOf(row);
+    const told = names.slice(0, mostParameters), rest = names.length - told.length;
+    return [
+        ...told.map(name => `${name} = ${JSON.stringify(parameters[name])}`),
+        ...(rest ? [`and ${rest} more parameters, see Parameters`] : [])
+    ];
+}
+/// What the point is, for tips: its name, and those parameters.
+const pointText = row => [pointLabel(row), ...parameterLines(row)].join("\n");
+
+const mayShow = row => shownPoints.hasSingleChanges || !isSingleChange(row);
+const matchesFilter = row =>
+    shownPoints.filter.toLowerCase().split(/\s+/).every(word => pointLabel(row).toLowerCase().includes(word));
+/// Rows of the points that the reader has not filtered out.
+const filteredRows = rows => rows.filter(r => mayShow(r) && matchesFilter(r));
+/// Those of them that no legend switched off: what charts draw.
+const chartedRows = rows => filteredRows(rows).filter(r => !shownPoints.hidden.has(pointKey(r)));
+
+const symbolNames = ["circle", "square", "triangle", "diamond", "star", "cross", "wye", "hexagon"];
+
+/// Eight colours and eight shapes: shape and colour shift against each other, so that 64 pairs differ.
+const seriesStyle = index =>
+    ({color: `var(--s${index % 8})`, symbol: symbolNames[(index + Math.floor(index / 8)) % 8]});
+
+/// The distinct values of a swept parameter, numbers in ascending order.
+const valuesOf = name => unique(allPoints.map(p => parametersOf(p)[name]).filter(v => v !== undefined))
+                             .sort((a, b) => typeof a === "number" ? a - b : String(a).localeCompare(String(b)));
+
+/// From the first value to the last one: cividis, which looks alike with and without defects of colour vision.
+function parameterStyle(name, value) {
+    const values = valuesOf(name), place = values.indexOf(value);
+    if (place < 0) return {color: "var(--faint)", symbol: "wye"};
+    const share = values.length > 1 ? place / (values.length - 1) : 0;
+    const scale = Plot.scale({color: {type: "linear", domain: [0, 1], scheme: "cividis"}});
+    return {color: scale.apply(0.05 + 0.9 * share), symbol: symbolNames[place % 8], hasOutline: true};
 }
 
-const headlineMetric = rows =>
-    preferred(unique(rows.map(metricKey)), unique(rows.map(metricKey)).find(m => m.startsWith("relmse|")));
-/// The metric that is read beside it: relative errors weigh dark places, absolute ones bright places, and either can
-/// hide how large a gain is. Undefined if `rows` have none.
+function styleOf(row) {
+    const by = shownPoints.colourBy;
+    if (by === "point") return seriesStyle(places.get(pointKey(row)));
+    if (by === "variant") return seriesStyle(variants.indexOf(row.variant));
+    return parameterStyle(by, parametersOf(row)[by]);
+}
+
+/// [{label, keys, style}]: what colours and shapes stand for, of the points of `rows`.
+function legendGroups(rows) {
+    const points = [...new Map(rows.map(r => [pointKey(r), r])).values()], by = shownPoints.colourBy;
+    const name = p => by === "point" ? `${pointNumber(p)} ${pointLabel(p)}` :
+        by === "variant"      ? p.variant :
+        by in parametersOf(p) ? `${by} = ${JSON.stringify(parametersOf(p)[by])}` :
+                                `without ${by}`;
+    const ordered = by === "point" || by === "variant" ?
+        points :
+        [...points].sort((a, b) => compareCells(parametersOf(a)[by] ?? null, parametersOf(b)[by] ?? null, true));
+    const groups = new Map();
+    for (const p of ordered) {
+        if (!groups.has(name(p))) groups.set(name(p), {label: name(p), keys: [], style: styleOf(p)});
+        groups.get(name(p)).keys.push(pointKey(p));
+    }
+    return [...groups.values()];
+}
+
+/// What draws anew when filter, legend or colours change.
+const pointListeners = [];
+const pointsChanged = () => pointListeners.forEach(f => f());
+
+/// A button per series: it shows and hides the series in all charts.
+function pointLegend(rows) {
+    const groups = legendGroups(filteredRows(rows)), {hidden} = shownPoints;
+    const entries = groups.map(({label, keys, style}) => ({
+                                   label,
+                                   style,
+                                   isShown: keys.some(k => !hidden.has(k)),
+                                   toggle: () => {
+                                       const isShown = keys.some(k => !hidden.has(k));
+                                       keys.forEach(k => isShown ? hidden.add(k) : hidden.delete(k));
+                                       pointsChanged();
+                                   }
+                               }));
+    const all = hide => () => {
+        groups.flatMap(g => g.keys).forEach(k => hide ? hidden.add(k) : hidden.delete(k));
+        pointsChanged();
+    };
+    return legend(entries, groups.length > 4 ? [["all", all(false)], ["none", all(true)]] : []);
+}
+
+const headlineMetric = rows => {
+    const keys = unique(rows.map(metricKey));
+    return preferred(keys, keys.find(m => m.startsWith(headline.metric + "|")));
+};
+/// The metric that is read beside it: physical and perceptual errors order techniques differently. Undefined if `rows`
+/// have none.
 const otherMetric = (key, rows) => {
-    const other = {relmse: "mse", mse: "relmse"}[key.split("|")[0]];
-    return unique(rows.map(metricKey)).find(k => other && k.startsWith(other + "|"));
+    const {metric, perceptual_metric: perceptual} = headline, keys = unique(rows.map(metricKey));
+    const others = key.startsWith(metric + "|") ? [perceptual, "mse", "relmse"] : [metric];
+    return others.map(other => keys.find(k => k !== key && k.startsWith(other + "|"))).find(Boolean);
 };
 const metricName = key => {
     const [metric, formula] = key.split("|");
@@ -44,6 +160,38 @@ const unitText = metric => {
     const unit = report.metrics[metric]?.unit;
     return unit && unit !== "1" ? ` (${unit.replace("^2", "²")})` : "";
 };
+
+/// Names of shots as short as they still differ: their scenes, or without the parts that all of them share.
+const shortShot = (() => {
+    const shots = unique(report.errors.map(r => r.shot)), parts = shot => shot.split(".");
+    const areScenesUnique = unique(shots.map(s => parts(s)[0])).length === shots.length;
+    const isShared = (part, i) => i > 0 && shots.every(s => parts(s)[i] === part);
+    const short = new Map(shots.map(
+        s => [s, areScenesUnique ? parts(s)[0] : parts(s).filter((part, i) => !isShared(part, i)).join(".")]));
+    return shot => short.get(shot) ?? shot;
+})();
+
+/// A folded part per shot, the first one open; `draw(shot)` gives its content when it is opened, and anew when the
+/// shown points change.
+function shotParts(shots, draw) {
+    return shots.map((shot, i) => {
+        const body = h("div"),
+              part = h("details", {open: i === 0, "data-shot": shot, class: "shot"}, h("summary", {}, shot), body);
+        let isDrawn = false;
+        const update = () => {
+            if (part.open && !isDrawn) body.replaceChildren(...draw(shot));
+            isDrawn = part.open;
+        };
+        part.addEventListener("toggle", update);
+        part.drawNow = update;  // printing does not wait for events
+        pointListeners.push(() => {
+            isDrawn = false;
+            update();
+        });
+        update();
+        return part;
+    });
+}
 
 /// Takes a section that a study has nothing for off the page, and the link to it.
 function leaveOut(id) {

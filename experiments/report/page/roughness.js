@@ -7,54 +7,96 @@ function roughnessClass(mask) {
 }
 
 function showRoughness() {
-    const rows = chartedRows(report.errors).filter(r => r.value !== null && roughnessClass(r.mask));
+    const rows = report.errors.filter(r => r.value !== null && roughnessClass(r.mask));
     if (!rows.length) {
         leaveOut("roughness");
         return;
     }
+    const body = h("div");
+    at("roughness").append(body);
+    const draw = () => body.replaceChildren(pointLegend(rows), ...roughnessParts(chartedRows(rows)));
+    pointListeners.push(draw);
+    draw();
+}
+
+/// Charts of both errors of the headline side by side, then those of the bias.
+function roughnessParts(rows) {
+    if (!rows.length) return [];
     const specular = rows.filter(r => r.target === preferred(unique(rows.map(o => o.target)), "specular"));
-    const metric = headlineMetric(specular);
-    const incident =
+    const metric = headlineMetric(specular), other = otherMetric(metric, specular);
+    const bias =
         rows.filter(r => r.metric === "bias" && r.target === preferred(unique(rows.map(o => o.target)), "incident"));
-    at("roughness")
-        .append(
-            pointLegend(), ...roughnessCharts(specular.filter(r => metricKey(r) === metric), true, "Error"),
-            ...(incident.length ? roughnessCharts(incident, false, "Signed bias: above 0 too bright, below too dark") :
-                                  []));
+    const errors = [metric, other].filter(Boolean).map(key => specular.filter(r => metricKey(r) === key));
+    const names = unique(errors.map(own => own[0].metric)).join(" and ");
+    return [
+        h("h3", {}, `Error: ${names} of target ${specular[0].target}`), roughnessCharts(errors),
+        ...(bias.length ?
+                [
+                    h("h3", {}, `Signed bias of target ${bias[0].target}: above 0 too bright, below too dark`),
+                    roughnessCharts([bias])
+                ] :
+                [])
+    ];
 }
 
-function roughnessCharts(rows, isLog, title) {
-    const {metric, target} = rows[0];
-    const yLabel = `${metric}${unitText(metric)}`;
-    const charts = unique(rows.map(r => r.shot))
-                       .map(shot => roughnessChart(shot, rows.filter(r => r.shot === shot), isLog, yLabel));
-    return [h("h3", {}, `${title}: ${metric} of target ${target}`), h("div", {class: "grid small"}, charts)];
-}
+const roughnessCharts = groups => h(
+    "div", {class: "grid"},
+    unique(groups.flat().map(r => r.shot))
+        .flatMap(
+            shot =>
+                groups.map(rows => rows.filter(r => r.shot === shot)).filter(rows => rows.length).map(roughnessChart)));
 
-function roughnessChart(shot, rows, isLog, yLabel) {
+function roughnessChart(rows) {
+    const {metric, shot} = rows[0], isLog = better(metric) === "lower";
     const masks = unique(rows.map(r => r.mask)).sort((a, b) => roughnessClass(a)[0] - roughnessClass(b)[0]);
-    const ticks = masks.map((mask, at) => ({at, text: roughnessClass(mask).map(v => number(v, 3)).join("–")}));
-    const lines = unique(rows.map(chartedIndex)).map(series => {
-        const own =
-            rows.filter(r => chartedIndex(r) === series).sort((a, b) => masks.indexOf(a.mask) - masks.indexOf(b.mask));
-        return {
-            series,
-            points: own.map(row => ({
-                                at: masks.indexOf(row.mask),
-                                row,
-                                tip: `${pointLabel(row)}\nroughness ${ticks[masks.indexOf(row.mask)].text}, ${
-                                    row.pixels} pixels\n${row.metric} ${number(row.value)} ${interval(row)}`
-                            }))
-        };
-    });
+    const text = mask => roughnessClass(mask).map(v => number(v, 3)).join("–");
+    const keys = unique(rows.map(pointKey));
+    const dodge = row => Math.min(0.1, 0.8 / keys.length) * (keys.indexOf(pointKey(row)) - (keys.length - 1) / 2);
+    const place = row => masks.indexOf(row.mask) + dodge(row);
+    const tip = row => `${pointText(row)}\nroughness ${text(row.mask)}, ${row.pixels} pixels\n${rowText(row)}`;
     const frames = unique(rows.map(framesText)).filter(Boolean).join("; ");
+    const ticks = masks.map((_, i) => i);
     return lineChart({
-        title: frames ? `${shot}: ${frames}` : shot,
-        xLabel: "perceptual roughness",
-        yLabel,
-        ticks,
-        lines,
-        isLog,
-        spread: true
+        title: `${metric} by roughness, ${shot}`,
+        caption: [`${shortShot(shot)}: ${metric}`, frames].filter(Boolean).join(": "),
+        x: {
+            type: "linear",
+            domain: [-0.6, masks.length - 0.4],
+            ticks,
+            tickFormat: i => text(masks[i]),
+            label: "perceptual roughness"
+        },
+        rows,
+        place,
+        tip,
+        isLog
     });
+}
+
+/// One line per point over `place(row)`; `tip`: what a mark says.
+function lineChart({title, caption, x, rows, place, tip, isLog, size}) {
+    const {metric} = rows[0], yLabel = metric + unitText(metric);
+    const y = isLog ? errorAxis(true, rows, yLabel) :
+                      linearAxis([0, ...rows.flatMap(r => [r.value, r.low ?? r.value, r.high ?? r.value])], yLabel);
+    const sorted = [...rows].sort((a, b) => place(a) - place(b));
+    const marks = sorted.map(row => pointMark(row, {
+                                 x: place(row),
+                                 y: row.value,
+                                 spanX: null,
+                                 spanY: row.low === null ? null : [row.low, row.high],
+                                 tip: tip(row),
+                                 number: null,
+                                 size
+                             }));
+    const under = [
+        ...(isLog ? [] : [Plot.ruleY([0], {stroke: "var(--faint)"})]), Plot.line(sorted, {
+            x: place,
+            y: r => clampTo(r.value, y),
+            z: pointKey,
+            stroke: r => styleOf(r).color,
+            strokeWidth: 1.2,
+            strokeOpacity: 0.6
+        })
+    ];
+    return markChart({title, caption, x, y, marks, under, height: 270});
 }

@@ -1,4 +1,4 @@
-// Head, warnings and the tables that do not change: what was run, references, needs, parameters.
+// Head, warnings and the tables that do not change: references, needs, parameters.
 
 const known = (value, text = String(value)) =>
     value === null || value === undefined || value === "" ? "not recorded" : text;
@@ -6,73 +6,18 @@ const percent = x => x === null || x === undefined ? "–" : number(100 * x, 3) 
 
 function showHead() {
     const {manifest} = report;
-    const makers = list(manifest.provenance);
-    const shots = list(manifest.shots).length, points = unique(report.errors.map(pointLabel)).length;
+    const shots = list(manifest.shots).length;
     const parts = [
-        `${shots} ${shots === 1 ? "shot" : "shots"}`, `${points} ${points === 1 ? "variant point" : "variant points"}`,
+        `${shots} ${shots === 1 ? "shot" : "shots"}`,
+        `${allPoints.length} variant ${allPoints.length === 1 ? "point" : "points"}`,
         ...unique(makers.map(m => m.device?.name)), makers.map(m => m.started).sort()[0]
     ];
     at("subtitle").textContent = parts.filter(Boolean).join(" · ");
-    const all = [...report.warnings];
-    at("warnings").replaceChildren(...all.map(text => h("p", {class: "warning", role: "note"}, text)));
-
-    const {clock} = manifest, proofs = list(clock?.proofs);
-    const times = [
-        ["Clock", known(unique(proofs.map(p => p.method)).join(", "))],
-        ["Clock proof", proofs.length ? proofs.map(clockProof).join(" | ") : "not recorded"],
-        ["A/A floor of times", known(clock?.aa_floor, percent(clock?.aa_floor))],
-        ["Empty submit", known(proofs[0]?.empty_submit_ms, proofs.map(p => number(p.empty_submit_ms, 3)).join(", ") + " ms")],
-        ["Foreign load, at most", foreignLoad(list(clock?.load))],
-    ];
-    at("facts").replaceChildren(...(makers.length ? makers : [{}]).map((m, i) => factList(makerFacts(m, makers.length > 1 ? i + 1 : 0))),
-                                factList(times));
-}
-
-const factList = facts =>
-    h("dl", {class: "facts"}, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
-
-/// What made some of the cells, where and when; `place` counts them from 1 where there are several.
-function makerFacts(maker, place) {
-    const {device = {}, host = {}, ssrlab = {}} = maker;
-    return [
-        ...(place ? [[`Made by ${place}`, `${list(maker.cells).length} cells`]] : []),
-        ["Device", known(device.name, [device.name, device.type && `(${device.type})`].filter(Boolean).join(" "))],
-        [
-            "Driver",
-            known(device.driver, [device.driver, device.api && `Vulkan ${device.api}`].filter(Boolean).join(", "))
-        ],
-        [
-            "Host",
-            known(
-                host.cpu,
-                [host.name, host.cpu, host.cores && `${host.cores} cores`,
-                 host.memory_gib && `${number(host.memory_gib)} GiB`]
-                    .filter(Boolean)
-                    .join(", "))
-        ],
-        ["Kernel", known(host.kernel)],
-        ["ssrlab", known(ssrlab.version, [ssrlab.version, ssrlab.build, ssrlab.compiler].filter(Boolean).join(", "))],
-        [
-            "Commit",
-            h("span", {class: "hash"},
-              known(ssrlab.commit, String(ssrlab.commit).slice(0, 12)) + (ssrlab.dirty ? " with changes" : ""))
-        ],
-        ["Run", `${known(maker.started)} to ${known(maker.finished)}`],
-    ];
-}
-
-const verdictTexts = {passed: "passed", failed: "FAILED", not_judged: "NOT JUDGED, the machine was busy"};
-
-const clockProof = proof =>
-    list(proof.checks)
-        .map(
-            p => `${p.stage_kind}: ${verdictTexts[p.verdict] ?? "not recorded"} (${
-                list(p.ratio).map(r => number(r, 3)).join(" : ")} for ${list(p.expected).join(" : ")})`)
-        .join("; ");
-
-function foreignLoad(loads) {
-    const largest = loads.map(l => l.largest_foreign_load).filter(x => typeof x === "number");
-    return largest.length ? percent(Math.max(...largest)) + " of the machine's CPU time" : "not recorded";
+    const {warnings} = report,
+          count = `${warnings.length} ${warnings.length === 1 ? "warning" : "warnings"} of the study`;
+    at("warnings")
+        .replaceChildren(
+            warnings.length ? folded(count, h("ul", {}, warnings.map(text => h("li", {class: "warning"}, text)))) : "");
 }
 
 function showReferences() {
@@ -84,7 +29,7 @@ function showReferences() {
         const r = s.reference ?? {}, e = r.relative_error ?? {};
         return [
             s.shot, number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""),
-            number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95), percent(r.reached_share),
+            number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95), reachedCell(r),
             s.references ? String(s.references.length) : "1", known(s.lit, String(s.lit).replace("_", "\u2011")),
             h("span", {class: "hash", title: r.hash ?? ""}, known(r.hash, String(r.hash).slice(0, 12)))
         ];
@@ -94,34 +39,24 @@ function showReferences() {
             h("p", {class: "note"},
               "Relative standard error of the truth's specular light at a pixel, in the last frame. " +
                   "Every comparison accounts for it."),
-            h("div", {class: "scroll"}, table(columns, rows)));
+            scroller(table(columns, rows)));
 }
+
+/// A share says something only of a target.
+const reachedCell = reference => reference.target_relative_error > 0 ?
+    `${percent(reference.reached_share)} (of ${percent(reference.target_relative_error)})` :
+    h("span", {}, badges(mistakesOfReference(reference)));
 
 const manifestShots = () => list(report.manifest.shots);
 
-/// What leaving out saves each timed point in each shot.
-function savingsTable(savings) {
-    const shots = unique(savings.map(s => s.shot)), points = unique(savings.map(pointLabel));
-    const cell = (shot, point) => {
-        const saved = savings.find(s => s.shot === shot && pointLabel(s) === point);
-        return saved ? `${percent(saved.share)} [${percent(saved.low)}, ${percent(saved.high)}] of ${number(saved.complete_ms, 3)} ms` : "–";
-    };
-    return h(
-        "div", {}, h("p", {}, "Share of a technique's time that is saved by what the scene does not need: median and interval over the frames."),
-        h("div", {class: "scroll"},
-          table([{name: "Technique"}, ...shots.map(name => ({name, number: true}))],
-                points.map(point => [point, ...shots.map(shot => cell(shot, point))]))));
-}
-
 function showNeeds() {
-    const savings = list(report.manifest.clock?.savings);
-    if (savings.length) at("needs").append(savingsTable(savings));
     for (const shot of manifestShots()) {
         const needs = list(shot.needs), leftOut = list(shot.left_out);
         if (!needs.length && !leftOut.length) continue;
         at("needs").append(
             h("details", {},
-              h("summary", {}, `${shot.shot}: ${leftOut.length ? leftOut.length + " parts left out" : "nothing left out"}`),
+              h("summary", {},
+                `${shot.shot}: ${leftOut.length ? leftOut.length + " parts left out" : "nothing left out"}`),
               table(
                   [{name: "Fact"}, {name: "Value"}, {name: "Why"}],
                   needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
@@ -152,25 +87,42 @@ function showParameters() {
         const first = points[0],
               stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
         at("parameters").append(h("h3", {}, first.title ?? name), h("p", {class: "note"}, [
-                                    first.source, stages.length && "Stages: " + stages.join(", "),
-                                    limitsNote(points)
+                                    first.source, stages.length && "Stages: " + stages.join(", "), limitsNote(points)
                                 ].filter(Boolean).join(". ").replaceAll("..", ".")));
-        const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
-        if (!keys.length) continue;
-        const text = value => value === undefined ? "–" :
-            typeof value === "number"             ? number(value, 6) :
-                                                    JSON.stringify(value);
-        const differs = key => unique(points.map(p => JSON.stringify(p.parameters?.[key]))).length > 1;
-        const meaning = key => report.manifest.parameter_docs?.[name]?.[key] ?? null;
-        const row = key =>
-            [h(differs(key) ? "b" : "span", {title: meaning(key)}, key), ...points.map(p => text(p.parameters?.[key]))];
-        const columns = [{name: "Parameter"}, ...points.map(p => ({name: p.point, number: true}))];
-        const rest = keys.length > longTable && keys.some(differs) ? keys.filter(k => !differs(k)) : [];
-        at("parameters")
-            .append(
-                h("div", {class: "scroll"}, table(columns, keys.filter(k => !rest.includes(k)).map(row))),
-                rest.length ? h("details", {}, h("summary", {}, `${rest.length} more, equal for all points`),
-                                h("div", {class: "scroll"}, table(columns, rest.map(row)))) :
-                              "");
+        at("parameters").append(...parameterTables(points, name));
     }
+}
+
+const parameterText = value => value === undefined ? "–" :
+    typeof value === "number"                      ? number(value, 6) :
+                                                     JSON.stringify(value);
+const mostColumns = 8;  // of points; more of them are rows
+
+/// What differs among the points of a variant, then what is equal for all of them.
+function parameterTables(points, variant) {
+    const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
+    if (!keys.length) return [];
+    const differs = key => unique(points.map(p => JSON.stringify(p.parameters?.[key]))).length > 1;
+    const differing = keys.filter(differs), equal = keys.filter(key => !differs(key));
+    const name = key => h("span", {title: report.manifest.parameter_docs?.[variant]?.[key] ?? null}, key);
+    const value = (p, key) => parameterText(p.parameters?.[key]);
+    const areRows = points.length > mostColumns;
+    const columns = areRows ? [{name: "Point"}, ...differing.map(key => ({name: key, number: true}))] :
+                              [{name: "Parameter"}, ...points.map(p => ({name: p.point, number: true}))];
+    const rows = areRows ? points.map(p => [p.point, ...differing.map(key => value(p, key))]) :
+                           differing.map(key => [name(key), ...points.map(p => value(p, key))]);
+    const common = table(
+        [{name: "Parameter"}, {name: "Value", number: true}], equal.map(key => [name(key), value(points[0], key)]));
+    const isLong = rows.length > longTable;
+    const shown = scroller(table(columns, rows));
+    return [
+        ...(differing.length ?
+                [isLong ? folded(`${rows.length} points, their ${differing.length} parameters that differ`, shown) :
+                          shown] :
+                []),
+        ...(equal.length ?
+                [differing.length && equal.length > 3 ? folded(`${equal.length} more, equal for all points`, common) :
+                                                        common] :
+                [])
+    ];
 }

@@ -6,7 +6,7 @@ const splitChoice = {
 };
 
 function showSplits() {
-    if (!report.splits.some(s => chartedIndex(s) >= 0)) {
+    if (!report.splits.some(mayShow)) {
         leaveOut("splits");
         return;
     }
@@ -20,14 +20,17 @@ function showSplits() {
     at("splits").append(
         h("div", {class: "controls"}, select("Target", targets, splitChoice.target, changed("target")),
           select("Mask", masks, splitChoice.mask, changed("mask"))),
-        h("div", {class: "legend"}, legendEntry(0, "bias²"), legendEntry(1, "variance", true)),
-        h("div", {class: "scroll strips", id: "split-table"}));
+        legend([{label: "bias²", style: splitStyles[0]}, {label: "variance", style: splitStyles[1], isHollow: true}]),
+        scroller(h("div", {class: "strips", id: "split-table"})));
+    pointListeners.push(drawSplits);
     drawSplits();
 }
 
+const splitStyles = [seriesStyle(0), seriesStyle(1)];
+
 function drawSplits() {
-    const rows = report.splits.filter(
-        s => s.target === splitChoice.target && s.mask === splitChoice.mask && chartedIndex(s) >= 0);
+    const rows =
+        filteredRows(report.splits.filter(s => s.target === splitChoice.target && s.mask === splitChoice.mask));
     const ends = part => [part.value, part.low ?? part.value, part.high ?? part.value];
     const scale = stripScale(rows.flatMap(s => [...ends(s.biasSquared), ...ends(s.variance)]), true);
     const columns = [
@@ -37,8 +40,8 @@ function drawSplits() {
     const lines = rows.map(s => {
         const tip = (name, part) => `${pointLabel(s)}\n${name} ${number(part.value)} ${interval(part)}`;
         const marks = [
-            {series: 0, row: s.biasSquared, tip: tip("bias²", s.biasSquared), lane: 0},
-            {series: 1, row: s.variance, isHollow: true, tip: tip("variance", s.variance), lane: 1}
+            {style: splitStyles[0], row: s.biasSquared, tip: tip("bias²", s.biasSquared), lane: 0},
+            {style: splitStyles[1], row: s.variance, isHollow: true, tip: tip("variance", s.variance), lane: 1}
         ];
         return [
             s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse, 3)),

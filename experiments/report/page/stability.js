@@ -235,7 +235,7 @@ function amplificationTable() {
     if (!own.length) return null;
     const choices = unique(own.map(row => row[0])).map(c => [c, cases[c].name]);
     stabilityChoice.amplified = choices[0][0];
-    const body = h("div", {class: "scroll"});
+    const body = scroller();
     const value = (row, column) => cell(row[3][column] ?? 0, number(row[3][column] ?? 0, 3));
     const show = () => body.replaceChildren(table(
         [
@@ -261,4 +261,4 @@ function amplificationTable() {
 
 const part = (title, note, ...content) =>
     h("div", {}, h("h3", {}, title), h("p", {class: "note"}, note),
-      ...content.map(c => c instanceof HTMLTableElement ? h("div", {class: "scroll"}, c) : c));
+      ...content.map(c => c instanceof HTMLTableElement ? scroller(c) : c));

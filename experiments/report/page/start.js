@@ -1,29 +1,41 @@
 // Fills the page, top to bottom.
 
-document.body.append(tip);
+document.body.append(tip, textureDefinitions());
+document.querySelectorAll(".scroll").forEach(box => scrollWatcher.observe(box));
 showStability();
 Promise.resolve(report.isStudy ? showStudy() : showStabilityAlone())
     .then(() => document.documentElement.setAttribute("data-ready", ""));
 
-/// Resolves when the pictures are there.
-function showStudy() {
-    showHead();
-    if (report.errors.length) {
-        showChoice();
-        choiceListeners.push(showOverview, showSummary, showScatter);
-        choiceListeners.forEach(f => f());
-    } else {
-        at("summary").append(h("p", {class: "note"}, "results.csv has no rows."));
+/// Paper cannot be unfolded; what is drawn on opening may hold further parts.
+addEventListener("beforeprint", () => {
+    for (let part; (part = document.querySelector("details:not([open])"));) {
+        part.open = true;
+        part.drawNow?.();
     }
-    showRoughness();
-    showSplits();
+});
+
+/// Resolves when the pictures are there.
+async function showStudy() {
+    showHead();
+    if (report.errors.length)
+        await showAnswers();
+    else
+        leaveOut("answers");
+    await new Promise(painted => setTimeout(painted));  // the first screen, before the rest is made
+    if (report.errors.length)
+        showExplorer();
+    else
+        at("results").append(h("p", {class: "note"}, "results.csv has no rows."));
     showHits();
     showStages();
+    showRoughness();
+    showSplits();
     showEffects();
     showTemporal();
     showReferences();
     showNeeds();
     showParameters();
+    showProvenance();
     return showViewer();
 }
 

@@ -1,23 +1,21 @@
-// The summary table, and the choice of target, metric and mask that it shares with the error-time charts.
+// The summary table, and the choice of target, metric and mask that it shares with the matrix and the charts.
 
 const choice = {
     target: null,
     metric: null,
-    mask: null,
-    hasSingleChanges: false
+    mask: null
 };
 const choiceListeners = [];
+const longTable = 20;  // rows; longer tables are folded
 
 const better = metric => report.metrics[metric]?.better;
 const metricKey = row => `${row.metric}|${row.formula}`;
-const totalTime = row => report.times.find(
-    t => t.shot === row.shot && t.variant === row.variant && t.point === row.point && t.stage === "total");
+const totals = new Map(report.times.filter(t => t.stage === "total").map(t => [t.shot + "|" + pointKey(t), t]));
+const totalTime = row => totals.get(row.shot + "|" + pointKey(row));
 const rowsOfMetric = metric => report.errors.filter(
-    r => r.target === choice.target && metricKey(r) === metric && r.mask === choice.mask &&
-        (choice.hasSingleChanges || !isSingleChange(r)));
+    r => r.target === choice.target && metricKey(r) === metric && r.mask === choice.mask && mayShow(r));
 const chosenRows = () => rowsOfMetric(choice.metric);
 const otherRows = () => rowsOfMetric(otherMetric(choice.metric, report.errors));
-const isSamePoint = (a, b) => a.shot === b.shot && pointKey(a) === pointKey(b);
 
 /// The value if it is present, else the first one.
 const preferred = (values, value) => values.includes(value) ? value : values[0];
@@ -25,9 +23,9 @@ const preferred = (values, value) => values.includes(value) ? value : values[0];
 function showChoice() {
     const targets = unique(report.errors.map(r => r.target)), metrics = unique(report.errors.map(metricKey)),
           masks = unique(report.errors.map(r => r.mask));
-    choice.target = preferred(targets, "specular");
+    choice.target = preferred(targets, headline.target);
     choice.metric = headlineMetric(report.errors);
-    choice.mask = preferred(masks, "reflective");
+    choice.mask = preferred(masks, headline.mask);
     const changed = key => value => {
         choice[key] = value;
         choiceListeners.forEach(f => f());
@@ -35,15 +33,7 @@ function showChoice() {
     at("choice").append(
         select("Target", targets, choice.target, changed("target")),
         select("Metric", metrics.map(m => [m, metricName(m)]), choice.metric, changed("metric")),
-        select("Mask", masks, choice.mask, changed("mask")),
-        ...(singleChangeKeys.size ?
-                [h("label", {}, h("input", {
-                       type: "checkbox",
-                       id: "single-changes",
-                       change: event => changed("hasSingleChanges")(event.target.checked)
-                   }),
-                   `${singleChangeKeys.size} points that change one parameter of a baseline, too`)] :
-                []));
+        select("Mask", masks, choice.mask, changed("mask")));
 }
 
 /// Distance from perfect, so that less is better for every metric; null if its direction is not known.
@@ -123,40 +113,41 @@ function valueCell(row, isBest) {
 function summaryRow(row, rows, best, others, otherBest) {
     const ratio = againstNone(row, rows), time = totalTime(row), other = others.find(o => isSamePoint(o, row));
     return [
-        row.shot, row.variant, row.point, valueCell(row, best.has(row)),
-        ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
+        row.shot, row.variant, cell(row.point, row.point, " ", badges(mistakesOfError(row))),
+        valueCell(row, best.has(row)), ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
         cell(row.floor, number(row.floor)),
         ...(rows.some(isLitNoisy) ? [cell(row.litNoise ?? null, number(row.litNoise))] : []),
         cell(
             ratio?.value ?? null, ratio ? number(ratio.value, 3) : "", " ",
             h("small", {}, ratio ? interval({low: ratio.low, high: ratio.high}) : "")),
-        cell(time?.value ?? null, time ? number(time.value) : "–", " ", h("small", {}, time ? interval(time) : "")),
+        cell(
+            time?.value ?? null, time ? number(time.value) : "–", " ", h("small", {}, time ? interval(time) : ""),
+            ...(time ? badges(mistakesOfTime(row)) : [])),
         cell(
             row.seeds, row.seeds === null ? "–" : String(row.seeds),
             row.deviation === null ? "" : h("small", {}, ` (±${number(row.deviation, 2)})`)),
-        cell(row.pixels, String(row.pixels)),
-        ...(rows.some(r => r.nonFinite) ? [cell(row.nonFinite, String(row.nonFinite))] : [])
+        cell(row.pixels, String(row.pixels)), madeCell(row)
     ];
 }
 
 function showSummary() {
-    const chosen = chosenRows(), ladder = ladderRows(choice.metric), rows = besideTheirShots(chosen, ladder);
+    const chosen = filteredRows(chosenRows()), ladder = ladderRows(choice.metric),
+          rows = besideTheirShots(chosen, ladder);
     const others = [...otherRows(), ...ladderRows(otherMetric(choice.metric, report.errors))];
     const best = clearlyBestRows(chosen), otherBest = clearlyBestRows(otherRows());
     const name = choice.metric.split("|")[0];
     const columns = [
         {name: "Shot"}, {name: "Variant"}, {name: "Point"}, {name: name, number: true},
         ...(others.length ? [{name: others[0].metric, number: true}] : []), {name: "Noise floor", number: true},
-        ...(rows.some(isLitNoisy) ? [{name: "Lit noise", number: true}] : []),
-        {name: "× none", number: true}, {name: "Total ms", number: true}, {name: "Seeds", number: true},
-        {name: "Pixels", number: true}, ...(rows.some(r => r.nonFinite) ? [{name: "Non-finite", number: true}] : [])
+        ...(rows.some(isLitNoisy) ? [{name: "Lit noise", number: true}] : []), {name: "× none", number: true},
+        {name: "Total ms", number: true}, {name: "Seeds", number: true}, {name: "Pixels", number: true},
+        {name: "Made by"}
     ];
     const whole =
         table(columns, rows.map(r => summaryRow(r, rows, best, others, otherBest)), {sortable: true, groupBy: 0});
-    const isOpen = at("summary").querySelector("details")?.open || choice.hasSingleChanges;
+    const isOpen = at("summary").querySelector("details")?.open ?? chosen.length <= longTable;
     const title = `All ${rows.length} values, with noise floors, times and seeds`;
-    at("summary").replaceChildren(
-        chosen.length > longTable ? h("details", {open: isOpen}, h("summary", {}, title), whole) : whole);
+    at("summary").replaceChildren(h("details", {open: isOpen}, h("summary", {}, title), scroller(whole)));
     const about = report.metrics[name];
     const direction = {
         lower: "Less is better.",
@@ -171,17 +162,20 @@ function showSummary() {
     at("summary-note").textContent = [
         about?.doc && about.doc + ".", direction, corrected,
         others.length &&
-            `${others[0].metric} stands beside it: relative errors weigh dark places, absolute ones bright places. ` +
+            `${others[0].metric} stands beside it: physical and perceptual errors order techniques differently. ` +
                 `Noise floor and × none are those of ${name}.`,
         ladder.length &&
             "Truth ladder: the truth with less of its light, see How to read this. Nothing to rank, so never bold.",
-        rows.some(isLitNoisy) && "Lit noise: what the noise of the path-traced light that techniques read adds to the " +
-            "value; intervals reach down by it.",
+        rows.some(isLitNoisy) &&
+            "Lit noise: what the noise of the path-traced light that techniques read adds to the " +
+                "value; intervals reach down by it.",
         "Brackets: 95 % interval" +
-            (rows.some(intervalNote) ? "; seeds alone: without what the reference's noise adds, which the noise floor " +
-                                       "bounds, and so not ranked." :
-                                       ".") +
-            (rows.some(isOneSeed) ? " One seed of a technique that draws random numbers has none, and is not ranked." : ""),
+            (rows.some(intervalNote) ?
+                 "; seeds alone: without what the reference's noise adds, which the noise floor " +
+                     "bounds, and so not ranked." :
+                 ".") +
+            (rows.some(isOneSeed) ? " One seed of a technique that draws random numbers has none, and is not ranked." :
+                                    ""),
         "± after the seeds: their standard deviation."
     ].filter(Boolean).join(" ").replaceAll("..", ".");
 }

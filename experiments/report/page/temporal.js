@@ -19,7 +19,7 @@ const frameChoice = {
 function showTemporal() {
     const rows =
         report.errors.filter(r => temporalTables.some(t => t.metrics.includes(r.metric)) && !isSingleChange(r));
-    const frames = chartedRows(report.frames).filter(r => r.value !== null);
+    const frames = report.frames.filter(r => r.value !== null);
     if (!rows.length && !frames.length) {
         leaveOut("temporal");
         return;
@@ -54,22 +54,23 @@ function temporalTable({title, metrics, hasDisoccluded}, all) {
         {name: "Shot"}, {name: "Point"}, ...shown.map(m => ({name: m + unitText(m), number: true})),
         ...(disoccluded.length ? [{name: "relmse, disoccluded", number: true}] : [])
     ];
-    const lines = shots
-                      .flatMap(shot => comparedPoints.map(point => {
-                          const isOwn = r => r.shot === shot && pointLabel(r) === point;
-                          const own = rows.filter(isOwn);
-                          return own.length ?
-                              [
-                                  shot, point, ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
-                                  ...(disoccluded.length ? [disoccludedCell(disoccluded.find(isOwn))] : [])
-                              ] :
-                              null;
-                      }))
-                      .filter(Boolean);
+    const lines =
+        shots
+            .flatMap(shot => comparedPoints.map(point => {
+                const isOwn = r => r.shot === shot && pointKey(r) === pointKey(point);
+                const own = rows.filter(isOwn);
+                return own.length ?
+                    [
+                        shot, pointLabel(point), ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
+                        ...(disoccluded.length ? [disoccludedCell(disoccluded.find(isOwn))] : [])
+                    ] :
+                    null;
+            }))
+            .filter(Boolean);
     const meanings = shown.flatMap(m => [h("b", {}, m), `: ${report.metrics[m]?.doc ?? "not known"}. `]);
     return [
         h("h3", {}, title), h("p", {class: "note"}, meanings),
-        h("div", {class: "scroll"}, table(columns, lines, {sortable: true, groupBy: 0}))
+        scroller(table(columns, lines, {sortable: true, groupBy: 0}))
     ];
 }
 
@@ -104,41 +105,40 @@ function showFrames(rows) {
             h("div", {class: "controls"},
               select("Metric", metrics.map(m => [m, metricName(m)]), frameChoice.metric, changed("metric")),
               select("Mask", masks, frameChoice.mask, changed("mask"))),
-            pointLegend(), h("div", {class: "grid small", id: "frame-charts"}));
+            h("div", {id: "frame-legend"}), h("div", {class: "grid", id: "frame-charts"}));
+    pointListeners.push(() => drawFrames(rows));
     drawFrames(rows);
 }
 
+/// Charts of the chosen metric and of the one beside it, shot by shot.
 function drawFrames(all) {
-    const rows = all.filter(r => metricKey(r) === frameChoice.metric && r.mask === frameChoice.mask);
-    const metric = frameChoice.metric.split("|")[0];
-    at("frame-charts")
-        .replaceChildren(
-            ...unique(rows.map(r => r.shot)).map(shot => frameChart(shot, rows.filter(r => r.shot === shot), metric)));
+    const own = metric => all.filter(r => metricKey(r) === metric && r.mask === frameChoice.mask);
+    const groups = [frameChoice.metric, otherMetric(frameChoice.metric, all)].filter(Boolean).map(own);
+    at("frame-legend").replaceChildren(pointLegend(groups[0]));
+    const charts = unique(groups[0].map(r => r.shot))
+                       .flatMap(shot => groups.map(rows => chartedRows(rows).filter(r => r.shot === shot)));
+    at("frame-charts").replaceChildren(...charts.filter(rows => rows.length).map(frameChart));
 }
 
-function frameChart(shot, rows, metric) {
-    const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b);
-    const step = Math.ceil(frames.length / 8);
+function frameChart(rows) {
+    const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b), {metric, shot} = rows[0];
+    const step = Math.ceil(frames.length / 8), last = frames.at(-1), air = Math.max(0.4, 0.03 * (last - frames[0]));
     const change = manifestShots().find(s => s.shot === shot)?.change;
-    const lines =
-        unique(rows.map(chartedIndex)).map(series => ({
-                                               series,
-                                               points: rows.filter(r => chartedIndex(r) === series)
-                                                           .sort((a, b) => a.frame - b.frame)
-                                                           .map(row => ({
-                                                                    at: Number(row.frame),
-                                                                    row,
-                                                                    tip: `${pointLabel(row)}\nframe ${row.frame}\n${
-                                                                        metric} ${number(row.value)} ${interval(row)}`
-                                                                }))
-                                           }));
     return lineChart({
-        title: shot + (change === undefined ? "" : `: the scene changes at frame ${change}`),
-        xLabel: "frame",
-        yLabel: metric + unitText(metric),
-        lines,
-        ticks: frames.filter((_, i) => i % step === 0).map(f => ({at: f, text: String(f)})),
+        title: `${metric} by frame, ${shot}`,
+        caption:
+            `${shortShot(shot)}: ${metric}` + (change === undefined ? "" : `, the scene changes at frame ${change}`),
+        x: {
+            type: "linear",
+            domain: [frames[0] - air, last + air],
+            ticks: frames.filter((_, i) => i % step === 0),
+            tickFormat: String,
+            label: "frame"
+        },
+        rows,
+        place: row => Number(row.frame),
+        tip: row => `${pointText(row)}\nframe ${row.frame}\n${rowText(row)}`,
         isLog: better(metric) === "lower",
-        spread: false
+        size: frames.length > 12 ? 3.2 : 4.5
     });
 }

@@ -8,7 +8,7 @@ try:
     from selenium import webdriver
     from selenium.common.exceptions import WebDriverException
     from selenium.webdriver.common.by import By
-    from selenium.webdriver.support.ui import Select
+    from selenium.webdriver.support.ui import Select, WebDriverWait
 except ImportError:
     sys.exit(
         "these tests run in a browser: install python3-selenium, chromium and chromium-driver (tests/run.sh does)"
@@ -51,6 +51,12 @@ def check(is_true, what):
 
 def equal(found, expected, what):
     check(found == expected, f"{what}: found {found!r}, expected {expected!r}")
+
+
+def until_ready(page):
+    WebDriverWait(page, 20).until(
+        lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
+    )
 
 
 def choose(page, label, text):

@@ -190,6 +190,21 @@ void add_hits(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
         add(last, "sssr/trace_rough", mask, 0);
         if (shot.name == study_moving_shot) add("3", "sssr/trace_smooth", mask, 0.5 * right);
     }
+    // Shares of the squared error.
+    for (const auto& [quantity, value] : {std::pair("right", 0.125), std::pair("unavoidable_miss", 0.25),
+                                          std::pair("empty", 0.125), std::pair("wrong_place", 0.5)})
+        cell.hits.push_back({.shot = shot.name,
+                             .frame = last,
+                             .variant = point.variant,
+                             .point = point.point,
+                             .stage = "error",
+                             .mask = "reflective",
+                             .quantity = std::string("error: ") + quantity,
+                             .seeds = point.seeds,
+                             .rays = 1234.5,
+                             .value = value,
+                             .low = {},
+                             .high = {}});
 }
 
 json study_manifest(const std::vector<StudyShot>& shots) {
@@ -213,9 +228,10 @@ json study_manifest(const std::vector<StudyShot>& shots) {
         json entry = {{"shot", shot.name}, {"frames", shot.frames}, {"frame", shot.frames.back()}};
         if (shot.name == study_step_shot) entry["change"] = 30;
         if (shot.name == study_moving_shot || shot.name == shots.front().name)
-            for (const char* mask : {"all", "reflective"})
+            for (const auto& [target, mask] :
+                 {std::pair("specular", "all"), std::pair("specular", "reflective"), std::pair("image", "reflective")})
                 entry["truth_ladder"].push_back({{"rung", "on_screen"},
-                                                 {"target", "specular"},
+                                                 {"target", target},
                                                  {"metric", "relmse"},
                                                  {"formula", "relmse_a"},
                                                  {"mask", mask},
@@ -294,7 +310,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
     for (EffectRow& e : split_effects(rows.splits, variants)) effects.push_back(std::move(e));
     for (EffectRow& e : effects)
         if (e.point == "first race=true") e.low = e.high = e.p = std::nullopt, e.interval = interval::not_repeatable;
-    set_families(effects, {});
+    set_families(effects, {.metric = "relmse", .mask = "reflective", .target = "specular"});
     write_rows(folder / "effects.csv", effects);
     write_rows(folder / "time_effects.csv", time_effects(rows.times, variants));
     json manifest = study_manifest(shots);

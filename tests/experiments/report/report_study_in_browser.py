@@ -9,8 +9,8 @@ import subprocess
 import sys
 import tempfile
 
-from report_browser import By, check, choose_in, equal, open_browser, rows_of, table_of, values
-from report_rays import test_rays
+from report_browser import By, check, choose_in, equal, open_browser, rows_of, table_of, until_ready, values
+from report_rays import test_error_shares, test_rays
 from report_stability import test_stability
 from selenium.webdriver.support.ui import WebDriverWait
 
@@ -22,7 +22,14 @@ def is_single_change(row):
     return "=" in row["point"]
 
 
+def in_matrix(rows):
+    """The rows of each point, over all shots."""
+    points = list(dict.fromkeys((r["variant"], r["point"]) for r in rows))
+    return [[r for r in rows if (r["variant"], r["point"]) == point] for point in points]
+
+
 def test_results(page, folder):
+    choose_in(page, "results", "Metric", "relmse (relmse_a)")  # the only one with frames and a ladder
     rows = rows_of(folder, "summary.csv", target="specular", metric="relmse", mask="reflective")
     speaking = [r for r in rows if r["frame"] in ("0", "all")]
     page.execute_script("document.querySelector('#summary details').open = true")  # else its cells have no innerText
@@ -40,39 +47,40 @@ def test_results(page, folder):
         f".filter(r => r.cells[1].textContent !== '{LADDER}').map(r => r.cells[4].textContent.includes('['))"
     )
     equal(intervals, [r["low"] != "" for r in absolute], "which absolute errors have intervals")
-    lucky = [c for c in shown if c[2][0] == "lucky"]
+    lucky = [c for c in shown if c[2][1] == "lucky"]
     equal(len(lucky), 7, "a point of one seed in each shot")
     for cells in lucky:
         for cell in cells[3:5]:
             check("1 seed: no interval" in cell[0] and "[" not in cell[0], f"why it has no interval: {cell[0]}")
-    bold = page.execute_script(
-        """return ['#summary', '#overview'].map(id => [...document.querySelectorAll(id + ' td b')].length)"""
-    )
+    bold = page.execute_script("return ['#summary td b', '#matrix .best'].map(s => document.querySelectorAll(s).length)")
     equal(bold, [14, 14], "the best of each shot by both errors")
     bold = page.execute_script(
-        "return [...document.querySelectorAll('#summary td b')].map(b => b.closest('tr').cells[2].textContent)"
+        "return [...document.querySelectorAll('#summary td b')].map(b => b.closest('tr').cells[2].dataset.value)"
     )
     equal(set(bold), {"mended"}, "a single seed is never the best, however small its error")
     hollow = page.execute_script(
-        """return [...document.querySelectorAll('#overview .point')].map(p =>
-        [p.getAttribute('aria-label').includes('1 seed'), p.querySelector('[fill="var(--card)"]') !== null])"""
+        """return [...document.querySelectorAll('#roughness .point')].map(p =>
+        [p.getAttribute('aria-label').includes('1 seed'), p.getAttribute('fill') === 'var(--card)'])"""
     )
     check(any(h[0] for h in hollow) and all(h[0] == h[1] for h in hollow), "marks of single seeds are hollow")
-    equal(values(page, "#overview .point"), [float(r["value"]) for r in compared + absolute], "the overview")
-    page.find_element(By.ID, "single-changes").click()
+    cells = [float(r["value"]) for own in zip(*(in_matrix(rows) for rows in (compared, absolute))) for r in own[0] + own[1]]
+    equal(values(page, "#matrix button"), cells, "the matrix, a row per point")
+    ones = page.execute_script("return [...document.querySelectorAll('#matrix tbody tr')].map(r => [...r.querySelectorAll('button')].every(b => b.textContent === '1'))")
+    equal(ones, [False, False, True, False], "cells are relative to the mended point, not to the lucky one of a single seed")
+    page.find_element(By.ID, "hasSingleChanges").click()
     equal(
         [float(c[3][1]) for c in table_of(page, "#summary") if c[1][0] != LADDER],
         [float(r["value"]) for r in speaking],
         "with single changes",
     )
-    page.find_element(By.ID, "single-changes").click()
+    page.find_element(By.ID, "hasSingleChanges").click()
 
 
 def test_truth_ladder(page, folder):
     """What bounds the techniques stands below them, is never the best, and says which frames it speaks of."""
     rungs = [c for c in table_of(page, "#summary") if c[1][0] == LADDER]
     equal([c[0][0].split(".")[0] for c in rungs], ["still_a", "moving"], "shots with a ladder")
-    equal([c[2][0] for c in rungs], ["on_screen", "on_screen, last frame"], "rungs")
+    equal([c[2][1] for c in rungs], ["on_screen", "on_screen, last frame"], "rungs")
     for cells in rungs:
         equal(float(cells[3][1]), 0.0123, "the limit")
         none = next(
@@ -90,8 +98,8 @@ def test_truth_ladder(page, folder):
         "return [...document.querySelectorAll('#summary b')].map(b => b.closest('tr').cells[1].textContent)"
     )
     check(bold and LADDER not in bold, f"best values are those of techniques: {bold}")
-    heads = [e.text for e in page.find_elements(By.CSS_SELECTOR, "#overview th")]
-    check("truth ladder · on_screen" in heads, f"columns of the overview: {heads}")
+    limits = [e.text for e in page.find_elements(By.CSS_SELECTOR, "#scatter text") if "limit of one frame" in e.text]
+    equal([float(text.split()[-1]) for text in limits], [0.0123] * 2, "lines of the limit")
     choose_in(page, "results", "Target", "incident")
     check(all(c[1][0] != LADDER for c in table_of(page, "#summary")), "no limit where none was measured")
     choose_in(page, "results", "Target", "specular")
@@ -118,16 +126,17 @@ def test_roughness(page, folder):
             if not is_single_change(r)
             and r["frame"] == (last.get(r["shot"], "0") if speaking is None or r["shot"] not in last else speaking)
         ]
-    equal(values(page, "#roughness .point"), expected, "errors and biases by roughness")
+    equal(sorted(values(page, "#roughness .point")), sorted(expected), "errors and biases by roughness")
     titles = page.execute_script("return [...document.querySelectorAll('#roughness h3')].map(t => t.innerText)")
     equal(len(titles), 2, f"charts of error and of bias: {titles}")
     captions = page.execute_script(
         "return [...document.querySelectorAll('#roughness figcaption')].map(c => c.innerText)"
     )
     for shot, last in ((MOVING, "6"), (STEP, "44")):
+        scene = shot.split(".")[0]
         equal(
-            [c for c in captions if shot in c],
-            [f"{shot}: mean over frames", f"{shot}: frame {last} alone"],
+            [c for c in captions if c.startswith(scene)],
+            [f"{scene}: relmse: mean over frames", f"{scene}: bias: frame {last} alone"],
             "which frames the charts of errors and of biases show",
         )
     check(all("frame" not in c for c in captions if "still" in c), f"frames of shots of one frame: {captions}")
@@ -154,26 +163,32 @@ def test_splits(page, folder):
                 f"interval of {name}: {cell[0]}, expected {ends}",
             )
     equal(
-        values(page, "#split-table .point"),
-        [float(r[k]) for r in rows for k in ("bias_squared", "variance")],
+        sorted(values(page, "#split-table .point")),
+        sorted(float(r[k]) for r in rows for k in ("bias_squared", "variance")),
         "marks of bias and variance",
     )
 
 
 def test_stages(page):
-    colors = page.execute_script("return [...document.querySelectorAll('#bars .swatch')].map(s => s.style.background)")
-    equal(len(set(colors)), 10, f"ten stages need ten colours: {colors}")
-    text = page.find_element(By.ID, "stage-table").text
-    for part in ("1.12 % (sssr · first, 6.2 ms)", "A/A floor of the study: 2 %"):
-        check(part in text, f"the A/A floor: {text!r}")
+    part = "#stages details[data-shot^=still_a]"
+    fills = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => b.getAttribute('fill'))", part)
+    equal([len(set(fills[:10])), fills[:10] == fills[10:]], [10, True], f"ten stages look ten ways, in all bars the same: {fills}")
+    keys = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .stage rect')].map(r => r.getAttribute('fill'))", part)
+    equal(keys, fills[:10], "the legend's colours")
+    text = page.find_element(By.CSS_SELECTOR, part).text
+    for words in ("1.12 % (sssr · first, 6.2 ms)", "A/A floor of the study: 2 %"):
+        check(words in text, f"the A/A floor: {text!r}")
     equal(
-        page.find_element(By.ID, "forms").text.split("\n")[1:],
+        page.find_element(By.CSS_SELECTOR, part + " .forms").text.split("\n")[1:],
         ['sssr · first: form = "fast"', 'sssr · mended: form = "fast"'],
         "what was timed",
     )
     check(
-        not page.execute_script("return document.querySelector('#stage-table details').open"), "22 rows are folded"
+        not page.execute_script("return document.querySelector(arguments[0] + ' details:last-of-type').open", part), "22 rows are folded"
     )
+    choose_in(page, "stages", "Bars show", "shares of each point's total")
+    widths = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => +b.getAttribute('width'))", part)
+    check(abs(sum(widths[:10]) - sum(widths[10:])) < 1, "bars of shares are equally long, whatever the times")
 
 
 def mean_ratio(rows, point):
@@ -266,14 +281,16 @@ def test_effects(page, folder):
     racing = page.execute_script(
         """const row = document.querySelectorAll('#effect-table tbody tr')[arguments[0]];
         const mark = row.querySelector('.point');
-        return [mark.querySelectorAll('path').length, mark.querySelector('[fill]').getAttribute('fill'),
+        return [row.querySelectorAll('g[stroke-width="1.5"] line').length, mark.getAttribute('fill'),
             row.querySelector('.not-repeatable').textContent, mark.getAttribute('aria-label').includes('it races')]""",
         points.index(RACING),
     )
     equal(racing, [0, "var(--card)", "no interval: it races", True], "a hollow mark without interval, and why")
+    whiskers = page.execute_script("return document.querySelectorAll('#effect-table g[stroke-width=\"1.5\"] line').length")
+    check(whiskers > 0, "the other marks have intervals")
     choose_in(page, "effects", "Scale", "0.91 to 1.1")
     arrows = page.execute_script(
-        "return [...document.querySelectorAll('#effect-table .point text')].map(t => t.textContent)"
+        "return [...document.querySelectorAll('#effect-table text.point')].map(t => t.textContent)"
     )
     equal(arrows, ["◀"] * 4, "ratios beyond the scale")
     for metric, point, reason in (
@@ -292,7 +309,7 @@ def test_effects(page, folder):
     check("p, exploratory" in heads and "p (Holm)" not in heads, f"heads of an exploratory metric: {heads}")
     filled = page.execute_script(
         """return [...document.querySelectorAll('#effect-table .point')].filter(
-        p => !p.querySelector('[fill="var(--card)"]') && !p.querySelector('text')).length"""
+        p => p.getAttribute('fill') !== 'var(--card)' && p.tagName !== 'text').length"""
     )
     equal(filled, 0, "filled marks among exploratory ratios")
     choose_in(page, "effects", "Against", "sssr with float_histories=false and otherwise the same")
@@ -327,7 +344,7 @@ def test_temporal(page, folder):
         )
         if r["frame"] != "all"
     ]
-    frames.sort(key=lambda r: (r["shot"] != MOVING, ["default", "first", "mended", "lucky"].index(r["point"]), int(r["frame"])))
+    frames.sort(key=lambda r: (r["shot"] != MOVING, int(r["frame"]), ["default", "first", "mended", "lucky"].index(r["point"])))
     equal(values(page, "#frame-charts .point"), [float(r["value"]) for r in frames], "errors of frames")
     check("the scene changes at frame 30" in page.find_element(By.ID, "frame-charts").text, "the change is not told")
 
@@ -367,9 +384,7 @@ def test_stability_alone(page):
 
 def open_report(page, folder):
     page.get("file://" + os.path.join(folder, "report.html"))
-    WebDriverWait(page, 20).until(
-        lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
-    )
+    until_ready(page)
 
 
 def main():
@@ -386,6 +401,7 @@ def main():
             test_roughness(page, folder)
             test_splits(page, folder)
             test_rays(page, folder, MOVING)
+            test_error_shares(page, folder, MOVING)
             test_stages(page)
             test_effects(page, folder)
             test_temporal(page, folder)

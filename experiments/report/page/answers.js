@@ -1,0 +1,158 @@
+// The first screen: what each shot says, and for the chosen one its pictures and its errors against time.
+
+const answerChoice = {
+    shot: null
+};
+
+const answerOf = shot => report.answers.find(a => a.shot === shot);
+/// Label of what the answer calls the base line; undefined where it has none.
+const baselineLabel = shot => {
+    const baseline = answerOf(shot)?.baseline;
+    return baseline ? pointLabel(baseline) : undefined;
+};
+
+/// The viewer at that shot with the truth, this point and the base line.
+function openPoint(row) {
+    const points = unique([pointLabel(row), baselineLabel(row.shot)].filter(Boolean));
+    if (typeof openViewer === "function") return openViewer({shot: row.shot, points});
+    at("viewer").scrollIntoView();
+    return chooseShot(row.shot);
+}
+
+/// Resolves when the pictures are there.
+function showAnswers() {
+    const shots = unique(report.errors.map(r => r.shot));
+    answerChoice.shot = shots[0];
+    pointListeners.push(drawAnswerCharts);
+    return drawAnswers(shots);
+}
+
+function drawAnswers(shots) {
+    const isChosen = shot => shot === answerChoice.shot;
+    const choose = shot => () => {
+        answerChoice.shot = shot;
+        drawAnswers(shots);
+        at("answer-shots").querySelector("[aria-pressed=true]").focus();
+    };
+    at("answer-shots")
+        .replaceChildren(...shots.map(
+            shot =>
+                h("li", {},
+                  h("button", {
+                      "aria-pressed": String(isChosen(shot)),
+                      click: choose(shot),
+                      title: [shot, answerOf(shot)?.sentence].filter(Boolean).join("\n")
+                  },
+                    answerText(shot)))));
+    at("answer-shots")
+        .style.setProperty(
+            "--lines",
+            shots.length <= mostWhole        ? "none" :
+                shots.length <= mostTwoLines ? 2 :
+                                               1);
+    const perceptual = answerOf(answerChoice.shot)?.perceptual_sentence;
+    at("answer-note").replaceChildren(perceptual ?? "", " ", disagreementText(answerChoice.shot) ?? "");
+    drawAnswerCharts();
+    return drawAnswerPictures();
+}
+
+/// The outer box may cut the text off after some lines; the inner one keeps it one text.
+const answerText = shot =>
+    h("span", {class: "cut"},
+      h("span", {}, h("b", {}, shortShot(shot)), " ", answerOf(shot)?.sentence ?? "No technique is named."));
+// Of many shots only the chosen one's sentence is shown whole, of others two lines or one.
+const mostWhole = 3, mostTwoLines = 6;
+
+/// Rows of the shot that the headline speaks of, by the name of a metric.
+const headlineRows = (shot, metric) => {
+    const {target, mask} = headline;
+    const of = report.errors.filter(r => r.shot === shot && r.metric === metric && r.value !== null);
+    const narrow = (rows, key, wanted) => rows.filter(r => r[key] === preferred(unique(rows.map(r => r[key])), wanted));
+    return narrow(narrow(of, "target", target), "mask", mask);
+};
+
+/// Names of the metrics that stand side by side: one or two.
+const headlineMetrics = () => {
+    const first = headlineMetric(report.errors);
+    return [first, otherMetric(first, report.errors)].filter(Boolean).map(key => key.split("|")[0]);
+};
+
+const isApart = (a, b) => a.low !== null && b.low !== null && (a.high < b.low || b.high < a.low);
+
+/// Pairs that both errors tell apart, in opposite orders.
+function disagreements(shot) {
+    const [physical, perceptual] = headlineMetrics().map(metric => headlineRows(shot, metric).filter(mayShow));
+    if (!perceptual) return [];
+    const other = new Map(perceptual.map(r => [pointKey(r), r]));
+    return physical.flatMap((a, i) => physical.slice(i + 1).map(b => [a, b])).filter(([a, b]) => {
+        const [c, d] = [a, b].map(r => other.get(pointKey(r)));
+        return c && d && isApart(a, b) && isApart(c, d) && (a.value < b.value) !== (c.value < d.value);
+    });
+}
+
+function disagreementText(shot) {
+    const pairs = disagreements(shot), [physical, perceptual] = headlineMetrics();
+    if (!pairs.length) return null;
+    const names = pair => [...pair].sort((a, b) => a.value - b.value).map(pointLabel).join(" before ");
+    const text = `${physical} and ${perceptual} disagree about ${pairs.length} ${
+        pairs.length === 1 ? "pair" : "pairs"} of points`;
+    return h(
+        "span", {title: `By ${physical}, and the other way by ${perceptual}:\n${pairs.map(names).join("\n")}`},
+        `${text}, such as ${names(pairs[0])} by ${physical} alone.`);
+}
+
+function drawAnswerCharts() {
+    const {shot} = answerChoice, metrics = headlineMetrics();
+    const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), {width: 420, height: 320}));
+    at("answer-charts").replaceChildren(...charts.filter(Boolean));
+    at("answer-legend").replaceChildren(pointLegend(headlineRows(shot, metrics[0])));
+}
+
+/// [{title, image, row}]: truth, best and base line.
+function answerPictures(shot) {
+    const ofShot = report.images.map((image, index) => ({...image, index})).filter(i => i.shot === shot);
+    const frames = ofShot.map(i => Number(i.frame ?? 0)),
+          own = ofShot.filter((_, i) => frames[i] === Math.max(...frames));
+    const target = preferred(unique(own.map(i => i.target)), "image"), answer = answerOf(shot);
+    const {metric} = headline;
+    const text = p => `${metric} ${number(p.value, 3)} ${interval(p, 3)}`;
+    const of = (title, point) => point && {
+        title: `${title}: ${pointLabel(point)}`,
+        text: text(point),
+        row: {shot, ...point},
+        image: own.find(i => i.target === target && i.kind === "result" && pointKey(i) === pointKey(point))
+    };
+    return [
+        {title: "truth", text: target, image: own.find(i => i.target === target && i.kind === "reference")},
+        of(answer?.tied?.length ? "best, not told from others" : "best", answer?.best),
+        of("base line", answer?.baseline)
+    ].filter(Boolean);
+}
+
+async function drawAnswerPictures() {
+    const {shot} = answerChoice, wanted = answerPictures(shot);
+    const hasPictures = wanted.some(p => p.image) && typeof DecompressionStream !== "undefined";
+    at("answer-pictures").hidden = !hasPictures;
+    if (!hasPictures) return;
+    const images = await Promise.all(wanted.map(p => p.image && loadImage(p.image.index).catch(() => null)));
+    if (answerChoice.shot !== shot) return;  // another choice was made meanwhile
+    const exposure = manifestShots().find(s => s.shot === shot)?.exposure_ev,
+          codes = displayTable(Number.isFinite(exposure) ? exposure : 0, "none");
+    at("answer-pictures").replaceChildren(...wanted.map(({title, text, row}, i) => {
+        const caption = h("figcaption", {}, h("b", {}, title), " ", h("small", {}, text));
+        if (!images[i])
+            return h(
+                "figure", {}, caption,
+                h("p", {class: "note"}, "Its image is in the results folder, not in this page."));
+        const canvas =
+            h("canvas",
+              {width: images[i].width, height: images[i].height, role: "img", "aria-label": `${title}, ${shot}`});
+        canvas.getContext("2d").putImageData(colorPixels(images[i], codes), 0, 0);
+        if (row) {
+            clickable(canvas, () => openPoint(row));
+            canvas.tabIndex = 0;
+            canvas.title = "Open in the viewer";
+        }
+        return h("figure", {}, caption, canvas);
+    }));
+}

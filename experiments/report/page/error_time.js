@@ -1,0 +1,88 @@
+// Charts of error against time, one per shot and metric.
+
+/// Those that none other beats in both: a hint, by medians and means alone. Single seeds may stand anywhere by chance.
+function paretoFront(all) {
+    const timed = all.filter(p => !isOneSeed(p.row));
+    const isBeaten = p => timed.some(
+        q => q !== p && q.time.value <= p.time.value && q.row.value <= p.row.value &&
+            (q.time.value < p.time.value || q.row.value < p.row.value));
+    return timed.filter(p => !isBeaten(p)).sort((a, b) => a.time.value - b.time.value);
+}
+
+const rowText = row => `${row.metric} ${number(row.value)} ${interval(row)}${unitText(row.metric)}`;
+
+/// `all`: rows of one shot and metric. Without times the points stand beside each other. None is a line alone: its
+/// time and error would push all others together. Null where no row is shown.
+function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
+    const shown = chartedRows(all).filter(r => r.value !== null), none = shown.find(r => r.variant === "none");
+    const rows = shown.length > 1 ? shown.filter(r => r !== none) : shown;
+    if (!rows.length) return null;
+    const {metric, target, mask} = rows[0], isLog = better(metric) === "lower";
+    const timed = rows.map(row => ({row, time: totalTime(row)})).filter(p => p.time?.value > 0),
+          hasTimes = timed.length > 0;
+    const points = hasTimes ? timed : rows.map((row, i) => ({row, time: {value: i + 1, low: null, high: null}}));
+    const y = errorAxis(isLog, points.map(p => p.row), metric + unitText(metric));
+    const x = hasTimes ? logAxis(timed.flatMap(p => [p.time.low, p.time.high]), "total time (ms)") :
+                         linearAxis([1, rows.length], "points, in the order of the study (no times)");
+    const mistakes =
+        row => [...mistakesOfError(row), ...(hasTimes ? mistakesOfTime(row) : [])].map(m => `\n! ${m.text}`).join("");
+    const timeText = time => hasTimes ? `\n${number(time.value)} ms ${interval(time)}, ${time.frames} frames` : "";
+    const marks = points.map(
+        ({row, time}) => pointMark(row, {
+            x: time.value,
+            y: row.value,
+            spanX: time.low === null ? null : [time.low, time.high],
+            spanY: row.low === null ? null : [row.low, row.high],
+            size: rows.length > 40 ? 3.6 : 4.5,
+            tip: [pointLabel(row), rowText(row) + timeText(time) + mistakes(row), ...parameterLines(row)].join("\n")
+        }));
+    const limit =
+        ladderOf(shot, {target, metricKey: metricKey(rows[0]), mask}).find(r => r.rung === "on_screen" && r.value > 0);
+    const under = [
+        ...(isLog && hasTimes ? [frontLine(paretoFront(timed))] : []),
+        ...(none && rows.length < shown.length ?
+                levelLine("none", none, x, y, {stroke: "var(--faint)", strokeDasharray: "5 4"}) :
+                []),
+        ...(limit ? levelLine("limit of one frame", limit, x, y, {stroke: "var(--accent)", strokeDasharray: "1 3"}) :
+                    [])
+    ];
+    const frames = framesText(rows[0]);
+    const caption = [`${shortShot(shot)}: ${metric}`, target, mask, frames].filter(Boolean).join(", ");
+    const chart = markChart({title: `${metric} against time, ${shot}`, caption, width, height, x, y, marks, under});
+    chart.dataset.shot = shot;
+    return chart;
+}
+
+const frontLine = front => Plot.line(front, {
+    x: p => p.time.value,
+    y: p => p.row.value,
+    curve: "step-after",
+    stroke: "var(--faint)",
+    strokeWidth: 1.4,
+    strokeDasharray: "3 2"
+});
+
+/// A line across the chart at the value of `row`, with its interval, named at its right end; at the chart's edge, with
+/// an arrow, where the value lies beyond.
+function levelLine(name, {value, low, high}, x, y, style) {
+    const place = clampTo(value, y), arrow = place < value ? "▲ " : place > value ? "▼ " : "";
+    const isTop = place === y.domain[1];
+    return [
+        ...(low > 0 && !arrow ?
+                [Plot.rect(
+                    [{low: clampTo(low, y), high: clampTo(high, y)}],
+                    {x1: x.domain[0], x2: x.domain[1], y1: "low", y2: "high", fill: style.stroke, fillOpacity: 0.15})] :
+                []),
+        Plot.ruleY([place], {strokeWidth: 1.5, ...style}), Plot.text([place], {
+            x: x.domain[1],
+            y: d => d,
+            text: () => `${arrow}${name} ${number(value, 3)}`,
+            textAnchor: "end",
+            dy: isTop ? 8 : -7,
+            fontSize: 11,
+            fill: "var(--faint)",
+            stroke: "var(--card)",
+            strokeWidth: 3
+        })
+    ];
+}

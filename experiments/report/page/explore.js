@@ -1,0 +1,82 @@
+// The reader's choice of metric and points, and what it shows: the matrix, charts of error against time, the table.
+
+const matchText = (shown, all) => shown === all ? `${all} points` : `${shown} of ${all} points`;
+
+function showExplorer() {
+    const swept = unique(variants.flatMap(v => sweptParameters.get(v)));
+    const changed = key => value => {
+        shownPoints[key] = value;
+        pointsChanged();
+    };
+    const filter = h("input", {
+        type: "search",
+        id: "filter",
+        placeholder: "words of a point's name",
+        input: event => changed("filter")(event.target.value)
+    });
+    const box = (label, key) => h(
+        "label", {},
+        h("input",
+          {type: "checkbox", id: key, checked: shownPoints[key], change: event => changed(key)(event.target.checked)}),
+        label);
+    at("points-choice")
+        .append(
+            h("label", {}, "Filter", filter),
+            select("Sort by", Object.entries(sortKeys), shownPoints.sort, changed("sort")),
+            box("group by variant", "isGrouped"),
+            ...(variants.includes("none") ? [select(
+                                                "Cells relative to", [["best", "the least"], ["none", "none"]],
+                                                shownPoints.relativeTo, changed("relativeTo"))] :
+                                            []),
+            select(
+                "Colours and shapes stand for",
+                [
+                    ...(comparedPoints.length <= mostNumbered ? [["point", "points"]] : []), ["variant", "variants"],
+                    ...swept.map(name => [name, name])
+                ],
+                shownPoints.colourBy, changed("colourBy")),
+            ...(singleChangeKeys.size ?
+                    [box(
+                        `${singleChangeKeys.size} points that change one parameter of a baseline, too`,
+                        "hasSingleChanges")] :
+                    []),
+            h("output", {id: "match", "aria-live": "polite"}));
+    showChoice();
+    const draw = () => {
+        drawMatrix();
+        drawErrorTime();
+        showSummary();
+    };
+    choiceListeners.push(draw);
+    pointListeners.push(draw);
+    draw();
+}
+
+function drawMatrix() {
+    const rows = filteredRows(chosenRows());
+    at("match").textContent = matchText(unique(rows.map(pointKey)).length, unique(chosenRows().map(pointKey)).length);
+    at("matrix").replaceChildren(
+        rows.length ? matrix([chosenRows(), otherRows()].filter(own => own.length), sortedPoints(rows)) :
+                      h("p", {class: "note"}, "No point's name has these words."));
+}
+
+function drawErrorTime() {
+    const rows = chosenRows(), others = otherRows();
+    const timed = rows.some(totalTime), isLog = better(choice.metric.split("|")[0]) === "lower";
+    at("error-time-note").textContent = [
+        timed ? "Total time of a technique's stages, medians over the frames; lines are 95 % intervals." :
+                "No times were measured.",
+        isLog && timed && "The grey steps join the points that none other beats in both, whatever the intervals say.",
+        "Dashed: none. Dotted: the information limit of one frame (see Truth ladder), with its interval.",
+        isLog && "An arrow marks a noise-corrected error that is not above 0.",
+        rows.some(isOneSeed) && "Hollow: one seed alone, which has no interval and is left out of the steps.",
+        "A mark tells its parameters and numbers; a click opens its images."
+    ].filter(Boolean).join(" ");
+    at("legend").replaceChildren(pointLegend(rows));
+    const pairs = unique(rows.map(r => r.shot))
+                      .map(
+                          shot => [rows, others]
+                                      .map(own => errorTimeChart(shot, own.filter(r => r.shot === shot)))
+                                      .filter(Boolean));
+    at("scatter").replaceChildren(...pairs.filter(pair => pair.length).map(pair => h("div", {class: "pair"}, pair)));
+}

@@ -1,0 +1,148 @@
+// All points in all shots at a glance: one matrix of both errors, coloured by the error relative to another.
+
+const fullColour = 8;  // a ratio of that size, or its inverse, has the full colour
+
+const mostWideColumns = 14;  // more of them have narrow cells below upright names
+
+/// What the cells of one shot and metric are divided by: the least error but for single seeds, which may be so by
+/// chance, or that of none; null where it is not told.
+function columnReference(rows) {
+    const positive = rows.filter(r => r.value > 0 && !isOneSeed(r));
+    if (!positive.length || better(rows[0].metric) !== "lower") return null;
+    if (shownPoints.relativeTo === "none") return positive.find(r => r.variant === "none") ?? null;
+    return positive.reduce((least, r) => r.value < least.value ? r : least);
+}
+
+/// Blue below 1, orange above, the stronger the farther; readable text on either.
+function ratioColour(ratio) {
+    const size = Math.min(Math.abs(Math.log(Math.max(ratio, 1e-9))) / Math.log(fullColour), 1);
+    return `color-mix(in oklab, var(${ratio < 1 ? "--less" : "--more"}) ${(100 * size).toFixed(0)}%, var(--card))`;
+}
+
+/// A column per metric and shot. `groups`: rows of one metric each, not filtered.
+const matrixColumns = groups => groups.flatMap(rows => unique(rows.map(r => r.shot)).map((shot, i) => {
+    const own = rows.filter(r => r.shot === shot && r.value !== null);
+    return {
+        shot,
+        metric: rows[0].metric,
+        isFirst: i === 0,
+        reference: own.length ? columnReference(own) : null,
+        best: clearlyBest(own),
+        byPoint: new Map(rows.filter(r => r.shot === shot).map(r => [pointKey(r), r]))
+    };
+}));
+
+/// `groups`: of the chosen metric and of the one beside it, not filtered; `order`: the points, as the reader sorted
+/// them.
+function matrix(groups, order) {
+    const columns = matrixColumns(groups), buttons = [];
+    const head = [
+        h("tr", {}, h("td"),
+          groups.map(
+              rows =>
+                  h("th", {
+                      scope: "colgroup",
+                      class: "metric",
+                      colspan: columns.filter(c => c.metric === rows[0].metric).length
+                  },
+                    rows[0].metric + unitText(rows[0].metric)))),
+        h("tr", {}, h("th", {scope: "col"}, "Point"),
+          columns.map(
+              c =>
+                  h("th", {scope: "col", title: c.shot, class: c.isFirst ? "first" : null},
+                    breakable(shortShot(c.shot)))))
+    ];
+    const lines = order.flatMap((point, i) => {
+        const cells = columns.map(column => {
+            const row = column.byPoint.get(pointKey(point));
+            if (!row) return h("td", {}, "–");
+            const ratio = column.reference && row.value > 0 ? row.value / column.reference.value : null;
+            const button = matrixButton(row, ratio, column);
+            buttons.push(button);
+            return h(
+                "td",
+                {style: ratio ? `background:${ratioColour(ratio)}` : null, class: column.isFirst ? "first" : null},
+                button);
+        });
+        const isFirst = shownPoints.isGrouped && (i === 0 || order[i - 1].variant !== point.variant);
+        const label =
+            shownPoints.colourBy === "point" ? `${pointNumber(point)} ${pointLabel(point)}` : pointLabel(point);
+        return [
+            isFirst ?
+                h("tr", {class: "variant"}, h("th", {scope: "rowgroup", colspan: columns.length + 1}, point.variant)) :
+                null,
+            h("tr", {}, h("th", {scope: "row", title: pointText(point)}, icon(styleOf(point)), label), cells)
+        ].filter(Boolean);
+    });
+    const element =
+        h("table", {class: columns.length > mostWideColumns ? "matrix dense" : "matrix"},
+          h("caption", {}, matrixCaption(columns)), h("thead", {}, head), h("tbody", {}, lines));
+    rove(element, buttons);
+    return scroller(element);
+}
+
+/// Names of scenes may break after each word.
+const breakable = name => name.split(/(?<=[_.])/).flatMap(part => [part, h("wbr")]);
+
+function matrixCaption(columns) {
+    const what = `${unique(columns.map(c => c.metric)).join(" and ")} of ${choice.target}, ${choice.mask} pixels`;
+    if (columns.every(c => !c.reference)) return `${what}.`;
+    const other = shownPoints.relativeTo === "none" ? "that of none" : "the least";
+    const colours = shownPoints.relativeTo === "none" ? "blue is less, orange more" : "the more orange, the worse";
+    return `${what}, divided by ${other} of the same column: ${colours}, full at ${fullColour} times.`;
+}
+
+function matrixButton(row, ratio, {reference, best}) {
+    const text = row.value === null ? "–" : ratio === null ? number(row.value, 3) : number(ratio, ratio < 10 ? 3 : 2);
+    const mistakes = mistakesOfError(row);
+    const button =
+        h("button", {"data-value": row.value, class: row === best ? "best" : null}, text, mistakes.length ? " !" : "");
+    withTip(button, [
+        `${row.shot}\n${pointText(row)}`, rowText(row),
+        ratio === null || reference === row ? null : `${number(ratio, 3)} times that of ${pointLabel(reference)}`,
+        row === best ? "best of its shot, no other interval touches its own" : null,
+        ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
+    ].filter(Boolean).join("\n"));
+    button.removeAttribute("role");  // it has its own
+    button.setAttribute("aria-label", `${button.textContent}; ${button.getAttribute("aria-label")}`);
+    button.addEventListener("click", () => openPoint(row));
+    return button;
+}
+
+const sortKeys = {
+    study: "order of the study",
+    name: "name",
+    error: "mean error",
+    time: "mean time"
+};
+
+/// Mean of the logarithms over the shots, so that no shot outweighs others; missing ones come last.
+function meanLog(values) {
+    const known = values.filter(v => v > 0);
+    return known.length ? known.reduce((sum, v) => sum + Math.log(v), 0) / known.length : Infinity;
+}
+
+/// The points of `rows` as the reader sorts and groups them.
+function sortedPoints(rows) {
+    const points = new Map();
+    for (const r of rows) {
+        if (!points.has(pointKey(r))) points.set(pointKey(r), []);
+        points.get(pointKey(r)).push(r);
+    }
+    const keys = {
+        study: own => places.get(pointKey(own[0])),
+        name: own => pointLabel(own[0]),
+        error: own => meanLog(own.map(r => badness(r.metric, r.value))),
+        time: own => meanLog(own.map(r => totalTime(r)?.value))
+    };
+    const by = keys[shownPoints.sort];
+    const ordered = [...points.values()]
+                        .map(own => ({key: by(own), point: own[0]}))
+                        .sort((a, b) => compareCells(a.key, b.key, true));
+    const result = ordered.map(o => o.point);
+    if (!shownPoints.isGrouped) return result;
+    const first = new Map(result.map(p => p.variant).reverse().map((v, i) => [v, -i]));
+    return result.map((p, i) => [p, i])
+        .sort(([a, i], [b, j]) => first.get(a.variant) - first.get(b.variant) || i - j)
+        .map(([p]) => p);
+}

@@ -1,0 +1,103 @@
+// Who made what: machines and versions of ssrlab, the clock, and which of them made each cell.
+
+const makers = list(report.manifest.provenance);
+/// "<shot>: <variant> <point>" to {maker, cell}.
+const cellsMade = new Map(makers.flatMap((maker, m) => list(maker.cells).map(cell => [cell.what, {maker: m, cell}])));
+const madeBy = row => cellsMade.get(`${row.shot}: ${row.variant} ${row.point}`);
+
+/// For tips: when, by which commit and on which device.
+function madeText(row) {
+    const made = madeBy(row);
+    if (!made) return "";
+    const {ssrlab = {}, device = {}} = makers[made.maker];
+    return `made ${made.cell.finished}, commit ${commitText(ssrlab)}, ${device.name ?? "device not recorded"}`;
+}
+const commitText = ssrlab =>
+    String(ssrlab.commit ?? "not recorded").slice(0, 10) + (ssrlab.dirty ? " with changes" : "");
+
+/// A link from a row to its maker.
+function madeCell(row) {
+    const made = madeBy(row);
+    if (!made) return "–";
+    const link = h("a", {href: `#maker-${made.maker + 1}`, class: "hash"}, commitText(makers[made.maker].ssrlab ?? {}));
+    link.title = madeText(row);
+    return h("span", {}, link, " ", h("small", {}, made.cell.finished ?? ""));
+}
+
+function showProvenance() {
+    const {clock} = report.manifest, proofs = list(clock?.proofs);
+    const times = [
+        ["Clock", known(unique(proofs.map(p => p.method)).join(", "))],
+        ["Clock proof", proofs.length ? proofs.map(clockProof).join(" | ") : "not recorded"],
+        ["A/A floor of times", known(clock?.aa_floor, percent(clock?.aa_floor))],
+        [
+            "Empty submit",
+            known(proofs[0]?.empty_submit_ms, proofs.map(p => number(p.empty_submit_ms, 3)).join(", ") + " ms")
+        ],
+        ["Foreign load, at most", foreignLoad(list(clock?.load))],
+    ];
+    const columns = [{name: "Cell"}, {name: "Started"}, {name: "Finished"}, {name: "Hash"}];
+    const cellRow = c =>
+        [c.what, known(c.started), known(c.finished), h("span", {class: "hash"}, String(c.cell ?? "").slice(0, 12))];
+    at("provenance")
+        .append(
+            ...(makers.length ? makers : [{}])
+                .flatMap(
+                    (maker, i) =>
+                        [h("div", {id: `maker-${i + 1}`}, factList(makerFacts(maker, makers.length > 1 ? i + 1 : 0))),
+                         list(maker.cells).length ? folded(
+                                                        `${maker.cells.length} cells made by it`,
+                                                        scroller(table(columns, maker.cells.map(cellRow)))) :
+                                                    ""]),
+            factList(times));
+    // A link into a folded part opens it.
+    addEventListener(
+        "hashchange",
+        () => document.querySelector(location.hash || "#none")?.closest("details")?.setAttribute("open", ""));
+}
+
+const factList = facts =>
+    h("dl", {class: "facts"}, facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+
+/// What made some of the cells, where and when; `place` counts them from 1 where there are several.
+function makerFacts(maker, place) {
+    const {device = {}, host = {}, ssrlab = {}} = maker;
+    const joined = parts => parts.filter(Boolean).join(", ");
+    return [
+        ...(place ? [[`Made by ${place}`, `${list(maker.cells).length} cells`]] : []),
+        ["Device", known(device.name, [device.name, device.type && `(${device.type})`].filter(Boolean).join(" "))],
+        ["Driver", known(device.driver, joined([device.driver, device.api && `Vulkan ${device.api}`]))],
+        [
+            "Host", known(host.cpu, joined([
+                              host.name, host.cpu, host.cores && `${host.cores} cores`,
+                              host.memory_gib && `${number(host.memory_gib)} GiB`
+                          ]))
+        ],
+        ["Kernel", known(host.kernel)],
+        ["ssrlab", known(ssrlab.version, joined([ssrlab.version, ssrlab.build, ssrlab.compiler]))],
+        [
+            "Commit",
+            h("span", {class: "hash"},
+              known(ssrlab.commit, String(ssrlab.commit).slice(0, 12)) + (ssrlab.dirty ? " with changes" : ""))
+        ],
+        ["Run", `${known(maker.started)} to ${known(maker.finished)}`],
+    ];
+}
+
+const verdictTexts = {
+    passed: "passed",
+    failed: "FAILED",
+    not_judged: "NOT JUDGED, the machine was busy"
+};
+
+const clockProof = proof =>
+    list(proof.checks)
+        .map(
+            p => `${p.stage_kind}: ${verdictTexts[p.verdict] ?? "not recorded"} (${
+                list(p.ratio).map(r => number(r, 3)).join(" : ")} for ${list(p.expected).join(" : ")})`)
+        .join("; ");
+
+function foreignLoad(loads) {
+    const largest = loads.map(l => l.largest_foreign_load).filter(x => typeof x === "number");
+    return largest.length ? percent(Math.max(...largest)) + " of the machine's CPU time" : "not recorded";
+}

@@ -1,0 +1,178 @@
+// Stage times: stacked bars per shot and the numbers.
+
+/// Eight colours, each plain and in three textures: no two stages of a bar look alike. The textures are of start.js's
+/// page-wide <defs>.
+const textures = ["plain", "stripes", "dots", "checks"];
+const stageFill = index => `url(#${textures[Math.floor(index / 8) % textures.length]}-${index % 8})`;
+
+function textureDefinitions() {
+    const size = {width: 8, height: 8, patternUnits: "userSpaceOnUse"},
+          over = {fill: "none", stroke: "var(--card)", "stroke-width": 2.2};
+    const drawn = {plain: [], stripes: ["M-2 6L6 -2M2 10L10 2"], dots: ["M2 2h.01M6 6h.01"], checks: ["M0 4H8M4 0V8"]};
+    const patterns = textures.flatMap(
+        texture => Array.from(
+            {length: 8},
+            (_, i) => svg(
+                "pattern", {id: `${texture}-${i}`, ...size}, svg("rect", {width: 8, height: 8, fill: `var(--s${i})`}),
+                drawn[texture].map(d => svg("path", {
+                                       d,
+                                       ...over,
+                                       "stroke-linecap": texture === "dots" ? "round" : "butt",
+                                       "stroke-width": texture === "dots" ? 3.4 : 2.2
+                                   })))));
+    return svg("svg", {width: 0, height: 0, "aria-hidden": "true", class: "definitions"}, svg("defs", {}, patterns));
+}
+
+const textureSwatch = fill => svg(
+    "svg", {viewBox: "0 0 14 14", "aria-hidden": "true", class: "icon"}, svg("rect", {width: 14, height: 14, fill}));
+
+const stageChoice = {
+    bars: "times"
+};
+
+function showStages() {
+    const shots = unique(report.times.map(t => t.shot));
+    if (!shots.length) {
+        leaveOut("stages");
+        return;
+    }
+    const bars = select(
+        "Bars show", [["times", "times"], ["shares", "shares of each point's total"]], stageChoice.bars, value => {
+            stageChoice.bars = value;
+            pointsChanged();
+        });
+    at("stage-shots").append(h("div", {class: "controls"}, bars), ...shotParts(shots, stagesOf));
+}
+
+function stagesOf(shot) {
+    const times = report.times.filter(t => t.shot === shot);
+    const own = filteredRows(times.filter(t => t.variant !== "")), shared = times.filter(t => t.variant === "");
+    const stages = unique(own.filter(t => t.stage !== "total").map(t => t.stage));
+    const points = unique(own.map(pointLabel));
+    const columns = [
+        {name: "Variant"}, {name: "Stage"}, {name: "Median ms", number: true}, {name: "95 % interval", number: true},
+        {name: "Frames", number: true}, {name: "Clock"}
+    ];
+    const sorted = [...own].sort((a, b) => points.indexOf(pointLabel(a)) - points.indexOf(pointLabel(b)));
+    const swatch = t => t.stage === "total" || t.variant === "" ? null : textureSwatch(stageFill(stageIndex(t)));
+    const row = t =>
+        [t.variant === "" ? "–" : pointLabel(t),
+         t.stage === "total" ? h("b", {}, "total") : h("span", {}, swatch(t), t.stage), cell(t.value, number(t.value)),
+         interval(t), String(t.frames), t.clock.replaceAll("_", " ")];
+    return [
+        stages.length ? stageBars(own) :
+                        h("p", {class: "note"}, "No variant of this shot has a stage: all were left out."),
+        savedNote(shot), floorNote(shot), formNote(own),
+        h("details", {open: own.length <= longTable}, h("summary", {}, "All stages as numbers"),
+          table(columns, sorted.map(row), {groupBy: 0})),
+        ...(shared.length ?
+                [h("h3", {}, "Shared by all variants: G-buffer and lit colour"), table(columns, shared.map(row))] :
+                [])
+    ];
+}
+
+/// A stage's place among those of its variant: bars of other variants may use its colour for their own.
+const stagesOfVariant = new Map(
+    unique(report.times.map(t => t.variant))
+        .map(v => [v, unique(report.times.filter(t => t.variant === v && t.stage !== "total").map(t => t.stage))]));
+const stageIndex = t => stagesOfVariant.get(t.variant).indexOf(t.stage);
+const stageName = stage => stage.split("/").pop().replaceAll("_", " ");
+
+function stageBars(own) {
+    const areShares = stageChoice.bars === "shares";
+    const rows = unique(own.map(pointLabel))
+                     .map(label => {
+                         const ofPoint = own.filter(t => pointLabel(t) === label),
+                               total = ofPoint.find(t => t.stage === "total");
+                         const stages = ofPoint.filter(t => t.stage !== "total"),
+                               sum = stages.reduce((all, t) => all + t.value, 0);
+                         const parts = stages.map(
+                             t => ({
+                                 value: areShares ? t.value / sum : t.value,
+                                 fill: stageFill(stageIndex(t)),
+                                 text: stageName(t.stage),
+                                 data: {stage: t.stage, value: t.value},
+                                 tip: `${label}\n${t.stage}: ${number(t.value)} ms ${interval(t)}${
+                                     total?.value > 0 ? `\n${percent(t.value / total.value)} of the total` : ""}`
+                             }));
+                         return {label, parts, total: areShares ? null : total};
+                     })
+                     .filter(row => row.parts.length);
+    const legends = unique(own.map(t => t.variant)).map(variant => {
+        const stages = stagesOfVariant.get(variant).filter(s => own.some(t => t.variant === variant && t.stage === s));
+        return stages.length ? h("p", {class: "stage-names"}, h("b", {}, variant),
+                                 stages.map(
+                                     stage =>
+                                         h("span", {class: "stage"},
+                                           textureSwatch(stageFill(stageIndex({variant, stage}))), stageName(stage)))) :
+                               "";
+    });
+    const chart = stackedBars({
+        title: `Stage times, ${own[0].shot}`,
+        rows,
+        isShare: areShares,
+        xLabel: areShares ? "share of the point's time (medians)" :
+                            "median time (ms); the line is the 95 % interval of the total"
+    });
+    return h("div", {class: "bars"}, chart, h("div", {}, legends));
+}
+
+/// What each point saves by leaving out what the scene has no use for: medians and intervals over the frames.
+function savedNote(shot) {
+    const savings = list(report.manifest.clock?.savings).filter(s => s.shot === shot);
+    if (!savings.length) return "";
+    const leftOut = list(manifestShots().find(s => s.shot === shot)?.left_out).length;
+    const share = s => cell(s.share, `${percent(s.share)} `, h("small", {}, `[${percent(s.low)}, ${percent(s.high)}]`));
+    return folded(
+        `What is saved by the ${leftOut} parts that this scene has no use for`,
+        table(
+            [
+                {name: "Point"}, {name: "Share of its total that is saved", number: true},
+                {name: "Total without saving (ms)", number: true}
+            ],
+            savings.map(s => [pointLabel(s), share(s), number(s.complete_ms, 3)])),
+        h("p", {class: "note"}, "Which parts, and why: ", h("a", {href: "#needs"}, "What the scenes need"), "."));
+}
+
+/// What was timed: a point's name does not tell which form of a stage ran. Single changes equal their baseline in all
+/// but what their name says.
+function formNote(times) {
+    const isTimed = v => times.some(t => pointKey(t) === pointKey(v));
+    const lines = list(report.manifest.variants)
+                      .filter(v => isTimed(v) && !isSingleChange(v))
+                      .map(v => [pointLabel(v), formText(v)])
+                      .filter(([, text]) => text);
+    if (!lines.length) return "";
+    const items = lines.map(([label, text]) => h("li", {}, h("b", {}, label), ": " + text));
+    const note = h("div", {class: "note forms"}, "What was timed:", h("ul", {}, items));
+    return lines.length > longTable ? folded("What was timed", note) : note;
+}
+
+/// The forms a point chose, and what else it changes of its variant's defaults.
+function formText({variant, parameters}) {
+    const entries = Object.entries(parameters ?? {}), defaults = report.defaults[variant];
+    const show = some => some.map(([name, value]) => `${name} = ${JSON.stringify(value)}`).join(", ");
+    const isForm = ([, value]) => typeof value === "string", forms = show(entries.filter(isForm));
+    if (!defaults || !entries.length) return forms;
+    const changed = entries.filter(([name, value]) => name in defaults && defaults[name] !== value);
+    const others = show(changed.filter(e => !isForm(e)));
+    return [forms, others ? `not at its default: ${others}` : "all else at its default"].filter(Boolean).join("; ");
+}
+
+/// How far two interleaved copies of the same point were apart: smaller differences are none.
+function floorNote(shot) {
+    const pairs = list(report.manifest.clock?.aa_pairs).filter(p => p.shot === shot);
+    if (!pairs.length) return "";
+    const one =
+        p => [`${percent(p.floor)} (${pointLabel(p)}, ${number(p.first_ms, 3)} ms)`, ...badges(mistakesOfTime(p))];
+    const floors = pairs.map(p => p.floor), most = pairs.find(p => p.floor === Math.max(...floors));
+    const text = [
+        `Two interleaved copies of the same point differed by ${
+            pairs.length > 1 ? `${percent(Math.min(...floors))} to ` : ""}`,
+        ...one(most),
+        `. A/A floor of the study: ${
+            percent(report.manifest.clock.aa_floor)}; smaller differences between times say nothing.`
+    ];
+    const rest = () => folded("The copies of each point", h("ul", {}, pairs.map(p => h("li", {}, one(p)))));
+    return h("div", {class: "note"}, text, pairs.length > 1 ? rest() : "");
+}

@@ -1,0 +1,195 @@
+"""What a reader does with a report: the answers, the matrix, the filter, legends, paper, and a screen reader."""
+
+import json
+import os
+import re
+
+from report_browser import By, WebDriverWait, check, choose_in, equal, until_ready
+
+AXE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vendor", "axe.min.js")
+BEST, BASELINE = ("mcguire_dda", "stride=1"), ("mcguire_dda", "stride=4")
+
+
+def with_answers(folder):
+    """The report with answers of its first two shots made up, as a file beside it."""
+    with open(os.path.join(folder, "report.html")) as file:
+        text = file.read()
+    before, data, after = re.match(r'(.*<script type="application/json" id="data">)(.*?)(</script>.*)', text, re.S).groups()
+    data = json.loads(data)
+
+    def point(name):
+        return {"variant": name[0], "point": name[1], "value": 0.125, "low": 0.12, "high": 0.13}
+
+    data["answers"] = [
+        {
+            "shot": shot["shot"],
+            "sentence": f"In <{i}> one errs least, surely.",
+            "perceptual_sentence": f"To eyes, too, in {i}.",
+            "best": point(BEST),
+            "tied": [],
+            "baseline": point(BASELINE),
+        }
+        for i, shot in enumerate(data["manifest"]["shots"][:2])
+    ]
+    path = os.path.join(folder, "answers.html")
+    with open(path, "w") as file:
+        file.write(before + json.dumps(data).replace("<", "\\u003c") + after)
+    return [a["shot"] for a in data["answers"]], "file://" + path
+
+
+def texts(page, selector):
+    return page.execute_script("return [...document.querySelectorAll(arguments[0])].map(e => e.innerText)", selector)
+
+
+def test_answers(page, shots):
+    """All of the first screen, at the size that it is made for."""
+    sentences = texts(page, "#answer-shots button")
+    equal(sentences[:2], [f"{s.split('.')[0]} In <{i}> one errs least, surely." for i, s in enumerate(shots)], "sentences")
+    check("No technique is named" in sentences[2], f"a shot without answer: {sentences[2]}")
+    equal(len(page.find_elements(By.CSS_SELECTOR, "#answer-charts .chart")), 2, "charts of both errors")
+    for shot in (1, 0):
+        page.find_elements(By.CSS_SELECTOR, "#answer-shots button")[shot].click()
+        check(texts(page, "#answer-note")[0].startswith(f"To eyes, too, in {shot}."), "the chosen shot's note")
+        captions = page.execute_script("return [...document.querySelectorAll('#answer-charts figcaption')].map(c => c.innerText)")
+        check(all(c.startswith(shots[shot].split(".")[0]) for c in captions), f"charts of the chosen shot: {captions}")
+        labels = "return [...document.querySelectorAll('#answer-pictures canvas')].map(c => c.getAttribute('aria-label'))"
+        WebDriverWait(page, 20).until(lambda p: all(shots[shot] in label for label in p.execute_script(labels)))
+    titles = texts(page, "#answer-pictures b")
+    equal(titles, ["truth", "best: mcguire_dda · stride=1", "base line: mcguire_dda · stride=4"], "pictures")
+    colours = page.execute_script(
+        """return [...document.querySelectorAll('#answer-pictures canvas')].map(c =>
+        c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => (a * 31 + b) % 1e9))"""
+    )
+    equal(len(set(colours)), 3, "three pictures that differ")
+    bottom = page.execute_script("return document.querySelector('#answers').getBoundingClientRect().bottom")
+    check(bottom <= 800, f"the first screen ends at {bottom}")
+    check(page.execute_script("return document.body.scrollWidth <= innerWidth"), "the page is wider than the window")
+    equal(len(page.find_elements(By.CSS_SELECTOR, "#warnings details:not([open]) .warning")), 5, "folded warnings")
+
+
+def opened(page):
+    return page.execute_script("const was = window.opened; window.opened = null; return was")
+
+
+def test_matrix(page, shots):
+    """What a click on a cell, on a mark and on a picture opens; keys do the same."""
+    page.execute_script("window.openViewer = what => { window.opened = what }")
+    wanted = {"shot": shots[0], "points": ["mcguire_dda · stride=1", "mcguire_dda · stride=4"]}
+    head = page.execute_script("return [...document.querySelectorAll('#matrix thead th')].map(t => t.textContent)")
+    scenes = ["mirror_pillars", "fence", "roughness_gradient"]
+    equal(head, ["mse (radiance²)", "flip", "Point", *scenes, *scenes], "columns of both errors")
+    cells = page.find_elements(By.CSS_SELECTOR, "#matrix tbody button")
+    equal(len(cells), 3 * 6, "cells")
+    values = [float(c.get_attribute("data-value")) for c in cells]
+    for column in range(6):
+        own = values[column::6]
+        for value, cell in zip(own, cells[column::6]):
+            check(abs(float(cell.text.split()[0]) - value / min(own)) < 6e-3 * value / min(own), f"a ratio: {cell.text}")
+    cells[6].click()  # of the second point, in the first shot
+    equal(opened(page), wanted, "what a cell opens")
+    cells[6].send_keys("\ue014")  # arrow to the right
+    focused = page.execute_script("return [...document.querySelectorAll('#matrix tbody button')].indexOf(document.activeElement)")
+    equal(focused, 7, "the cell that an arrow key goes to")
+    equal(page.execute_script("return document.querySelectorAll('#matrix button[tabindex=\"0\"]').length"), 1, "tab stops")
+    check("[" in cells[7].get_attribute("aria-label"), "a cell tells its interval")
+    page.find_element(By.CSS_SELECTOR, "#answer-charts .point").send_keys("\ue007")  # Enter
+    equal(opened(page), wanted, "what a mark opens")
+    page.find_element(By.CSS_SELECTOR, "#answer-pictures [role=button]").click()
+    equal(opened(page), wanted, "what a picture opens")
+    choose_in(page, "results", "Cells relative to", "none")
+    equal(texts(page, "#matrix tbody tr:first-child button"), ["1"] * 6, "none over itself")
+    choose_in(page, "results", "Cells relative to", "the least")
+
+
+def test_points(page):
+    """Filter, order, colours and legend."""
+    def rows():
+        return texts(page, "#matrix tbody th[scope=row]")
+
+    box = page.find_element(By.ID, "filter")
+    box.send_keys("stride 4")
+    equal(rows(), ["3 mcguire_dda · stride=4"], "filtered points")
+    equal(len(page.find_elements(By.CSS_SELECTOR, "#scatter .point")), 6, "filtered marks")
+    equal(page.find_element(By.ID, "match").text, "1 of 3 points", "how many match")
+    box.send_keys("\b" * 8)
+    choose_in(page, "results", "Sort by", "mean error")
+    equal([r[0] for r in rows()], ["2", "3", "1"], "points by error")
+    page.find_element(By.ID, "isGrouped").click()
+    equal(texts(page, "#matrix tr.variant"), ["mcguire_dda", "none"], "groups")
+    page.find_element(By.ID, "isGrouped").click()
+    choose_in(page, "results", "Sort by", "order of the study")
+    choose_in(page, "results", "Colours and shapes stand for", "stride")
+    equal(texts(page, "#legend button[aria-pressed]"), ["stride = 1", "stride = 4", "without stride"], "values of the parameter")
+    shapes = page.execute_script("return [...document.querySelectorAll('#scatter .chart:first-child .point')].map(p => p.getAttribute('d'))")
+    equal(len(set(shapes[:2])), 2, "values differ in shape, not in colour alone")
+    choose_in(page, "results", "Colours and shapes stand for", "points")
+    page.find_elements(By.CSS_SELECTOR, "#legend button")[1].click()
+    marks = page.execute_script("return [...document.querySelectorAll('#scatter .point, #answer-charts .point')].map(p => p.dataset.point)")
+    equal(set(marks), {"stride=4"}, "marks when a legend entry is switched off")
+    page.find_elements(By.CSS_SELECTOR, "#legend button")[1].click()
+    equal(len(page.find_elements(By.CSS_SELECTOR, "#scatter .point")), 12, "all marks again")
+
+
+def test_mistakes(page):
+    """Mistakes stand at their rows, as text."""
+    found = page.execute_script(
+        """return [...document.querySelectorAll('#summary tbody tr')].map(r =>
+        [r.cells[0].textContent.split('.')[0], r.cells[2].dataset.value, [...r.querySelectorAll('.badge')].map(b => b.getAttribute('aria-label'))])"""
+    )
+    for shot, point, badges in found:
+        wanted = []
+        if (shot, point) == ("fence", "stride=4"):
+            wanted.append("1 not finite: ")
+        if (shot, point) == ("mirror_pillars", "stride=4"):
+            wanted.append("copies differ 34 %: ")
+        if shot == "fence" and point != "default":
+            wanted.append("disturbed: ")
+        equal([b.split(":")[0] + ": " for b in badges], wanted, f"mistakes of {shot} {point}")
+    told = page.execute_script(
+        """const row = report.errors[0], of = changes => mistakesOfError({...row, ...changes}).map(m => m.text);
+        return [of({}), of({litNoise: 0.25 * row.value}), of({litNoise: 0.09 * row.value}), of({interval: "none: 1 seed"}),
+            of({interval: "reference and seeds", seeds: 1}), [0, 0.03].map(t => mistakesOfReference({reached_share: 1, target_relative_error: t}).length)]"""
+    )
+    equal(told, [[], ["lit noise 25 %"], [], ["1 seed"], ["1 of 2 seeds"], [1, 0]], "other mistakes")
+
+
+def test_provenance(page):
+    link = page.find_element(By.CSS_SELECTOR, "#summary a")
+    check("2026-01-31T12:01:00Z, commit abcdef0123, llvmpipe" in link.get_attribute("title"), link.get_attribute("title"))
+    equal(page.execute_script("return document.querySelector(arguments[0].hash).textContent.includes('A processor')", link), True, "where it leads")
+
+
+def test_paper(page):
+    page.execute_script("dispatchEvent(new Event('beforeprint'))")
+    equal(page.execute_script("return document.querySelectorAll('details:not([open])').length"), 0, "folded parts on paper")
+
+
+def test_axe(page):
+    """The whole page with all that folds open, light and dark: nothing serious or critical."""
+    with open(AXE) as file:
+        page.execute_script(file.read())
+    for scheme in ("light", "dark"):
+        page.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+        found = page.execute_async_script(
+            "axe.run(document, {resultTypes: ['violations']}).then(r => arguments[0](r.violations.map(v => [v.impact, v.id, v.nodes[0].html])))"
+        )
+        equal([v for v in found if v[0] in ("serious", "critical")], [], f"violations in {scheme} colours")
+    page.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+
+def test_use(page, url, folder):
+    """Uses a page of its own, and leaves `url` open as it was."""
+    shots, answers = with_answers(folder)
+    page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 1280, "height": 800, "deviceScaleFactor": 1, "mobile": False})
+    page.get(answers)
+    until_ready(page)
+    test_answers(page, shots)
+    test_matrix(page, shots)
+    test_points(page)
+    test_mistakes(page)
+    test_provenance(page)
+    test_paper(page)
+    test_axe(page)
+    page.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    page.get(url)
+    until_ready(page)
