@@ -101,7 +101,7 @@ def test_images_of_a_rung(page):
     choose_in(page, "viewer", "Target", "on_screen")
     WebDriverWait(page, 20).until(lambda p: len(p.find_elements(By.CSS_SELECTOR, "#panes figcaption")) == 2)
     captions = [c.text for c in page.find_elements(By.CSS_SELECTOR, "#panes figcaption")]
-    check(captions[0].endswith("reference") and captions[1].endswith("sssr · first"), f"rung and technique: {captions}")
+    check(captions[0].endswith("truth") and captions[1].endswith("sssr · first"), f"rung and technique: {captions}")
 
 
 def test_roughness(page, folder):

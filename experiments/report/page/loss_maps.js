@@ -1,0 +1,175 @@
+// Which pixel loses to what: the method that is nearest to the truth, and the cause of each method's error.
+
+/// Okabe and Ito's colours, which all kinds of colour vision tell apart.
+const categoryCodes = ['e69f00', '56b4e9', '009e73', 'f0e442', '0072b2', 'd55e00', 'cc79a7', 'ffffff'];
+const darkGrey = [40, 40, 40], midGrey = [128, 128, 128];
+const cssColor = color => `background:rgb(${color})`;
+const legendItem = (color, ...text) => h('span', {}, h('span', {class: 'swatch', style: cssColor(color)}), ...text);
+
+/// Of the errors that a pixel's methods have, the second-best must be this much larger than the best for a winner.
+const clearLead = 1.01;
+
+/// For each pixel which of the shown methods has the least absolute difference: {pixels, names, colors, shares}.
+function nearestMap() {
+    const ref = truth(), methods = viewer.shown.filter(s => s.method.key !== truthKey);
+    const errors = methods.map(s => scalarsOf(s.image, ref, 'absolute'));
+    const alike = methods.length, places = new Uint16Array(ref.pixels), counts = new Array(alike + 1).fill(0);
+    for (let i = 0; i < ref.pixels; ++i) {
+        let best = Infinity, second = Infinity, winner = alike;
+        errors.forEach((error, m) => {
+            if (error[i] < best) {
+                second = best;
+                best = error[i];
+                winner = m;
+            } else if (error[i] < second)
+                second = error[i];
+        });
+        places[i] = second > clearLead * best ? winner : alike;
+        ++counts[places[i]];
+    }
+    // Where there are more methods than colours, those that win most often have one.
+    const order = methods.map((_, m) => m).sort((a, b) => counts[b] - counts[a]).slice(0, categoryCodes.length);
+    const colors = methods.map((_, m) => order.includes(m) ? hexColor(categoryCodes[order.indexOf(m)]) : midGrey);
+    return {
+        pixels: categoryPixels(places, ref, [...colors, darkGrey]),
+        methods: methods.map(
+            (s, m) =>
+                ({label: s.method.label, color: colors[m], hasOwn: order.includes(m), share: counts[m] / ref.pixels})),
+        alike: counts[alike] / ref.pixels
+    };
+}
+
+function nearestLegend() {
+    if (!truth() || viewer.shown.length < 2) return [];
+    const map = nearestMap(), named = map.methods.filter(m => m.hasOwn).sort((a, b) => b.share - a.share);
+    const others = map.methods.filter(m => !m.hasOwn);
+    return [
+        h('p', {class: 'note'},
+          'In the truth\'s pane: the method with the least absolute difference, and the share of the pixels where it has it.'),
+        h('div', {class: 'legend', id: 'nearest-legend'},
+          named.map(m => legendItem(m.color, `${m.label}: ${percent(m.share)}`)),
+          others.length ?
+              legendItem(midGrey, `${others.length} others: ${percent(others.reduce((sum, m) => sum + m.share, 0))}`) :
+              null,
+          legendItem(darkGrey, `two or more alike (within 1 %): ${percent(map.alike)}`))
+    ];
+}
+
+// --- rays
+
+const verdictKey = Object.fromEntries(verdicts.map(([key, , color]) => [color.slice(1), key]));
+const codeOf = color => color.map(c => c.toString(16).padStart(2, '0')).join('');
+
+/// What became of the pixel's first ray by the image of verdicts: a key of `verdicts`, or null where none was traced.
+const verdictAt = (image, i) => verdictKey[codeOf(image.palette[image.codes[i]])] ?? null;
+
+/// The verdicts of the pass that traced the most rays; undefined without any.
+function mainVerdicts(method) {
+    const images = method.verdicts.map(v => loadedImages.get(v.index)).filter(Boolean);
+    const traced = image => image.codes.reduce((sum, code) => sum + (codeOf(image.palette[code]) in verdictKey), 0);
+    if (images.length < 2) return images[0];
+    for (const image of images) image.traced ??= traced(image);
+    return images.reduce((a, b) => b.traced > a.traced ? b : a);
+}
+
+function verdictPicture(method) {
+    const image = mainVerdicts(method);
+    return image ? {pixels: categoryPixels(image.codes, image, image.palette), note: `rays of ${image.target}`} : null;
+}
+
+const verdictLegend = () => [h(
+    'div', {class: 'legend'}, verdicts.map(([, name, color]) => legendItem(hexColor(color.slice(1)), name)),
+    legendItem([0, 0, 0], 'no ray'))];
+
+// --- causes
+
+/// The images that tell what of an error no single frame can know; none without a truth ladder.
+function ladderIndices() {
+    const {results} = truthMethod() ?? {results: {}};
+    if (!('on_screen' in results)) return [];
+    return ['on_screen', 'camera_radiance', 'incident', 'specular'].map(t => results[t]).filter(i => i !== undefined);
+}
+
+const ladderImage = target => loadedImages.get(truthMethod()?.results[target]);
+
+/// How far the rung of the truth ladder is from the truth at a pixel, as [r, g, b] of the current target: what of an
+/// error a single image of the scene cannot tell. Of `specular` and `image` it is that of `incident` times the
+/// surface's reflectance, as the truth's specular / incident has it. Null where the study has no such rung.
+function rungDifference(rung, i) {
+    const [from, incident, specular] = [rung, 'incident', 'specular'].map(ladderImage);
+    if (isLadderRung(viewer.target) || !from || !incident || !specular) return null;
+    const low = pixelRgb(from, i), high = pixelRgb(incident, i);
+    const factor =
+        viewer.target === 'incident' ? [1, 1, 1] : pixelRgb(specular, i).map((s, c) => high[c] > 0 ? s / high[c] : 0);
+    return low.map((v, c) => (v - high[c]) * factor[c]);
+}
+
+const rungDistance = (rung, i) => {
+    const d = rungDifference(rung, i);
+    return d ? meanDistance(d, [0, 0, 0]) : null;
+};
+
+const causes = [
+    ['off_screen', 'not on the screen: no single image tells', '56b4e9'],
+    ['avoidable_miss', 'ray missed what is on the screen', 'f0e442'],
+    ['wrong_place', 'ray hit the wrong place', 'e69f00'], ['false_hit', 'ray hit what is not there', 'cc79a7'],
+    ['right', 'ray was right: filter and shading', '009e73'],
+    ['unavoidable_miss', 'rightly missed: fallback and filter', '0072b2'],
+    ['no_ray', 'no ray judged: fallback and filter', 'd55e00'], ['small', 'hardly any error', '282828']
+];
+const causePlace = Object.fromEntries(causes.map(([key], i) => [key, i]));
+causePlace.empty = causePlace.unavoidable_miss;
+
+const visibleError = 0.01;  // of the false-colour scale: below it a pixel has no cause to look for
+
+/// For each pixel the cause of a method's error, and each cause's share of the sum of absolute differences.
+function causeMap(method, image) {
+    const ref = truth(), error = scalarsOf(image, ref, 'absolute'), rays = mainVerdicts(method);
+    const maximum = sharedMaximum(viewer.shown.map(s => s.image).filter(i => i !== ref), ref, 'absolute');
+    const places = new Uint8Array(image.pixels), sums = new Array(causes.length).fill(0);
+    for (let i = 0; i < image.pixels; ++i) {
+        const e = error[i];
+        if (!Number.isFinite(e)) {
+            places[i] = causePlace.small;
+            continue;
+        }
+        const isUnknowable = (rungDistance('on_screen', i) ?? 0) >= 0.5 * e;
+        const verdict = rays ? verdictAt(rays, i) : null;
+        const cause = isUnknowable ? causePlace.off_screen : causePlace[verdict] ?? causePlace.no_ray;
+        sums[cause] += e;
+        places[i] = e < visibleError * maximum ? causePlace.small : cause;
+    }
+    const total = sums.reduce((a, b) => a + b, 0);
+    return {places, shares: sums.map(s => total > 0 ? s / total : 0)};
+}
+
+function causePicture(method, image) {
+    if (method.key === truthKey || !truth()) return null;
+    const colors = causes.map(([, , code]) => hexColor(code));
+    return {pixels: categoryPixels(causeMap(method, image).places, image, colors), note: 'cause of the error'};
+}
+
+function causeLegend() {
+    const methods = viewer.shown.filter(s => s.method.key !== truthKey);
+    if (!truth() || !methods.length) return [];
+    const own = causes.filter(([key]) => key !== 'small');
+    const columns = [
+        {name: 'Share of its absolute error'},
+        ...own.map(([, name, code]) => ({name: legendItem(hexColor(code), name), number: true}))
+    ];
+    const rows = methods.map(s => {
+        const {shares} = causeMap(s.method, s.image);
+        return [s.method.label, ...own.map(([key]) => cell(shares[causePlace[key]], percent(shares[causePlace[key]])))];
+    });
+    const missing = [
+        ...(ladderIndices().length ? [] : ['a truth ladder (a target on_screen in the study)']),
+        ...(methods.some(s => s.method.verdicts.length) ? [] : ['judged rays (hits in the study)'])
+    ];
+    return [
+        h('div', {class: 'scroll', id: 'cause-table'}, table(columns, rows)),
+        h('p', {class: 'note'},
+          'Not on the screen: where the rung on_screen of the truth ladder is from the truth by half of the error or more. Else what became of the pixel\'s first ray. ' +
+              `Dark: below ${percent(visibleError)} of the scale of absolute differences.` +
+              (missing.length ? ` To tell all causes, this study lacks ${missing.join(' and ')}.` : ''))
+    ];
+}
