@@ -9,8 +9,8 @@ const mostCropPoints = 7;  // besides the truth: what fits into the width of a p
 
 function toggleCropMode() {
     crops.isOn = !crops.isOn;
-    at('crop-mode').setAttribute('aria-pressed', crops.isOn);
-    at('panes').classList.toggle('cropping', crops.isOn);
+    at("crop-mode").setAttribute("aria-pressed", crops.isOn);
+    at("panes").classList.toggle("cropping", crops.isOn);
     if (crops.isOn && !crops.box) {
         const {width, height} = viewer.shown[0].image;
         setCropBox([width * 3 >> 3, height * 3 >> 3, width >> 2, height >> 2]);
@@ -57,7 +57,7 @@ function currentCrop() {
     };
 }
 
-const cropsText = () => JSON.stringify({crops: crops.list}, null, 1) + '\n';
+const cropsText = () => JSON.stringify({crops: crops.list}, null, 1) + "\n";
 
 function addCrop() {
     crops.list.push(currentCrop());
@@ -65,40 +65,40 @@ function addCrop() {
 }
 
 async function copyCrops() {
-    const text = at('crops-json');
+    const text = at("crops-json");
     text.select();
     try {
         await navigator.clipboard.writeText(text.value);
     } catch {
-        document.execCommand('copy');  // where a page that is a file has no clipboard of its own
+        document.execCommand("copy");  // where a page that is a file has no clipboard of its own
     }
-    at('viewer-status').textContent = 'Copied figures.json';
+    at("viewer-status").textContent = "Copied figures.json";
 }
 
 function showCrops() {
-    const panel = at('viewer-crop');
+    const panel = at("viewer-crop");
     panel.hidden = !crops.isOn && !crops.box && !crops.list.length;
     if (panel.hidden) return;
-    if (!panel.childElementCount) panel.append(cropEditor(), h('div', {id: 'crop-list'}));
-    const inputs = panel.querySelectorAll('input[type=number]');
+    if (!panel.childElementCount) panel.append(cropEditor(), h("div", {id: "crop-list"}));
+    const inputs = panel.querySelectorAll("input[type=number]");
     inputs.forEach((input, i) => {
         input.disabled = !crops.box;
-        if (document.activeElement !== input) input.value = crops.box?.[i] ?? '';
+        if (document.activeElement !== input) input.value = crops.box?.[i] ?? "";
     });
-    at('crop-add').disabled = !crops.box;
+    at("crop-add").disabled = !crops.box;
     const extra = viewer.shown.filter(s => s.method.key !== truthKey).length - mostCropPoints;
-    at('crop-note').textContent =
-        extra > 0 ? `A figure has room for ${mostCropPoints} points: the last ${extra} shown are left out.` : '';
-    at('crop-list').replaceChildren(...(crops.list.length ? cropList() : []));
+    at("crop-note").textContent =
+        extra > 0 ? `A figure has room for ${mostCropPoints} points: the last ${extra} shown are left out.` : "";
+    at("crop-list").replaceChildren(...(crops.list.length ? cropList() : []));
 }
 
 function cropEditor() {
-    const names = ['x', 'y', 'width', 'height'];
+    const names = ["x", "y", "width", "height"];
     return h(
-        'div', {class: 'controls'}, h('b', {}, 'Crop'), names.map((name, i) => h('label', {}, name, h('input', {
-                                                                                     type: 'number',
+        "div", {class: "controls"}, h("b", {}, "Crop"), names.map((name, i) => h("label", {}, name, h("input", {
+                                                                                     type: "number",
                                                                                      min: i < 2 ? 0 : 1,
-                                                                                     id: 'crop-' + name,
+                                                                                     id: "crop-" + name,
                                                                                      change: event => {
                                                                                          const box = [...crops.box];
                                                                                          box[i] =
@@ -107,33 +107,33 @@ function cropEditor() {
                                                                                          setCropBox(box);
                                                                                      }
                                                                                  }))),
-        h('button', {id: 'crop-add', click: addCrop}, 'Add to figures.json'),
-        h('span', {class: 'note', id: 'crop-note'}));
+        h("button", {id: "crop-add", click: addCrop}, "Add to figures.json"),
+        h("span", {class: "note", id: "crop-note"}));
 }
 
 function cropList() {
     const lines = crops.list.map(
         (crop, i) =>
-            h('li', {},
-              `${crop.shot}, ${crop.target}: [${crop.box.join(', ')}], ${number(crop.exposure)} EV, ${
+            h("li", {},
+              `${crop.shot}, ${crop.target}: [${crop.box.join(", ")}], ${number(crop.exposure)} EV, ${
                   crop.points.length} points `,
-              h('button', {
-                  'aria-label': `Remove crop ${i + 1}`,
+              h("button", {
+                  "aria-label": `Remove crop ${i + 1}`,
                   click: () => {
                       crops.list.splice(i, 1);
                       showCrops();
                   }
               },
-                '×')));
-    const url = 'data:application/json;charset=utf-8,' + encodeURIComponent(cropsText());
-    const text = h('textarea', {id: 'crops-json', readonly: true, rows: 6, 'aria-label': 'figures.json'});
+                "×")));
+    const url = "data:application/json;charset=utf-8," + encodeURIComponent(cropsText());
+    const text = h("textarea", {id: "crops-json", readonly: true, rows: 6, "aria-label": "figures.json"});
     text.value = cropsText();
     return [
-        h('ol', {}, lines),
-        h('div', {class: 'controls'},
-          h('a', {href: url, download: 'figures.json', id: 'crops-download'}, 'Download figures.json'),
-          h('button', {click: copyCrops}, 'Copy'),
-          h('span', {class: 'note'}, 'Then: ', h('code', {}, 'ssrlab figures DIR figures.json'))),
+        h("ol", {}, lines),
+        h("div", {class: "controls"},
+          h("a", {href: url, download: "figures.json", id: "crops-download"}, "Download figures.json"),
+          h("button", {click: copyCrops}, "Copy"),
+          h("span", {class: "note"}, "Then: ", h("code", {}, "ssrlab figures DIR figures.json"))),
         text
     ];
 }

@@ -7,27 +7,27 @@ const meanDistance = (x, r) => (Math.abs(x[0] - r[0]) + Math.abs(x[1] - r[1]) + 
 
 /// What a false-colour mode shows of one pixel; in the formulas `d` and `r` are difference and reference per channel.
 const scalarModes = {
-    absolute: {title: 'absolute difference', formula: 'mean over channels of |d|', isError: true, of: meanDistance},
+    absolute: {title: "absolute difference", formula: "mean over channels of |d|", isError: true, of: meanDistance},
     signed: {
-        title: 'signed difference',
-        formula: 'luminance of d: blue too dark, red too bright',
+        title: "signed difference",
+        formula: "luminance of d: blue too dark, red too bright",
         isError: true,
         isSigned: true,
         of: (x, r) => luminance(x) - luminance(r)
     },
     relative: {
-        title: 'relative error',
-        formula: 'mean over channels of |d| / sqrt(r² + 0.01)',
+        title: "relative error",
+        formula: "mean over channels of |d| / sqrt(r² + 0.01)",
         isError: true,
         of: (x, r) => [0, 1, 2].reduce((sum, c) => sum + Math.abs(x[c] - r[c]) / Math.sqrt(r[c] * r[c] + 0.01), 0) / 3
     },
-    luminance: {title: 'luminance', formula: 'Rec. 709 luminance', of: x => luminance(x)},
-    confidence: {title: 'confidence', formula: 'share of the result that is the technique\'s own', isFixed: true},
+    luminance: {title: "luminance", formula: "Rec. 709 luminance", of: x => luminance(x)},
+    confidence: {title: "confidence", formula: "share of the result that is the technique's own", isFixed: true},
 };
 
 /// One value per pixel, computed once for each image that it is compared with (`base`, null where nothing is).
 function scalarsOf(image, base, mode) {
-    const key = mode + (scalarModes[mode].isError ? base.index : '');
+    const key = mode + (scalarModes[mode].isError ? base.index : "");
     if (!image.scalars.has(key)) {
         const {of} = scalarModes[mode], values = new Float32Array(image.pixels);
         const [r, g, b] = [0, 1, 2].map(c => image.halves.subarray(c * image.pixels, (c + 1) * image.pixels));
@@ -57,7 +57,7 @@ const hexColor = code => [0, 2, 4].map(i => parseInt(code.slice(i, i + 2), 16));
 
 /// 256 colours through evenly spaced codes.
 function colorRamp(codes) {
-    const stops = codes.split(' ').map(hexColor), last = stops.length - 1;
+    const stops = codes.split(" ").map(hexColor), last = stops.length - 1;
     return Array.from({length: 256}, (_, i) => {
         const place = i / 255 * last, low = Math.min(Math.floor(place), last - 1), t = place - low;
         return [0, 1, 2].map(c => Math.round(stops[low][c] * (1 - t) + stops[low + 1][c] * t));
@@ -66,10 +66,10 @@ function colorRamp(codes) {
 
 /// magma by Stefan van der Walt and Nathaniel Smith (matplotlib, CC0), every eighth entry, interpolated.
 const magma = colorRamp(
-    '000004 030312 0a0822 130d34 1d1147 29115a 36106b 440f76 51127c 5d177f 6a1c81 762181 832681 902a81 9c2e7f aa337d b73779 c23b75 cf4070 db476a e55064 ee5b5e f4695c f9785d fb8761 fd9668 fea571 feb47b fec287 fed194 fde0a1 fceeb0 fcfdbf');
+    "000004 030312 0a0822 130d34 1d1147 29115a 36106b 440f76 51127c 5d177f 6a1c81 762181 832681 902a81 9c2e7f aa337d b73779 c23b75 cf4070 db476a e55064 ee5b5e f4695c f9785d fb8761 fd9668 fea571 feb47b fec287 fed194 fde0a1 fceeb0 fcfdbf");
 /// Signed values: Okabe and Ito's blue and vermilion, which all kinds of colour vision tell apart, white between them,
 /// and darker ends.
-const diverging = colorRamp('002a44 0072b2 ffffff d55e00 552500');
+const diverging = colorRamp("002a44 0072b2 ffffff d55e00 552500");
 const badColor = [255, 0, 255];  // NaN and infinity: a colour that no scale has
 
 /// IEC 61966-2-1, as 0..255.
@@ -78,10 +78,10 @@ const srgbCode = v => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v *
 /// Curves from exposed radiance, 0 or more, to [0, 1], for each channel by itself. For display alone: what the
 /// inspector lists has passed none of them.
 const toneCurves = {
-    none: {title: 'none (clipped at 1)', of: v => Math.min(v, 1)},
-    reinhard: {title: 'Reinhard et al. 2002, v / (1 + v)', of: v => v / (1 + v)},
+    none: {title: "none (clipped at 1)", of: v => Math.min(v, 1)},
+    reinhard: {title: "Reinhard et al. 2002, v / (1 + v)", of: v => v / (1 + v)},
     aces: {
-        title: 'ACES, Narkowicz\'s fit of 2015',
+        title: "ACES, Narkowicz's fit of 2015",
         of: v => Math.min(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 1)
     },
 };

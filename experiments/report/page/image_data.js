@@ -25,17 +25,17 @@ function loadImage(index) {
 /// All of them; those that cannot be had are left out, and the first reason is shown.
 async function loadImages(indices) {
     const results = await Promise.allSettled(indices.map(loadImage));
-    const failed = results.find(r => r.status === 'rejected');
+    const failed = results.find(r => r.status === "rejected");
     if (failed) showImageProblem(failed.reason.message);
-    return results.filter(r => r.status === 'fulfilled').map(r => r.value);
+    return results.filter(r => r.status === "fulfilled").map(r => r.value);
 }
 
 async function decodeImage(index) {
     const description = report.images[index];
     const bytes =
-        await inflated(description.file ? await linkedText(description.file) : at('image-' + index).textContent);
+        await inflated(description.file ? await linkedText(description.file) : at("image-" + index).textContent);
     const image = {...description, index, pixels: description.width * description.height, scalars: new Map()};
-    if (description.format === 'halves')
+    if (description.format === "halves")
         image.halves = decodeHalves(bytes, description.width, description.height);
     else
         image.codes = bytes;
@@ -46,7 +46,7 @@ async function decodeImage(index) {
 async function inflated(text) {
     const binary = atob(text), packed = new Uint8Array(binary.length);
     for (let i = 0; i < packed.length; ++i) packed[i] = binary.charCodeAt(i);
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
     return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
@@ -55,8 +55,8 @@ function linkedText(file) {
     return new Promise((resolve, reject) => {
         const fail = () => reject(new Error(`${
             file} cannot be read. The images of this report lie in the folder report_images beside it: keep both together.`));
-        const script = h('script', {
-            src: file.split('/').map(encodeURIComponent).join('/'),
+        const script = h("script", {
+            src: file.split("/").map(encodeURIComponent).join("/"),
             load: () => {
                 script.remove();
                 imageTexts.has(file) ? resolve(imageTexts.get(file)) : fail();

@@ -17,15 +17,15 @@ async function loadForInspector() {
 function verdictText(method, i) {
     const texts = method.verdicts.map(v => {
         const image = loadedImages.get(v.index);
-        if (!image) return '…';
+        if (!image) return "…";
         const key = verdictAt(image, i);
-        return (method.verdicts.length > 1 ? v.stage.split('/').pop() + ': ' : '') +
-            (verdicts.find(([k]) => k === key)?.[1] ?? 'no ray');
+        return (method.verdicts.length > 1 ? v.stage.split("/").pop() + ": " : "") +
+            (verdicts.find(([k]) => k === key)?.[1] ?? "no ray");
     });
-    return texts.length ? texts.join('; ') : '–';
+    return texts.length ? texts.join("; ") : "–";
 }
 
-const rgbText = rgb => rgb.map(v => number(v, 4)).join(', ');
+const rgbText = rgb => rgb.map(v => number(v, 4)).join(", ");
 
 /// The surface and the truth ladder at the pixel, in words.
 function pixelFacts(i) {
@@ -33,12 +33,12 @@ function pixelFacts(i) {
     const surface = loadedImages.get(truthMethod()?.roughness);
     if (surface)
         facts.push(
-            ['Roughness', Number.isFinite(pixelByte(surface, i)) ? pixelByte(surface, i).toFixed(2) : 'not finite']);
-    for (const rung of ['camera_radiance', 'on_screen']) {
+            ["Roughness", Number.isFinite(pixelByte(surface, i)) ? pixelByte(surface, i).toFixed(2) : "not finite"]);
+    for (const rung of ["camera_radiance", "on_screen"]) {
         const image = ladderImage(rung), difference = rungDifference(rung, i);
         if (image) facts.push([`Rung ${rung} (incident)`, rgbText(pixelRgb(image, i))]);
-        if (difference && rung === 'on_screen')
-            facts.push(['No single image can know', `${rgbText(difference)} of ${viewer.target}`]);
+        if (difference && rung === "on_screen")
+            facts.push(["No single image can know", `${rgbText(difference)} of ${viewer.target}`]);
     }
     return facts;
 }
@@ -47,39 +47,39 @@ function pixelFacts(i) {
 function showReadout() {
     const place = viewer.pinned ?? viewer.pointed;
     if (!place || !viewer.shown.length) {
-        at('readout').replaceChildren(
-            h('p', {class: 'note'}, 'Point at an image to read all values of a pixel; a click or Enter pins it.'));
+        at("readout").replaceChildren(
+            h("p", {class: "note"}, "Point at an image to read all values of a pixel; a click or Enter pins it."));
         return;
     }
     const ref = base(), i = place.y * viewer.shown[0].image.width + place.x;
-    const unknowable = rungDistance('on_screen', i);
+    const unknowable = rungDistances()?.[i] ?? null;
     const columns = [
-        'Image', 'R', 'G', 'B', 'Luminance', 'Signed difference', 'Absolute difference', 'Relative error',
-        'Unknowable share', 'Confidence', 'Ray'
+        "Image", "R", "G", "B", "Luminance", "Signed difference", "Absolute difference", "Relative error",
+        "Unknowable share", "Confidence", "Ray"
     ].map((name, c) => ({name, number: c > 0 && c < 10}));
     const methods = viewer.pinned ? viewer.methods : viewer.shown.map(s => s.method);
     const rows = methods.filter(m => resultIndex(m) !== undefined).map(method => {
         const image = resultOf(method);
-        if (!image) return [method.label, '…', ...Array(columns.length - 2).fill('')];
+        if (!image) return [method.label, "…", ...Array(columns.length - 2).fill("")];
         const rgb = pixelRgb(image, i), hasError = ref && image !== ref;
         const error = mode => hasError ? scalarModes[mode].of(rgb, pixelRgb(ref, i)) : null;
-        const absolute = error('absolute'), confidence = loadedImages.get(method.confidence);
+        const absolute = error("absolute"), confidence = loadedImages.get(method.confidence);
         const share = unknowable === null || !(absolute > 0) || viewer.baseKey !== truthKey ?
             null :
             Math.min(unknowable / absolute, 1);
         return [
             method.label, ...rgb.map(v => cell(v, number(v, 5))), number(luminance(rgb), 5),
-            cell(error('signed'), hasError && error('signed') > 0 ? '+' : '', number(error('signed'), 4)),
-            cell(absolute, number(absolute, 5)), cell(error('relative'), number(error('relative'), 4)), percent(share),
-            confidence ? cell(pixelByte(confidence, i), pixelByte(confidence, i).toFixed(2)) : '–',
+            cell(error("signed"), hasError && error("signed") > 0 ? "+" : "", number(error("signed"), 4)),
+            cell(absolute, number(absolute, 5)), cell(error("relative"), number(error("relative"), 4)), percent(share),
+            confidence ? cell(pixelByte(confidence, i), pixelByte(confidence, i).toFixed(2)) : "–",
             verdictText(method, i)
         ];
     });
-    at('readout').replaceChildren(
+    at("readout").replaceChildren(
         table(columns, rows, {
             caption: `Pixel ${place.x}, ${place.y}${
-                viewer.pinned ? ' (pinned: click it again or press Enter to let go)' : ''}`
+                viewer.pinned ? " (pinned: click it again or press Enter to let go)" : ""}`
         }),
-        h('dl', {class: 'pixel-facts', id: 'pixel-facts'},
-          pixelFacts(i).map(([name, value]) => h('div', {}, h('dt', {}, name), h('dd', {}, value)))));
+        h("dl", {class: "pixel-facts", id: "pixel-facts"},
+          pixelFacts(i).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))));
 }

@@ -17,14 +17,14 @@ function limitView() {
 }
 
 function createPane(listeners) {
-    const canvas = h('canvas', {tabindex: 0, role: 'img', ...listeners});
-    const caption = h('figcaption');
+    const canvas = h("canvas", {tabindex: 0, role: "img", ...listeners});
+    const caption = h("figcaption");
     return {
         canvas,
         caption,
-        element: h('figure', {class: 'pane'}, caption, canvas),
+        element: h("figure", {class: "pane"}, caption, canvas),
         image: null,
-        picture: document.createElement('canvas'),
+        picture: document.createElement("canvas"),
         second: null  // right of the split
     };
 }
@@ -32,7 +32,7 @@ function createPane(listeners) {
 function putPixels(picture, pixels) {
     picture.width = pixels.width;
     picture.height = pixels.height;
-    picture.getContext('2d').putImageData(pixels, 0, 0);
+    picture.getContext("2d").putImageData(pixels, 0, 0);
     return picture;
 }
 
@@ -40,10 +40,10 @@ function putPixels(picture, pixels) {
 function setPane(pane, image, pixels, second, caption, target) {
     pane.image = image;
     putPixels(pane.picture, pixels);
-    pane.second = second ? putPixels(pane.second ?? document.createElement('canvas'), second) : null;
+    pane.second = second ? putPixels(pane.second ?? document.createElement("canvas"), second) : null;
     pane.caption.replaceChildren(...caption);
     pane.caption.title = pane.caption.textContent;
-    pane.canvas.setAttribute('aria-label', `${pane.caption.textContent}, ${target}`);
+    pane.canvas.setAttribute("aria-label", `${pane.caption.textContent}, ${target}`);
     pane.canvas.style.aspectRatio = `${image.width} / ${image.height}`;
 }
 
@@ -63,8 +63,8 @@ function drawPane(pane, {pinned, splitAt, box}) {
     const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)),
           height = Math.max(1, Math.round(width * image.height / image.width));
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
-    const context = canvas.getContext('2d'), {scale, left, top} = paneTransform(pane);
-    context.fillStyle = '#000';
+    const context = canvas.getContext("2d"), {scale, left, top} = paneTransform(pane);
+    context.fillStyle = "#000";
     context.fillRect(0, 0, width, height);
     context.imageSmoothingEnabled = scale < 1;
     context.drawImage(pane.picture, left, top, image.width * scale, image.height * scale);
@@ -87,19 +87,19 @@ function drawSecond(context, pane, x, {scale, left, top}) {
     context.drawImage(pane.second, left, top, image.width * scale, image.height * scale);
     context.restore();
     context.fillRect(x - 2, 0, 4, canvas.height);
-    context.fillStyle = '#fff';
+    context.fillStyle = "#fff";
     context.fillRect(x - 1, 0, 2, canvas.height);
     context.beginPath();
     context.arc(x, canvas.height / 2, 7 * devicePixelRatio, 0, 7);
     context.fill();
-    context.strokeStyle = '#000';
+    context.strokeStyle = "#000";
     context.stroke();
 }
 
 /// White within black, so that it shows on any picture.
 function outline(context, x, y, width, height) {
     context.lineWidth = 1;
-    for (const [color, grow] of [['#000', 1.5], ['#fff', 0.5]]) {
+    for (const [color, grow] of [["#000", 1.5], ["#fff", 0.5]]) {
         context.strokeStyle = color;
         context.strokeRect(x - grow, y - grow, width + 2 * grow, height + 2 * grow);
     }

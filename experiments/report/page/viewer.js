@@ -1,15 +1,15 @@
 // The viewer: which images are shown, and how.
 
-const truthKey = 'reference';
+const truthKey = "reference";
 const viewer = {
     shot: null,
     frame: null,
     target: null,
-    mode: 'color',
-    layout: 'side',
+    mode: "color",
+    layout: "side",
     hasErrorRow: false,
     exposure: 0,
-    curve: 'none',
+    curve: "none",
     scale: 0,
     methods: [],        // of shot and frame, the truth first
     chosen: null,       // keys of methods, in the order in which they are shown; kept from shot to shot
@@ -32,7 +32,7 @@ const isError = mode => scalarModes[mode]?.isError ?? false;
 const truthMethod = () => viewer.methods.find(m => m.key === truthKey);
 /// What is shown of a method; rungs of the truth ladder are compared with what arrives.
 const resultIndex = method =>
-    method?.results[method.key === truthKey || !isLadderRung(viewer.target) ? viewer.target : 'incident'];
+    method?.results[method.key === truthKey || !isLadderRung(viewer.target) ? viewer.target : "incident"];
 const resultOf = method => loadedImages.get(resultIndex(method));
 const truth = () => resultOf(truthMethod());
 const base = () => resultOf(viewer.methods.find(m => m.key === viewer.baseKey)) ?? truth();
@@ -44,23 +44,23 @@ function methodsOf(shot, frame) {
     const methods = new Map();
     report.images.forEach((image, index) => {
         if (image.shot !== shot || frameOf(image) !== frame) return;
-        const isTruth = image.kind === 'reference' || image.kind === 'surface';
+        const isTruth = image.kind === "reference" || image.kind === "surface";
         const key = isTruth ? truthKey : pointKey(image);
         if (!methods.has(key))
             methods.set(key, {
                 key,
-                label: isTruth ? 'truth' : pointLabel(image),
+                label: isTruth ? "truth" : pointLabel(image),
                 variant: image.variant,
                 point: image.point,
                 results: {},
                 verdicts: []
             });
         const method = methods.get(key);
-        if (image.kind === 'hits')
+        if (image.kind === "hits")
             method.verdicts.push({stage: image.target, index});
-        else if (image.kind === 'confidence')
+        else if (image.kind === "confidence")
             method.confidence = index;
-        else if (image.kind === 'surface')
+        else if (image.kind === "surface")
             method.roughness = index;
         else
             method.results[image.target] = index;
@@ -73,25 +73,25 @@ const targetsOf = methods => unique(methods.flatMap(m => Object.keys(m.results))
 
 function showViewer() {
     if (!report.images.length) {
-        at('viewer').append(h('p', {class: 'note'}, 'This study has no images.'));
+        at("viewer").append(h("p", {class: "note"}, "This study has no images."));
         return;
     }
-    if (typeof DecompressionStream === 'undefined') {
-        at('viewer').append(h('p', {class: 'note'}, 'Images need a browser of 2023 or later (DecompressionStream).'));
+    if (typeof DecompressionStream === "undefined") {
+        at("viewer").append(h("p", {class: "note"}, "Images need a browser of 2023 or later (DecompressionStream)."));
         return;
     }
-    at('viewer').append(
-        ...report.notes.map(text => h('p', {class: 'warning', role: 'note'}, text)),
-        h('p', {class: 'warning', id: 'viewer-problem', role: 'alert', hidden: true}),
-        h('div', {class: 'controls', id: 'viewer-choice'}),
-        h('div', {class: 'controls', id: 'viewer-time', hidden: true}),
-        h('div', {class: 'controls', id: 'viewer-look'}), h('div', {id: 'viewer-images'}),
-        h('div', {class: 'controls', id: 'viewer-pair', hidden: true}), h('div', {id: 'viewer-crop', hidden: true}),
-        h('p', {class: 'sr-only', id: 'viewer-status', role: 'status'}), h('div', {class: 'panes', id: 'panes'}),
-        h('div', {id: 'viewer-legend'}), h('div', {class: 'scroll', id: 'readout', 'aria-live': 'off'}), keyHelp());
+    at("viewer").append(
+        ...report.notes.map(text => h("p", {class: "warning", role: "note"}, text)),
+        h("p", {class: "warning", id: "viewer-problem", role: "alert", hidden: true}),
+        h("div", {class: "controls", id: "viewer-choice"}),
+        h("div", {class: "controls", id: "viewer-time", hidden: true}),
+        h("div", {class: "controls", id: "viewer-look"}), h("div", {id: "viewer-images"}),
+        h("div", {class: "controls", id: "viewer-pair", hidden: true}), h("div", {id: "viewer-crop", hidden: true}),
+        h("p", {class: "sr-only", id: "viewer-status", role: "status"}), h("div", {class: "panes", id: "panes"}),
+        h("div", {id: "viewer-legend"}), h("div", {class: "scroll", id: "readout", "aria-live": "off"}), keyHelp());
     showLook();
-    addEventListener('keydown', viewerKey);
-    new ResizeObserver(drawAll).observe(at('panes'));
+    addEventListener("keydown", viewerKey);
+    new ResizeObserver(drawAll).observe(at("panes"));
     const start = () => viewer.shot === null ? chooseShot(report.images[0].shot) : undefined;
     if (!report.images.some(i => i.file)) return start();
     // Images beside the page are loaded when the viewer is about to be seen.
@@ -99,20 +99,20 @@ function showViewer() {
         if (!entries.some(e => e.isIntersecting)) return;
         observer.disconnect();
         start();
-    }, {rootMargin: '50%'}).observe(at('viewer'));
+    }, {rootMargin: "50%"}).observe(at("viewer"));
 }
 
 /// For the other sections: scrolls to the viewer and shows truth and points (as pointLabel() names them) side by side.
 /// Points without images in this shot are left out. Resolves when they are there; false: nothing of them can be shown.
 async function openViewer({shot, points = [], target}) {
-    if (!framesOf(shot).length || !at('viewer-choice')) return false;
+    if (!framesOf(shot).length || !at("viewer-choice")) return false;
     const own = methodsOf(shot, framesOf(shot).at(-1));
     const wanted =
         own.filter(m => points.includes(m.label)).sort((a, b) => points.indexOf(a.label) - points.indexOf(b.label));
     viewer.chosen = [truthKey, ...wanted.map(m => m.key)];
-    viewer.layout = 'side';
+    viewer.layout = "side";
     viewer.target = target ?? viewer.target;
-    at('viewer').scrollIntoView();
+    at("viewer").scrollIntoView();
     await chooseShot(shot);
     viewer.panes[0]?.canvas.focus({preventScroll: true});
     return true;
@@ -125,9 +125,9 @@ const shotExposure = shot => {
 
 function chooseShot(shot) {
     if (shot !== viewer.shot) {
-        Object.assign(viewer, {shot, pinned: null, pointed: null, scale: 0, frame: framesOf(shot).at(-1)});
+        Object.assign(viewer, {shot, pinned: null, pointed: null, frame: framesOf(shot).at(-1)});
         Object.assign(view, {x: 0.5, y: 0.5, zoom: 1});
-        at('scale').value = 0;
+        setScale(0);
         setExposure(shotExposure(shot));
         clearCropBox();
     }
@@ -139,7 +139,7 @@ function chooseFrame(frame) {
     viewer.frame = frame;
     viewer.methods = methodsOf(viewer.shot, frame);
     const targets = targetsOf(viewer.methods);
-    viewer.target = preferred(targets, viewer.target ?? 'image');
+    viewer.target = preferred(targets, viewer.target ?? "image");
     const compared = viewer.methods.filter(m => m.key === truthKey || !isSingleChange(m));
     viewer.chosen ??= compared.slice(0, firstShown).map(m => m.key);
     if (!viewer.methods.some(m => viewer.chosen.includes(m.key)))
@@ -155,10 +155,10 @@ function neededImages() {
     const methods =
         viewer.methods.filter(m => viewer.chosen.includes(m.key) || m.key === viewer.baseKey || m.key === truthKey);
     const needed = methods.map(resultIndex);
-    if (viewer.mode === 'confidence') needed.push(...methods.map(m => m.confidence));
-    if (viewer.mode === 'rays' || viewer.mode === 'cause')
+    if (viewer.mode === "confidence") needed.push(...methods.map(m => m.confidence));
+    if (viewer.mode === "rays" || viewer.mode === "cause")
         needed.push(...methods.flatMap(m => m.verdicts.map(v => v.index)));
-    if (viewer.mode === 'cause') needed.push(...ladderIndices());
+    if (viewer.mode === "cause") needed.push(...ladderIndices());
     return unique(needed.filter(i => i !== undefined));
 }
 
@@ -166,10 +166,10 @@ function neededImages() {
 async function showImages() {
     const request = ++viewer.request;
     const missing = neededImages().some(i => !loadedImages.has(i));
-    at('panes').setAttribute('aria-busy', missing);
+    at("panes").setAttribute("aria-busy", missing);
     await loadImages(neededImages());
     if (request !== viewer.request) return;  // another choice was made meanwhile
-    at('panes').setAttribute('aria-busy', 'false');
+    at("panes").setAttribute("aria-busy", "false");
     setShown();
     layOut();
     if (viewer.pinned) loadForInspector();
@@ -198,8 +198,8 @@ function setChosen(keys) {
 }
 
 function showImageProblem(text) {
-    at('viewer-problem').textContent = text;
-    at('viewer-problem').hidden = false;
+    at("viewer-problem").textContent = text;
+    at("viewer-problem").hidden = false;
 }
 
 function setLayout(layout) {
@@ -208,53 +208,60 @@ function setLayout(layout) {
     viewer.panes[0]?.canvas.focus({preventScroll: true});
 }
 
+/// At most; few images share two rows, so that they are large.
+const paneColumns = count => count <= 3 ? Math.max(count, 1) : count <= 10 ? Math.ceil(count / 2) : 6;
+
 /// Makes the panes that the layout asks for: one per image, with that of its error below it if asked for.
 function layOut() {
     const {layout, shown} = viewer;
-    for (const name of ['side', 'flip', 'split']) at('layout-' + name).setAttribute('aria-pressed', layout === name);
-    at('panes').classList.toggle('single', layout !== 'side');
+    for (const name of ["side", "flip", "split"]) at("layout-" + name).setAttribute("aria-pressed", layout === name);
+    at("panes").classList.toggle("single", layout !== "side");
+    at("panes").style.setProperty("--columns", paneColumns(shown.length));
     showChosenImages();
     showPair();
     const wantedOf = item => {
         const hasError = viewer.hasErrorRow && item.image !== base();
-        return [{item, mode: viewer.mode}, ...(hasError ? [{item, mode: 'absolute'}] : [])];
+        return [{item, mode: viewer.mode}, ...(hasError ? [{item, mode: "absolute"}] : [])];
     };
     const current = shown[viewer.active];
-    const columns = layout === 'side' ? shown.map(wantedOf) :
+    const columns = layout === "side" ? shown.map(wantedOf) :
         !current                      ? [] :
-        layout === 'flip'             ? [wantedOf(current)] :
+        layout === "flip"             ? [wantedOf(current)] :
                                         [[{item: current, mode: viewer.mode, other: shown[viewer.previous]}]];
     const wanted = columns.flat();
+    const focused = viewer.panes.findIndex(p => p.canvas === document.activeElement);
     while (viewer.panes.length < wanted.length) viewer.panes.push(newPane());
     viewer.panes.length = wanted.length;
     viewer.panes.forEach((pane, i) => Object.assign(pane, {wanted: wanted[i]}));
-    at('panes').replaceChildren(...columns.map(
-        column => h('div', {}, viewer.panes.filter(p => column.includes(p.wanted)).map(p => p.element))));
+    at("panes").replaceChildren(...columns.map(
+        column => h("div", {}, viewer.panes.filter(p => column.includes(p.wanted)).map(p => p.element))));
+    if (focused >= 0) (viewer.panes[focused] ?? viewer.panes[0])?.canvas.focus({preventScroll: true});
     paint();
 }
 
 /// What a mode shows of an image: {pixels, note}; `maximum` of a mode is its false-colour scale.
 function pictureOf({method, image}, mode, table, maximumOf) {
     const inColor = note => ({pixels: colorPixels(image, table), note});
-    if (mode === 'nearest')
-        return method.key === truthKey ? {pixels: nearestMap().pixels, note: 'nearest method'} : inColor('');
-    if (mode === 'cause') return causePicture(method, image) ?? inColor('');
-    if (mode === 'rays') return verdictPicture(method) ?? inColor(method.key === truthKey ? '' : 'no verdicts');
-    if (mode === 'confidence') {
+    if (mode === "nearest")
+        return method.key === truthKey ? {pixels: nearestMap().pixels, note: "nearest method"} : inColor("");
+    if (mode === "cause") return causePicture(method, image) ?? inColor("");
+    if (mode === "rays") return verdictPicture(method) ?? inColor(method.key === truthKey ? "" : "no verdicts");
+    if (mode === "confidence") {
         const own = loadedImages.get(method.confidence);
-        if (!own) return inColor(method.key === truthKey ? '' : 'no confidence');
+        if (!own) return inColor(method.key === truthKey ? "" : "no confidence");
         return {
             pixels: falseColorPixels(Float32Array.from(own.codes, (_, i) => pixelByte(own, i)), own, 1),
-            note: 'confidence'
+            note: "confidence"
         };
     }
-    if (mode === 'color' || isError(mode) && (!base() || image === base())) return inColor('');
+    if (mode === "color" || isError(mode) && (!base() || image === base())) return inColor("");
     const {title, isSigned} = scalarModes[mode];
     return {pixels: falseColorPixels(scalarsOf(image, base(), mode), image, maximumOf(mode), isSigned), note: title};
 }
 
 /// Fills the panes' pictures anew: colours depend on mode, exposure, curve and scale.
 function paint() {
+    lossMaps.clear();
     const table = displayTable(viewer.exposure, viewer.curve), maxima = {};
     const maximumOf = mode => maxima[mode] ??=
         sharedMaximum(viewer.shown.map(s => s.image).filter(i => !isError(mode) || i !== base()), base(), mode) * 2 **
@@ -265,9 +272,9 @@ function paint() {
         const second = other ? pictureOf(other, mode, table, maximumOf) : null;
         const place = viewer.shown.indexOf(item);
         const caption = [
-            place < 9 ? h('kbd', {}, String(place + 1)) : '', item.method.label,
-            second ? ' | ' + other.method.label : '',
-            picture.note || second?.note ? h('small', {}, ' ' + (picture.note || second.note)) : ''
+            place < 9 ? h("kbd", {}, String(place + 1)) : "", item.method.label,
+            second ? " | " + other.method.label : "",
+            picture.note || second?.note ? h("small", {}, " " + (picture.note || second.note)) : ""
         ];
         setPane(pane, item.image, picture.pixels, second?.pixels, caption, viewer.target);
     }

@@ -12,7 +12,7 @@ function newPane() {
             pane.canvas.setPointerCapture(event.pointerId);
             const place = pointerPlace(pane, event), width = pane.canvas.getBoundingClientRect().width;
             const isAtSplit = pane.second && Math.abs(place.u - viewer.splitAt) * width < 10;
-            const does = isAtSplit ? 'split' : crops.isOn || event.shiftKey ? 'crop' : 'pan';
+            const does = isAtSplit ? "split" : crops.isOn || event.shiftKey ? "crop" : "pan";
             viewer.drag = {x: event.clientX, y: event.clientY, hasMoved: false, does, from: place};
         },
         pointermove: event => {
@@ -23,7 +23,7 @@ function newPane() {
                 showReadout();
         },
         pointerup: event => {
-            if (viewer.drag && !viewer.drag.hasMoved && viewer.drag.does !== 'split') pin(pointerPlace(pane, event));
+            if (viewer.drag && !viewer.drag.hasMoved && viewer.drag.does !== "split") pin(pointerPlace(pane, event));
             viewer.drag = null;
         },
         pointercancel: () => {
@@ -37,8 +37,8 @@ function drag(pane, event) {
     const {drag} = viewer, dx = event.clientX - drag.x, dy = event.clientY - drag.y;
     if (!drag.hasMoved && Math.hypot(dx, dy) < 3) return;  // a click of an unsteady hand
     drag.hasMoved = true;
-    if (drag.does === 'split') return setSplit(viewer.pointed.u);
-    if (drag.does === 'crop') return setCropBox(boxBetween(drag.from, viewer.pointed));
+    if (drag.does === "split") return setSplit(viewer.pointed.u);
+    if (drag.does === "crop") return setCropBox(boxBetween(drag.from, viewer.pointed));
     const box = pane.canvas.getBoundingClientRect();
     moveView(-dx / box.width, -dy / box.height);
     Object.assign(drag, {x: event.clientX, y: event.clientY});
@@ -70,17 +70,17 @@ function showInPlace(index) {
     if (index < 0 || index >= viewer.shown.length) return;
     if (index !== viewer.active) viewer.previous = viewer.active;
     viewer.active = index;
-    if (viewer.layout === 'side') viewer.layout = 'flip';
+    if (viewer.layout === "side") viewer.layout = "flip";
     layOut();
-    at('viewer-status').textContent = `Showing ${viewer.shown[index].method.label}`;
+    at("viewer-status").textContent = `Showing ${viewer.shown[index].method.label}`;
 }
 
 function showNext(step) {
     const count = viewer.shown.length, {layout} = viewer;
-    showInPlace(layout === 'side' ? viewer.active : (viewer.active + step + count) % count);
+    showInPlace(layout === "side" ? viewer.active : (viewer.active + step + count) % count);
 }
 
-const toggledMode = mode => setMode(viewer.mode === mode ? 'color' : mode);
+const toggledMode = mode => setMode(viewer.mode === mode ? "color" : mode);
 
 const zoomByKey = factor => {
     zoomAbout(0.5, 0.5, factor);
@@ -93,34 +93,34 @@ function exposeByKey(step) {
 }
 
 function focusFilter() {
-    at('chooser').open = true;
-    at('chooser-filter').focus();
+    at("chooser").open = true;
+    at("chooser-filter").focus();
 }
 
 const viewerKeys = {
-    '0': reset,
-    '+': () => zoomByKey(1.5),
-    '-': () => zoomByKey(1 / 1.5),
-    'e': () => toggledMode('absolute'),
-    'd': () => toggledMode('signed'),
-    's': () => setLayout('side'),
-    'x': () => setLayout('split'),
-    '[': () => setSplit(viewer.splitAt - 0.05),
-    ']': () => setSplit(viewer.splitAt + 0.05),
-    'n': () => showNext(1),
-    'p': () => showNext(-1),
-    '<': () => exposeByKey(-0.25),
-    '>': () => exposeByKey(0.25),
-    ',': () => stepFrame(-1),
-    '.': () => stepFrame(1),
-    'k': () => framesOf(viewer.shot).length > 1 ? togglePlaying() : undefined,
-    'c': toggleCropMode,
-    '/': focusFilter,
+    "0": reset,
+    "+": () => zoomByKey(1.5),
+    "-": () => zoomByKey(1 / 1.5),
+    "e": () => toggledMode("absolute"),
+    "d": () => toggledMode("signed"),
+    "s": () => setLayout("side"),
+    "x": () => setLayout("split"),
+    "[": () => setSplit(viewer.splitAt - 0.05),
+    "]": () => setSplit(viewer.splitAt + 0.05),
+    "n": () => showNext(1),
+    "p": () => showNext(-1),
+    "<": () => exposeByKey(-0.25),
+    ">": () => exposeByKey(0.25),
+    ",": () => stepFrame(-1),
+    ".": () => stepFrame(1),
+    "k": () => framesOf(viewer.shot).length > 1 ? togglePlaying() : undefined,
+    "c": toggleCropMode,
+    "/": focusFilter,
 };
 // Those that a focused control needs for itself.
 const paneKeys = {
-    ' ': () => showInPlace(viewer.previous),
-    'Enter': pinMiddle,
+    " ": () => showInPlace(viewer.previous),
+    "Enter": pinMiddle,
 };
 const arrowKeys = {
     ArrowLeft: [-1, 0],
@@ -131,14 +131,14 @@ const arrowKeys = {
 
 /// Keys work while the viewer has the focus or the pointer; those that a focused control needs are left to it.
 function viewerKey(event) {
-    const section = at('viewer'), focused = document.activeElement;
-    if (event.ctrlKey || event.metaKey || event.altKey || !(section.contains(focused) || section.matches(':hover')) ||
+    const section = at("viewer"), focused = document.activeElement;
+    if (event.ctrlKey || event.metaKey || event.altKey || !(section.contains(focused) || section.matches(":hover")) ||
         !viewer.shown.length)
         return;
-    const takesText = focused.matches('input[type=search], input[type=number], textarea');
-    const isControl = focused.matches('input, select, button, textarea, summary, a');
+    const takesText = focused.matches("input[type=search], input[type=number], textarea");
+    const isControl = focused.matches("input, select, button, textarea, summary, a");
     if (takesText) return;
-    if (event.key >= '1' && event.key <= '9')
+    if (event.key >= "1" && event.key <= "9")
         showInPlace(Number(event.key) - 1);
     else if (viewerKeys[event.key])
         viewerKeys[event.key]();

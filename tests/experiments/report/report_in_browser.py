@@ -197,7 +197,7 @@ def main():
             test_false_color(page)
             test_loss_maps(page)
             test_chooser(page)
-            test_crops(page, os.environ.get("SSRLAB_CROPS"))
+            test_crops(page)
             test_other_sections_open_it(page)
             if os.environ.get("SSRLAB_SCREENSHOT"):
                 page.save_screenshot(os.environ["SSRLAB_SCREENSHOT"])
