@@ -217,6 +217,7 @@ function layOut() {
     for (const name of ["side", "flip", "split"]) at("layout-" + name).setAttribute("aria-pressed", layout === name);
     at("panes").classList.toggle("single", layout !== "side");
     at("panes").style.setProperty("--columns", paneColumns(shown.length));
+    if (shown.length) at("panes").style.setProperty("--aspect", shown[0].image.width / shown[0].image.height);
     showChosenImages();
     showPair();
     const wantedOf = item => {

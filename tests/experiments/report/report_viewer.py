@@ -10,6 +10,7 @@ from report_browser import (
     canvas,
     check,
     choose,
+    choose_in,
     equal,
     pane_count,
     pixels,
@@ -313,6 +314,38 @@ def test_other_sections_open_it(page):
     )
     equal(color, [255, 0, 255], "a NaN pixel")
     equal(page.execute_script("return openViewer({shot: 'of no study'})"), False, "a shot without images")
+
+
+def test_images_of_a_rung(page):
+    choose_in(page, "viewer", "Target", "on_screen")
+    WebDriverWait(page, 20).until(lambda p: len(p.find_elements(By.CSS_SELECTOR, "#panes figcaption")) == 2)
+    equal(captions(page), ["truth", "sssr · first"], "rung and technique")
+
+
+def test_frames_of_a_sequence(page, shot):
+    """Slider and keys go through the frames that have images; all panes and the inspector follow."""
+    check(not page.find_element(By.ID, "viewer-time").is_displayed(), "a shot of one frame has no time")
+    choose_in(page, "viewer", "Shot", shot)
+
+    def expect(frame, action):
+        WebDriverWait(page, 20).until(lambda p: p.execute_script("return viewer.shown[0]?.image.frame") == frame, action)
+        values = page.execute_script("return viewer.shown.map(s => pixelRgb(s.image, 5)[0])")
+        check(all(abs(a - b) < 1e-3 for a, b in zip(values, (1 / frame, 0.5 / frame))), f"values after {action}: {values}")
+        equal(page.find_element(By.ID, "time-text").text, str(frame), f"the shown frame after {action}")
+
+    expect(6, "choosing the shot")
+    page.execute_script("pin({x: 5, y: 0}); viewer.panes[1].canvas.focus()")
+    for key, frame in ((",", 5), (".", 6), (".", 3)):  # around the end
+        ActionChains(page).send_keys(key).perform()
+        expect(frame, f"key {key}")
+    shown = page.find_element(By.CSS_SELECTOR, "#readout tbody tr:nth-child(2) td:nth-child(2)").text
+    check(abs(float(shown) - 0.5 / 3) < 1e-3, f"the inspector in frame 3 has {shown}")
+    page.execute_script("const t = at('time'); t.value = 1; t.dispatchEvent(new Event('input'))")
+    expect(4, "the slider")
+    ActionChains(page).send_keys("k").perform()
+    WebDriverWait(page, 20).until(lambda p: p.execute_script("return viewer.frame") != 4, "playing")
+    ActionChains(page).send_keys("k").perform()
+    WebDriverWait(page, 20).until(lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "false", "stopping")
 
 
 def test_linked_images(page, folder):
