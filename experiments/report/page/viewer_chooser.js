@@ -53,6 +53,8 @@ function setSplit(place) {
     drawAll();
 }
 
+const manyPoints = 12;  // of a technique: they have the whole width
+
 /// All methods with a box each, by technique; `filter` leaves those that hold all of its words.
 function chooser() {
     const groups = unique(viewer.methods.map(m => m.variant)).map(variant => {
@@ -71,7 +73,9 @@ function chooser() {
         },
                                        "all / none") :
                                      "";
-        return h("fieldset", {}, h("legend", {}, variant === truthKey ? "truth" : variant, " ", all), boxes);
+        return h(
+            "fieldset", {class: own.length > manyPoints ? "many" : null},
+            h("legend", {}, variant === truthKey ? "truth" : variant, " ", all), boxes);
     });
     const listed = () => listedKeys(viewer.methods);
     return h(
