@@ -17,6 +17,7 @@ class Crop:
     box: tuple  # x, y, width, height in pixels, y from the top
     exposure: float  # EV
     tone_curve: str = "none"
+    where: str = ""  # file and place, for mistakes
 
 
 @dataclass
@@ -26,7 +27,7 @@ class ShotCrops:
     crops: list
     target: str
     frame: int | None  # None: the shot's last
-    points: list  # (variant, point), in the order in which they are first named
+    points: dict  # (variant, point) to file and place where it is first named
 
 
 class _Reader:
@@ -96,13 +97,12 @@ def read_crops(file, results):
         shot = read.value("shot", lambda v: v in results.shots(), f"one of {', '.join(results.shots())}")
         target = read.value("target", lambda v: isinstance(v, str), "a text", "image")
         frame = read.value("frame", lambda v: _is_whole(v) and v >= 0, "the number of a frame", None)
-        own = shots.setdefault(shot, ShotCrops([], target, frame, []))
+        own = shots.setdefault(shot, ShotCrops([], target, frame, {}))
         for key, value, first in (("target", target, own.target), ("frame", frame, own.frame)):
             if value != first:
                 read.fail(key, f"{json.dumps(first)} as in the first crop of {shot}: they share a figure")
         for p in read.value("points", _are_points, 'an array of {"variant", "point"}'):
-            if (p["variant"], p["point"]) not in own.points:
-                own.points.append((p["variant"], p["point"]))
+            own.points.setdefault((p["variant"], p["point"]), read.where)
         if len(own.points) > MOST_POINTS:
             read.fail("points", f"no more than {MOST_POINTS} together with those of the other crops of {shot}")
         own.crops.append(
@@ -110,11 +110,13 @@ def read_crops(file, results):
                 tuple(read.value("box", _is_box, "[x, y, width, height] in pixels")),
                 read.value("exposure", _is_number, "a number of EV", results.exposure(shot)),
                 read.value("tone_curve", lambda v: v in TONE_CURVES, f"one of {', '.join(TONE_CURVES)}", "none"),
+                read.where,
             )
         )
     return shots
 
 
-def check_box(shot, box, width, height):
-    if box[0] + box[2] > width or box[1] + box[3] > height:
-        raise ResultsError(f"the crop {list(box)} of {shot} does not lie within its image of {width} x {height} pixels")
+def check_box(crop, width, height):
+    x, y, w, h = crop.box
+    if x + w > width or y + h > height:
+        raise ResultsError(f"{crop.where}: 'box' {[x, y, w, h]} does not lie within its image of {width} x {height} pixels")

@@ -88,6 +88,10 @@ def _target(results, shot):
     return next((t for t in ("image", "specular", "incident") if t in found), None)
 
 
+def _frame_text(chosen):
+    return "last frame" if chosen.frame is None else f"frame {chosen.frame}"
+
+
 def _images(results, shot, target, chosen):
     """The reference's and the points' images, the points' keys."""
     if chosen is None:
@@ -97,10 +101,12 @@ def _images(results, shot, target, chosen):
     images = results.images_of(shot, "incident" if is_rung else target, chosen.frame, [*chosen.points, ("reference", "")])
     if is_rung:
         images |= results.images_of(shot, target, chosen.frame, [("reference", "")])
-    for key in [("reference", ""), *chosen.points]:
+    first = chosen.crops[0].where
+    for key, where in {("reference", ""): first, **chosen.points}.items():
         if key not in images:
-            raise ResultsError(f"a crop of {shot} shows '{label(*key)}', but the results have no image '{target}' of it")
-    return images, chosen.points
+            what = "the truth" if key[0] == "reference" else f"'{label(*key)}'"
+            raise ResultsError(f"{where}: the results have no image of {what} for 'target' {target} in {shot}, {_frame_text(chosen)}")
+    return images, list(chosen.points)
 
 
 def draw(results, shot, errors, arguments):
@@ -121,7 +127,7 @@ def draw(results, shot, errors, arguments):
     if chosen:
         crops = chosen.crops
         for crop in crops:
-            check_box(shot, crop.box, reference.shape[1], reference.shape[0])
+            check_box(crop, reference.shape[1], reference.shape[0])
     else:
         boxes = crop_boxes(np.nanmean(np.nan_to_num(np.stack(techniques)), axis=0), 2)
         crops = [Crop(box, results.exposure(shot)) for box in boxes]

@@ -221,7 +221,7 @@ function layOut() {
     showChosenImages();
     showPair();
     const wantedOf = item => {
-        const hasError = viewer.hasErrorRow && item.image !== base();
+        const hasError = viewer.hasErrorRow && base() && item.image !== base();
         return [{item, mode: viewer.mode}, ...(hasError ? [{item, mode: "absolute"}] : [])];
     };
     const current = shown[viewer.active];

@@ -149,14 +149,14 @@ def test_chosen_crops(folder, temporary):
         except ResultsError as e:
             check(part in str(e) and "\n" not in str(e), f"{part!r} is not in {e}")
 
-    mistake(lambda c: c.update(box=[121, 50, 40, 31]), "[121, 50, 40, 31] of " + SHOT + " does not lie within its image of 160 x 90")
+    mistake(lambda c: c.update(box=[121, 50, 40, 31]), "figures.json: crops[1]: 'box' [121, 50, 40, 31] does not lie within its image of 160 x 90")
     mistake(lambda c: c.update(box=[1, 2, 3]), "figures.json: crops[1]: 'box' must be [x, y, width, height] in pixels, not [1, 2, 3]")
     mistake(lambda c: c.update(exposure="bright"), "crops[1]: 'exposure' must be a number of EV, not \"bright\"")
     mistake(lambda c: c.update(tone_curve="filmic"), "crops[1]: 'tone_curve' must be one of none, reinhard, aces")
     mistake(lambda c: c.update(target="specular"), "crops[1]: 'target' must be \"image\" as in the first crop")
     mistake(lambda c: c.update(shot="of no study"), "crops[1]: 'shot' must be one of " + SHOT)
     mistake(lambda c: c.pop("points"), "crops[1]: 'points' must be an array of {\"variant\", \"point\"}, and is missing")
-    mistake(lambda c: c["points"].append({"variant": "gone", "point": ""}), "shows 'gone', but the results have no image 'image'")
+    mistake(lambda c: c["points"].append({"variant": "gone", "point": ""}), "crops[1]: the results have no image of 'gone' for 'target' image in " + SHOT + ", frame 0")
     mistake(lambda c: c.update(tone_curv="aces"), "crops[1]: 'tone_curv' is not known; did you mean 'tone_curve'?")
     mistake(lambda c: c["points"].extend({"variant": str(i), "point": ""} for i in range(6)), "no more than 7")
     result = run_figures(folder, os.path.join(temporary, "none"), "--crops", os.path.join(temporary, "no file"))

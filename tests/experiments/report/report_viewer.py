@@ -185,8 +185,10 @@ def test_inspector(page, expected):
 
 def test_false_color(page):
     page.find_element(By.ID, "reset").click()
+    truth = pixels(page, 0)
     for title, mode, ramp in (("absolute difference", "absolute", "magma"), ("signed difference", "signed", "diverging")):
         choose(page, "Show", title)
+        equal(pixels(page, 0), truth, "the truth, which has no difference, stays in colour")
         # Three panes, one scale: recompute the colour of a pixel of each from the values and the printed maximum.
         result = page.execute_script(
             """
