@@ -67,6 +67,8 @@ function showBases() {
 function setMode(mode) {
     viewer.mode = mode;
     at("viewer-look").querySelector("select").value = mode;
+    // The map of the nearest method stands in the truth's place.
+    if (mode === "nearest" && !viewer.chosen.includes(truthKey)) viewer.chosen = [truthKey, ...viewer.chosen];
     return showImages();
 }
 

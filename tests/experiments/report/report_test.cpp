@@ -215,10 +215,11 @@ TEST_F(Report, ShowsTheFirstSeedOfEachFrame) {
     for (const json& image : json(manifest["images"])) {
         manifest["images"].push_back(image);
         manifest["images"].back()["frame"] = 4;
+        manifest["images"].back()["seed"] = image.value("seed", 0) + 3;
     }
     const ReportImages of_two = report_images(folder, manifest, 100'000'000);
     EXPECT_EQ(of_two.descriptions.size(), 2 * before);
-    for (const json& image : of_two.descriptions) EXPECT_EQ(image["seed"], 0);
+    for (const json& image : of_two.descriptions) EXPECT_EQ(image["seed"], image["frame"] == 4 ? 3 : 0);
 }
 
 TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
