@@ -84,6 +84,19 @@ function verdictImages(method) {
 /// By the first of these images that has a ray there.
 const firstVerdict = (images, i) => images.reduce((found, image) => found ?? verdictAt(image, i), null);
 
+/// Where a pixel has no ray of its own, as with one ray for four pixels, that of its 2 x 2 pixels.
+function verdictOfQuad(images, i) {
+    const own = firstVerdict(images, i);
+    if (own !== null || !images.length) return own;
+    const {width, height} = images[0], x = i % width & ~1, y = Math.floor(i / width) & ~1;
+    for (const [dx, dy] of [[0, 0], [1, 0], [0, 1], [1, 1]]) {
+        if (x + dx >= width || y + dy >= height) continue;
+        const verdict = firstVerdict(images, (y + dy) * width + x + dx);
+        if (verdict !== null) return verdict;
+    }
+    return null;
+}
+
 function verdictPicture(method) {
     const images = verdictImages(method);
     if (!images.length) return null;
@@ -141,7 +154,7 @@ const causes = [
     ["wrong_place", "ray hit the wrong place", "e69f00"], ["false_hit", "ray hit what is not there", "cc79a7"],
     ["right", "ray was right: filter and shading", "009e73"],
     ["unavoidable_miss", "rightly missed: fallback and filter", "0072b2"],
-    ["no_ray", "no ray of its own: neighbours, fallback, filter", "d55e00"], ["small", "hardly any error", "282828"]
+    ["no_ray", "no ray: fallback and filter", "d55e00"], ["small", "hardly any error", "282828"]
 ];
 const causePlace = Object.fromEntries(causes.map(([key], i) => [key, i]));
 causePlace.empty = causePlace.unavoidable_miss;
@@ -163,7 +176,7 @@ const causeMap = (method, image) => ofPainting(method.key, () => {
             continue;
         }
         const isUnknowable = limit && limit[i] >= 0.5 * e;
-        const cause = isUnknowable ? causePlace.off_screen : causePlace[firstVerdict(rays, i)] ?? causePlace.no_ray;
+        const cause = isUnknowable ? causePlace.off_screen : causePlace[verdictOfQuad(rays, i)] ?? causePlace.no_ray;
         sums[cause] += e;
         places[i] = e < visibleError * maximum ? causePlace.small : cause;
     }
@@ -197,7 +210,7 @@ function causeLegend() {
     return [
         h("div", {class: "scroll", id: "cause-table"}, table(columns, rows)),
         h("p", {class: "note"},
-          "Not on the screen: where the rung on_screen of the truth ladder is from the truth by half of the error or more. Else what became of the pixel's first ray. " +
+          "Not on the screen: where the rung on_screen of the truth ladder is from the truth by half of the error or more. Else what became of the pixel's first ray, or of one among its 2 x 2 pixels. " +
               `Dark: below ${percent(visibleError)} of the scale of absolute differences.` +
               (missing.length ? ` To tell all causes, this frame lacks ${missing.join(" and ")}.` : ""))
     ];

@@ -164,8 +164,10 @@ void add_pixel_images(const std::filesystem::path& folder, const std::string& sh
     add("roughness", made([&](unsigned x) { return glm::vec3(float(x) / float(extent.x)); }),
         truth("surface", "roughness"));
     const glm::vec3 right(0, 158, 115), false_hit(204, 121, 167);  // as map_of_verdicts() has them
-    const HostImage verdicts =
-        made([&](unsigned x) { return glm::pow((x < extent.x / 2 ? right : false_hit) / 255.0f, glm::vec3(2.2f)); });
+    const HostImage verdicts = made([&](unsigned x) {
+        const bool has_ray = x % 4 != 3;  // else that of its 2 x 2 pixels counts
+        return has_ray ? glm::pow((x < extent.x / 2 ? right : false_hit) / 255.0f, glm::vec3(2.2f)) : glm::vec3(0);
+    });
     for (const Point& p : points) {
         const json of_point = {{"variant", p.variant}, {"point", p.point}, {"seed", 0}};
         json confidence = of_point, hits = of_point;

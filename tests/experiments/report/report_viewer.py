@@ -255,9 +255,9 @@ def test_loss_maps(page):
         check(all(abs(a - b) < 1e-3 for a, b in zip(found, wanted)), f"causes of {name}: {found}, expected {wanted}")
         check(sum(v > 0.01 for v in found) >= 2, f"{name} has several causes")
     choose(page, "Show", "where rays ended")
-    right, false_hit = ([0, 158, 115], [204, 121, 167])
-    width = page.execute_script("return document.querySelector('#panes canvas').width")
-    equal([pixels(page, 2, x, 20)[:3] for x in (10, width - 10)], [right, false_hit], "colours of verdicts")
+    scale = page.execute_script("return document.querySelector('#panes canvas').width / 160")
+    shown = [pixels(page, 2, int((x + 0.5) * scale), 20)[:3] for x in (20, 23, 130)]
+    equal(shown, [[0, 158, 115], [0, 0, 0], [204, 121, 167]], "colours of verdicts: right, no ray, false hit")
     choose(page, "Show", "colour")
 
 
