@@ -53,8 +53,9 @@ async function inflated(text) {
 /// By a script element: a page that is a file may not fetch, but it may run scripts beside it.
 function linkedText(file) {
     return new Promise((resolve, reject) => {
-        const fail = () => reject(new Error(`${
-            file} cannot be read. The images of this report lie in the folder report_images beside it: keep both together.`));
+        const fail = () => reject(new Error(
+            `${file} cannot be read. The images of this report lie in the folder report_images beside it: ` +
+            "keep both together."));
         const script = h("script", {
             src: file.split("/").map(encodeURIComponent).join("/"),
             load: () => {

@@ -52,7 +52,8 @@ function nearestLegend() {
     const others = map.methods.filter(m => !m.hasOwn);
     return [
         h("p", {class: "note"},
-          "In the truth's pane: the method with the least absolute difference, and the share of the pixels where it has it."),
+          "In the truth's pane: the method with the least absolute difference, " +
+              "and the share of the pixels where it has it."),
         h("div", {class: "legend", id: "nearest-legend"},
           named.map(m => legendItem(m.color, `${m.label}: ${percent(m.share)}`)),
           others.length ?
@@ -210,7 +211,8 @@ function causeLegend() {
     return [
         h("div", {class: "scroll", id: "cause-table"}, table(columns, rows)),
         h("p", {class: "note"},
-          "Not on the screen: where the rung on_screen of the truth ladder is from the truth by half of the error or more. Else what became of the pixel's first ray, or of one among its 2 x 2 pixels. " +
+          "Not on the screen: where the rung on_screen of the truth ladder is from the truth by half of the error " +
+              "or more. Else what became of the pixel's first ray, or of one among its 2 x 2 pixels. " +
               `Dark: below ${percent(visibleError)} of the scale of absolute differences.` +
               (missing.length ? ` To tell all causes, this frame lacks ${missing.join(" and ")}.` : ""))
     ];

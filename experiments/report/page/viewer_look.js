@@ -139,7 +139,8 @@ function keyHelp() {
     return h(
         "details", {id: "viewer-keys"}, h("summary", {}, "Keys"),
         h("p", {class: "note"},
-          "They work while the viewer has the focus or the pointer. Dragging pans, a click pins a pixel, Shift and dragging draws a crop."),
+          "They work while the viewer has the focus or the pointer. " +
+              "Dragging pans, a click pins a pixel, Shift and dragging draws a crop."),
         h("dl", {class: "keys"},
           keys.map(([key, what]) => h("div", {}, h("dt", {}, h("kbd", {}, key)), h("dd", {}, what)))));
 }
