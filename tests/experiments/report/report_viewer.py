@@ -137,6 +137,11 @@ def numbers_of(page):
     )
 
 
+def text_of(page, selector):
+    """At once: the inspector is made anew while images come in."""
+    return page.execute_script("return document.querySelector(arguments[0])?.innerText ?? ''", selector)
+
+
 def test_inspector(page, expected):
     """All images' values at a pixel, against the half-rounded values that the fixture's EXRs hold."""
     x, y = 37, 71
@@ -147,9 +152,10 @@ def test_inspector(page, expected):
     )
     colors = [pixels(page, i, *middle)[:3] for i in range(4)]
     ActionChains(page).move_to_element(canvas(page, 0)).click().perform()
-    caption = page.find_element(By.CSS_SELECTOR, "#readout caption").text
+    caption = text_of(page, "#readout caption")
     check(f"Pixel {x}, {y} (pinned" in caption, f"the pointer is over pixel {x}, {y}, but it says {caption}")
-    WebDriverWait(page, 10).until(lambda p: numbers_of(p)[3][9] != "–")  # confidence is loaded when a pixel is pinned
+    # What is not shown is loaded when a pixel is pinned.
+    WebDriverWait(page, 10).until(lambda p: numbers_of(p)[3][9] != "–" and numbers_of(p)[3][10] != "…" and "Rung on_screen" in text_of(p, "#pixel-facts"))
     shown = numbers_of(page)
     equal([row[0] for row in shown], NAMES, "methods in the inspector")
     values = [[float(v) for v in row[1:4]] for row in shown]
@@ -173,12 +179,12 @@ def test_inspector(page, expected):
     check(abs(float(shown[3][8].split()[0]) - 100 * share) < 0.01 * 100 * share + 0.05, f"unknowable share {shown[3][8]}, expected {share}")
     check(abs(float(shown[2][9]) - 0.6) <= 0.5 / 254, f"confidence {shown[2][9]}")  # stored in 8 bits
     equal([row[10] for row in shown], ["–", "–", "right", "right"], "verdicts on the left")
-    facts = page.find_element(By.ID, "pixel-facts").text
+    facts = text_of(page, "#pixel-facts")
     check(f"Roughness\n{x / 160:.2f}" in facts, "roughness: " + facts)
     check("Rung on_screen (incident)\n0.75, 0.75, 0.75" in facts, "the rung of the truth ladder: " + facts)
     page.execute_script("arguments[0].focus()", canvas(page, 0))
     press(page, *[Keys.ARROW_RIGHT] * 3)
-    check("Pixel 40, 71" in page.find_element(By.CSS_SELECTOR, "#readout caption").text, "arrows move the pinned pixel")
+    check("Pixel 40, 71" in text_of(page, "#readout caption"), "arrows move the pinned pixel")
     page.execute_script("viewer.pinned = {x: 130, y: 71}; drawAll()")
     equal([row[10] for row in numbers_of(page)][2:], ["false hit", "false hit"], "verdicts on the right")
 
@@ -340,7 +346,7 @@ def test_frames_of_a_sequence(page, shot):
     for key, frame in ((",", 5), (".", 6), (".", 3)):  # around the end
         ActionChains(page).send_keys(key).perform()
         expect(frame, f"key {key}")
-    shown = page.find_element(By.CSS_SELECTOR, "#readout tbody tr:nth-child(2) td:nth-child(2)").text
+    shown = text_of(page, "#readout tbody tr:nth-child(2) td:nth-child(2)")
     check(abs(float(shown) - 0.5 / 3) < 1e-3, f"the inspector in frame 3 has {shown}")
     page.execute_script("const t = at('time'); t.value = 1; t.dispatchEvent(new Event('input'))")
     expect(4, "the slider")
