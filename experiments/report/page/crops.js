@@ -59,6 +59,21 @@ function currentCrop() {
 
 const cropsText = () => JSON.stringify({crops: crops.list}, null, 1) + "\n";
 
+const cropPointsOf = list => unique(list.flatMap(c => c.points.map(pointKey)));
+
+/// Why the current box cannot be added: what `ssrlab figures` would refuse. Empty if it can.
+function whyNoCrop() {
+    if (!crops.box) return "";
+    const crop = currentCrop(), others = crops.list.filter(c => c.shot === crop.shot);
+    const other = others.find(c => c.target !== crop.target || c.frame !== crop.frame);
+    if (!crop.points.length) return "A crop needs a point beside the truth.";
+    if (other) return `The crops of a shot share a figure, of target ${other.target} and frame ${other.frame}.`;
+    if (cropPointsOf([...others, crop]).length > mostCropPoints)
+        return `The crops of a shot share a figure, which has room for ${
+            mostCropPoints} points: show those of the others.`;
+    return "";
+}
+
 function addCrop() {
     crops.list.push(currentCrop());
     showCrops();
@@ -85,31 +100,29 @@ function showCrops() {
         input.disabled = !crops.box;
         if (document.activeElement !== input) input.value = crops.box?.[i] ?? "";
     });
-    at("crop-add").disabled = !crops.box;
+    at("crop-add").disabled = !crops.box || whyNoCrop() !== "";
     const extra = viewer.shown.filter(s => s.method.key !== truthKey).length - mostCropPoints;
-    at("crop-note").textContent =
-        extra > 0 ? `A figure has room for ${mostCropPoints} points: the last ${extra} shown are left out.` : "";
+    const ofExtra =
+        extra > 0 ? `A figure has room for ${mostCropPoints} points: the last ${extra} shown are left out. ` : "";
+    at("crop-note").textContent = ofExtra + whyNoCrop();
     at("crop-list").replaceChildren(...(crops.list.length ? cropList() : []));
 }
 
-function cropEditor() {
-    const names = ["x", "y", "width", "height"];
+/// One of the box's four numbers, by its place.
+function cropInput(name, place) {
+    const changed = event => {
+        const box = [...crops.box];
+        box[place] = Number(event.target.value);
+        event.target.blur();
+        setCropBox(box);
+    };
     return h(
-        "div", {class: "controls"}, h("b", {}, "Crop"), names.map((name, i) => h("label", {}, name, h("input", {
-                                                                                     type: "number",
-                                                                                     min: i < 2 ? 0 : 1,
-                                                                                     id: "crop-" + name,
-                                                                                     change: event => {
-                                                                                         const box = [...crops.box];
-                                                                                         box[i] =
-                                                                                             Number(event.target.value);
-                                                                                         event.target.blur();
-                                                                                         setCropBox(box);
-                                                                                     }
-                                                                                 }))),
-        h("button", {id: "crop-add", click: addCrop}, "Add to figures.json"),
-        h("span", {class: "note", id: "crop-note"}));
+        "label", {}, name, h("input", {type: "number", min: place < 2 ? 0 : 1, id: "crop-" + name, change: changed}));
 }
+
+const cropEditor = () => h(
+    "div", {class: "controls"}, h("b", {}, "Crop"), ["x", "y", "width", "height"].map(cropInput),
+    h("button", {id: "crop-add", click: addCrop}, "Add to figures.json"), h("span", {class: "note", id: "crop-note"}));
 
 function cropList() {
     const lines = crops.list.map(

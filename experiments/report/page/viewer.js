@@ -220,6 +220,7 @@ function layOut() {
     if (shown.length) at("panes").style.setProperty("--aspect", shown[0].image.width / shown[0].image.height);
     showChosenImages();
     showPair();
+    showCrops();
     const wantedOf = item => {
         const hasError = viewer.hasErrorRow && base() && item.image !== base();
         return [{item, mode: viewer.mode}, ...(hasError ? [{item, mode: "absolute"}] : [])];

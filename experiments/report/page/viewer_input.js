@@ -152,7 +152,7 @@ function viewerKey(event) {
 }
 
 function arrowKey(dx, dy, isSizing) {
-    if (crops.isOn)
+    if (crops.isOn && crops.box)
         moveCropBox(dx, dy, isSizing);
     else if (viewer.pinned)
         movePin(dx, dy);
