@@ -128,13 +128,12 @@ function colorBar(mode, maximumOf) {
 
 function keyHelp() {
     const keys = [
-        ["1 … 9", "show one image in place (with a split: on the left)"], ["Space", "flip to the one before"],
-        ["n p", "next and previous image in place"], ["s", "side by side"], ["x", "split; [ and ] move it"],
-        ["e", "absolute difference, d signed difference"], ["+ −", "zoom; the wheel does it at the pointer"],
-        ["arrows", "move the pinned pixel; else, zoomed in, the view"],
-        ["Enter", "pin the pixel in the middle, or let go"], ["< >", "exposure"],
-        [", .", "frame before and after; k plays"], ["c", "crop: arrows move the box, with Shift they size it"],
-        ["/", "filter the images"], ["0", "reset"]
+        ["1…9", "one image in place (with a split: on the left)"], ["Space", "the one before in its place"],
+        ["n p", "next and previous image in place"], ["s", "side by side"], ["x", "split"], ["[ ]", "move the split"],
+        ["e", "absolute difference"], ["d", "signed difference"], ["+ -", "zoom; the wheel does it at the pointer"],
+        ["← ↑ → ↓", "move the pinned pixel, else the view"], ["Enter", "pin the pixel in the middle, or let go"],
+        ["< >", "exposure"], [", .", "frame before and after"], ["k", "play, or stop"],
+        ["c", "crop: arrows move the box, with Shift they size it"], ["/", "filter the images"], ["0", "reset the view"]
     ];
     return h(
         "details", {id: "viewer-keys"}, h("summary", {}, "Keys"),
@@ -142,5 +141,7 @@ function keyHelp() {
           "They work while the viewer has the focus or the pointer. " +
               "Dragging pans, a click pins a pixel, Shift and dragging draws a crop."),
         h("dl", {class: "keys"},
-          keys.map(([key, what]) => h("div", {}, h("dt", {}, h("kbd", {}, key)), h("dd", {}, what)))));
+          keys.map(
+              ([own, what]) =>
+                  h("div", {}, h("dt", {}, own.split(" ").map(key => h("kbd", {}, key))), h("dd", {}, what)))));
 }
