@@ -277,6 +277,17 @@ def test_study(folder):
     check_text_sizes(figures_of)
 
 
+def test_images_of_frames(folder):
+    """Of a sequence whose frames all have images, those of the last, or of the one that a crop names."""
+    results = Results(folder)
+    for frame, number in ((None, 6), (4, 4)):
+        images = results.images_of("moving.main.160x90.f3-6.w4", "image", frame)
+        found = {key: float(image[0, 0, 0]) for key, image in images.items()}
+        expected = {("reference", ""): 1 / number, ("sssr", "first"): 0.5 / number}
+        check(found.keys() == expected.keys(), f"images of frame {frame}: {found}")
+        check(all(abs(found[k] - v) < 1e-3 * v for k, v in expected.items()), f"images of frame {frame}: {found}")  # one may be stored as a half
+
+
 def test_several_baselines(folder):
     """Each baseline has a figure of its own, and none of the comparisons is left out."""
     results = Results(folder)
@@ -329,5 +340,6 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     study = os.path.join(temporary, "study")
     subprocess.run([program, "--study", study], check=True)
     test_study(study)
+    test_images_of_frames(study)
     test_several_baselines(study)
     test_ratios_far_from_one(study)
