@@ -86,7 +86,10 @@ int parse_and_run(int argc, char** argv) {
         ->required()
         ->check(CLI::ExistingDirectory)
         ->type_name("DIR");
-    report_command_.callback([&] { write_report(report_folder); });
+    bool links_images = false;
+    report_command_.add_flag("--link-images", links_images,
+                             "Keep all images beside the page, in report_images/, however small they are together");
+    report_command_.callback([&] { write_report(report_folder, links_images); });
 
     FiguresOptions figures;
     CLI::App& figures_command_ =
@@ -94,6 +97,10 @@ int parse_and_run(int argc, char** argv) {
     figures_command_.add_option("results", figures.results, "A folder that `ssrlab run` filled")
         ->required()
         ->type_name("DIR");
+    figures_command_
+        .add_option("crops", figures.crops,
+                    "Crops that the report's viewer collected; of other shots, those of the largest errors")
+        ->type_name("figures.json");
     figures_command_.add_option("--out", figures.out, "Default: figures in the results folder")->type_name("DIR");
     figures_command_.callback([&] { status = figures_command(figures); });
 

@@ -28,7 +28,10 @@ void check_results(const std::filesystem::path& results) {
 int figures_command(const FiguresOptions& options) {
     check_results(options.results);
     const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
-    return run_script("figures/figures.py", {"--out=" + out.string(), "--", options.results.string()});
+    std::vector<std::string> arguments = {"--out=" + out.string()};
+    if (!options.crops.empty()) arguments.push_back("--crops=" + options.crops.string());
+    arguments.insert(arguments.end(), {"--", options.results.string()});
+    return run_script("figures/figures.py", arguments);
 }
 
 int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure) {

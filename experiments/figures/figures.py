@@ -2,7 +2,7 @@
 error maps. Of the study, where it has such results: error and bias by roughness, bias and variance, effects of changes,
 temporal metrics, the error of each frame, and depth fetches per ray against the resolution.
 
-usage: figures.py RESULTS [--out DIR] [--target specular] [--metric mse] [--mask reflective]
+usage: figures.py RESULTS [--out DIR] [--crops figures.json] [--target specular] [--metric mse] [--mask reflective]
 
 It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv and the EXR images (experiments/RESULTS.md), and writes the same bytes
 whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
@@ -32,6 +32,7 @@ from paper_figures import (
     style,
     temporal,
 )
+from paper_figures.crop_choice import read_crops
 from paper_figures.results import Results, ResultsError
 
 
@@ -51,6 +52,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description="Paper figures (PDF, SVG, PNG) from a results folder.")
     parser.add_argument("results", help="a folder that `ssrlab run` filled")
     parser.add_argument("--out", help="default: figures in the results folder")
+    parser.add_argument("--crops", metavar="figures.json", help="crops that the report's viewer collected; of other shots, those of the largest errors")
     parser.add_argument("--target", default="specular", help="default: specular")
     parser.add_argument("--metric", help="default: what the study is made to compare (`primary`), else its first metric")
     parser.add_argument("--mask", default="reflective", help="default: reflective")
@@ -63,6 +65,7 @@ def main():
     style.apply()
     try:
         results = Results(arguments.results)
+        arguments.crops = read_crops(arguments.crops, results) if arguments.crops else {}
         is_measured = bool(results.errors) or not results.hits
         if is_measured:
             arguments.metric = arguments.metric or results.headline_metric()

@@ -19,18 +19,25 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t page_bytes = 15'000'000;  ///< a page is mailed and opened on slow machines: larger ones are not
+constexpr size_t page_bytes =
+    30'000'000;  ///< a page is mailed and opened at once: the images of larger ones lie beside it
 
 /// The page's scripts, in the order in which they build on each other.
 constexpr const char* scripts[] = {
-    "data.js",     "page.js",      "points.js",       "sections.js", "plots.js",      "bars.js",         "strips.js",
-    "ladder.js",   "mistakes.js",  "provenance.js",   "summary.js",  "error_time.js", "answers.js",      "matrix.js",
-    "explore.js",  "hits.js",      "error_shares.js", "stages.js",   "roughness.js",  "splits.js",       "effects.js",
-    "temporal.js", "stability.js", "image_data.js",   "panes.js",    "viewer.js",     "viewer_input.js", "start.js"};
+    "data.js",         "page.js",      "points.js",   "sections.js",       "plots.js",        "bars.js",
+    "strips.js",       "ladder.js",    "mistakes.js", "provenance.js",     "summary.js",      "error_time.js",
+    "answers.js",      "matrix.js",    "explore.js",  "hits.js",           "error_shares.js", "stages.js",
+    "roughness.js",    "splits.js",    "effects.js",  "temporal.js",       "stability.js",    "image_data.js",
+    "image_colors.js", "panes.js",     "viewer.js",   "viewer_chooser.js", "viewer_look.js",  "viewer_input.js",
+    "loss_maps.js",    "inspector.js", "crops.js",    "start.js"};
 
 std::string part(const std::string& name) {
     return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report/page" / name);
 }
+
+/// What the page's Content-Security-Policy allows beside its own scripts where images lie in files: those of its
+/// folder, which browsers call 'self' on a web server, and only by their scheme where the page itself is a file.
+constexpr const char* linked_scripts = " 'self' file:";
 
 /// JSON inside a script element: no "</script>" may end it.
 std::string script_text(const json& value) {
@@ -116,11 +123,6 @@ std::string filled(const std::string& page, const std::map<std::string, std::str
     return out + page.substr(at);
 }
 
-json image_description(const ReportImage& image) {
-    return {{"shot", image.shot},     {"variant", image.variant}, {"point", image.point}, {"kind", image.kind},
-            {"target", image.target}, {"seed", image.seed},       {"width", image.width}, {"height", image.height}};
-}
-
 /// `values`: style, plot, script and, where there are any, images.
 void write_page(const std::filesystem::path& folder, const std::string& title, const json& data,
                 std::map<std::string, std::string> values, const std::string& for_no_scripts) {
@@ -130,15 +132,17 @@ void write_page(const std::filesystem::path& folder, const std::string& title, c
         "<p>Charts, the viewer and sorting need JavaScript. All numbers are in the CSV files beside this page.</p>\n" +
         for_no_scripts;
     values.emplace("images", "");
+    values.emplace("script_source", "");
     write_text(folder / "report.html", filled(part("template.html"), values));
 }
 
 }  // namespace
 
-void write_report(const std::filesystem::path& folder) {
+void write_report(const std::filesystem::path& folder, bool links_images) {
     const json stability = stability_report_data(folder);
     const std::string stability_part = stability.is_null() ? "" : stability_html(stability);
-    std::map<std::string, std::string> values = {{"style", part("style.css")}, {"plot", part("vendor/plot.js")}};
+    std::map<std::string, std::string> values = {{"style", part("style.css") + part("viewer.css")},
+                                                 {"plot", part("vendor/plot.js")}};
     for (const char* name : scripts) values["script"] += part(name);
     if (!stability.is_null() && !std::filesystem::exists(folder / "manifest.json")) {
         // No study: the page has this one section.
@@ -172,14 +176,14 @@ void write_report(const std::filesystem::path& folder) {
 
     size_t used = script_text(data).size() + for_no_scripts.size() + 100'000;  // the template, descriptions and notes
     for (const auto& [name, text] : values) used += text.size();
-    const ReportImages images = report_images(folder, manifest, singles, used < page_bytes ? page_bytes - used : 0);
+    const ReportImages images =
+        report_images(folder, manifest, links_images || used > page_bytes ? 0 : page_bytes - used);
     data["notes"] = images.notes;
-    data["images"] = json::array();
-    for (const ReportImage& image : images.images) {
-        values["images"] += "<script type=\"text/plain\" id=\"image-" + std::to_string(data["images"].size()) + "\">" +
-                            image.data + "</script>\n";
-        data["images"].push_back(image_description(image));
-    }
+    data["images"] = images.descriptions;
+    for (size_t i = 0; i < images.data.size(); ++i)
+        values["images"] +=
+            "<script type=\"text/plain\" id=\"image-" + std::to_string(i) + "\">" + images.data[i] + "</script>\n";
+    if (images.data.size() < images.descriptions.size()) values["script_source"] = linked_scripts;
     const json title = manifest.value("title", json());
     write_page(folder, title.is_string() ? title.get<std::string>() : "Study", data, values, for_no_scripts);
 }

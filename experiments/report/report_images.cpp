@@ -2,26 +2,37 @@
 
 #include "core/error.h"
 #include "core/exr.h"
+#include "core/files.h"
 #include "core/json.h"
 
 #include <half.h>
 #include <zlib.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <set>
+#include <tuple>
+
+namespace fs = std::filesystem;
 
 namespace {
 
-/// What the manifest says of one image that may be shown.
+using nlohmann::json;
+
+/// What the manifest says of one image that is shown.
 struct Entry {
     std::string shot, variant, point, kind, target;
-    int seed = 0;
-    std::filesystem::path exr;
+    int frame = 0, seed = 0;
+    std::string exr;
 };
 
-std::vector<Entry> read_entries(const std::filesystem::path& folder, const nlohmann::json& manifest) {
+bool is_shown(const std::string& kind) {
+    for (const char* shown : {"result", "reference", "confidence", "hits", "surface"})
+        if (kind == shown) return true;
+    return false;
+}
+
+std::vector<Entry> read_entries(const fs::path& folder, const json& manifest) {
     std::vector<Entry> entries;
     JsonObject all(manifest, (folder / "manifest.json").string());
     for (JsonObject& image : all.objects("images")) {
@@ -30,18 +41,19 @@ std::vector<Entry> read_entries(const std::filesystem::path& folder, const nlohm
                 .point = image.text("point", ""),
                 .kind = image.text("kind"),
                 .target = image.text("target", ""),
+                .frame = image.integer("frame", 0, INT32_MAX, 0),
                 .seed = image.integer("seed", 0, INT32_MAX, 0),
                 .exr = {}};
-        if (e.kind != "result" && e.kind != "reference") continue;
-        e.exr = folder / image.text("exr");
+        if (!is_shown(e.kind)) continue;
+        e.exr = image.text("exr");
         entries.push_back(std::move(e));
     }
     return entries;
 }
 
-/// Of each variant point's results only those of its first seed, which is how a reader meets it.
+/// Of each variant point's images only those of its first seed, which is how a reader meets it.
 std::vector<Entry> first_seeds(std::vector<Entry> entries) {
-    const auto key = [](const Entry& e) { return std::tuple(e.shot, e.variant, e.point, e.target); };
+    const auto key = [](const Entry& e) { return std::tuple(e.shot, e.frame, e.variant, e.point, e.kind, e.target); };
     std::map<decltype(key(entries[0])), int> first;
     for (const Entry& e : entries) {
         const auto at = first.emplace(key(e), e.seed).first;
@@ -51,155 +63,177 @@ std::vector<Entry> first_seeds(std::vector<Entry> entries) {
     return entries;
 }
 
-HostImage reduced(const HostImage& rgb, unsigned factor) {
-    if (factor == 1) return rgb;
-    HostImage small({(rgb.extent.x + factor - 1) / factor, (rgb.extent.y + factor - 1) / factor}, 3);
-    for (unsigned y = 0; y < small.extent.y; ++y)
-        for (unsigned x = 0; x < small.extent.x; ++x) {
-            glm::dvec3 sum(0);
-            unsigned count = 0;
-            for (unsigned v = y * factor; v < std::min((y + 1) * factor, rgb.extent.y); ++v)
-                for (unsigned u = x * factor; u < std::min((x + 1) * factor, rgb.extent.x); ++u, ++count)
-                    sum += rgb.rgb(size_t(v) * rgb.extent.x + u);
-            small.set_rgb(size_t(y) * small.extent.x + x, glm::vec3(sum / double(count)));
-        }
-    return small;
-}
-
-ReportImage load(const Entry& e, unsigned reduction) {
-    ReportImage image{.shot = e.shot,
-                      .variant = e.variant,
-                      .point = e.point,
-                      .kind = e.kind,
-                      .target = e.target,
-                      .seed = unsigned(e.seed),
-                      .data = {}};
-    const HostImage rgb = reduced(read_exr_rgb(e.exr), reduction);
-    image.width = rgb.extent.x, image.height = rgb.extent.y, image.reduction = reduction;
-    image.data = base64(encode_halves(rgb, image.clamped));
-    return image;
-}
-
-/// Appends the entries of one target as long as they fit into `budget` together; false (and nothing appended)
-/// otherwise.
-bool append_all(std::vector<ReportImage>& images, const std::vector<Entry>& entries, unsigned reduction,
-                size_t& budget) {
-    const size_t before = images.size();
-    size_t left = budget;
-    for (const Entry& e : entries) {
-        ReportImage image = load(e, reduction);
-        if (image.data.size() > left) {
-            images.resize(before);
-            return false;
-        }
-        left -= image.data.size();
-        images.push_back(std::move(image));
-    }
-    budget = left;
-    return true;
-}
-
-/// Appends references first, then variant points in order, until the budget is spent. Returns how many were left out.
-size_t append_some(std::vector<ReportImage>& images, std::vector<Entry> entries, unsigned reduction, size_t& budget) {
-    std::ranges::stable_partition(entries, [](const Entry& e) { return e.kind == "reference"; });
-    size_t left_out = 0;
-    for (const Entry& e : entries) {
-        ReportImage image = load(e, reduction);
-        if (image.data.size() > budget) {
-            ++left_out;
-            continue;
-        }
-        budget -= image.data.size();
-        images.push_back(std::move(image));
-    }
-    return left_out;
-}
-
-void check_extents(const std::vector<ReportImage>& images) {
-    std::map<std::string, const ReportImage*> first;
-    for (const ReportImage& image : images) {
-        const ReportImage& other = *first.emplace(image.shot, &image).first->second;
-        if (image.width != other.width || image.height != other.height)
-            fail("the images of shot ", image.shot, " differ in size: ", image.variant, " ", image.point, " is ",
-                 image.width, "x", image.height, ", ", other.variant, " ", other.point, " is ", other.width, "x",
-                 other.height);
-    }
-}
-
-}  // namespace
-
-ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest,
-                           const PointSet& left_out, size_t budget) {
-    std::map<int, std::vector<Entry>> by_rank;
-    const auto rank = [](const std::string& target) {
-        return target == "image" ? 0 : target == "specular" ? 1 : target == "incident" ? 2 : 3;
-    };
-    std::vector<Entry> entries = first_seeds(read_entries(folder, manifest));
-    const bool has_left_out = std::erase_if(entries, [&](const Entry& e) {
-                                  return left_out.contains({e.variant, e.point});
-                              }) > 0;
-    for (Entry& e : entries) {
-        const int r = rank(e.target);
-        by_rank[r].push_back(std::move(e));
-    }
-    ReportImages report;
-    if (has_left_out)
-        report.notes.push_back(
-            "The images of points that change one parameter of a baseline are not in this page; the results folder has "
-            "them.");
-    if (by_rank.empty()) return report;
-
-    const std::vector<Entry>& foremost = by_rank.begin()->second;
-    unsigned reduction = 1;
-    while (reduction < 8 && !append_all(report.images, foremost, reduction, budget)) reduction *= 2;
-    if (reduction > 1)
-        report.notes.push_back(
-            "To keep this page small, each shown pixel is the mean of " + std::to_string(reduction) + " x " +
-            std::to_string(reduction) +
-            " pixels; tables and charts use all pixels, and the results folder has the full images.");
-    if (reduction == 8)
-        if (const size_t left_out = append_some(report.images, foremost, reduction, budget))
-            report.notes.push_back(std::to_string(left_out) + " of " + std::to_string(foremost.size()) +
-                                   " images are not in this page, to keep it small; the results folder has them.");
-    for (auto at = std::next(by_rank.begin()); at != by_rank.end(); ++at)
-        if (reduction > 1 || !append_all(report.images, at->second, 1, budget))
-            report.notes.push_back("The images of target '" + at->second.front().target +
-                                   "' are not in this page, to keep it small; the results folder has them.");
-    for (const ReportImage& image : report.images)
-        if (image.clamped)
-            report.notes.push_back(image.shot + ", " + image.variant + " " + image.point + ": " +
-                                   std::to_string(image.clamped) +
-                                   " pixels are brighter than 65504, the largest half float, and are shown as that.");
-    check_extents(report.images);
-    return report;
-}
-
-std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped) {
-    const size_t pixels = rgb.pixel_count(), count = pixels * 3;
-    std::vector<unsigned char> bytes(2 * count);
-    clamped = 0;
-    for (size_t i = 0; i < pixels; ++i) {
-        bool is_beyond = false;
-        for (size_t c = 0; c < 3; ++c) {
-            float value = rgb.values[i * 3 + c];
-            if (std::isfinite(value) && std::abs(value) > 65504.0f) {
-                is_beyond = true;
-                value = std::copysign(65504.0f, value);
-            }
-            const uint16_t bits = half(value).bits();
-            bytes[c * pixels + i] = bits & 255;
-            bytes[count + c * pixels + i] = bits >> 8;
-        }
-        clamped += is_beyond;
-    }
-    for (size_t i = bytes.size(); i-- > 1;) bytes[i] = static_cast<unsigned char>(bytes[i] - bytes[i - 1]);
-
+std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes) {
     uLongf size = compressBound(bytes.size());
     std::vector<unsigned char> packed(size);
     if (compress2(packed.data(), &size, bytes.data(), bytes.size(), 6) != Z_OK)
         fail_machine("not enough memory to compress an image of the report");
     packed.resize(size);
     return packed;
+}
+
+/// Of a plane with `width` values per row: from the values to the left, above, and above the left.
+int foretold(const std::vector<int16_t>& plane, size_t width, size_t i) {
+    const bool has_left = i % width != 0, has_above = i >= width;
+    if (!has_left || !has_above) return has_left ? plane[i - 1] : has_above ? plane[i - width] : 0;
+    const int left = plane[i - 1], above = plane[i - width], corner = plane[i - width - 1];
+    const auto [low, high] = std::minmax(left, above);
+    return corner >= high ? low : corner <= low ? high : left + above - corner;
+}
+
+/// Integers in the order of the half floats that the bits stand for; no two are equal.
+int16_t ordered(uint16_t bits) { return int16_t(bits < 0x8000 ? bits : 0x7fff - bits); }
+
+/// Takes images, and keeps them for the page until they are too many for it.
+class ImageSink {
+public:
+    ImageSink(fs::path folder, size_t budget) : folder_(std::move(folder)), budget_(budget) {}
+
+    void add(const Entry& entry, ReportImages& report) {
+        const HostImage rgb = read_exr_rgb(folder_ / entry.exr);
+        check_extent(entry, rgb.extent);
+        json description = {{"shot", entry.shot},        {"frame", entry.frame},  {"variant", entry.variant},
+                            {"point", entry.point},      {"kind", entry.kind},    {"target", entry.target},
+                            {"seed", entry.seed},        {"width", rgb.extent.x}, {"height", rgb.extent.y},
+                            {"format", format_of(entry)}};
+        const std::string text = base64(encoded(entry, rgb, description, report.notes));
+        files_.push_back(script_name(entry));
+        size_ += text.size() + description.dump().size();
+        report.descriptions.push_back(std::move(description));
+        if (is_linked_) return write(files_.back(), text);
+        report.data.push_back(text);
+        if (size_ <= budget_) return;
+        is_linked_ = true;
+        for (size_t i = 0; i < report.data.size(); ++i) write(files_[i], report.data[i]);
+        report.data.clear();
+    }
+
+    void finish(ReportImages& report) const {
+        if (!is_linked_) return;
+        for (size_t i = 0; i < files_.size(); ++i) report.descriptions[i]["file"] = files_[i];
+    }
+
+private:
+    fs::path folder_;
+    size_t budget_, size_ = 0;
+    bool is_linked_ = false;
+    std::vector<std::string> files_;  ///< of all images so far, whether they are written or not
+    std::map<std::string, std::pair<Entry, glm::uvec2>> first_;  ///< image of each shot
+
+    static const char* format_of(const Entry& entry) {
+        return entry.kind == "hits"                                    ? "palette"
+               : entry.kind == "confidence" || entry.kind == "surface" ? "bytes"
+                                                                       : "halves";
+    }
+
+    static std::string script_name(const Entry& entry) {
+        return report_image_folder + ("/" + fs::path(entry.exr).replace_extension(".js").string());
+    }
+
+    static std::vector<unsigned char> encoded(const Entry& entry, const HostImage& rgb, json& description,
+                                              std::vector<std::string>& notes) {
+        const std::string format = format_of(entry);
+        if (format == "palette") return encode_palette(rgb, description["palette"]);
+        if (format == "bytes") return encode_bytes(rgb);
+        size_t clamped = 0;
+        std::vector<unsigned char> bytes = encode_halves(rgb, clamped);
+        if (clamped > 0)
+            notes.push_back(entry.shot + ", " + entry.variant + " " + entry.point + ": " + std::to_string(clamped) +
+                            " pixels are brighter than 65504, the largest half float, and are shown as that.");
+        return bytes;
+    }
+
+    void check_extent(const Entry& entry, glm::uvec2 extent) {
+        const auto& [other, expected] = first_.emplace(entry.shot, std::pair(entry, extent)).first->second;
+        if (extent != expected)
+            fail("the images of shot ", entry.shot, " differ in size: ", entry.exr, " is ", extent.x, "x", extent.y,
+                 ", ", other.exr, " ", expected.x, "x", expected.y);
+    }
+
+    void write(const std::string& file, const std::string& text) const {
+        write_text(folder_ / file, "registerImage(" + json(file).dump() + ",\"" + text + "\");\n");
+    }
+};
+
+/// Scripts of an earlier report: a page must not find images of other results.
+void remove_scripts(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> scripts;
+    for (const auto& file : fs::recursive_directory_iterator(folder, error))
+        if (file.path().extension() == ".js" && file.is_regular_file(error)) scripts.push_back(file.path());
+    for (const fs::path& script : scripts) {
+        fs::remove(script, error);
+        for (fs::path parent = script.parent_path(); parent != folder.parent_path(); parent = parent.parent_path())
+            fs::remove(parent, error);  // fails where something is left
+    }
+}
+
+}  // namespace
+
+ReportImages report_images(const fs::path& folder, const json& manifest, size_t budget) {
+    remove_scripts(folder / report_image_folder);
+    ReportImages report;
+    ImageSink sink(folder, budget);
+    for (const Entry& entry : first_seeds(read_entries(folder, manifest))) sink.add(entry, report);
+    sink.finish(report);
+    return report;
+}
+
+std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped) {
+    const size_t pixels = rgb.pixel_count(), count = pixels * 3;
+    std::array<std::vector<int16_t>, 3> planes;
+    for (std::vector<int16_t>& plane : planes) plane.resize(pixels);
+    clamped = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        bool is_beyond = false;
+        std::array<int16_t, 3> channels;
+        for (size_t c = 0; c < 3; ++c) {
+            float value = rgb.values[i * 3 + c];
+            if (std::isfinite(value) && std::abs(value) > 65504.0f) {
+                is_beyond = true;
+                value = std::copysign(65504.0f, value);
+            }
+            channels[c] = ordered(half(value).bits());
+        }
+        planes[0][i] = channels[1];
+        planes[1][i] = int16_t(channels[0] - channels[1]), planes[2][i] = int16_t(channels[2] - channels[1]);
+        clamped += is_beyond;
+    }
+    std::vector<unsigned char> bytes(2 * count);
+    for (size_t p = 0; p < 3; ++p)
+        for (size_t i = 0; i < pixels; ++i) {
+            const int16_t left = int16_t(planes[p][i] - foretold(planes[p], rgb.extent.x, i));
+            const uint16_t code = uint16_t(left << 1 ^ left >> 15);
+            bytes[p * pixels + i] = code & 255;
+            bytes[count + p * pixels + i] = code >> 8;
+        }
+    return compressed(bytes);
+}
+
+std::vector<unsigned char> encode_bytes(const HostImage& image) {
+    std::vector<unsigned char> bytes(image.pixel_count());
+    for (size_t i = 0; i < bytes.size(); ++i) {
+        const float value = image.values[i * image.channels];
+        bytes[i] =
+            std::isfinite(value) ? static_cast<unsigned char>(std::lround(254 * std::clamp(value, 0.0f, 1.0f))) : 255;
+    }
+    return compressed(bytes);
+}
+
+std::vector<unsigned char> encode_palette(const HostImage& rgb, json& palette) {
+    std::map<std::array<int, 3>, size_t> places;
+    palette = json::array();
+    std::vector<unsigned char> bytes(rgb.pixel_count());
+    for (size_t i = 0; i < bytes.size(); ++i) {
+        std::array<int, 3> color;
+        for (size_t c = 0; c < 3; ++c)  // as map_of_verdicts() of experiments/measuring/judged_hits.h codes them
+            color[c] = int(std::lround(255 * std::pow(std::clamp(rgb.values[i * 3 + c], 0.0f, 1.0f), 1 / 2.2f)));
+        const auto [place, is_new] = places.emplace(color, places.size());
+        if (is_new) palette.push_back(color);
+        if (places.size() > 256) fail("a map of verdicts has more than 256 colours");
+        bytes[i] = static_cast<unsigned char>(place->second);
+    }
+    return compressed(bytes);
 }
 
 std::string base64(const std::vector<unsigned char>& bytes) {

@@ -1,37 +1,42 @@
 #pragma once
 #include "core/host_image.h"
-#include "experiments/report/report_points.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-/// An image as the report carries it.
-struct ReportImage {
-    std::string shot, variant, point, kind, target;
-    unsigned seed = 0;
-    unsigned width = 0, height = 0;
-    unsigned reduction = 1;  ///< each value is the mean of reduction x reduction pixels of the file
-    size_t clamped = 0;      ///< pixels with a finite value beyond the half-float range, shown as +-65504
-    std::string data;        ///< see encode_halves(), in base64
-};
-
+/// The pictures of a report: what its page's viewer reads (page/image_data.js).
 struct ReportImages {
-    std::vector<ReportImage> images;
-    std::vector<std::string> notes;  ///< sentences about what was reduced or left out
+    /// One per image: shot, frame, variant, point, kind, target, seed, width, height, `format` and, of palettes,
+    /// `palette`; `file`, relative to the folder, where the image lies beside the page.
+    nlohmann::json descriptions = nlohmann::json::array();
+    std::vector<std::string> data;   ///< the encoded images in base64, where they are a part of the page; else empty
+    std::vector<std::string> notes;  ///< sentences about values that cannot be shown
 };
 
-/// The images that fit into `budget` bytes of text, from manifest.json's `images`: for each shot the references and the
-/// first seed of each variant point but those in `left_out`; of target `image` first, `specular` and `incident` if
-/// there is room. If not even the first fits, all are reduced to a half, a quarter, an eighth; if that is still too
-/// much, the last variant points are left out. Fails with Error if a file that the manifest lists is missing or broken.
-ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest,
-                           const PointSet& left_out, size_t budget);
+inline constexpr const char* report_image_folder = "report_images";
 
-/// IEEE half floats, planar R G B: the low bytes of all values, then the high bytes, each byte minus the one before it
-/// (modulo 256, as neighbours are alike), in a zlib stream. Finite values beyond +-65504 are clamped and their pixels
-/// counted.
+/// The images that manifest.json lists, the first seed of each variant point: results, references, confidence, verdicts
+/// of rays and the surface's roughness. Those of `folder` that fit into `budget` bytes of text all together are
+/// returned; if they do not fit, each is written as a script into report_images/ (made anew), which a page can load
+/// from a file, too. None is reduced in size or left out. Fails with Error if a file that the manifest lists is missing
+/// or broken, or if images of a shot differ in size.
+ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest, size_t budget);
+
+/// RGB as IEEE half floats, all bits kept: planes G, R - G, B - G of the halves as ordered integers; of each value what
+/// the median edge detector (LOCO-I, Weinberger et al. 2000) foretells from its neighbours is taken off, modulo 65536,
+/// and the sign moved to the lowest bit; low bytes of all, then high bytes, in a zlib stream. Finite values beyond
+/// +-65504 become that, and their pixels are counted.
 std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped);
 
+/// The first channel in 8 bits each, in a zlib stream: 0 to 254 for 0 to 1, 255 for what is not finite. Enough for what
+/// is read to two digits.
+std::vector<unsigned char> encode_bytes(const HostImage& image);
+
+/// An image of few colours: `palette` gets their sRGB codes, [r, g, b] of 0 to 255; the stream is zlib's of one index
+/// per pixel. Fails with Error if there are more than 256 of them.
+std::vector<unsigned char> encode_palette(const HostImage& rgb, nlohmann::json& palette);
+
+/// RFC 4648, with padding.
 std::string base64(const std::vector<unsigned char>& bytes);

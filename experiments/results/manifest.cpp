@@ -1,6 +1,7 @@
 #include "experiments/results/manifest.h"
 
 #include "core/exr.h"
+#include "core/files.h"
 #include "core/png.h"
 #include "experiments/measuring/needs.h"
 #include "experiments/results/file_name.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace {
 
@@ -250,6 +252,15 @@ std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& o
             out, shot, "reference." + reference.hash.substr(0, 8) + "." + target, output->mean, exposure_ev,
             {{"shot", shot}, {"frame", frame}, {"variant", "reference"}, {"kind", "reference"}, {"target", target}}));
     return entries;
+}
+
+nlohmann::json save_roughness_image(const std::filesystem::path& out, const std::string& shot, unsigned frame,
+                                    const HostImage& roughness) {
+    ContentHash hash;
+    hash.add(std::as_bytes(std::span(roughness.values)));
+    return save_image(
+        out, shot, "surface." + hash.hex().substr(0, 8) + ".roughness", repeated_channel(roughness), 0.0f,
+        {{"shot", shot}, {"frame", frame}, {"variant", "reference"}, {"kind", "surface"}, {"target", "roughness"}});
 }
 
 nlohmann::json save_verdict_image(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix,

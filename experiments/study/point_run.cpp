@@ -167,6 +167,18 @@ void plug_in_scene(PointRun& point, SeedRun& run, const FrameStep& step, const F
     };
 }
 
+/// Whether the images of this step are kept.
+bool is_shown(const PointRun& point, const SeedRun& run, const FrameStep& step) {
+    if (run.seed != point.variant.seeds.front()) return false;
+    return &step == &point.last_step() || (point.config.keeps_all_images && step.is_measured);
+}
+
+/// What tells the images of a step from those of other steps and cells.
+std::string image_suffix(const PointRun& point, const FrameStep& step) {
+    const std::string of_frame = &step == &point.last_step() ? "" : ".f" + std::to_string(step.frame);
+    return point.settings.image_suffix + of_frame;
+}
+
 const Mask everywhere{.name = "all", .extent = {}, .inside = {}};  // the only one that needs no truth
 
 bool judges_rays(const PointRun& point, const SeedRun& run, const FrameStep& step) {
@@ -189,14 +201,13 @@ void judge_rays(PointRun& point, SeedRun& run, const FrameStep& step, const Came
     const MetricReference* reference = frame_truth ? specular_reference(*frame_truth->pose) : nullptr;
     const bool has_causes = reference && point.config.hits->every == 1;  // neighbours' rays are needed
     const ResultRow row = point.row(std::to_string(step.frame), run.seed);
-    const bool is_shown = &step == &point.last_step() && run.seed == point.variant.seeds.front();
     for (const RecordedRays& recorded : run.probe->recorded) {
         const std::vector<ExactHit> truth = exact_rays(point, step, camera).hits(recorded, point.config.hits->every);
         point.judged[step.frame].add(run.seed, recorded, truth, point.shot.config.extent, point.config.hits->every,
                                      {masks.begin(), masks.end()});
         if (has_causes) point.causes[step.frame].add(recorded, truth, point.shot.config.extent);
-        if (is_shown && point.config.hits->every == 1)
-            point.cell.images.push_back(save_verdict_image(point.settings.out, row, point.settings.image_suffix,
+        if (is_shown(point, run, step) && point.config.hits->every == 1)
+            point.cell.images.push_back(save_verdict_image(point.settings.out, row, image_suffix(point, step),
                                                            recorded.stage,
                                                            map_of_verdicts(recorded, truth, point.shot.config.extent)));
     }
@@ -234,10 +245,9 @@ void render_step(PointRun& point, SeedRun& run, const FrameStep& step, const Fra
         if (run.probe->is_recording)
             judge_rays(point, run, step, frame.camera, images.specular,
                        truth ? masks_of(*truth, images.confidence, point.config) : std::vector<Mask>{everywhere});
-        const bool is_kept = &step == &point.last_step() && run.seed == point.variant.seeds.front();
-        if (is_kept && point.config.has_reference)
+        if (is_shown(point, run, step) && point.config.has_reference)
             for (nlohmann::json& entry : save_result_images(
-                     point.settings.out, point.row(std::to_string(step.frame), run.seed), point.settings.image_suffix,
+                     point.settings.out, point.row(std::to_string(step.frame), run.seed), image_suffix(point, step),
                      point.truth.pose(step), images, point.shot.camera.exposure_ev))
                 point.cell.images.push_back(std::move(entry));
         run.before = images.specular;

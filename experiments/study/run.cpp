@@ -51,11 +51,11 @@ void plan_work(StudyRun& study) {
 
 /// Renders the reference of one frame, or takes it from the cache. Targets are of the last frame, so that only its
 /// reference needs a truth ladder.
-Reference obtain_reference(StudyRun& study, const Shot& shot, unsigned frame, bool is_of_last) {
+Reference obtain_reference(StudyRun& study, const Shot& shot, unsigned frame, ReferenceUse use) {
     const ShotFrame now = shot_frame(shot, frame);
     ReferenceSettings settings = study.config.reference;
     settings.keep_all = study.settings.keep_all;
-    settings.ladder = is_of_last && needs_ladder(study.config);
+    settings.ladder = use.is_of_last && needs_ladder(study.config);
     ReferenceRun run;
     run.progress = [&](double fraction, double rays_per_second, double) {
         char rate[32];
@@ -106,19 +106,36 @@ void enter_non_finite(StudyRun& study, const ShotRun& run) {
     }
 }
 
-/// Keeps for the manifest what is worth knowing of a reference, and writes its images if it is that of the last frame.
-void note_reference(StudyRun& study, ShotRun& run, const Reference& reference, unsigned frame, bool is_of_last) {
+/// Keeps for the manifest what is worth knowing of a reference, and writes its images if they are kept.
+void note_reference(StudyRun& study, ShotRun& run, const Reference& reference, unsigned frame, ReferenceUse use) {
     nlohmann::json entry = reference_entry(reference, frame, study.config);
     for (const nlohmann::json& warning : entry["warnings"])
         study.progress.say("warning: " + run.shot.name() + ", frame " + std::to_string(frame) + ": " +
                            warning.get<std::string>());
     run.reference_entries["references"].push_back(std::move(entry));
-    if (!is_of_last) return;
-    run.reference_entries["reference"] = run.reference_entries["references"].back();
-    for (nlohmann::json& image :
-         save_reference_images(study.settings.out, run.shot.name(), run.shot.config.frames.back(), reference,
-                               run.shot.camera.exposure_ev))
-        study.manifest["images"].push_back(std::move(image));
+    if (use.is_of_last) run.reference_entries["reference"] = run.reference_entries["references"].back();
+    if (use.is_of_last || (study.config.keeps_all_images && use.is_of_measured))
+        run.reference_images[frame] =
+            save_reference_images(study.settings.out, run.shot.name(), frame, reference, run.shot.camera.exposure_ev);
+}
+
+/// Lists the images of the references, and writes those of the surfaces, of each frame whose results are kept. Frames
+/// that look alike share the files.
+void enter_truth_images(StudyRun& study, const ShotRun& run) {
+    for (const FrameStep& step : run.shot.steps) {
+        const FrameTruth* truth = run.truth.frame(step);
+        const bool is_kept = &step == &run.shot.steps.back() || (study.config.keeps_all_images && step.is_measured);
+        if (!truth || !is_kept) continue;
+        for (const auto& [frame, images] : run.reference_images) {
+            if (run.truth.poses.at(frame) != truth->pose) continue;
+            for (nlohmann::json image : images) {
+                image["frame"] = step.frame;
+                study.manifest["images"].push_back(std::move(image));
+            }
+        }
+        study.manifest["images"].push_back(
+            save_roughness_image(study.settings.out, run.shot.name(), step.frame, truth->roughness));
+    }
 }
 
 void run_scene_shot(StudyRun& study, const ShotConfig& config) {
@@ -131,14 +148,15 @@ void run_scene_shot(StudyRun& study, const ShotConfig& config) {
     if (!study.config.has_reference)
         run.truth = truth_of_lit(shot, {});
     else
-        run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, bool is_of_last) {
-            Reference reference = obtain_reference(study, shot, frame, is_of_last);
-            note_reference(study, run, reference, frame, is_of_last);
+        run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, ReferenceUse use) {
+            Reference reference = obtain_reference(study, shot, frame, use);
+            note_reference(study, run, reference, frame, use);
             ++references;
             return reference;
         });
     study.work.plan("reference", double(references) - double(config.frames.size()),
                     reference_guess);  // the others look the same
+    enter_truth_images(study, run);
     enter_shot(study, run, {});
     run_cells(study, run);
     enter_non_finite(study, run);
@@ -163,10 +181,12 @@ void run_gbuffer_shot(StudyRun& study, const ShotConfig& config) {
         .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
     run.truth = std::move(lit_alone);
     if (reference) {
-        note_reference(study, run, *reference, 0, true);
-        run.truth =
-            shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned, bool) { return *reference; });
+        run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, ReferenceUse use) {
+            note_reference(study, run, *reference, frame, use);
+            return *reference;
+        });
     }
+    enter_truth_images(study, run);
     enter_shot(study, run, loaded.notes);
     run_cells(study, run);
     enter_non_finite(study, run);

@@ -4,6 +4,8 @@
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 
+#include <algorithm>
+
 namespace {
 
 bool is_capture(const Shot& shot) { return !shot.config.gbuffer.empty(); }
@@ -58,7 +60,7 @@ std::string ShotTruth::content_hash() const {
 }
 
 ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
-                     const std::function<Reference(unsigned frame, bool is_of_last)>& obtain) {
+                     const std::function<Reference(unsigned frame, ReferenceUse use)>& obtain) {
     std::map<unsigned, std::string> looks;
     for (const FrameStep& step : shot.steps)
         if (!looks.contains(step.frame)) looks[step.frame] = look_of(shot, step.frame, config.reference);
@@ -70,11 +72,15 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     for (const FrameStep& step : shot.steps) {
         if (truth.poses.contains(step.frame) || !needs_reference(shot, config, step)) continue;
         std::shared_ptr<const PoseTruth>& pose = by_look[looks[step.frame]];
-        const bool is_of_last = looks[step.frame] == looks[shot.config.frames.back()];
+        const std::string& look = looks[step.frame];
+        const ReferenceUse use{.is_of_last = look == looks[shot.config.frames.back()],
+                               .is_of_measured = std::ranges::any_of(shot.steps, [&](const FrameStep& s) {
+                                   return s.is_measured && looks[s.frame] == look;
+                               })};
         if (!pose)
             pose = std::make_shared<PoseTruth>(
-                pose_truth(obtain(step.frame, is_of_last), config, shot.camera.exposure_ev,
-                           {.has_targets = is_of_last, .has_frame_reference = has_several}));
+                pose_truth(obtain(step.frame, use), config, shot.camera.exposure_ev,
+                           {.has_targets = use.is_of_last, .has_frame_reference = has_several}));
         truth.poses[step.frame] = pose;
     }
     for (const FrameStep& step : shot.steps) {

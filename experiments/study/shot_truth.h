@@ -24,11 +24,15 @@ bool measures_difference(const Shot& shot, const FrameStep& step);
 /// The frames from Shot::config.change on.
 bool is_after_change(const Shot& shot, const FrameStep& step);
 
-/// What is to be measured in a shot. `obtain` gives the reference of a frame (of a capture, its own), and is told
-/// whether the last frame looks so; it is called once per pose that looks different. Fails if the shot names a change
-/// after which the scene still moves.
+/// Which frames look as a reference does.
+struct ReferenceUse {
+    bool is_of_last = false, is_of_measured = false;
+};
+
+/// What is to be measured in a shot. `obtain` gives the reference of a frame (of a capture, its own); it is called once
+/// per pose that looks different. Fails if the shot names a change after which the scene still moves.
 ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
-                     const std::function<Reference(unsigned frame, bool is_of_last)>& obtain);
+                     const std::function<Reference(unsigned frame, ReferenceUse use)>& obtain);
 
 /// Where there is no reference nothing is measured: the lit colour alone, for the frames of `shot`.
 ShotTruth truth_of_lit(const Shot& shot, HostImage lit);

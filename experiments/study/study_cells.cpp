@@ -110,7 +110,10 @@ std::vector<CellTask> point_tasks(StudyRun& study, ShotRun& run) {
     for (const VariantConfig& variant : study.config.variants) {
         const nlohmann::json parameters =
             make_variant(variant.variant, variant.parameters, variant.preset)->params.values();
-        CellTask task{.hash = cell_hash(study, run, variant.variant + "\n" + variant.point, parameters, variant.seeds),
+        // Times do not depend on which images are kept, and the cells of points do: these have them.
+        const std::string what =
+            variant.variant + "\n" + variant.point + (study.config.keeps_all_images ? "\nall images" : "");
+        CellTask task{.hash = cell_hash(study, run, what, parameters, variant.seeds),
                       .what = run.shot.name() + ": " + variant.variant + " " + variant.point,
                       .kind = "frames",
                       .units = double(run.shot.steps.size() * variant.seeds.size())};

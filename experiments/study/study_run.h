@@ -35,6 +35,7 @@ struct ShotRun {
     FrameStore store;
     ShotTruth truth = {};
     nlohmann::json reference_entries = nlohmann::json::object();  ///< of the manifest's entry of the shot
+    std::map<unsigned, std::vector<nlohmann::json>> reference_images = {};  ///< by the frame whose reference they are
 };
 
 /// All variants, points and seeds of a shot, then their times, into study.finished. What was done before is loaded;

@@ -151,15 +151,22 @@ class Results:
         """The shot's exposure in EV."""
         return next((s.get("exposure_ev") or 0.0 for s in self.manifest.get("shots", []) if s.get("shot") == shot), 0.0)
 
-    def images_of(self, shot, target):
-        """(variant, point) to RGB image of the first seed; the reference's key is ("reference", "")."""
+    def _last_frame(self, shot):
+        frames = [i.get("frame") or 0 for i in self.manifest.get("images", []) if i.get("shot") == shot]
+        return max(frames, default=0)
+
+    def images_of(self, shot, target, frame=None, keys=None):
+        """(variant, point) to RGB image of the first seed; the reference's key is ("reference", ""). Of the last frame,
+        and of all points but single changes, unless others are asked for."""
+        frame = self._last_frame(shot) if frame is None else frame
         entries = [
             i
             for i in self.manifest.get("images", [])
             if i.get("shot") == shot
             and i.get("target") == target
+            and (i.get("frame") or 0) == frame
             and i.get("kind") in ("result", "reference")
-            and (i["variant"], i.get("point") or "") not in self.single_changes
+            and ((i["variant"], i.get("point") or "") in keys if keys else (i["variant"], i.get("point") or "") not in self.single_changes)
         ]
         first = {}
         for entry in sorted(entries, key=lambda i: i.get("seed") or 0):

@@ -14,9 +14,7 @@ const baselineLabel = shot => {
 /// The viewer at that shot with the truth, this point and the base line.
 function openPoint(row) {
     const points = unique([pointLabel(row), baselineLabel(row.shot)].filter(Boolean));
-    if (typeof openViewer === "function") return openViewer({shot: row.shot, points});
-    at("viewer").scrollIntoView();
-    return chooseShot(row.shot);
+    return openViewer({shot: row.shot, points});
 }
 
 /// Resolves when the pictures are there.

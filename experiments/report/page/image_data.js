@@ -1,4 +1,4 @@
-// Images: from the page's text to half floats, and from those to display colours and error values.
+// Images: from the page's text, or from scripts beside it, to half floats.
 
 /// The value of each of the 65536 half floats (IEEE 754 binary16).
 const halfValues = Float32Array.from({length: 65536}, (_, bits) => {
@@ -7,123 +7,100 @@ const halfValues = Float32Array.from({length: 65536}, (_, bits) => {
     return sign * (exponent === 0 ? fraction * 2 ** -24 : (1024 + fraction) * 2 ** (exponent - 25));
 });
 
-const loading = new Map();
+const loading = new Map();       // index to promise
+const loadedImages = new Map();  // index to image
+const imageTexts = new Map();    // of files, until they are decoded
 
-/// A promise of the image's description with `halves`: planes R, G, B of half-float bits.
+/// Called by the scripts of report_images/.
+function registerImage(file, text) { imageTexts.set(file, text); }
+
+/// A promise of the image's description with its pixels: `halves` (planes R, G, B of half-float bits) or `codes` (a
+/// byte per pixel: see encode_bytes() and encode_palette() of experiments/report/report_images.h). It fails with a
+/// sentence.
 function loadImage(index) {
     if (!loading.has(index)) loading.set(index, decodeImage(index));
     return loading.get(index);
 }
 
-/// Undoes encode_halves() of experiments/report/report_images.cpp.
+/// All of them; those that cannot be had are left out, and the first reason is shown.
+async function loadImages(indices) {
+    const results = await Promise.allSettled(indices.map(loadImage));
+    const failed = results.find(r => r.status === "rejected");
+    if (failed) showImageProblem(failed.reason.message);
+    return results.filter(r => r.status === "fulfilled").map(r => r.value);
+}
+
 async function decodeImage(index) {
-    const text = atob(at("image-" + index).textContent);
-    const packed = Uint8Array.from(text, c => c.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-    const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-    for (let i = 1; i < bytes.length; ++i) bytes[i] = bytes[i] + bytes[i - 1] & 255;
-    const count = bytes.length / 2;
-    const halves = new Uint16Array(count);
-    for (let i = 0; i < count; ++i) halves[i] = bytes[i] | bytes[count + i] << 8;
     const description = report.images[index];
-    return {
-        ...description,
-        index,
-        label: description.kind === "reference" ? "reference" : pointLabel(description),
-        halves,
-        pixels: description.width * description.height,
-        scalars: {}
-    };
+    const bytes =
+        await inflated(description.file ? await linkedText(description.file) : at("image-" + index).textContent);
+    const image = {...description, index, pixels: description.width * description.height, scalars: new Map()};
+    if (description.format === "halves")
+        image.halves = decodeHalves(bytes, description.width, description.height);
+    else
+        image.codes = bytes;
+    loadedImages.set(index, image);
+    return image;
+}
+
+async function inflated(text) {
+    const binary = atob(text), packed = new Uint8Array(binary.length);
+    for (let i = 0; i < packed.length; ++i) packed[i] = binary.charCodeAt(i);
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/// By a script element: a page that is a file may not fetch, but it may run scripts beside it.
+function linkedText(file) {
+    return new Promise((resolve, reject) => {
+        const fail = () => reject(new Error(
+            `${file} cannot be read. The images of this report lie in the folder report_images beside it: ` +
+            "keep both together."));
+        const script = h("script", {
+            src: file.split("/").map(encodeURIComponent).join("/"),
+            load: () => {
+                script.remove();
+                imageTexts.has(file) ? resolve(imageTexts.get(file)) : fail();
+                imageTexts.delete(file);
+            },
+            error: () => {
+                script.remove();
+                fail();
+            }
+        });
+        document.head.append(script);
+    });
+}
+
+/// Undoes encode_halves() of experiments/report/report_images.cpp.
+function decodeHalves(bytes, width, height) {
+    const pixels = width * height, count = 3 * pixels;
+    const planes = [0, 1, 2].map(p => {
+        const plane = new Int16Array(pixels);
+        for (let i = 0, x = 0; i < pixels; ++i) {
+            const code = bytes[p * pixels + i] | bytes[count + p * pixels + i] << 8;
+            const left = x ? plane[i - 1] : 0, above = i < width ? 0 : plane[i - width];
+            let foretold = x ? left : above;
+            if (x && i >= width) {
+                const corner = plane[i - width - 1], low = Math.min(left, above), high = Math.max(left, above);
+                foretold = corner >= high ? low : corner <= low ? high : left + above - corner;
+            }
+            plane[i] = foretold + (code >> 1 ^ -(code & 1));
+            if (++x === width) x = 0;
+        }
+        return plane;
+    });
+    const halves = new Uint16Array(count), bits = ordered => ordered < 0 ? 0x7fff - ordered : ordered;
+    for (let i = 0; i < pixels; ++i) {
+        const green = planes[0][i];
+        halves[i] = bits(planes[1][i] + green << 16 >> 16);
+        halves[pixels + i] = bits(green);
+        halves[2 * pixels + i] = bits(planes[2][i] + green << 16 >> 16);
+    }
+    return halves;
 }
 
 function pixelRgb(image, i) { return [0, 1, 2].map(c => halfValues[image.halves[c * image.pixels + i]]); }
 
-/// Rec. 709.
-const luminance = rgb => 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-
-/// What a false-colour mode shows of one pixel; `d` and `r` below are difference and reference per channel.
-const scalarModes = {
-    absolute: {
-        title: "absolute error",
-        formula: "mean over channels of |d|",
-        of: (x, r) => (Math.abs(x[0] - r[0]) + Math.abs(x[1] - r[1]) + Math.abs(x[2] - r[2])) / 3
-    },
-    relative: {
-        title: "relative error",
-        formula: "mean over channels of |d| / sqrt(r² + 0.01)",
-        of: (x, r) => [0, 1, 2].reduce((sum, c) => sum + Math.abs(x[c] - r[c]) / Math.sqrt(r[c] * r[c] + 0.01), 0) / 3
-    },
-    luminance: {title: "luminance", formula: "Rec. 709 luminance", of: x => luminance(x)},
-};
-
-/// One value per pixel, computed once.
-function scalarsOf(image, reference, mode) {
-    if (!image.scalars[mode]) {
-        const {of} = scalarModes[mode];
-        const values = new Float32Array(image.pixels);
-        for (let i = 0; i < image.pixels; ++i)
-            values[i] = of(pixelRgb(image, i), reference ? pixelRgb(reference, i) : null);
-        image.scalars[mode] = values;
-    }
-    return image.scalars[mode];
-}
-
-/// The scale that all images of a mode share: the largest of their 99 % quantiles, so that single pixels do not darken
-/// the rest.
-function sharedMaximum(images, reference, mode) {
-    let largest = 0;
-    for (const image of images) {
-        const all = scalarsOf(image, reference, mode);
-        const step = Math.max(1, Math.floor(all.length / 20000));
-        const sample = Float32Array.from({length: Math.floor(all.length / step)}, (_, i) => all[i * step])
-                           .filter(Number.isFinite)
-                           .sort();
-        if (sample.length) largest = Math.max(largest, sample[Math.floor(0.99 * (sample.length - 1))]);
-    }
-    return largest > 0 ? largest : 1;
-}
-
-/// magma by Stefan van der Walt and Nathaniel Smith (matplotlib, CC0), every eighth entry, interpolated.
-const magmaCodes =
-    "000004 030312 0a0822 130d34 1d1147 29115a 36106b 440f76 51127c 5d177f 6a1c81 762181 832681 902a81 9c2e7f aa337d b73779 c23b75 cf4070 db476a e55064 ee5b5e f4695c f9785d fb8761 fd9668 fea571 feb47b fec287 fed194 fde0a1 fceeb0 fcfdbf"
-        .split(" ")
-        .map(code => [0, 2, 4].map(i => parseInt(code.slice(i, i + 2), 16)));
-const magma = Array.from({length: 256}, (_, i) => {
-    const at32 = i / 255 * 32, low = Math.min(Math.floor(at32), 31), t = at32 - low;
-    return [0, 1, 2].map(c => Math.round(magmaCodes[low][c] * (1 - t) + magmaCodes[low + 1][c] * t));
-});
-const badColor = [255, 0, 255];  // NaN and infinity: a colour that no scale has
-
-/// IEC 61966-2-1, as 0..255.
-const srgbCode = v => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
-
-/// The display code of each half float at this exposure; 256 marks what is not finite.
-function displayTable(exposure) {
-    const gain = 2 ** exposure;
-    return Uint16Array.from(halfValues, v => Number.isFinite(v) ? srgbCode(Math.min(Math.max(v * gain, 0), 1)) : 256);
-}
-
-/// RGBA pixels of an image in colour.
-function colorPixels(image, table) {
-    const out = new ImageData(image.width, image.height), {data} = out, {halves, pixels} = image;
-    for (let i = 0; i < pixels; ++i) {
-        const r = table[halves[i]], g = table[halves[pixels + i]], b = table[halves[2 * pixels + i]];
-        const isBad = r === 256 || g === 256 || b === 256;
-        data[4 * i] = isBad ? badColor[0] : r;
-        data[4 * i + 1] = isBad ? badColor[1] : g;
-        data[4 * i + 2] = isBad ? badColor[2] : b;
-        data[4 * i + 3] = 255;
-    }
-    return out;
-}
-
-/// RGBA pixels of an image in false colour: 0 to `maximum` through magma.
-function falseColorPixels(image, reference, mode, maximum) {
-    const out = new ImageData(image.width, image.height), values = scalarsOf(image, reference, mode);
-    for (let i = 0; i < image.pixels; ++i) {
-        const v = values[i];
-        const color = Number.isFinite(v) ? magma[Math.round(255 * Math.min(Math.max(v / maximum, 0), 1))] : badColor;
-        out.data.set([color[0], color[1], color[2], 255], 4 * i);
-    }
-    return out;
-}
+/// Of an image with `codes` of encode_bytes(): a number from 0 to 1, or NaN.
+const pixelByte = (image, i) => image.codes[i] === 255 ? NaN : image.codes[i] / 254;

@@ -24,20 +24,26 @@ function createPane(listeners) {
         caption,
         element: h("figure", {class: "pane"}, caption, canvas),
         image: null,
-        pixels: null,
         picture: document.createElement("canvas"),
-        shown: null
+        second: null  // right of the split
     };
 }
 
-/// Makes the pane show `pixels` (ImageData) of `image`; `key` says what they depend on.
-function setPane(pane, image, pixels, caption) {
+function putPixels(picture, pixels) {
+    picture.width = pixels.width;
+    picture.height = pixels.height;
+    picture.getContext("2d").putImageData(pixels, 0, 0);
+    return picture;
+}
+
+/// Makes the pane show `pixels` (ImageData) of `image`, and `second` right of the split, if there is one.
+function setPane(pane, image, pixels, second, caption, target) {
     pane.image = image;
-    pane.picture.width = pixels.width;
-    pane.picture.height = pixels.height;
-    pane.picture.getContext("2d").putImageData(pixels, 0, 0);
+    putPixels(pane.picture, pixels);
+    pane.second = second ? putPixels(pane.second ?? document.createElement("canvas"), second) : null;
     pane.caption.replaceChildren(...caption);
-    pane.canvas.setAttribute("aria-label", pane.caption.textContent);
+    pane.caption.title = pane.caption.textContent;
+    pane.canvas.setAttribute("aria-label", `${pane.caption.textContent}, ${target}`);
     pane.canvas.style.aspectRatio = `${image.width} / ${image.height}`;
 }
 
@@ -51,7 +57,8 @@ function paneTransform(pane) {
     };
 }
 
-function drawPane(pane, pinned) {
+/// `pinned`: a pixel; `box`: [x, y, width, height] in pixels; `splitAt` in [0, 1] of the pane's width. Any may be null.
+function drawPane(pane, {pinned, splitAt, box}) {
     const {canvas, image} = pane;
     const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)),
           height = Math.max(1, Math.round(width * image.height / image.width));
@@ -61,13 +68,40 @@ function drawPane(pane, pinned) {
     context.fillRect(0, 0, width, height);
     context.imageSmoothingEnabled = scale < 1;
     context.drawImage(pane.picture, left, top, image.width * scale, image.height * scale);
-    if (!pinned) return;
-    const size = Math.max(scale, 5), x = left + (pinned.x + 0.5) * scale - size / 2,
-          y = top + (pinned.y + 0.5) * scale - size / 2;
+    if (pane.second) drawSecond(context, pane, Math.round(splitAt * width), {scale, left, top});
+    if (pinned) {
+        const size = Math.max(scale, 5);
+        outline(
+            context, left + (pinned.x + 0.5) * scale - size / 2, top + (pinned.y + 0.5) * scale - size / 2, size, size);
+    }
+    if (box) outline(context, left + box[0] * scale, top + box[1] * scale, box[2] * scale, box[3] * scale);
+}
+
+function drawSecond(context, pane, x, {scale, left, top}) {
+    const {canvas, image} = pane;
+    context.save();
+    context.beginPath();
+    context.rect(x, 0, canvas.width - x, canvas.height);
+    context.clip();
+    context.fillRect(x, 0, canvas.width - x, canvas.height);
+    context.drawImage(pane.second, left, top, image.width * scale, image.height * scale);
+    context.restore();
+    context.fillRect(x - 2, 0, 4, canvas.height);
+    context.fillStyle = "#fff";
+    context.fillRect(x - 1, 0, 2, canvas.height);
+    context.beginPath();
+    context.arc(x, canvas.height / 2, 7 * devicePixelRatio, 0, 7);
+    context.fill();
+    context.strokeStyle = "#000";
+    context.stroke();
+}
+
+/// White within black, so that it shows on any picture.
+function outline(context, x, y, width, height) {
     context.lineWidth = 1;
     for (const [color, grow] of [["#000", 1.5], ["#fff", 0.5]]) {
         context.strokeStyle = color;
-        context.strokeRect(x - grow, y - grow, size + 2 * grow, size + 2 * grow);
+        context.strokeRect(x - grow, y - grow, width + 2 * grow, height + 2 * grow);
     }
 }
 

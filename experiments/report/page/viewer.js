@@ -1,26 +1,75 @@
 // The viewer: which images are shown, and how.
 
+const truthKey = "reference";
 const viewer = {
     shot: null,
+    frame: null,
     target: null,
     mode: "color",
     layout: "side",
     hasErrorRow: false,
     exposure: 0,
+    curve: "none",
     scale: 0,
-    images: [],
-    visible: new Set(),
+    methods: [],        // of shot and frame, the truth first
+    chosen: null,       // keys of methods, in the order in which they are shown; kept from shot to shot
+    shown: [],          // {method, image} of those whose image is there
+    baseKey: truthKey,  // of what differences are taken against
     active: 0,
     previous: 1,
+    splitAt: 0.5,
     panes: [],
     pinned: null,
     pointed: null,
     drag: null,
+    request: 0,     // counts choices, so that a slow one does not replace a later one
+    choices: null,  // what the controls of shot, target and images were made for
+    isPlaying: false,
 };
 
-const reference = () => viewer.images.find(i => i.kind === "reference");
-const isError = mode => mode === "absolute" || mode === "relative";
-const mostSideBySide = 6;
+const firstShown = 6;
+const isError = mode => scalarModes[mode]?.isError ?? false;
+const truthMethod = () => viewer.methods.find(m => m.key === truthKey);
+/// What is shown of a method; rungs of the truth ladder are compared with what arrives.
+const resultIndex = method =>
+    method?.results[method.key === truthKey || !isLadderRung(viewer.target) ? viewer.target : "incident"];
+const resultOf = method => loadedImages.get(resultIndex(method));
+const truth = () => resultOf(truthMethod());
+const base = () => resultOf(viewer.methods.find(m => m.key === viewer.baseKey)) ?? truth();
+const frameOf = image => image.frame ?? 0;
+
+/// All images of a shot's frame by method: {key, label, variant, point, results: {target: index}, confidence: index,
+/// verdicts: [{stage, index}], roughness: index}.
+function methodsOf(shot, frame) {
+    const methods = new Map();
+    report.images.forEach((image, index) => {
+        if (image.shot !== shot || frameOf(image) !== frame) return;
+        const isTruth = image.kind === "reference" || image.kind === "surface";
+        const key = isTruth ? truthKey : pointKey(image);
+        if (!methods.has(key))
+            methods.set(key, {
+                key,
+                label: isTruth ? "truth" : pointLabel(image),
+                variant: image.variant,
+                point: image.point,
+                results: {},
+                verdicts: []
+            });
+        const method = methods.get(key);
+        if (image.kind === "hits")
+            method.verdicts.push({stage: image.target, index});
+        else if (image.kind === "confidence")
+            method.confidence = index;
+        else if (image.kind === "surface")
+            method.roughness = index;
+        else
+            method.results[image.target] = index;
+    });
+    return [...methods.values()].sort((a, b) => (b.key === truthKey) - (a.key === truthKey));
+}
+
+const framesOf = shot => unique(report.images.filter(i => i.shot === shot).map(frameOf)).sort((a, b) => a - b);
+const targetsOf = methods => unique(methods.flatMap(m => Object.keys(m.results)));
 
 function showViewer() {
     if (!report.images.length) {
@@ -31,166 +80,126 @@ function showViewer() {
         at("viewer").append(h("p", {class: "note"}, "Images need a browser of 2023 or later (DecompressionStream)."));
         return;
     }
-    viewer.shot = report.images[0].shot;
     at("viewer").append(
         ...report.notes.map(text => h("p", {class: "warning", role: "note"}, text)),
-        h("div", {class: "controls", id: "viewer-choice"}), h("div", {class: "controls", id: "viewer-look"}),
-        h("div", {class: "controls", id: "viewer-images"}), h("div", {class: "panes", id: "panes"}),
-        h("div", {class: "scroll", id: "readout", "aria-live": "off"}),
-        h("p", {class: "note"}, "Wheel or ", h("kbd", {}, "+"), h("kbd", {}, "-"),
-          "zoom, drag pans, a click pins the pixel whose values are listed, arrow keys move it. ", h("kbd", {}, "1"),
-          "to ", h("kbd", {}, "9"), "show one image in place, ", h("kbd", {}, "Space"), "flips to the one before, ",
-          h("kbd", {}, "e"), "its error, ", h("kbd", {}, "0"), "resets. Magenta: not finite."));
+        h("p", {class: "warning", id: "viewer-problem", role: "alert", hidden: true}),
+        h("div", {class: "controls", id: "viewer-choice"}),
+        h("div", {class: "controls", id: "viewer-time", hidden: true}),
+        h("div", {class: "controls", id: "viewer-look"}), h("div", {id: "viewer-images"}),
+        h("div", {class: "controls", id: "viewer-pair", hidden: true}), h("div", {id: "viewer-crop", hidden: true}),
+        h("p", {class: "sr-only", id: "viewer-status", role: "status"}), h("div", {class: "panes", id: "panes"}),
+        h("div", {id: "viewer-legend"}), h("div", {class: "scroll", id: "readout", "aria-live": "off"}), keyHelp());
     showLook();
     addEventListener("keydown", viewerKey);
     new ResizeObserver(drawAll).observe(at("panes"));
-    return chooseShot(viewer.shot);
+    const start = () => viewer.shot === null ? chooseShot(report.images[0].shot) : undefined;
+    if (!report.images.some(i => i.file)) return start();
+    // Images beside the page are loaded when the viewer is about to be seen.
+    new IntersectionObserver((entries, observer) => {
+        if (!entries.some(e => e.isIntersecting)) return;
+        observer.disconnect();
+        start();
+    }, {rootMargin: "50%"}).observe(at("viewer"));
 }
 
-async function chooseShot(shot) {
-    viewer.shot = shot;
-    const targets = unique(report.images.filter(i => i.shot === shot).map(i => i.target));
-    viewer.target = preferred(targets, viewer.target);
+/// For the other sections: scrolls to the viewer and shows truth and points (as pointLabel() names them) side by side.
+/// Points without images in this shot are left out. Resolves when they are there; false: nothing of them can be shown.
+async function openViewer({shot, points = [], target}) {
+    if (!framesOf(shot).length || !at("viewer-choice")) return false;
+    const own = methodsOf(shot, framesOf(shot).at(-1));
+    const wanted =
+        own.filter(m => points.includes(m.label)).sort((a, b) => points.indexOf(a.label) - points.indexOf(b.label));
+    viewer.chosen = [truthKey, ...wanted.map(m => m.key)];
+    viewer.layout = "side";
+    viewer.target = target ?? viewer.target;
+    at("viewer").scrollIntoView();
+    await chooseShot(shot);
+    viewer.panes[0]?.canvas.focus({preventScroll: true});
+    return true;
+}
+
+const shotExposure = shot => {
     const exposure = manifestShots().find(s => s.shot === shot)?.exposure_ev;
-    setExposure(Number.isFinite(exposure) ? exposure : 0);
-    at("viewer-choice")
-        .replaceChildren(
-            select("Shot", unique(report.images.map(i => i.shot)), shot, chooseShot),
-            select(
-                "Target", targets, viewer.target,
-                t => {
-                    viewer.target = t;
-                    return chooseImages();
-                }),
-            h("button", {id: "layout-side", click: () => setLayout("side")}, "Side by side"),
-            h("button", {id: "layout-flip", click: () => setLayout("flip")}, "Flip in place"));
-    await chooseImages();
+    return Number.isFinite(exposure) ? exposure : 0;
+};
+
+function chooseShot(shot) {
+    if (shot !== viewer.shot) {
+        Object.assign(viewer, {shot, pinned: null, pointed: null, frame: framesOf(shot).at(-1)});
+        Object.assign(view, {x: 0.5, y: 0.5, zoom: 1});
+        setScale(0);
+        setExposure(shotExposure(shot));
+        clearCropBox();
+    }
+    showTime();
+    return chooseFrame(viewer.frame);
 }
 
-/// Loads all images of the shot and target; the reference comes first.
-async function chooseImages() {
-    const {shot, target} = viewer;
-    const wanted = report.images.map((image, index) => ({...image, index}))
-                       .filter(
-                           i => i.shot === shot &&
-                               i.target === (i.kind === "reference" || !isLadderRung(target) ? target : "incident"));
-    wanted.sort((a, b) => (b.kind === "reference") - (a.kind === "reference"));
-    const images = await Promise.all(wanted.map(i => loadImage(i.index)));
-    if (viewer.shot !== shot || viewer.target !== target) return;  // another choice was made meanwhile
-    Object.assign(viewer, {
-        images,
-        visible: new Set(images.slice(0, mostSideBySide)),
-        active: 0,
-        previous: Math.min(1, images.length - 1),
-        pinned: null,
-        pointed: null,
-        scale: 0
-    });
-    Object.assign(view, {x: 0.5, y: 0.5, zoom: 1});
-    showImageList();
+function chooseFrame(frame) {
+    viewer.frame = frame;
+    viewer.methods = methodsOf(viewer.shot, frame);
+    const targets = targetsOf(viewer.methods);
+    viewer.target = preferred(targets, viewer.target ?? "image");
+    const compared = viewer.methods.filter(m => m.key === truthKey || !isSingleChange(m));
+    viewer.chosen ??= compared.slice(0, firstShown).map(m => m.key);
+    if (!viewer.methods.some(m => viewer.chosen.includes(m.key)))
+        viewer.chosen = compared.slice(0, firstShown).map(m => m.key);
+    const choices = JSON.stringify([viewer.shot, viewer.target, targets, viewer.methods.map(m => m.key)]);
+    if (viewer.choices !== choices) showChoiceOfImages(targets);  // else the reader keeps filter and focus
+    viewer.choices = choices;
+    return showImages();
+}
+
+/// What is to be there before the current choice can be painted.
+function neededImages() {
+    const methods =
+        viewer.methods.filter(m => viewer.chosen.includes(m.key) || m.key === viewer.baseKey || m.key === truthKey);
+    const needed = methods.map(resultIndex);
+    if (viewer.mode === "confidence") needed.push(...methods.map(m => m.confidence));
+    if (viewer.mode === "rays" || viewer.mode === "cause")
+        needed.push(...methods.flatMap(m => m.verdicts.map(v => v.index)));
+    if (viewer.mode === "cause") needed.push(...ladderIndices());
+    return unique(needed.filter(i => i !== undefined));
+}
+
+/// Loads what is chosen, and shows it.
+async function showImages() {
+    const request = ++viewer.request;
+    const missing = neededImages().some(i => !loadedImages.has(i));
+    at("panes").setAttribute("aria-busy", missing);
+    await loadImages(neededImages());
+    if (request !== viewer.request) return;  // another choice was made meanwhile
+    at("panes").setAttribute("aria-busy", "false");
+    setShown();
     layOut();
+    if (viewer.pinned) loadForInspector();
 }
 
-function showLook() {
-    const modes = [["color", "colour"], ...Object.entries(scalarModes).map(([key, mode]) => [key, mode.title])];
-    at("viewer-look")
-        .append(
-            select(
-                "Show", modes, viewer.mode,
-                mode => {
-                    viewer.mode = mode;
-                    viewer.scale = 0;
-                    layOut();
-                }),
-            h("label", {}, h("input", {
-                  type: "checkbox",
-                  id: "error-row",
-                  change: event => {
-                      viewer.hasErrorRow = event.target.checked;
-                      layOut();
-                  }
-              }),
-              "absolute error below"),
-            h("label", {}, "Exposure (EV)", h("input", {
-                  type: "range",
-                  id: "exposure",
-                  min: -10,
-                  max: 10,
-                  step: 0.25,
-                  input: event => {
-                      setExposure(Number(event.target.value));
-                      paint();
-                  }
-              }),
-              h("output", {id: "exposure-text"})),
-            h("label", {}, "False-colour scale ×", h("input", {
-                  type: "range",
-                  id: "scale",
-                  min: -6,
-                  max: 6,
-                  step: 0.25,
-                  value: 0,
-                  input: event => {
-                      viewer.scale = Number(event.target.value);
-                      paint();
-                  }
-              })),
-            h("span", {class: "color-bar", id: "color-bar"}, h("span", {}, "0"),
-              h("canvas", {width: 256, height: 1, role: "img", "aria-label": "Colour scale"}),
-              h("output", {id: "scale-text"})),
-            h("button", {
-                click: () => {
-                    zoomAbout(0.5, 0.5, 1.5);
-                    drawAll();
-                },
-                "aria-label": "Zoom in"
-            },
-              "+"),
-            h("button", {
-                click: () => {
-                    zoomAbout(0.5, 0.5, 1 / 1.5);
-                    drawAll();
-                },
-                "aria-label": "Zoom out"
-            },
-              "−"),
-            h("button", {id: "reset", click: reset}, "Reset view"));
-    const bar = at("color-bar").querySelector("canvas").getContext("2d");
-    magma.forEach((color, i) => {
-        bar.fillStyle = `rgb(${color})`;
-        bar.fillRect(i, 0, 1, 1);
-    });
+function setShown() {
+    const before = [viewer.active, viewer.previous].map(i => viewer.shown[i]?.method.key);
+    viewer.shown = viewer.chosen.map(key => viewer.methods.find(m => m.key === key))
+                       .filter(m => m && resultOf(m))
+                       .map(method => ({method, image: resultOf(method)}));
+    const place = (key, other) => {
+        const found = viewer.shown.findIndex(s => s.method.key === key);
+        return found < 0 ? Math.min(other, Math.max(viewer.shown.length - 1, 0)) : found;
+    };
+    viewer.active = place(before[0], 0);
+    viewer.previous = place(before[1], 1);
+    if (viewer.previous === viewer.active && viewer.shown.length > 1) viewer.previous = viewer.active ? 0 : 1;
 }
 
-function setExposure(value) {
-    viewer.exposure = Math.min(Math.max(value, -10), 10);
-    at("exposure").value = viewer.exposure;
-    at("exposure-text").textContent = (viewer.exposure > 0 ? "+" : "") + number(viewer.exposure);
+/// `keys` are shown from now on, the truth first, then in the study's order.
+function setChosen(keys) {
+    const isWanted = new Set(keys);
+    viewer.chosen = viewer.methods.filter(m => isWanted.has(m.key)).map(m => m.key);
+    showChosenImages();
+    return showImages();
 }
 
-function reset() {
-    Object.assign(view, {x: 0.5, y: 0.5, zoom: 1});
-    viewer.scale = 0;
-    viewer.pinned = null;
-    at("scale").value = 0;
-    const exposure = manifestShots().find(s => s.shot === viewer.shot)?.exposure_ev;
-    setExposure(Number.isFinite(exposure) ? exposure : 0);
-    paint();
-}
-
-function showImageList() {
-    at("viewer-images")
-        .replaceChildren(...viewer.images.map(
-            (image, i) =>
-                h("label", {}, h("input", {
-                      type: "checkbox",
-                      checked: viewer.visible.has(image),
-                      change: event => {
-                          event.target.checked ? viewer.visible.add(image) : viewer.visible.delete(image);
-                          layOut();
-                      }
-                  }),
-                  i < 9 ? h("kbd", {}, String(i + 1)) : null, image.label)));
+function showImageProblem(text) {
+    at("viewer-problem").textContent = text;
+    at("viewer-problem").hidden = false;
 }
 
 function setLayout(layout) {
@@ -199,75 +208,84 @@ function setLayout(layout) {
     viewer.panes[0]?.canvas.focus({preventScroll: true});
 }
 
+/// At most; few images share two rows, so that they are large.
+const paneColumns = count => count <= 3 ? Math.max(count, 1) : count <= 10 ? Math.ceil(count / 2) : 6;
+
 /// Makes the panes that the layout asks for: one per image, with that of its error below it if asked for.
 function layOut() {
-    for (const name of ["side", "flip"]) at("layout-" + name).setAttribute("aria-pressed", viewer.layout === name);
-    at("panes").classList.toggle("flip", viewer.layout === "flip");
-    at("viewer-images").hidden = viewer.layout === "flip" && viewer.images.length === 1;
-    const shown =
-        viewer.layout === "flip" ? [viewer.images[viewer.active]] : viewer.images.filter(i => viewer.visible.has(i));
-    const hasError = image => viewer.hasErrorRow && reference() && image !== reference();
-    const columns =
-        shown.map(image => [{image, mode: viewer.mode}, ...(hasError(image) ? [{image, mode: "absolute"}] : [])]);
+    const {layout, shown} = viewer;
+    for (const name of ["side", "flip", "split"]) at("layout-" + name).setAttribute("aria-pressed", layout === name);
+    at("panes").classList.toggle("single", layout !== "side");
+    at("panes").style.setProperty("--columns", paneColumns(shown.length));
+    if (shown.length) at("panes").style.setProperty("--aspect", shown[0].image.width / shown[0].image.height);
+    showChosenImages();
+    showPair();
+    showCrops();
+    const wantedOf = item => {
+        const hasError = viewer.hasErrorRow && base() && item.image !== base();
+        return [{item, mode: viewer.mode}, ...(hasError ? [{item, mode: "absolute"}] : [])];
+    };
+    const current = shown[viewer.active];
+    const columns = layout === "side" ? shown.map(wantedOf) :
+        !current                      ? [] :
+        layout === "flip"             ? [wantedOf(current)] :
+                                        [[{item: current, mode: viewer.mode, other: shown[viewer.previous]}]];
     const wanted = columns.flat();
+    const focused = viewer.panes.findIndex(p => p.canvas === document.activeElement);
     while (viewer.panes.length < wanted.length) viewer.panes.push(newPane());
     viewer.panes.length = wanted.length;
     viewer.panes.forEach((pane, i) => Object.assign(pane, {wanted: wanted[i]}));
     at("panes").replaceChildren(...columns.map(
         column => h("div", {}, viewer.panes.filter(p => column.includes(p.wanted)).map(p => p.element))));
+    if (focused >= 0) (viewer.panes[focused] ?? viewer.panes[0])?.canvas.focus({preventScroll: true});
     paint();
 }
 
-/// Fills the panes' pictures anew: colours depend on mode, exposure and scale.
+/// What a mode shows of an image: {pixels, note}; `maximum` of a mode is its false-colour scale.
+function pictureOf({method, image}, mode, table, maximumOf) {
+    const inColor = note => ({pixels: colorPixels(image, table), note});
+    if (mode === "nearest")
+        return method.key === truthKey ? {pixels: nearestMap().pixels, note: "nearest method"} : inColor("");
+    if (mode === "cause") return causePicture(method, image) ?? inColor("");
+    if (mode === "rays") return verdictPicture(method) ?? inColor(method.key === truthKey ? "" : "no verdicts");
+    if (mode === "confidence") {
+        const own = loadedImages.get(method.confidence);
+        if (!own) return inColor(method.key === truthKey ? "" : "no confidence");
+        return {
+            pixels: falseColorPixels(Float32Array.from(own.codes, (_, i) => pixelByte(own, i)), own, 1),
+            note: "confidence"
+        };
+    }
+    if (mode === "color" || isError(mode) && (!base() || image === base())) return inColor("");
+    const {title, isSigned} = scalarModes[mode];
+    return {pixels: falseColorPixels(scalarsOf(image, base(), mode), image, maximumOf(mode), isSigned), note: title};
+}
+
+/// Fills the panes' pictures anew: colours depend on mode, exposure, curve and scale.
 function paint() {
-    const table = displayTable(viewer.exposure), ref = reference();
-    const maxima = {};
+    lossMaps.clear();
+    const table = displayTable(viewer.exposure, viewer.curve), maxima = {};
     const maximumOf = mode => maxima[mode] ??=
-        sharedMaximum(isError(mode) ? viewer.images.filter(i => i !== ref) : viewer.images, ref, mode) * 2 **
+        sharedMaximum(viewer.shown.map(s => s.image).filter(i => !isError(mode) || i !== base()), base(), mode) * 2 **
         viewer.scale;
     for (const pane of viewer.panes) {
-        const {image, mode} = pane.wanted;
-        const isColor = mode === "color" || (isError(mode) && (image === ref || !ref));
-        const pixels = isColor ? colorPixels(image, table) : falseColorPixels(image, ref, mode, maximumOf(mode));
-        const place = viewer.images.indexOf(image);
-        setPane(pane, image, pixels, [
-            place < 9 ? h("kbd", {}, String(place + 1)) : "", image.label,
-            isColor ? "" : h("small", {}, " " + scalarModes[mode].title)
-        ]);
+        const {item, mode, other} = pane.wanted;
+        const picture = pictureOf(item, mode, table, maximumOf);
+        const second = other ? pictureOf(other, mode, table, maximumOf) : null;
+        const place = viewer.shown.indexOf(item);
+        const caption = [
+            place < 9 ? h("kbd", {}, String(place + 1)) : "", item.method.label,
+            second ? " | " + other.method.label : "",
+            picture.note || second?.note ? h("small", {}, " " + (picture.note || second.note)) : ""
+        ];
+        setPane(pane, item.image, picture.pixels, second?.pixels, caption, viewer.target);
     }
-    const falseMode = viewer.mode !== "color" ? viewer.mode : viewer.hasErrorRow ? "absolute" : null;
-    at("color-bar").hidden = !falseMode || (isError(falseMode) && !ref);
-    if (!at("color-bar").hidden)
-        at("scale-text").textContent =
-            `${number(maximumOf(falseMode), 3)} (${scalarModes[falseMode].formula}; one scale for all)`;
+    showLegend(maximumOf);
     drawAll();
 }
 
 function drawAll() {
     for (const pane of viewer.panes)
-        if (pane.image) drawPane(pane, viewer.pinned);
+        if (pane.image) drawPane(pane, {pinned: viewer.pinned, splitAt: viewer.splitAt, box: crops.box});
     showReadout();
-}
-
-/// The values of all images at the pinned or pointed pixel.
-function showReadout() {
-    const place = viewer.pinned ?? viewer.pointed;
-    if (!place || !viewer.images.length) {
-        at("readout").replaceChildren(h("p", {class: "note"}, "Point at an image to read all values of a pixel."));
-        return;
-    }
-    const ref = reference(), i = place.y * viewer.images[0].width + place.x;
-    const columns = ["Image", "R", "G", "B", "Luminance", "Absolute error", "Relative error"].map(
-        (name, c) => ({name, number: c > 0}));
-    const rows = viewer.images.map(image => {
-        const rgb = pixelRgb(image, i),
-              error = mode => image === ref || !ref ? "–" : number(scalarModes[mode].of(rgb, pixelRgb(ref, i)), 5);
-        return [
-            image.label, ...rgb.map(v => cell(v, number(v, 5))), number(luminance(rgb), 5), error("absolute"),
-            error("relative")
-        ];
-    });
-    at("readout").replaceChildren(table(
-        columns, rows,
-        {caption: `Pixel ${place.x}, ${place.y}${viewer.pinned ? " (pinned: click it again to let go)" : ""}`}));
 }

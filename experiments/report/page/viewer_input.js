@@ -10,15 +10,20 @@ function newPane() {
         },
         pointerdown: event => {
             pane.canvas.setPointerCapture(event.pointerId);
-            viewer.drag = {x: event.clientX, y: event.clientY, hasMoved: false};
+            const place = pointerPlace(pane, event), width = pane.canvas.getBoundingClientRect().width;
+            const isAtSplit = pane.second && Math.abs(place.u - viewer.splitAt) * width < 10;
+            const does = isAtSplit ? "split" : crops.isOn || event.shiftKey ? "crop" : "pan";
+            viewer.drag = {x: event.clientX, y: event.clientY, hasMoved: false, does, from: place};
         },
         pointermove: event => {
             viewer.pointed = pointerPlace(pane, event);
-            if (viewer.drag) pan(pane, event);
-            drawAll();
+            if (viewer.drag)
+                drag(pane, event);
+            else if (!viewer.pinned)
+                showReadout();
         },
         pointerup: event => {
-            if (viewer.drag && !viewer.drag.hasMoved) pin(pointerPlace(pane, event));
+            if (viewer.drag && !viewer.drag.hasMoved && viewer.drag.does !== "split") pin(pointerPlace(pane, event));
             viewer.drag = null;
         },
         pointercancel: () => {
@@ -28,60 +33,135 @@ function newPane() {
     return pane;
 }
 
-function pan(pane, event) {
+function drag(pane, event) {
     const {drag} = viewer, dx = event.clientX - drag.x, dy = event.clientY - drag.y;
     if (!drag.hasMoved && Math.hypot(dx, dy) < 3) return;  // a click of an unsteady hand
+    drag.hasMoved = true;
+    if (drag.does === "split") return setSplit(viewer.pointed.u);
+    if (drag.does === "crop") return setCropBox(boxBetween(drag.from, viewer.pointed));
     const box = pane.canvas.getBoundingClientRect();
-    view.x -= dx / box.width / view.zoom;
-    view.y -= dy / box.height / view.zoom;
+    moveView(-dx / box.width, -dy / box.height);
+    Object.assign(drag, {x: event.clientX, y: event.clientY});
+}
+
+/// By parts of a pane.
+function moveView(dx, dy) {
+    view.x += dx / view.zoom;
+    view.y += dy / view.zoom;
     limitView();
-    viewer.drag = {x: event.clientX, y: event.clientY, hasMoved: true};
+    drawAll();
 }
 
 function pin(place) {
     const isSame = viewer.pinned && viewer.pinned.x === place.x && viewer.pinned.y === place.y;
     viewer.pinned = isSame ? null : {x: place.x, y: place.y};
     drawAll();
+    if (viewer.pinned) loadForInspector();
 }
 
+function pinMiddle() {
+    const {width, height} = viewer.shown[0].image;
+    pin(viewer.pinned ??
+        {x: Math.min(Math.floor(view.x * width), width - 1), y: Math.min(Math.floor(view.y * height), height - 1)});
+}
+
+/// `index` of the shown images.
 function showInPlace(index) {
-    if (index >= viewer.images.length) return;
+    if (index < 0 || index >= viewer.shown.length) return;
     if (index !== viewer.active) viewer.previous = viewer.active;
     viewer.active = index;
-    viewer.layout = "flip";
+    if (viewer.layout === "side") viewer.layout = "flip";
     layOut();
+    at("viewer-status").textContent = `Showing ${viewer.shown[index].method.label}`;
 }
+
+function showNext(step) {
+    const count = viewer.shown.length, {layout} = viewer;
+    showInPlace(layout === "side" ? viewer.active : (viewer.active + step + count) % count);
+}
+
+const toggledMode = mode => setMode(viewer.mode === mode ? "color" : mode);
+
+const zoomByKey = factor => {
+    zoomAbout(0.5, 0.5, factor);
+    drawAll();
+};
+
+function exposeByKey(step) {
+    setExposure(viewer.exposure + step);
+    paint();
+}
+
+function focusFilter() {
+    at("chooser").open = true;
+    at("chooser-filter").focus();
+}
+
+const viewerKeys = {
+    "0": reset,
+    "+": () => zoomByKey(1.5),
+    "-": () => zoomByKey(1 / 1.5),
+    "e": () => toggledMode("absolute"),
+    "d": () => toggledMode("signed"),
+    "s": () => setLayout("side"),
+    "x": () => setLayout("split"),
+    "[": () => setSplit(viewer.splitAt - 0.05),
+    "]": () => setSplit(viewer.splitAt + 0.05),
+    "n": () => showNext(1),
+    "p": () => showNext(-1),
+    "<": () => exposeByKey(-0.25),
+    ">": () => exposeByKey(0.25),
+    ",": () => stepFrame(-1),
+    ".": () => stepFrame(1),
+    "k": () => framesOf(viewer.shot).length > 1 ? togglePlaying() : undefined,
+    "c": toggleCropMode,
+    "/": focusFilter,
+};
+// Those that a focused control needs for itself.
+const paneKeys = {
+    " ": () => showInPlace(viewer.previous),
+    "Enter": pinMiddle,
+};
+const arrowKeys = {
+    ArrowLeft: [-1, 0],
+    ArrowRight: [1, 0],
+    ArrowUp: [0, -1],
+    ArrowDown: [0, 1]
+};
 
 /// Keys work while the viewer has the focus or the pointer; those that a focused control needs are left to it.
 function viewerKey(event) {
     const section = at("viewer"), focused = document.activeElement;
     if (event.ctrlKey || event.metaKey || event.altKey || !(section.contains(focused) || section.matches(":hover")) ||
-        !viewer.images.length)
+        !viewer.shown.length)
         return;
-    const isControl = ["INPUT", "SELECT", "BUTTON"].includes(focused.tagName);
-    const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+    const takesText = focused.matches("input[type=search], input[type=number], textarea");
+    const isControl = focused.matches("input, select, button, textarea, summary, a");
+    if (takesText) return;
     if (event.key >= "1" && event.key <= "9")
         showInPlace(Number(event.key) - 1);
-    else if (event.key === " " && !isControl)
-        showInPlace(viewer.previous);
-    else if (event.key === "0")
-        reset();
-    else if (event.key === "+" || event.key === "-") {
-        zoomAbout(0.5, 0.5, event.key === "+" ? 1.5 : 1 / 1.5);
-        drawAll();
-    } else if (event.key === "e") {
-        viewer.mode = isError(viewer.mode) ? "color" : "absolute";
-        at("viewer-look").querySelector("select").value = viewer.mode;
-        layOut();
-    } else if (arrows[event.key] && viewer.pinned && !isControl)
-        movePin(...arrows[event.key]);
+    else if (viewerKeys[event.key])
+        viewerKeys[event.key]();
+    else if (paneKeys[event.key] && !isControl)
+        paneKeys[event.key]();
+    else if (arrowKeys[event.key] && !isControl)
+        arrowKey(...arrowKeys[event.key], event.shiftKey);
     else
         return;
     event.preventDefault();
 }
 
+function arrowKey(dx, dy, isSizing) {
+    if (crops.isOn && crops.box)
+        moveCropBox(dx, dy, isSizing);
+    else if (viewer.pinned)
+        movePin(dx, dy);
+    else
+        moveView(0.1 * dx, 0.1 * dy);
+}
+
 function movePin(dx, dy) {
-    const {width, height} = viewer.images[0];
+    const {width, height} = viewer.shown[0].image;
     viewer.pinned = {
         x: Math.min(Math.max(viewer.pinned.x + dx, 0), width - 1),
         y: Math.min(Math.max(viewer.pinned.y + dy, 0), height - 1)

@@ -4,7 +4,9 @@ usage: report_figures_test.py REPORT_PAGE_PROGRAM FIGURES_SCRIPT
 """
 
 import argparse
+import copy
 import csv
+import json
 import os
 import subprocess
 import sys
@@ -12,6 +14,7 @@ import tempfile
 
 program, script = sys.argv[1:]
 sys.path.insert(0, os.path.dirname(script))
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "report"))
 sys.dont_write_bytecode = True
 os.environ["MPLBACKEND"] = "Agg"
 
@@ -20,15 +23,15 @@ try:
     import numpy as np
     from figures import SHOT_FIGURES, STUDY_FIGURES
     from matplotlib.text import Text
-    from paper_figures import effects, fetches, style
+    from paper_figures import crops, effects, fetches, style
+    from paper_figures.crop_choice import read_crops
     from paper_figures.crops import crop_boxes
     from paper_figures.exr import ExrError, read_exr_rgb
     from paper_figures.lines import draw_lines
-    from paper_figures.results import Measured, Results
+    from paper_figures.results import Measured, Results, ResultsError
+    from report_crops import FIGURES_JSON, SHOT
 except ImportError as missing:
     sys.exit(f"figures need python3-matplotlib and python3-numpy (tests/run.sh installs them): {missing}")
-
-SHOT = "mirror_pillars.front.160x90"
 
 
 def check(is_true, what):
@@ -108,6 +111,58 @@ def test_crop_boxes():
     )
 
 
+def test_chosen_crops(folder, temporary):
+    """What the report's viewer wrote is drawn: its boxes, points, exposures and tone curves."""
+    file = os.path.join(temporary, "figures.json")
+
+    def read(content):
+        with open(file, "w", encoding="utf-8") as text:
+            json.dump(content, text)
+        return read_crops(file, results)
+
+    def draw(content):
+        chosen = argparse.Namespace(target="specular", metric="relmse", mask="reflective", crops=read(content))
+        return crops.draw(results, SHOT, results.errors_of("specular", "relmse", "reflective"), chosen)
+
+    results = Results(folder)
+    panels = [a for a in draw(FIGURES_JSON).get_axes() if a.get_images()]
+    check(len(panels) == 4 + 2 * (4 + 3), f"{len(panels)} pictures: the truth has no map of errors")
+    boxes = [crop["box"] for crop in FIGURES_JSON["crops"]]
+    found = [[p.get_x() + 0.5, p.get_y() + 0.5, p.get_width(), p.get_height()] for p in panels[3].patches if p.get_fill() is False]
+    check(found == boxes, f"boxes {found}")
+    check(panels[3].get_title().startswith("mcguire_dda stride=4"), "the last point: " + panels[3].get_title())
+    exposed = read_exr_rgb(os.path.join(folder, "images", SHOT, "mcguire_dda_stride=4_0_image.exr"))[50 + 17, 120 + 9] * 2**1.25
+    linear = exposed / (1 + exposed)  # Reinhard et al. 2002
+    expected = [12.92 * v if v <= 0.0031308 else 1.055 * v ** (1 / 2.4) - 0.055 for v in linear]
+    shown = [a.get_images()[0].get_array() for a in panels]
+    # The last row of pictures is followed by three maps of errors; images are halves, and both compute in doubles.
+    check(np.allclose(shown[-4][17, 9], expected, atol=1e-6), f"pixel {shown[-4][17, 9]}, expected {expected}")
+    check(shown[-4].shape == (31, 40, 3), f"a crop of {shown[-4].shape}")
+    plt.close("all")
+
+    def mistake(change, part):
+        content = copy.deepcopy(FIGURES_JSON)
+        change(content["crops"][1])
+        try:
+            draw(content)
+            check(False, f"a mistake is not found: {part}")
+        except ResultsError as e:
+            check(part in str(e) and "\n" not in str(e), f"{part!r} is not in {e}")
+
+    mistake(lambda c: c.update(box=[121, 50, 40, 31]), "figures.json: crops[1]: 'box' [121, 50, 40, 31] does not lie within its image of 160 x 90")
+    mistake(lambda c: c.update(box=[1, 2, 3]), "figures.json: crops[1]: 'box' must be [x, y, width, height] in pixels, not [1, 2, 3]")
+    mistake(lambda c: c.update(exposure="bright"), "crops[1]: 'exposure' must be a number of EV, not \"bright\"")
+    mistake(lambda c: c.update(tone_curve="filmic"), "crops[1]: 'tone_curve' must be one of none, reinhard, aces")
+    mistake(lambda c: c.update(target="specular"), "crops[1]: 'target' must be \"image\" as in the first crop")
+    mistake(lambda c: c.update(shot="of no study"), "crops[1]: 'shot' must be one of " + SHOT)
+    mistake(lambda c: c.pop("points"), "crops[1]: 'points' must be an array of {\"variant\", \"point\"}, and is missing")
+    mistake(lambda c: c["points"].append({"variant": "gone", "point": ""}), "crops[1]: the results have no image of 'gone' for 'target' image in " + SHOT + ", frame 0")
+    mistake(lambda c: c.update(tone_curv="aces"), "crops[1]: 'tone_curv' is not known; did you mean 'tone_curve'?")
+    mistake(lambda c: c["points"].extend({"variant": str(i), "point": ""} for i in range(6)), "no more than 7")
+    result = run_figures(folder, os.path.join(temporary, "none"), "--crops", os.path.join(temporary, "no file"))
+    check(result.returncode == 2 and "no file" in result.stderr, f"a missing file: {result.returncode} {result.stderr}")
+
+
 def test_file_names():
     """Names of glTF cameras, which shots are called by, hold what no file name may, or are longer than one."""
     check(style.file_name("crops_fence.low.160x90") == "crops_fence.low.160x90", "a name that needs no change")
@@ -169,7 +224,7 @@ def test_study(folder):
     """What the figures of a study draw is what its tables hold; no text is smaller than 7 pt."""
     style.apply()
     results = Results(folder)
-    chosen = argparse.Namespace(target="specular", metric=results.headline_metric(), mask="reflective")
+    chosen = argparse.Namespace(target="specular", metric=results.headline_metric(), mask="reflective", crops={})
     errors = results.errors_of(chosen.target, chosen.metric, chosen.mask)
     figures_of = {name: draw(results, chosen) for name, draw in STUDY_FIGURES.items()}
     compared = effects.comparisons(results, chosen)
@@ -222,6 +277,17 @@ def test_study(folder):
     check_text_sizes(figures_of)
 
 
+def test_images_of_frames(folder):
+    """Of a sequence whose frames all have images, those of the last, or of the one that a crop names."""
+    results = Results(folder)
+    for frame, number in ((None, 6), (4, 4)):
+        images = results.images_of("moving.main.160x90.f3-6.w4", "image", frame)
+        found = {key: float(image[0, 0, 0]) for key, image in images.items()}
+        expected = {("reference", ""): 1 / number, ("sssr", "first"): 0.5 / number}
+        check(found.keys() == expected.keys(), f"images of frame {frame}: {found}")
+        check(all(abs(found[k] - v) < 1e-3 * v for k, v in expected.items()), f"images of frame {frame}: {found}")  # one may be stored as a half
+
+
 def test_several_baselines(folder):
     """Each baseline has a figure of its own, and none of the comparisons is left out."""
     results = Results(folder)
@@ -269,9 +335,11 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     test_values_not_above_zero()
     keep_one_shot(folder)
     test_same_bytes(folder, temporary)
+    test_chosen_crops(folder, temporary)
     test_mistakes(folder, temporary)
     study = os.path.join(temporary, "study")
     subprocess.run([program, "--study", study], check=True)
     test_study(study)
+    test_images_of_frames(study)
     test_several_baselines(study)
     test_ratios_far_from_one(study)

@@ -105,7 +105,7 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
     const auto results = [&](const ReferenceHalves& light) {
         FrameStore store(*source, config.depth_format, size_t(1) << 28),
             lit(*source, config.depth_format, size_t(1) << 28);
-        ShotTruth truth = shot_truth(shot, config, store, source->graph(), [&](unsigned, bool) { return reference; });
+        ShotTruth truth = shot_truth(shot, config, store, source->graph(), [&](unsigned, ReferenceUse) { return reference; });
         PoseTruth pose = *truth.poses.at(0);
         pose.diffuse = mean_of(light.a, light.b), pose.lit_halves = light;
         truth.poses[0] = std::make_shared<PoseTruth>(std::move(pose));

@@ -140,6 +140,44 @@ Cell make_cell(const std::filesystem::path& folder, const std::string& shot, glm
     return cell;
 }
 
+/// What the viewer tells of a pixel beside its values: of the truth roughness and a rung of its ladder, which knows
+/// three quarters of what arrives; of the techniques confidence, and verdicts that are right on the left, and hits of
+/// what is not there on the right.
+void add_pixel_images(const std::filesystem::path& folder, const std::string& shot, glm::uvec2 extent, json& images) {
+    const auto add = [&](const std::string& name, const HostImage& image, json entry) {
+        const std::string exr = "images/" + shot + "/" + name + ".exr";
+        write_exr(folder / exr, image, PixelType::half);
+        entry["shot"] = shot, entry["exr"] = exr;
+        images.push_back(entry);
+    };
+    const auto made = [&](const auto& color) {
+        HostImage image(extent, 3);
+        for (unsigned i = 0; i < image.pixel_count(); ++i) image.set_rgb(i, color(i % extent.x));
+        return image;
+    };
+    const auto constant = [&](float value) { return made([&](unsigned) { return glm::vec3(value); }); };
+    const auto truth = [](const char* kind, const char* target) {
+        return json{{"variant", "reference"}, {"kind", kind}, {"target", target}};
+    };
+    add("reference_incident", constant(1.0f), truth("reference", "incident"));
+    add("reference_on_screen", constant(0.75f), truth("reference", "on_screen"));
+    add("roughness", made([&](unsigned x) { return glm::vec3(float(x) / float(extent.x)); }),
+        truth("surface", "roughness"));
+    const glm::vec3 right(0, 158, 115), false_hit(204, 121, 167);  // as map_of_verdicts() has them
+    const HostImage verdicts = made([&](unsigned x) {
+        const bool has_ray = x % 4 != 3;  // else that of its 2 x 2 pixels counts
+        return has_ray ? glm::pow((x < extent.x / 2 ? right : false_hit) / 255.0f, glm::vec3(2.2f)) : glm::vec3(0);
+    });
+    for (const Point& p : points) {
+        const json of_point = {{"variant", p.variant}, {"point", p.point}, {"seed", 0}};
+        json confidence = of_point, hits = of_point;
+        confidence["kind"] = confidence["target"] = "confidence";
+        hits["kind"] = "hits", hits["target"] = "mcguire_dda/trace";
+        add(shown_name(p) + "_confidence", constant(p.missing == 1.0 ? 0.0f : 0.6f), confidence);
+        if (p.missing < 1.0) add(shown_name(p) + "_hits", verdicts, hits);
+    }
+}
+
 json shot_entry(const std::string& shot, glm::uvec2 extent) {
     const bool falls_short = shot == fixture_shots[2];
     return {{"shot", shot},
@@ -260,6 +298,7 @@ void write_report_fixture(const std::filesystem::path& folder) {
                 cells.push_back(make_cell(folder, shot, extent, p, seed));
                 for (const json& image : cells.back().images) manifest["images"].push_back(image);
             }
+        if (shot == fixture_shots[0]) add_pixel_images(folder, shot, extent, manifest["images"]);
     }
     write_tables(folder, rows_of(cells));
     write_text(folder / "manifest.json", manifest.dump(1));

@@ -13,12 +13,16 @@ import tempfile
 from report_browser import By, Select, check, choose, equal, open_browser, until_ready
 from report_use import test_use
 from report_viewer import (
-    test_exposure,
+    test_chooser,
+    test_crops,
+    test_exposure_and_tone_curves,
     test_false_color,
-    test_flip,
+    test_flip_and_split,
+    test_inspector,
+    test_linked_images,
     test_linked_zoom,
-    test_other_shot,
-    test_readout,
+    test_loss_maps,
+    test_other_sections_open_it,
 )
 
 
@@ -164,7 +168,7 @@ def main():
     program = sys.argv[1]
     with tempfile.TemporaryDirectory(prefix="ssrlab_report_") as folder, tempfile.TemporaryDirectory(
         prefix="ssrlab_chromium_"
-    ) as profile:
+    ) as profile, tempfile.TemporaryDirectory(prefix="ssrlab_linked_") as linked:
         subprocess.run([program, folder], check=True)
 
         def pixel_of(file, x, y):
@@ -188,14 +192,19 @@ def main():
             test_sorting(page)
             test_charts(page, folder)
             test_linked_zoom(page)
-            test_flip(page)
-            test_exposure(page)
-            test_readout(page, folder, pixel_of)
+            test_flip_and_split(page)
+            test_exposure_and_tone_curves(page)
+            test_inspector(page, pixel_of)
             test_false_color(page)
-            test_other_shot(page)
+            test_loss_maps(page)
+            test_chooser(page)
+            test_crops(page)
+            test_other_sections_open_it(page)
             if os.environ.get("SSRLAB_SCREENSHOT"):
                 page.save_screenshot(os.environ["SSRLAB_SCREENSHOT"])
             check_quiet(page, url)
+            subprocess.run([program, "--link", linked], check=True)
+            test_linked_images(page, linked)
             test_without_scripts(page, url)
         finally:
             page.quit()

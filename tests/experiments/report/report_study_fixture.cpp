@@ -275,6 +275,24 @@ void add_rung_images(const std::filesystem::path& folder, const std::string& sho
     add({{"variant", "sssr"}, {"point", "first"}, {"seed", 0}, {"kind", "result"}, {"target", "incident"}}, 0.5f);
 }
 
+/// Images of every frame of a sequence, each darker than the one before.
+void add_frame_images(const std::filesystem::path& folder, const std::string& shot, json& images) {
+    for (unsigned frame = 3; frame <= 6; ++frame)
+        for (const char* kind : {"reference", "result"}) {
+            const bool is_truth = std::string(kind) == "reference";
+            const std::string exr = "images/" + std::string(kind) + std::to_string(frame) + ".exr";
+            write_exr(folder / exr, HostImage({16, 9}, 3, (is_truth ? 1.0f : 0.5f) / float(frame)));
+            images.push_back({{"shot", shot},
+                              {"frame", frame},
+                              {"variant", is_truth ? "reference" : "sssr"},
+                              {"point", is_truth ? "" : "first"},
+                              {"seed", 0},
+                              {"kind", kind},
+                              {"target", "image"},
+                              {"exr", exr}});
+        }
+}
+
 }  // namespace
 
 void write_study_fixture(const std::filesystem::path& folder) {
@@ -315,5 +333,6 @@ void write_study_fixture(const std::filesystem::path& folder) {
     write_rows(folder / "time_effects.csv", time_effects(rows.times, variants));
     json manifest = study_manifest(shots);
     add_rung_images(folder, shots.front().name, manifest["images"]);
+    add_frame_images(folder, study_moving_shot, manifest["images"]);
     write_text(folder / "manifest.json", manifest.dump(1));
 }

@@ -12,6 +12,7 @@ import tempfile
 from report_browser import By, check, choose_in, equal, open_browser, rows_of, table_of, until_ready, values
 from report_rays import test_error_shares, test_rays
 from report_stability import test_stability
+from report_viewer import test_frames_of_a_sequence, test_images_of_a_rung
 from selenium.webdriver.support.ui import WebDriverWait
 
 RACING, LADDER = "first race=true", "truth ladder"
@@ -103,13 +104,6 @@ def test_truth_ladder(page, folder):
     choose_in(page, "results", "Target", "incident")
     check(all(c[1][0] != LADDER for c in table_of(page, "#summary")), "no limit where none was measured")
     choose_in(page, "results", "Target", "specular")
-
-
-def test_images_of_a_rung(page):
-    choose_in(page, "viewer", "Target", "on_screen")
-    WebDriverWait(page, 20).until(lambda p: len(p.find_elements(By.CSS_SELECTOR, "#panes figcaption")) == 2)
-    captions = [c.text for c in page.find_elements(By.CSS_SELECTOR, "#panes figcaption")]
-    check(captions[0].endswith("reference") and captions[1].endswith("sssr · first"), f"rung and technique: {captions}")
 
 
 def test_roughness(page, folder):
@@ -398,6 +392,7 @@ def main():
             test_results(page, folder)
             test_truth_ladder(page, folder)
             test_images_of_a_rung(page)
+            test_frames_of_a_sequence(page, MOVING)
             test_roughness(page, folder)
             test_splits(page, folder)
             test_rays(page, folder, MOVING)

@@ -15,10 +15,13 @@
 #include <half.h>
 #include <unistd.h>
 #include <zlib.h>
+#include <array>
 #include <cmath>
 #include <random>
 
 namespace {
+
+using nlohmann::json;
 
 /// The made-up folder, for each test anew.
 struct Report : testing::Test {
@@ -54,6 +57,14 @@ std::vector<ResultRow> seed_rows(std::vector<double> values, std::optional<doubl
         rows.push_back(row);
     }
     return rows;
+}
+
+std::vector<unsigned char> inflated(const std::vector<unsigned char>& packed, size_t expected) {
+    std::vector<unsigned char> bytes(expected);
+    uLongf size = expected;
+    EXPECT_EQ(uncompress(bytes.data(), &size, packed.data(), packed.size()), Z_OK);
+    EXPECT_EQ(size, expected);
+    return bytes;
 }
 
 bool contains(const std::vector<std::string>& texts, const std::string& part) {
@@ -121,55 +132,94 @@ TEST(Summary, AddsUpAStageThatRunsTwiceInAFrame) {
     EXPECT_EQ(t.high, 7.0);
 }
 
-TEST(ReportImages, HalvesComeBackAsImathRoundsThem) {
-    HostImage image({3, 2}, 3);
+TEST(ReportImages, HalvesComeBackBitByBit) {
+    constexpr unsigned width = 5, pixels = 15;
+    HostImage image({width, pixels / width}, 3);
     std::mt19937 random(3);
     for (float& v : image.values) v = std::generate_canonical<float, 24>(random) * 10.0f - 1.0f;
     image.values[0] = NAN, image.values[4] = INFINITY, image.values[9] = 1e6f, image.values[12] = 1e-7f;
+    image.values[13] = -0.0f, image.values[14] = -65504.0f, image.values[17] = 65504.0f;
     size_t clamped = 0;
-    const auto packed = encode_halves(image, clamped);
+    const std::vector<unsigned char> bytes = inflated(encode_halves(image, clamped), 6 * pixels);
     EXPECT_EQ(clamped, 1u);
-    std::vector<unsigned char> bytes(36);
-    uLongf size = bytes.size();
-    ASSERT_EQ(uncompress(bytes.data(), &size, packed.data(), packed.size()), Z_OK);
-    ASSERT_EQ(size, 36u);
-    for (size_t i = 1; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(bytes[i] + bytes[i - 1]);
-    for (size_t i = 0; i < 6; ++i)
-        for (size_t c = 0; c < 3; ++c) {
+    std::array<std::array<int16_t, pixels>, 3> planes{};
+    for (size_t p = 0; p < 3; ++p)
+        for (size_t i = 0; i < pixels; ++i) {
+            const size_t x = i % width, at = p * pixels + i;
+            const int w = x ? planes[p][i - 1] : 0, n = i >= width ? planes[p][i - width] : 0,
+                      nw = x && i >= width ? planes[p][i - width - 1] : 0;
+            const int inner = nw >= std::max(w, n)   ? std::min(w, n)
+                              : nw <= std::min(w, n) ? std::max(w, n)
+                                                     : w + n - nw;
+            const int code = bytes[at] | bytes[3 * pixels + at] << 8;
+            planes[p][i] = int16_t((x && i >= width ? inner : x ? w : n) + (code & 1 ? -1 - code / 2 : code / 2));
+        }
+    for (size_t i = 0; i < pixels; ++i)
+        for (const auto& [c, ordered] : {std::pair<size_t, int>(1, planes[0][i]),
+                                         {0, planes[0][i] + planes[1][i]},
+                                         {2, planes[0][i] + planes[2][i]}}) {
+            const int16_t whole = int16_t(ordered);
             const float value = image.values[i * 3 + c];
             const uint16_t expected = half(value == 1e6f ? 65504.0f : value).bits();
-            EXPECT_EQ(bytes[c * 6 + i] | bytes[18 + c * 6 + i] << 8, expected) << i << ' ' << c;
+            EXPECT_EQ(uint16_t(whole < 0 ? 0x7fff - whole : whole), expected) << i << ' ' << c;
         }
     EXPECT_EQ(base64({'M'}), "TQ==");  // RFC 4648, section 10 has the like
     EXPECT_EQ(base64({'f', 'o', 'o', 'b', 'a'}), "Zm9vYmE=");
     EXPECT_EQ(base64({'f', 'o', 'o', 'b', 'a', 'r'}), "Zm9vYmFy");
 }
 
-TEST_F(Report, ReducesImagesToTheBudgetAndSaysSo) {
+TEST(ReportImages, KeepsWhatNeedsNoHalvesInBytes) {
+    HostImage shares({6, 1}, 1);
+    shares.values = {0.0f, 1.0f, 0.5f, NAN, -3.0f, 1.2f};
+    EXPECT_EQ(inflated(encode_bytes(shares), 6), (std::vector<unsigned char>{0, 254, 127, 255, 0, 254}));
+    const auto linear = [](int code) { return float(half(std::pow(float(code) / 255.0f, 2.2f))); };
+    HostImage verdicts({3, 1}, 3);
+    verdicts.set_rgb(0, {linear(204), linear(121), linear(167)});
+    verdicts.set_rgb(2, verdicts.rgb(0));
+    nlohmann::json palette;
+    EXPECT_EQ(inflated(encode_palette(verdicts, palette), 3), (std::vector<unsigned char>{0, 1, 0}));
+    EXPECT_EQ(palette, nlohmann::json::parse("[[204, 121, 167], [0, 0, 0]]"));
+}
+
+TEST_F(Report, PutsImagesBesideThePageThatAreTooManyForIt) {
     const auto manifest = read_json(folder / "manifest.json");
-    const auto bytes = [](const ReportImages& r) {
-        size_t sum = 0;
-        for (const ReportImage& image : r.images) sum += image.data.size();
-        return sum;
-    };
-    const ReportImages all = report_images(folder, manifest, {}, 100'000'000);
-    EXPECT_EQ(all.images.size(),
-              2u * 3u * 4u);  // targets x shots x (reference and three points), of the first seed only
+    const ReportImages all = report_images(folder, manifest, 100'000'000);
+    // Targets x shots x (reference and three points), of the first seed only; then two rungs, roughness, confidence of
+    // each point, and two maps of verdicts.
+    const size_t images = 2u * 3u * 4u + 2u + 1u + 3u + 2u;
+    EXPECT_EQ(all.data.size(), images);
+    EXPECT_EQ(all.descriptions.size(), images);
     EXPECT_TRUE(all.notes.empty());
-    const ReportImages compared = report_images(folder, manifest, {{"mcguire_dda", "stride=4"}}, 100'000'000);
-    EXPECT_EQ(compared.images.size(), 2u * 3u * 3u);
-    EXPECT_TRUE(contains(compared.notes, "change one parameter of a baseline are not in this page"));
-    const ReportImages foremost = report_images(folder, manifest, {}, bytes(all) * 3 / 4);
-    EXPECT_EQ(foremost.images.size(), 12u);
-    EXPECT_EQ(foremost.images[0].target, "image");
-    EXPECT_TRUE(contains(foremost.notes, "'specular' are not in this page"));
-    const ReportImages half = report_images(folder, manifest, {}, bytes(foremost) * 3 / 4);
-    EXPECT_EQ(half.images.back().width, 81u);  // 161 pixels by two, rounded up
-    EXPECT_TRUE(contains(half.notes, "2 x 2"));
-    const ReportImages some = report_images(folder, manifest, {}, 2000);
-    EXPECT_LE(bytes(some), 2000u);
-    EXPECT_LT(some.images.size(), 12u);
-    EXPECT_TRUE(contains(some.notes, "to keep it small"));
+    size_t text = 0;
+    for (const std::string& data : all.data) text += data.size();
+    EXPECT_EQ(report_images(folder, manifest, text).data.size(), 0u) << "descriptions count, too";
+    EXPECT_TRUE(std::filesystem::exists(folder / report_image_folder));
+    const ReportImages linked = report_images(folder, manifest, text / 2);
+    ASSERT_EQ(linked.descriptions.size(), images);
+    for (size_t i = 0; i < images; ++i) {
+        const std::string file = linked.descriptions[i].value("file", "");
+        EXPECT_EQ(read_text(folder / file), "registerImage(\"" + file + "\",\"" + all.data[i] + "\");\n");
+        EXPECT_EQ(linked.descriptions[i]["width"], all.descriptions[i]["width"]) << "nothing is reduced";
+    }
+    write_text(folder / report_image_folder / "mine.txt", "");
+    EXPECT_EQ(report_images(folder, manifest, 100'000'000).data.size(), images);
+    size_t left = 0;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(folder / report_image_folder))
+        left += file.path().filename() == "mine.txt" ? 1 : 100;
+    EXPECT_EQ(left, 1u) << "scripts of an earlier report go, other files stay";
+}
+
+TEST_F(Report, ShowsTheFirstSeedOfEachFrame) {
+    auto manifest = read_json(folder / "manifest.json");
+    const size_t before = report_images(folder, manifest, 100'000'000).descriptions.size();
+    for (const json& image : json(manifest["images"])) {
+        manifest["images"].push_back(image);
+        manifest["images"].back()["frame"] = 4;
+        manifest["images"].back()["seed"] = image.value("seed", 0) + 3;
+    }
+    const ReportImages of_two = report_images(folder, manifest, 100'000'000);
+    EXPECT_EQ(of_two.descriptions.size(), 2 * before);
+    for (const json& image : of_two.descriptions) EXPECT_EQ(image["seed"], image["frame"] == 4 ? 3 : 0);
 }
 
 TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
@@ -237,7 +287,8 @@ TEST_F(Report, WarnsOfLightThatIsTooNoisy) {
 TEST_F(Report, IsOneSmallFileThatNeedsNothingElse) {
     write_report(folder);
     const std::string page = read_text(folder / "report.html");
-    EXPECT_LT(page.size(), 15'000'000u);
+    EXPECT_LT(page.size(), 30'000'000u);
+    EXPECT_FALSE(std::filesystem::exists(folder / report_image_folder));
     const std::string names = "http://www.w3.org/";  // of XML's vocabularies: nothing is fetched from there
     for (size_t at = 0; (at = page.find("http://", at)) != std::string::npos; ++at)
         EXPECT_EQ(page.substr(at, names.size()), names);

@@ -221,3 +221,39 @@ TEST_F(StudyTest, SweepsOfManyParametersFitIntoFileNames) {
     for (const auto& image : manifest["images"])
         EXPECT_TRUE(fs::exists(folder / "a" / image["png"].get<std::string>())) << image["png"];
 }
+
+TEST_F(StudyTest, KeepsTheImagesOfEveryMeasuredFrame) {
+    Config study =
+        config(R"("mirror_pillars", "camera": "dolly", "frames": 3, "measure_from": 1)", R"(, "images": "all")");
+    study.variants.erase(study.variants.begin());
+    const auto kept = [&] {
+        const nlohmann::json manifest = read_json(run(study, "a") / "manifest.json");
+        std::map<std::string, std::vector<std::pair<unsigned, std::string>>>
+            files;  // frame and name, by what they show
+        for (const auto& image : manifest["images"])
+            files[image["kind"].get<std::string>() + " " + image["target"].get<std::string>()].emplace_back(
+                image["frame"], image["exr"]);
+        for (const auto& [what, own] : files)
+            for (const auto& [frame, name] : own) EXPECT_TRUE(fs::exists(folder / "a" / name)) << name;
+        return files;
+    };
+    const auto all = kept();
+    for (const char* what : {"result image", "result incident", "confidence confidence", "reference image",
+                             "reference incident", "surface roughness"}) {
+        ASSERT_TRUE(all.contains(what)) << what;
+        ASSERT_EQ(all.at(what).size(), 2u) << what;
+        EXPECT_EQ(all.at(what)[0].first, 1u) << what;
+        EXPECT_EQ(all.at(what)[1].first, 2u) << what;
+        EXPECT_NE(read_text(folder / "a" / all.at(what)[0].second), read_text(folder / "a" / all.at(what)[1].second))
+            << what << " of the two frames is the same";
+    }
+    EXPECT_EQ(all.at("error specular").size(), 1u) << "targets are measured in the last frame";
+
+    const size_t cells = count_cells(folder / "a");
+    study.keeps_all_images = false;
+    for (const auto& [what, own] : kept()) {
+        EXPECT_EQ(own.size(), 1u) << what;
+        EXPECT_EQ(own.back().first, 2u) << what;
+    }
+    EXPECT_EQ(count_cells(folder / "a"), cells + 1) << "the point is done anew, its times are not";
+}

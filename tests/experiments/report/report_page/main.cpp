@@ -12,6 +12,7 @@
 
 /// For the tests that look at a report from outside:
 /// report_page DIR                     fills DIR with the made-up results folder and its report
+/// report_page --link DIR              the same with its images beside the page
 /// report_page --study DIR             the same with the made-up study of changes, and a run of `ssrlab stability`
 /// report_page --stability DIR         the same with the latter alone
 /// report_page --halves FILE.exr X Y   prints R G B of a pixel, rounded to half floats
@@ -20,6 +21,9 @@ int main(int argc, char** argv) {
         if (argc == 2) {
             write_report_fixture(argv[1]);
             write_report(argv[1]);
+        } else if (argc == 3 && argv[1] == std::string("--link")) {
+            write_report_fixture(argv[2]);
+            write_report(argv[2], true);
         } else if (argc == 3 && argv[1] == std::string("--study")) {
             write_study_fixture(argv[2]);
             write_stability_fixture(argv[2]);
@@ -32,7 +36,9 @@ int main(int argc, char** argv) {
             const float* pixel = image.pixel(unsigned(std::atoi(argv[3])), unsigned(std::atoi(argv[4])));
             std::printf("%.17g %.17g %.17g\n", double(half(pixel[0])), double(half(pixel[1])), double(half(pixel[2])));
         } else {
-            std::fprintf(stderr, "usage: report_page DIR | --study DIR | --stability DIR | --halves FILE.exr X Y\n");
+            std::fprintf(
+                stderr,
+                "usage: report_page DIR | --link DIR | --study DIR | --stability DIR | --halves FILE.exr X Y\n");
             return 2;
         }
     } catch (const Error& e) {

@@ -1,0 +1,152 @@
+// Crops for figures: a box that is drawn on the images, and the list of boxes that `ssrlab figures DIR FILE` reads.
+
+const crops = {
+    isOn: false,
+    box: null,  // [x, y, width, height] in pixels, y from the top
+    list: []    // as figures.json has them
+};
+const mostCropPoints = 7;  // besides the truth: what fits into the width of a page
+
+function toggleCropMode() {
+    crops.isOn = !crops.isOn;
+    at("crop-mode").setAttribute("aria-pressed", crops.isOn);
+    at("panes").classList.toggle("cropping", crops.isOn);
+    if (crops.isOn && !crops.box) {
+        const {width, height} = viewer.shown[0].image;
+        setCropBox([width * 3 >> 3, height * 3 >> 3, width >> 2, height >> 2]);
+    }
+    showCrops();
+}
+
+function clearCropBox() {
+    crops.box = null;
+    if (crops.list.length || crops.isOn) showCrops();
+}
+
+/// The pixels of both places, and all between.
+function boxBetween(a, b) {
+    const x = Math.min(a.x, b.x), y = Math.min(a.y, b.y);
+    return [x, y, Math.abs(a.x - b.x) + 1, Math.abs(a.y - b.y) + 1];
+}
+
+function setCropBox([x, y, width, height]) {
+    const {image} = viewer.shown[0], clamped = (v, low, high) => Math.min(Math.max(Math.round(v) || 0, low), high);
+    const w = clamped(width, 1, image.width), h = clamped(height, 1, image.height);
+    crops.box = [clamped(x, 0, image.width - w), clamped(y, 0, image.height - h), w, h];
+    showCrops();
+    drawAll();
+}
+
+function moveCropBox(dx, dy, isSizing) {
+    const [x, y, width, height] = crops.box;
+    setCropBox(isSizing ? [x, y, width + dx, height + dy] : [x + dx, y + dy, width, height]);
+}
+
+/// The current box with all that its figure is to show.
+function currentCrop() {
+    const points = viewer.shown.filter(s => s.method.key !== truthKey)
+                       .map(s => ({variant: s.method.variant, point: s.method.point}));
+    return {
+        shot: viewer.shot,
+        frame: viewer.frame,
+        target: viewer.target,
+        box: crops.box,
+        exposure: viewer.exposure,
+        tone_curve: viewer.curve,
+        points: points.slice(0, mostCropPoints)
+    };
+}
+
+const cropsText = () => JSON.stringify({crops: crops.list}, null, 1) + "\n";
+
+const cropPointsOf = list => unique(list.flatMap(c => c.points.map(pointKey)));
+
+/// Why the current box cannot be added: what `ssrlab figures` would refuse. Empty if it can.
+function whyNoCrop() {
+    if (!crops.box) return "";
+    const crop = currentCrop(), others = crops.list.filter(c => c.shot === crop.shot);
+    const other = others.find(c => c.target !== crop.target || c.frame !== crop.frame);
+    if (!crop.points.length) return "A crop needs a point beside the truth.";
+    if (other) return `The crops of a shot share a figure, of target ${other.target} and frame ${other.frame}.`;
+    if (cropPointsOf([...others, crop]).length > mostCropPoints)
+        return `The crops of a shot share a figure, which has room for ${
+            mostCropPoints} points: show those of the others.`;
+    return "";
+}
+
+function addCrop() {
+    crops.list.push(currentCrop());
+    showCrops();
+}
+
+async function copyCrops() {
+    const text = at("crops-json");
+    text.select();
+    try {
+        await navigator.clipboard.writeText(text.value);
+    } catch {
+        document.execCommand("copy");  // where a page that is a file has no clipboard of its own
+    }
+    at("viewer-status").textContent = "Copied figures.json";
+}
+
+function showCrops() {
+    const panel = at("viewer-crop");
+    panel.hidden = !crops.isOn && !crops.box && !crops.list.length;
+    if (panel.hidden) return;
+    if (!panel.childElementCount) panel.append(cropEditor(), h("div", {id: "crop-list"}));
+    const inputs = panel.querySelectorAll("input[type=number]");
+    inputs.forEach((input, i) => {
+        input.disabled = !crops.box;
+        if (document.activeElement !== input) input.value = crops.box?.[i] ?? "";
+    });
+    at("crop-add").disabled = !crops.box || whyNoCrop() !== "";
+    const extra = viewer.shown.filter(s => s.method.key !== truthKey).length - mostCropPoints;
+    const ofExtra =
+        extra > 0 ? `A figure has room for ${mostCropPoints} points: the last ${extra} shown are left out. ` : "";
+    at("crop-note").textContent = ofExtra + whyNoCrop();
+    at("crop-list").replaceChildren(...(crops.list.length ? cropList() : []));
+}
+
+/// One of the box's four numbers, by its place.
+function cropInput(name, place) {
+    const changed = event => {
+        const box = [...crops.box];
+        box[place] = Number(event.target.value);
+        event.target.blur();
+        setCropBox(box);
+    };
+    return h(
+        "label", {}, name, h("input", {type: "number", min: place < 2 ? 0 : 1, id: "crop-" + name, change: changed}));
+}
+
+const cropEditor = () => h(
+    "div", {class: "controls"}, h("b", {}, "Crop"), ["x", "y", "width", "height"].map(cropInput),
+    h("button", {id: "crop-add", click: addCrop}, "Add to figures.json"), h("span", {class: "note", id: "crop-note"}));
+
+function cropList() {
+    const lines = crops.list.map(
+        (crop, i) =>
+            h("li", {},
+              `${crop.shot}, ${crop.target}: [${crop.box.join(", ")}], ${number(crop.exposure)} EV, ${
+                  crop.points.length} points `,
+              h("button", {
+                  "aria-label": `Remove crop ${i + 1}`,
+                  click: () => {
+                      crops.list.splice(i, 1);
+                      showCrops();
+                  }
+              },
+                "×")));
+    const url = "data:application/json;charset=utf-8," + encodeURIComponent(cropsText());
+    const text = h("textarea", {id: "crops-json", readonly: true, rows: 6, "aria-label": "figures.json"});
+    text.value = cropsText();
+    return [
+        h("ol", {}, lines),
+        h("div", {class: "controls"},
+          h("a", {href: url, download: "figures.json", id: "crops-download"}, "Download figures.json"),
+          h("button", {click: copyCrops}, "Copy"),
+          h("span", {class: "note"}, "Then: ", h("code", {}, "ssrlab figures DIR figures.json"))),
+        text
+    ];
+}

@@ -1,0 +1,85 @@
+// All methods at one pixel: value, error, confidence, what became of the ray, and what no single image can know.
+
+/// The images of all methods of the shot, for the pinned pixel; what is there is shown while the rest comes.
+async function loadForInspector() {
+    const {request} = viewer;
+    const indices =
+        viewer.methods.flatMap(m => [resultIndex(m), m.confidence, m.roughness, ...m.verdicts.map(v => v.index)]);
+    const missing = unique([...ladderIndices(), ...indices]).filter(i => i !== undefined && !loadedImages.has(i));
+    for (let first = 0; first < missing.length; first += 8) {
+        await loadImages(missing.slice(first, first + 8));
+        if (request !== viewer.request || !viewer.pinned) return;
+        showReadout();
+    }
+}
+
+/// What became of a method's rays at a pixel, by pass where there are several.
+function verdictText(method, i) {
+    const texts = method.verdicts.map(v => {
+        const image = loadedImages.get(v.index);
+        if (!image) return "…";
+        const key = verdictAt(image, i);
+        return (method.verdicts.length > 1 ? v.stage.split("/").pop() + ": " : "") +
+            (verdicts.find(v => v.key === key)?.name ?? "no ray");
+    });
+    return texts.length ? texts.join("; ") : "–";
+}
+
+const rgbText = rgb => rgb.map(v => number(v, 4)).join(", ");
+
+/// The surface and the truth ladder at the pixel, in words.
+function pixelFacts(i) {
+    const facts = [];
+    const surface = loadedImages.get(truthMethod()?.roughness);
+    if (surface)
+        facts.push(
+            ["Roughness", Number.isFinite(pixelByte(surface, i)) ? pixelByte(surface, i).toFixed(2) : "not finite"]);
+    for (const rung of ["camera_radiance", "on_screen"]) {
+        const image = ladderImage(rung), difference = rungDifference(rung, i);
+        if (image) facts.push([`Rung ${rung} (incident)`, rgbText(pixelRgb(image, i))]);
+        if (difference && rung === "on_screen")
+            facts.push(["No single image can know", `${rgbText(difference)} of ${viewer.target}`]);
+    }
+    return facts;
+}
+
+/// The values of all images at the pinned or pointed pixel.
+function showReadout() {
+    const place = viewer.pinned ?? viewer.pointed;
+    if (!place || !viewer.shown.length) {
+        at("readout").replaceChildren(
+            h("p", {class: "note"}, "Point at an image to read all values of a pixel; a click or Enter pins it."));
+        return;
+    }
+    const ref = base(), i = place.y * viewer.shown[0].image.width + place.x;
+    const unknowable = rungDistances()?.[i] ?? null;
+    const columns = [
+        "Image", "R", "G", "B", "Luminance", "Signed difference", "Absolute difference", "Relative error",
+        "Unknowable share", "Confidence", "Ray"
+    ].map((name, c) => ({name, number: c > 0 && c < 10}));
+    const methods = viewer.pinned ? viewer.methods : viewer.shown.map(s => s.method);
+    const rows = methods.filter(m => resultIndex(m) !== undefined).map(method => {
+        const image = resultOf(method);
+        if (!image) return [method.label, "…", ...Array(columns.length - 2).fill("")];
+        const rgb = pixelRgb(image, i), hasError = ref && image !== ref;
+        const error = mode => hasError ? scalarModes[mode].of(rgb, pixelRgb(ref, i)) : null;
+        const absolute = error("absolute"), confidence = loadedImages.get(method.confidence);
+        const share = unknowable === null || !(absolute > 0) || viewer.baseKey !== truthKey ?
+            null :
+            Math.min(unknowable / absolute, 1);
+        return [
+            method.label, ...rgb.map(v => cell(v, number(v, 5))), number(luminance(rgb), 5),
+            cell(error("signed"), hasError && error("signed") > 0 ? "+" : "", number(error("signed"), 4)),
+            cell(absolute, number(absolute, 5)), cell(error("relative"), number(error("relative"), 4)), percent(share),
+            confidence ? cell(pixelByte(confidence, i), pixelByte(confidence, i).toFixed(2)) : "–",
+            verdictText(method, i)
+        ];
+    });
+    at("readout").replaceChildren(
+        table(columns, rows, {
+            caption: `Pixel ${place.x}, ${place.y}${
+                viewer.pinned ? " (pinned: click it again or press Enter to let go)" : ""}`
+        }),
+        h("dl", {class: "pixel-facts", id: "pixel-facts"},
+          pixelFacts(i).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))));
+}

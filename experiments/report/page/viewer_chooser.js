@@ -1,0 +1,182 @@
+// Which images: shot, target, frame, and any number of methods, grouped by technique.
+
+function showChoiceOfImages(targets) {
+    const layouts = [["side", "Side by side"], ["flip", "Flip in place"], ["split", "Split"]];
+    at("viewer-choice")
+        .replaceChildren(
+            select("Shot", unique(report.images.map(i => i.shot)), viewer.shot, chooseShot),
+            select(
+                "Target", targets, viewer.target,
+                t => {
+                    viewer.target = t;
+                    setScale(0);
+                    return showImages();
+                }),
+            h("span", {class: "button-row", role: "group", "aria-label": "Layout"},
+              ...layouts.map(([key, name]) => h("button", {id: "layout-" + key, click: () => setLayout(key)}, name))),
+            h("button", {id: "crop-mode", "aria-pressed": crops.isOn, click: toggleCropMode}, "Crop"));
+    const names = viewer.methods.map(m => [m.key, m.label]);
+    at("viewer-images").replaceChildren(h("div", {class: "controls", id: "viewer-chips"}), chooser());
+    at("viewer-pair")
+        .replaceChildren(
+            select("Left", names, truthKey, key => pair("active", key)),
+            select("Right", names, truthKey, key => pair("previous", key)),
+            h("label", {}, "Split at", h("input", {
+                  type: "range",
+                  id: "split-at",
+                  min: 0,
+                  max: 100,
+                  value: 100 * viewer.splitAt,
+                  input: event => setSplit(Number(event.target.value) / 100)
+              })));
+    showBases();
+    showChosenImages();
+}
+
+/// Chooses an image of the pair; one that is not shown yet is from now on.
+async function pair(which, key) {
+    if (!viewer.chosen.includes(key)) await setChosen([...viewer.chosen, key]);
+    viewer[which] = viewer.shown.findIndex(s => s.method.key === key);
+    layOut();
+}
+
+function showPair() {
+    at("viewer-pair").hidden = viewer.layout !== "split";
+    const [left, right] = at("viewer-pair").querySelectorAll("select");
+    left.value = viewer.shown[viewer.active]?.method.key;
+    right.value = viewer.shown[viewer.previous]?.method.key;
+}
+
+function setSplit(place) {
+    viewer.splitAt = Math.min(Math.max(place, 0), 1);
+    at("split-at").value = 100 * viewer.splitAt;
+    drawAll();
+}
+
+const manyPoints = 12;  // of a technique: they have the whole width
+
+/// All methods with a box each, by technique; `filter` leaves those that hold all of its words.
+function chooser() {
+    const groups = unique(viewer.methods.map(m => m.variant)).map(variant => {
+        const own = viewer.methods.filter(m => m.variant === variant);
+        const boxes = own.map(
+            method =>
+                h("label", {"data-key": method.key}, h("input", {
+                      type: "checkbox",
+                      checked: viewer.chosen.includes(method.key),
+                      change: event => choose([method.key], event.target.checked)
+                  }),
+                  own.length > 1 ? method.point || method.label : method.label));
+        const all = own.length > 1 ? h("button", {
+            click: () => choose(listedKeys(own), !listedKeys(own).every(key => viewer.chosen.includes(key))),
+            "aria-label": `all / none of ${variant}`
+        },
+                                       "all / none") :
+                                     "";
+        return h(
+            "fieldset", {class: own.length > manyPoints ? "many" : null},
+            h("legend", {}, variant === truthKey ? "truth" : variant, " ", all), boxes);
+    });
+    const listed = () => listedKeys(viewer.methods);
+    return h(
+        "details", {id: "chooser"}, h("summary", {id: "chooser-count"}),
+        h("div", {class: "controls"}, h("label", {}, "Filter", h("input", {
+                                            type: "search",
+                                            id: "chooser-filter",
+                                            placeholder: "words of a name",
+                                            input: event => filterChooser(event.target.value)
+                                        })),
+          h("button", {id: "chooser-all", click: () => choose(listed(), true)}, "Show all listed"),
+          h("button", {id: "chooser-none", click: () => choose(listed(), false)}, "Show none of them")),
+        h("div", {class: "chooser-groups"}, groups));
+}
+
+const boxOf = key => at("chooser").querySelector(`label[data-key="${CSS.escape(key)}"]`);
+const listedKeys = methods => methods.filter(m => !boxOf(m.key).hidden).map(m => m.key);
+
+function choose(keys, isShown) {
+    const others = viewer.chosen.filter(key => !keys.includes(key));
+    return setChosen(isShown ? [...others, ...keys] : others);
+}
+
+function filterChooser(text) {
+    const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+    for (const method of viewer.methods)
+        boxOf(method.key).hidden = !words.every(w => method.label.toLowerCase().includes(w));
+    for (const group of at("chooser").querySelectorAll("fieldset"))
+        group.hidden = !group.querySelector("label:not([hidden])");
+}
+
+/// What is shown, as chips, and the chooser's state.
+function showChosenImages() {
+    const shownKeys = viewer.chosen.filter(key => viewer.methods.some(m => m.key === key));
+    at("chooser-count").textContent = `Choose images: ${shownKeys.length} of ${viewer.methods.length} shown`;
+    for (const method of viewer.methods)
+        boxOf(method.key).querySelector("input").checked = viewer.chosen.includes(method.key);
+    const current = viewer.layout === "side" ? null : viewer.shown[viewer.active]?.method.key;
+    const focused = [...at("viewer-chips").querySelectorAll("button")].indexOf(document.activeElement);
+    at("viewer-chips").replaceChildren(...shownKeys.map((key, i) => {
+        const {label} = viewer.methods.find(m => m.key === key);
+        return h(
+            "span", {class: "chip"},
+            h("button", {
+                "aria-pressed": key === current ? "true" : "false",
+                title: "Show in place",
+                click: () => showInPlace(viewer.shown.findIndex(s => s.method.key === key))
+            },
+              i < 9 ? h("kbd", {}, String(i + 1)) : null, label),
+            h("button", {"aria-label": `Remove ${label}`, title: "Remove", click: () => choose([key], false)}, "×"));
+    }));
+    const buttons = at("viewer-chips").querySelectorAll("button");
+    if (focused >= 0 && buttons.length) buttons[Math.min(focused, buttons.length - 1)].focus();
+}
+
+/// The slider over the frames that have images, where there are several.
+function showTime() {
+    const frames = framesOf(viewer.shot);
+    at("viewer-time").hidden = frames.length < 2;
+    if (frames.length < 2) return;
+    at("viewer-time")
+        .replaceChildren(
+            h("button", {id: "play", "aria-pressed": "false", click: togglePlaying}, "Play"),
+            h("label", {}, "Frame", h("input", {
+                  type: "range",
+                  id: "time",
+                  min: 0,
+                  max: frames.length - 1,
+                  step: 1,
+                  value: frames.indexOf(viewer.frame),
+                  "aria-valuetext": `frame ${viewer.frame}`,
+                  input: event => setFrame(frames[Number(event.target.value)])
+              })),
+            h("output", {id: "time-text"}, String(viewer.frame)));
+}
+
+function setFrame(frame) {
+    const frames = framesOf(viewer.shot);
+    at("time").value = frames.indexOf(frame);
+    at("time").setAttribute("aria-valuetext", `frame ${frame}`);
+    at("time-text").textContent = String(frame);
+    return chooseFrame(frame);
+}
+
+/// `step` frames on, around the end.
+function stepFrame(step) {
+    const frames = framesOf(viewer.shot);
+    if (frames.length < 2) return;
+    const place = (frames.indexOf(viewer.frame) + step + frames.length) % frames.length;
+    return setFrame(frames[place]);
+}
+
+const playInterval = 200;  // ms between frames, longer where images must be loaded
+
+async function togglePlaying() {
+    viewer.isPlaying = !viewer.isPlaying;
+    const {shot} = viewer;
+    while (viewer.isPlaying && viewer.shot === shot) {
+        at("play").setAttribute("aria-pressed", "true");
+        await Promise.all([stepFrame(1), new Promise(resolve => setTimeout(resolve, playInterval))]);
+    }
+    viewer.isPlaying = false;
+    at("play")?.setAttribute("aria-pressed", "false");
+}

@@ -1,0 +1,147 @@
+// How images are shown: mode, exposure, tone curve, scale; and the legend of what is seen.
+
+const viewerModes = [
+    ["color", "colour"], ["absolute", "absolute difference"], ["signed", "signed difference"],
+    ["relative", "relative error"], ["luminance", "luminance"], ["nearest", "which method is nearest to the truth"],
+    ["cause", "cause of the error"], ["rays", "where rays ended"], ["confidence", "confidence"]
+];
+
+const lookRange = (id, label, attributes, changed) =>
+    h("label", {}, label,
+      h("input", {type: "range", id, step: 0.25, ...attributes, input: event => changed(Number(event.target.value))}),
+      h("output", {id: id + "-value"}));
+
+function showLook() {
+    const zoom = (text, label, factor) =>
+        h("button", {
+            click: () => {
+                zoomAbout(0.5, 0.5, factor);
+                drawAll();
+            },
+            "aria-label": label
+        },
+          text);
+    at("viewer-look")
+        .append(
+            select("Show", viewerModes, viewer.mode, setMode), h("span", {id: "viewer-base"}),
+            h("label", {}, h("input", {
+                  type: "checkbox",
+                  id: "error-row",
+                  change: event => {
+                      viewer.hasErrorRow = event.target.checked;
+                      layOut();
+                  }
+              }),
+              "absolute difference below"),
+            lookRange(
+                "exposure", "Exposure (EV)", {min: -10, max: 10},
+                value => {
+                    setExposure(value);
+                    paint();
+                }),
+            select(
+                "Tone curve", Object.entries(toneCurves).map(([key, curve]) => [key, curve.title]), viewer.curve,
+                curve => {
+                    viewer.curve = curve;
+                    paint();
+                }),
+            lookRange(
+                "scale", "False-colour scale", {min: -6, max: 6},
+                value => {
+                    setScale(value);
+                    paint();
+                }),
+            zoom("+", "Zoom in", 1.5), zoom("−", "Zoom out", 1 / 1.5),
+            h("button", {id: "reset", click: reset}, "Reset view"));
+}
+
+/// What differences are taken against: the truth, or any other image.
+function showBases() {
+    at("viewer-base")
+        .replaceChildren(select("Against", viewer.methods.map(m => [m.key, m.label]), viewer.baseKey, key => {
+            viewer.baseKey = key;
+            return showImages();
+        }));
+}
+
+function setMode(mode) {
+    viewer.mode = mode;
+    at("viewer-look").querySelector("select").value = mode;
+    // The map of the nearest method stands in the truth's place.
+    if (mode === "nearest" && !viewer.chosen.includes(truthKey)) viewer.chosen = [truthKey, ...viewer.chosen];
+    return showImages();
+}
+
+function setExposure(value) {
+    viewer.exposure = Math.min(Math.max(value, -10), 10);
+    at("exposure").value = viewer.exposure;
+    at("exposure-value").textContent = (viewer.exposure > 0 ? "+" : "") + number(viewer.exposure);
+}
+
+/// `value`: the logarithm of what the scale is multiplied by, to the base of 2.
+function setScale(value) {
+    viewer.scale = value;
+    at("scale").value = value;
+    at("scale-value").textContent = "× " + number(2 ** value, 3);
+}
+
+function reset() {
+    Object.assign(view, {x: 0.5, y: 0.5, zoom: 1});
+    viewer.pinned = null;
+    setScale(0);
+    setExposure(shotExposure(viewer.shot));
+    paint();
+}
+
+/// Explains the colours of the current mode; `maximumOf` gives false colour's scale.
+function showLegend(maximumOf) {
+    const curve = viewer.curve === "none" ? "clipped at 1" : `tone curve ${toneCurves[viewer.curve].title}`;
+    const shownAs = `${viewer.shot}${at("viewer-time").hidden ? "" : `, frame ${viewer.frame}`}, ${
+        viewer.target}; exposure ${at("exposure-value").textContent} EV, ${
+        curve} (for display alone: all values are kept). Magenta: not finite.`;
+    const parts = viewer.mode === "nearest" ? nearestLegend() :
+        viewer.mode === "cause"             ? causeLegend() :
+        viewer.mode === "rays"              ? verdictMapLegend() :
+                                              [];
+    const scaled = scalarModes[viewer.mode] ? viewer.mode : viewer.hasErrorRow ? "absolute" : null;
+    const hasBar = scaled && viewer.shown.length && (!isError(scaled) || base());
+    at("viewer-legend")
+        .replaceChildren(...(hasBar ? [colorBar(scaled, maximumOf)] : []), ...parts, h("p", {class: "note"}, shownAs));
+}
+
+function colorBar(mode, maximumOf) {
+    const {formula, isSigned, isFixed} = scalarModes[mode];
+    const maximum = isFixed ? 1 : maximumOf(mode);
+    const bar = h("canvas", {width: 256, height: 1, role: "img", "aria-label": "Colour scale"});
+    const context = bar.getContext("2d");
+    (isSigned ? diverging : magma).forEach((color, i) => {
+        context.fillStyle = `rgb(${color})`;
+        context.fillRect(i, 0, 1, 1);
+    });
+    const against = isError(mode) && viewer.baseKey !== truthKey ?
+        ` against ${viewer.methods.find(m => m.key === viewer.baseKey)?.label}` :
+        "";
+    return h(
+        "p", {class: "color-bar", id: "color-bar"}, h("span", {}, isSigned ? `−${number(maximum, 3)}` : "0"), bar,
+        h("output", {id: "scale-text"}, `${number(maximum, 3)} (${formula}${against}; one scale for all)`));
+}
+
+function keyHelp() {
+    const keys = [
+        ["1…9", "one image in place (with a split: on the left)"], ["Space", "the one before in its place"],
+        ["n p", "next and previous image in place"], ["s", "side by side"], ["x", "split"], ["[ ]", "move the split"],
+        ["e", "absolute difference"], ["d", "signed difference"], ["+ -", "zoom; the wheel does it at the pointer"],
+        ["← ↑ → ↓", "move the pinned pixel, else the view"], ["Enter", "pin the pixel in the middle, or let go"],
+        ["< >", "exposure"], [", .", "frame before and after"], ["k", "play, or stop"],
+        ["c", "crop: arrows move the box, with Shift they size it"], ["/", "filter the images"], ["0", "reset the view"]
+    ];
+    return h(
+        "details", {id: "viewer-keys"}, h("summary", {}, "Keys"),
+        h("p", {class: "note"},
+          "They work while the viewer has the focus or the pointer. " +
+              "Dragging pans, a click pins a pixel, Shift and dragging draws a crop."),
+        h("dl", {class: "keys"},
+          keys.map(
+              ([own, what]) =>
+                  h("div", {}, h("dt", {}, own.split(" ").map(key => h("kbd", {}, key))), h("dd", {}, what)))));
+}
