@@ -18,10 +18,10 @@ std::string shown(double value) {
     return text;
 }
 
-/// Two, of a ratio.
+/// Two, of a ratio; three near 1, where two would hide on which side it lies.
 std::string shown_ratio(double ratio) {
     char text[32];
-    std::snprintf(text, sizeof text, ratio < 9.95 ? "%.2g" : "%.0f", ratio);
+    std::snprintf(text, sizeof text, std::abs(ratio - 1) < 0.1 ? "%.3g" : ratio < 9.95 ? "%.2g" : "%.0f", ratio);
     return std::string(text) + "x";
 }
 
