@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # The navigation: a group's title, and its pages with their titles there. A page that is not named is listed under "More".
 PAGES = {
     "Running studies": {
+        "experiments/findings/README": "Findings",
         "experiments/README": "Studies and their keys",
         "experiments/RESULTS": "A results folder",
         "scenes/README": "Scenes",
