@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """The pictures of the repository's README, in experiments/figures/readme.
 
-usage: experiments/figures/readme_pictures.py [RESULTS]
+usage: experiments/figures/readme_pictures.py [RESULTS] [--report QUICKSTART]
 
-error_time.png is drawn from experiments/summaries/best.csv. With RESULTS, a folder that `ssrlab run
-experiments/configs/readme.json` filled, comparison.png too. Needs Debian's python3-matplotlib, -numpy and -pil.
+error_time.png is drawn from experiments/summaries/quickstart.csv. With RESULTS, a folder that `ssrlab run
+experiments/configs/readme.json` filled, comparison.png too; with QUICKSTART, that of the quickstart, the first screen of
+its report (report.png). Needs chromium for that, and Debian's python3-matplotlib, -numpy and -pil.
 """
 
 import argparse
 import hashlib
 import io
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 try:
@@ -30,9 +33,9 @@ from paper_figures.results import Results, ResultsError, label  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
-SUMMARY = FOLDER.parent / "summaries/best.csv"
+SUMMARY = FOLDER.parent / "summaries/quickstart.csv"
 OUT = FOLDER / "readme"
-SHOTS = ("contact_hardening", "moving_emitter", "metal_corner")  # still, in motion, at a larger size
+SHOTS = ("roughness_gradient", "fence", "passing_pillars")  # all roughnesses, thin bars, in motion
 DOTS_PER_INCH = 150  # 1050 pixels across: what hosts show of a README is narrower
 SCENE, DISCS = np.s_[34:172], np.s_[104:172]  # rows of the comparison's images, and of its error maps, which are 0 above
 COLOURS = 256  # of the palette: the files are a third as large as with all colours, and look the same
@@ -47,7 +50,11 @@ def save(figure, name, made_from):
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=DOTS_PER_INCH, format="png")
     plt.close(figure)
-    picture = Image.open(drawn).convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    keep(Image.open(drawn), name, made_from)
+
+
+def keep(picture, name, made_from):
+    picture = picture.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
     notes = PngImagePlugin.PngInfo()
     notes.add_text("Source", made_from)
     OUT.mkdir(exist_ok=True)
@@ -61,15 +68,15 @@ def whiskers(cell):
 
 
 def draw_error_time():
-    """A panel per shot; a technique's presets are joined, from the published one to the one that a search found."""
+    """A panel per shot; a technique as published and at its best, its last preset, are joined."""
     _, tables = summary_file.read(str(SUMMARY))
     cells = {name: {(c.row, c.column): c for c in tables[name][1]} for name in ("errors", "times")}
     rows = list(dict.fromkeys(row for row, _ in cells["errors"]))
-    techniques = list(dict.fromkeys(row.split(",")[0] for row in rows if row != "none"))
+    techniques = list(dict.fromkeys(row.split(",")[0] for row in rows if not row.startswith("none")))
     figure, panels, legend = style.panels(len(SHOTS), height=5.0)
     for axes, scene in zip(panels, SHOTS):
         shot = next(column for _, column in cells["errors"] if column.startswith(scene + "."))
-        none = cells["errors"]["none", shot]
+        none = cells["errors"][next(row for row in rows if row.startswith("none")), shot]
         axes.axhline(none.value, color="#666666", linestyle="--", label="no reflections but the environment")
         for index, technique in enumerate(techniques):
             color, mark = style.series(index)
@@ -77,7 +84,7 @@ def draw_error_time():
             places = [(cells["times"][row, shot], cells["errors"][row, shot]) for row in presets]
             axes.plot([t.value for t, _ in places], [e.value for _, e in places], color=color, linewidth=0.7)
             for row, (time, error) in zip(presets, places):
-                is_best = row.endswith(", best")
+                is_best = row == presets[-1]
                 axes.errorbar([time.value], [error.value], xerr=whiskers(time), yerr=whiskers(error), fmt=mark, color=color,
                               markerfacecolor=color if is_best else "white", label=technique if is_best else None)
         size = shot.split(".")[2]
@@ -85,7 +92,7 @@ def draw_error_time():
         style.log_axis(axes.xaxis)
         style.log_axis(axes.yaxis)
         axes.margins(0.12)
-    panels[0].set_ylabel("relMSE of the reflection")
+    panels[0].set_ylabel("MSE of the reflection")
     style.draw_legend(legend, panels)
     save(figure, "error_time", digest(SUMMARY))
 
@@ -95,7 +102,7 @@ def draw_comparison(folder):
     results = Results(folder)
     shot = results.shots()[0]
     images = results.images_of(shot, "image")
-    errors = results.errors_of("specular", "relmse", "reflective")
+    errors = results.errors_of("specular", "mse", "reflective")
     truth = images.pop(("reference", ""))
     maps = {key: crops.absolute_error(image, truth) for key, image in images.items()}
     most = float(np.nanquantile(np.stack(list(maps.values())), 0.99))
@@ -107,7 +114,7 @@ def draw_comparison(folder):
         top, below = grid[index // columns * 2 : index // columns * 2 + 2, index % columns]
         crops.show(top, crops.display(image[SCENE], results.exposure(shot)))
         if key not in maps:
-            top.set_title("path-traced truth (the others: relMSE)")
+            top.set_title("path-traced truth (the others: MSE)")
             below.axis("off")
             scale = below.inset_axes([0.1, 0.8, 0.8, 0.16])
             bar = figure.colorbar(ScalarMappable(Normalize(0, most), "magma"), cax=scale, orientation="horizontal", extend="max")
@@ -120,15 +127,29 @@ def draw_comparison(folder):
     save(figure, "comparison", digest(FOLDER.parent / "configs/readme.json"))
 
 
+def draw_report(folder):
+    """The first screen of a report, 1280x800."""
+    page = (Path(folder) / "report.html").resolve()
+    with tempfile.TemporaryDirectory() as scratch:
+        shot = Path(scratch) / "report.png"
+        command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--window-size=1280,800"]
+        command += ["--virtual-time-budget=10000", f"--screenshot={shot}", page.as_uri()]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        keep(Image.open(shot), "report", digest(FOLDER.parent / "configs/quickstart.json"))
+
+
 def main():
     parser = argparse.ArgumentParser(description="The pictures of the README (PNG).")
     parser.add_argument("results", nargs="?", help="a folder that `ssrlab run experiments/configs/readme.json` filled")
+    parser.add_argument("--report", metavar="QUICKSTART", help="the results folder of the quickstart, for a picture of its report")
     arguments = parser.parse_args()
     style.apply()
     try:
         draw_error_time()
         if arguments.results:
             draw_comparison(arguments.results)
+        if arguments.report:
+            draw_report(arguments.report)
     except ResultsError as mistake:
         print(f"error: {mistake}", file=sys.stderr)
         return 2

@@ -23,13 +23,40 @@ constexpr size_t page_bytes =
     30'000'000;  ///< a page is mailed and opened at once: the images of larger ones lie beside it
 
 /// The page's scripts, in the order in which they build on each other.
-constexpr const char* scripts[] = {
-    "data.js",         "page.js",      "points.js",   "sections.js",       "plots.js",        "bars.js",
-    "strips.js",       "ladder.js",    "mistakes.js", "provenance.js",     "summary.js",      "error_time.js",
-    "answers.js",      "matrix.js",    "explore.js",  "hits.js",           "error_shares.js", "stages.js",
-    "roughness.js",    "splits.js",    "effects.js",  "temporal.js",       "stability.js",    "image_data.js",
-    "image_colors.js", "panes.js",     "viewer.js",   "viewer_chooser.js", "viewer_look.js",  "viewer_input.js",
-    "loss_maps.js",    "inspector.js", "crops.js",    "start.js"};
+constexpr const char* scripts[] = {"data.js",
+                                   "page.js",
+                                   "points.js",
+                                   "sections/facts.js",
+                                   "plots.js",
+                                   "bars.js",
+                                   "strips.js",
+                                   "ladder.js",
+                                   "mistakes.js",
+                                   "provenance.js",
+                                   "first_screen/summary.js",
+                                   "first_screen/error_time.js",
+                                   "first_screen/answers.js",
+                                   "first_screen/matrix.js",
+                                   "first_screen/explore.js",
+                                   "sections/hits.js",
+                                   "sections/error_shares.js",
+                                   "sections/stages.js",
+                                   "sections/roughness.js",
+                                   "sections/splits.js",
+                                   "sections/effects.js",
+                                   "sections/temporal.js",
+                                   "sections/stability.js",
+                                   "viewer/image_data.js",
+                                   "viewer/image_colors.js",
+                                   "viewer/panes.js",
+                                   "viewer/viewer.js",
+                                   "viewer/viewer_chooser.js",
+                                   "viewer/viewer_look.js",
+                                   "viewer/viewer_input.js",
+                                   "viewer/loss_maps.js",
+                                   "viewer/inspector.js",
+                                   "viewer/crops.js",
+                                   "start.js"};
 
 std::string part(const std::string& name) {
     return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report/page" / name);
@@ -141,7 +168,7 @@ void write_page(const std::filesystem::path& folder, const std::string& title, c
 void write_report(const std::filesystem::path& folder, bool links_images) {
     const json stability = stability_report_data(folder);
     const std::string stability_part = stability.is_null() ? "" : stability_html(stability);
-    std::map<std::string, std::string> values = {{"style", part("style.css") + part("viewer.css")},
+    std::map<std::string, std::string> values = {{"style", part("style.css") + part("viewer/viewer.css")},
                                                  {"plot", part("vendor/plot.js")}};
     for (const char* name : scripts) values["script"] += part(name);
     if (!stability.is_null() && !std::filesystem::exists(folder / "manifest.json")) {

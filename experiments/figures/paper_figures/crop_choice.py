@@ -1,4 +1,4 @@
-"""figures.json: the crops that the report's viewer collects (its page/crops.js writes the file)."""
+"""figures.json: the crops that the report's viewer collects (its page/viewer/crops.js writes the file)."""
 
 import json
 import math
