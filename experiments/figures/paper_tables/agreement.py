@@ -47,7 +47,7 @@ def agreement_rows(rows):
             points = [p for p in metrics[metric] if p in metrics[against]]
             tau = kendall_tau([metrics[metric][p] for p in points], [metrics[against][p] for p in points])
             if len(points) > 2 and tau is not None:
-                yield {"shot": shot, "metric": metric, "against": against, "value": tau}
+                yield {"shot": shot, "metric": metric, "against": against, "value": repr(tau)}
 
 
 def read_judgements(file=JUDGEMENTS):
@@ -78,7 +78,7 @@ def eye_rows(rows, judgements):
                 "pair": str(number),
                 "metric": metric,
                 "what": "pairs ordered alike",
-                "value": float((first < second) == (judged["nearer"] == "first")),
+                "value": repr(float((first < second) == (judged["nearer"] == "first"))),
             }
 
 

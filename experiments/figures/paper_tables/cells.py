@@ -107,6 +107,9 @@ class Selection:
             rows = list(_split_rows(rows))
         if table.of in ("results", "limits", "agreement", "eye"):
             rows = rows_that_speak(rows)
+        if table.of == "hits":
+            last = {s["shot"]: str(s["frame"]) for s in self.shots if "frame" in s}
+            rows = [r for r in rows if r["frame"] == last.get(r["shot"], r["frame"])]
         self.rows = [r for r in rows if all(self._is_inside(r, k) for k in table.where)]
         if table.of == "limits":
             self.rows = list(limits.limit_rows(self.rows, self.shots))

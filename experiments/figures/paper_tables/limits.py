@@ -14,7 +14,7 @@ def _limits(shots):
 
 
 def _quotient(numerator, denominator):
-    return float(numerator) / denominator if numerator and denominator and denominator > 0 else ""
+    return repr(float(numerator) / denominator) if numerator and denominator and denominator > 0 else ""
 
 
 def limit_rows(rows, shots):

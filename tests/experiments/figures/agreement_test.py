@@ -27,7 +27,7 @@ class Agreement(unittest.TestCase):
 
     def test_more_is_better_by_ssim(self):
         both = rows("mse", {"a": 1, "b": 2, "c": 3}) + rows("ssim", {"a": 0.9, "b": 0.8, "c": 0.7})
-        taus = {(r["metric"], r["against"]): r["value"] for r in agreement.agreement_rows(both)}
+        taus = {(r["metric"], r["against"]): float(r["value"]) for r in agreement.agreement_rows(both)}
         self.assertEqual(taus[("mse", "ssim")], 1)
         self.assertEqual(len(taus), 4)
 
@@ -51,7 +51,7 @@ class Agreement(unittest.TestCase):
         judged = {"shot": "s", "first": "v", "first_point": "a", "second": "v", "second_point": "b"}
         swapped = judged | {"first_point": "b", "second_point": "a"}  # judges differ: undecided
         found = list(agreement.eye_rows(both, [judged | {"nearer": "second"}] * 2 + [swapped | {"nearer": n} for n in ("first", "second")]))
-        self.assertEqual({r["metric"]: r["value"] for r in found}, {"mse": 0, "ssim": 1})
+        self.assertEqual({r["metric"]: r["value"] for r in found}, {"mse": "0.0", "ssim": "1.0"})
         with self.assertRaises(ResultsError):
             list(agreement.eye_rows(both, [judged | {"shot": "another", "nearer": "first"}]))
 
@@ -62,7 +62,7 @@ class Limits(unittest.TestCase):
         shots = [{"shot": "s", "truth_ladder": [ladder, ladder | {"rung": "camera_radiance", "value": 9.0}]}]
         row = {"shot": "s", "target": "specular", "metric": "mse", "mask": "all", "value": "8", "low": "6", "high": "10"}
         found = list(limits.limit_rows([row, row | {"mask": "edge"}, row | {"low": "", "high": ""}], shots))
-        self.assertEqual([(r["value"], r["low"], r["high"]) for r in found], [(4, 1.5, 10), (4, "", "")])
+        self.assertEqual([(r["value"], r["low"], r["high"]) for r in found], [("4.0", "1.5", "10.0"), ("4.0", "", "")])
 
 
 class Excerpts(unittest.TestCase):
