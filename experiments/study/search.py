@@ -20,7 +20,8 @@ import subprocess
 import sys
 from dataclasses import dataclass
 
-from paper_figures.results import Results, ResultsError
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../figures"))
+from paper_figures.results import Results, ResultsError  # noqa: E402  (found by the path above)
 
 
 HOPELESS = 1.25  # least ratio of a value that is not tried again
