@@ -108,10 +108,25 @@ const Scored& find(const std::vector<Scored>& scored, const AnswerPoint& point) 
         scored, [&](const Scored& s) { return s.point.variant == point.variant && s.point.point == point.point; });
 }
 
+/// What a reader must know before a time is believed.
+struct Clock {
+    double floor = 0;        ///< by which two copies of the same point differed: smaller differences say nothing
+    bool is_proven = false;  ///< the clock that timed the shot proved itself
+};
+Clock clock_of(const json& manifest, const std::string& shot) {
+    const json clock = manifest.value("clock", json::object());
+    Clock found;
+    if (clock.contains("aa_floor") && clock["aa_floor"].is_number()) found.floor = clock["aa_floor"];
+    for (const json& proof : clock.value("proofs", json::array()))
+        if (std::ranges::count(proof.value("shots", json::array()), json(shot)) > 0)
+            found.is_proven = proof.value("verdict", "") == "passed";
+    return found;
+}
+
 /// "; Y takes 0.6x its time at 1.8x the error": of the front's cheaper points, the one with the least error among those
-/// that save a fifth of the time or more.
-std::string cheaper_clause(const ShotAnswer& answer, const std::vector<Scored>& scored) {
-    constexpr double worth_while = 0.8;
+/// that save a fifth of the time or more, and more than copies of the same point differ by.
+std::string cheaper_clause(const ShotAnswer& answer, const std::vector<Scored>& scored, const Clock& clock) {
+    const double worth_while = std::min(0.8, 1 - clock.floor);
     const TimeSummary* own = find(scored, *answer.best).time;
     if (!own || !(own->median > 0)) return "";
     for (auto p = answer.front.rbegin(); p != answer.front.rend(); ++p) {
@@ -120,9 +135,11 @@ std::string cheaper_clause(const ShotAnswer& answer, const std::vector<Scored>& 
         const Ratio times = ratio_of(time->median, time->low, time->high, own->median, own->low, own->high),
                     errors =
                         ratio_of(p->value, p->low, p->high, answer.best->value, answer.best->low, answer.best->high);
-        return "; " + name_of(*p) + " takes " + shown(times) + " its time at " + shown(errors) + " the error";
+        return "; " + name_of(*p) + " takes " + shown(times) + " its time" +
+               (clock.is_proven ? "" : " (by a clock that did not prove itself)") + " at " + shown(errors) +
+               " the error";
     }
-    return "; nothing that was timed is faster by a fifth and on the front";
+    return "; nothing on the front is faster by a fifth, or by more than copies of one point differ";
 }
 
 std::string limit_clause(const ShotAnswer& answer) {
@@ -141,7 +158,8 @@ std::string gain_clause(const ShotAnswer& answer) {
     return " (" + shown_ratio(answer.best->value / answer.baseline->value) + " that of none)";
 }
 
-std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& scored, const Headline& headline) {
+std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& scored, const Headline& headline,
+                        const Clock& clock) {
     if (!answer.best)
         return "No " + headline.metric + " of this shot has an interval that holds all noise: nothing is ranked.";
     std::string text;
@@ -152,7 +170,7 @@ std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& sco
         text = name_of(*answer.best) + " has the least error measured, " + headline.metric + " " +
                shown(answer.best->value) + interval_text(answer.best->low, answer.best->high) + gain_clause(answer) +
                ", but cannot be told from " + listed(answer.tied, 3);
-    return text + cheaper_clause(answer, scored) + limit_clause(answer) + ".";
+    return text + cheaper_clause(answer, scored, clock) + limit_clause(answer) + ".";
 }
 
 /// Distance from perfect.
@@ -231,7 +249,7 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
             if (p.low.value_or(p.value) <= answer.best->high.value_or(answer.best->value)) answer.tied.push_back(p);
         }
         answer.front = front_of(scored);
-        answer.sentence = sentence_of(answer, scored, headline);
+        answer.sentence = sentence_of(answer, scored, headline, clock_of(manifest, shot));
         answer.perceptual_sentence =
             perceptual_sentence_of(answer, perceived, headline.perceptual_metric, perceptual_floor);
         answers.push_back(std::move(answer));

@@ -9,6 +9,7 @@ using nlohmann::json;
 
 const json manifest = {
     {"primary", {{"metric", "mse"}, {"mask", "reflective"}, {"target", "specular"}}},
+    {"clock", {{"aa_floor", 0.1}, {"proofs", {{{"verdict", "passed"}, {"shots", {"s"}}}}}}},
     {"variants", {{{"variant", "exact"}, {"point", "default"}, {"asks_scene", true}}}},
     {"shots",
      {{{"shot", "s"},
@@ -43,7 +44,7 @@ struct Made {
             tables.times.push_back({"s", variant, "default", "total", "host_fence", 15, milliseconds,
                                     0.9 * milliseconds, 1.1 * milliseconds});
     }
-    ShotAnswer answer() const { return shot_answers(tables, manifest).at(0); }
+    ShotAnswer answer(const json& of_study = manifest) const { return shot_answers(tables, of_study).at(0); }
 };
 
 }  // namespace
@@ -63,6 +64,13 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
     ASSERT_EQ(a.front.size(), 3u);
     EXPECT_EQ(a.front[1].variant, "quick");
     EXPECT_EQ(a.perceptual_sentence, "");
+
+    json doubtful = manifest;
+    doubtful["clock"]["proofs"][0]["verdict"] = "failed";
+    EXPECT_NE(made.answer(doubtful).sentence.find("its time (by a clock that did not prove itself) at 1.8x"),
+              std::string::npos);
+    doubtful["clock"]["aa_floor"] = 0.45;  // 0.6 of the time is then no difference
+    EXPECT_EQ(made.answer(doubtful).sentence.find("quick takes"), std::string::npos);
 }
 
 TEST(Answers, RankNothingThatIntervalsCannotTellApart) {

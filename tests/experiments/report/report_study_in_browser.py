@@ -65,8 +65,10 @@ def test_results(page, folder):
     )
     check(any(h[0] for h in hollow) and all(h[0] == h[1] for h in hollow), "marks of single seeds are hollow")
     cells = [float(r["value"]) for own in zip(*(in_matrix(rows) for rows in (compared, absolute))) for r in own[0] + own[1]]
-    equal(values(page, "#matrix button"), cells, "the matrix, a row per point")
-    ones = page.execute_script("return [...document.querySelectorAll('#matrix tbody tr')].map(r => [...r.querySelectorAll('button')].every(b => b.textContent === '1'))")
+    equal(values(page, "#matrix button:not(.time)"), cells, "the matrix, a row per point")
+    times = [float(r["median_ms"]) for r in rows_of(folder, "time_summary.csv", stage="total") if not is_single_change(r)]
+    equal(sorted(values(page, "#matrix button.time")), sorted(times), "the matrix's times")
+    ones = page.execute_script("return [...document.querySelectorAll('#matrix tbody tr')].map(r => [...r.querySelectorAll('button:not(.time)')].every(b => b.textContent === '1'))")
     equal(ones, [False, False, True, False], "cells are relative to the mended point, not to the lucky one of a single seed")
     page.find_element(By.ID, "hasSingleChanges").click()
     equal(

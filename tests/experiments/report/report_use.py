@@ -52,6 +52,8 @@ def test_answers(page, shots):
         check(texts(page, "#answer-note")[0].startswith(f"To eyes, too, in {shot}."), "the chosen shot's note")
         captions = page.execute_script("return [...document.querySelectorAll('#answer-charts figcaption')].map(c => c.innerText)")
         check(all(c.startswith(shots[shot].split(".")[0]) for c in captions), f"charts of the chosen shot: {captions}")
+        below = "return [viewer.shot, ...new Set([...document.querySelectorAll('details.shot[open]')].map(d => d.dataset.shot))]"
+        equal(set(page.execute_script(below)), {shots[shot]}, "the shot that the sections below show")
         labels = "return [...document.querySelectorAll('#answer-pictures canvas')].map(c => c.getAttribute('aria-label'))"
         WebDriverWait(page, 20).until(lambda p: all(shots[shot] in label for label in p.execute_script(labels)))
     titles = texts(page, "#answer-pictures b")
@@ -77,8 +79,8 @@ def test_matrix(page, shots):
     wanted = {"shot": shots[0], "points": ["mcguire_dda · stride=1", "mcguire_dda · stride=4"]}
     head = page.execute_script("return [...document.querySelectorAll('#matrix thead th')].map(t => t.textContent)")
     scenes = ["mirror_pillars", "fence", "roughness_gradient"]
-    equal(head, ["mse (radiance²)", "flip", "Point", *scenes, *scenes], "columns of both errors")
-    cells = page.find_elements(By.CSS_SELECTOR, "#matrix tbody button")
+    equal(head, ["mse (radiance²)", "flip", "total time (ms)", "Point", *scenes, *scenes, *scenes], "columns of both errors and of the time")
+    cells = page.find_elements(By.CSS_SELECTOR, "#matrix tbody button:not(.time)")
     equal(len(cells), 3 * 6, "cells")
     values = [float(c.get_attribute("data-value")) for c in cells]
     for column in range(6):
@@ -88,7 +90,7 @@ def test_matrix(page, shots):
     cells[6].click()  # of the second point, in the first shot
     equal(opened(page), wanted, "what a cell opens")
     cells[6].send_keys("\ue014")  # arrow to the right
-    focused = page.execute_script("return [...document.querySelectorAll('#matrix tbody button')].indexOf(document.activeElement)")
+    focused = page.execute_script("return [...document.querySelectorAll('#matrix tbody button:not(.time)')].indexOf(document.activeElement)")
     equal(focused, 7, "the cell that an arrow key goes to")
     equal(page.execute_script("return document.querySelectorAll('#matrix button[tabindex=\"0\"]').length"), 1, "tab stops")
     check("[" in cells[7].get_attribute("aria-label"), "a cell tells its interval")
@@ -97,7 +99,7 @@ def test_matrix(page, shots):
     page.find_element(By.CSS_SELECTOR, "#answer-pictures [role=button]").click()
     equal(opened(page), wanted, "what a picture opens")
     choose_in(page, "results", "Cells relative to", "none")
-    equal(texts(page, "#matrix tbody tr:first-child button"), ["1"] * 6, "none over itself")
+    equal(texts(page, "#matrix tbody tr:first-child button:not(.time)"), ["1"] * 6, "none over itself")
     choose_in(page, "results", "Cells relative to", "the least")
 
 

@@ -11,6 +11,12 @@ const baselineLabel = shot => {
     return baseline ? pointLabel(baseline) : undefined;
 };
 
+/// The sections below show the chosen shot, too.
+function showShotBelow(shot) {
+    for (const part of document.querySelectorAll("details.shot[data-shot]")) part.open = part.dataset.shot === shot;
+    if (viewer.shot !== null && report.images.some(i => i.shot === shot)) chooseShot(shot);
+}
+
 /// The viewer at that shot with the truth, this point and the base line.
 function openPoint(row) {
     const points = unique([pointLabel(row), baselineLabel(row.shot)].filter(Boolean));
@@ -30,6 +36,7 @@ function drawAnswers(shots) {
     const choose = shot => () => {
         answerChoice.shot = shot;
         drawAnswers(shots);
+        showShotBelow(shot);
         at("answer-shots").querySelector("[aria-pressed=true]").focus();
     };
     at("answer-shots")

@@ -56,7 +56,7 @@ function drawMatrix() {
     const rows = filteredRows(chosenRows());
     at("match").textContent = matchText(unique(rows.map(pointKey)).length, unique(chosenRows().map(pointKey)).length);
     at("matrix").replaceChildren(
-        rows.length ? matrix([chosenRows(), otherRows()].filter(own => own.length), sortedPoints(rows)) :
+        rows.length ? matrix([chosenRows(), otherRows(), timeRows(chosenRows())].filter(own => own.length), sortedPoints(rows)) :
                       h("p", {class: "note"}, "No point's name has these words."));
 }
 

@@ -8,7 +8,9 @@ const mostWideColumns = 14;  // more of them have narrow cells below upright nam
 /// chance, or that of none; null where it is not told.
 function columnReference(rows) {
     const positive = rows.filter(r => r.value > 0 && !isOneSeed(r));
-    if (!positive.length || better(rows[0].metric) !== "lower") return null;
+    if (!positive.length || (!rows[0].isTime && better(rows[0].metric) !== "lower")) return null;
+    if (rows[0].isTime)
+        return positive.filter(r => r.variant !== "none").reduce((least, r) => r.value < least?.value ? r : least ?? r, null);
     if (shownPoints.relativeTo === "none") return positive.find(r => r.variant === "none") ?? null;
     return positive.reduce((least, r) => r.value < least.value ? r : least);
 }
@@ -45,7 +47,7 @@ function matrix(groups, order) {
                       class: "metric",
                       colspan: columns.filter(c => c.metric === rows[0].metric).length
                   },
-                    rows[0].metric + unitText(rows[0].metric)))),
+                    rows[0].isTime ? "total time (ms)" : rows[0].metric + unitText(rows[0].metric)))),
         h("tr", {}, h("th", {scope: "col"}, "Point"),
           columns.map(
               c =>
@@ -85,20 +87,24 @@ function matrix(groups, order) {
 const breakable = name => name.split(/(?<=[_.])/).flatMap(part => [part, h("wbr")]);
 
 function matrixCaption(columns) {
-    const what = `${unique(columns.map(c => c.metric)).join(" and ")} of ${choice.target}, ${choice.mask} pixels`;
+    const errors = columns.filter(c => c.metric !== timeColumn), hasTimes = errors.length < columns.length;
+    const what = `${unique(errors.map(c => c.metric)).join(" and ")} of ${choice.target}, ${choice.mask} pixels`;
     if (columns.every(c => !c.reference)) return `${what}.`;
     const other = shownPoints.relativeTo === "none" ? "that of none" : "the least";
     const colours = shownPoints.relativeTo === "none" ? "blue is less, orange more" : "the more orange, the worse";
-    return `${what}, divided by ${other} of the same column: ${colours}, full at ${fullColour} times.`;
+    return `${what}, divided by ${other} of the same column: ${colours}, full at ${fullColour} times.${
+        hasTimes ? " Times are in milliseconds, coloured against the least of a technique." : ""}`;
 }
 
 function matrixButton(row, ratio, {reference, best}) {
-    const text = row.value === null ? "–" : ratio === null ? number(row.value, 3) : number(ratio, ratio < 10 ? 3 : 2);
-    const mistakes = mistakesOfError(row);
+    const text = row.value === null     ? "–" :
+        ratio === null || row.isTime ? number(row.value, 3) :
+                                       number(ratio, ratio < 10 ? 3 : 2);
+    const mistakes = row.isTime ? [] : mistakesOfError(row);
     const button =
-        h("button", {"data-value": row.value, class: row === best ? "best" : null}, text, mistakes.length ? " !" : "");
+        h("button", {"data-value": row.value, class: row.isTime ? "time" : row === best ? "best" : null}, text, mistakes.length ? " !" : "");
     withTip(button, [
-        `${row.shot}\n${pointText(row)}`, rowText(row),
+        `${row.shot}\n${pointText(row)}`, row.isTime ? `${number(row.value)} ms ${interval(row)}` : rowText(row),
         ratio === null || reference === row ? null : `${number(ratio, 3)} times that of ${pointLabel(reference)}`,
         row === best ? "best of its shot, no other interval touches its own" : null,
         ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
@@ -108,6 +114,15 @@ function matrixButton(row, ratio, {reference, best}) {
     button.addEventListener("click", () => openPoint(row));
     return button;
 }
+
+const timeColumn = "time";
+
+/// The total times of the points of `rows`, as rows for a group of columns.
+const timeRows = rows => rows.flatMap(row => {
+    const time = totalTime(row);
+    return time ? [{...row, metric: timeColumn, isTime: true, isRanked: false, value: time.value, low: time.low, high: time.high}] :
+                  [];
+});
 
 const sortKeys = {
     study: "order of the study",

@@ -87,9 +87,9 @@ function errorSharesPart(shot) {
             limits: limit ? [{x: limit.value, rows: rows.map(r => r.label)}] : []
         }),
         limit ? h("p", {class: "note"},
-                  `Dashed: the information limit of one frame, ${metric} ${number(limit.value)} ${interval(limit)}.`) :
+                  `Dotted: the information limit of one frame, ${`${metric} ${number(limit.value)} ${interval(limit)}`.trim()}.`) :
                 "",
-        others.length ? h("details", {open: others.length <= 6}, h("summary", {}, "In sentences"), sentences(others)) :
+        others.length ? h("details", {open: others.length <= 20}, h("summary", {}, "In sentences"), sentences(others)) :
                         ""
     ];
 }
