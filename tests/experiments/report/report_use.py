@@ -4,7 +4,7 @@ import json
 import os
 import re
 
-from report_browser import By, WebDriverWait, check, choose_in, equal, until_ready
+from report_browser import By, WebDriverWait, check, choose_in, equal, rows_of, until_ready
 
 AXE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vendor", "axe.min.js")
 BEST, BASELINE = ("mcguire_dda", "stride=1"), ("mcguire_dda", "stride=4")
@@ -67,6 +67,30 @@ def test_answers(page, shots):
     check(bottom <= 800, f"the first screen ends at {bottom}")
     check(page.execute_script("return document.body.scrollWidth <= innerWidth"), "the page is wider than the window")
     equal(len(page.find_elements(By.CSS_SELECTOR, "#warnings details:not([open]) .warning")), 5, "folded warnings")
+
+
+def test_budget(page, folder, shot):
+    """Of what fits into the time, the least error; and what may fit or not."""
+    of_shot = dict(shot=shot, stage="total")
+    times = {(r["variant"], r["point"]): [float(r[c]) for c in ("median_ms", "low_ms")] for r in rows_of(folder, "time_summary.csv", **of_shot)}
+    errors = {
+        (r["variant"], r["point"]): float(r["value"])
+        for r in rows_of(folder, "summary.csv", shot=shot, metric="mse", mask="reflective", target="specular")
+    }
+    label = lambda point: point[0] if point[1] == "default" else " · ".join(point)
+    by_error = sorted(times, key=errors.get)
+    best, cheapest = by_error[0], min(times, key=times.get)
+    check(best != cheapest, "the fixture has a faster point of more error")
+    between = (times[best][1] + times[best][0]) / 2  # within the interval of the best one's time
+    for budget, fits in ((times[best][0] + 1, best), (between, cheapest), (times[cheapest][1] / 2, None)):
+        page.execute_script("const b = at('budget'); b.value = arguments[0]; b.dispatchEvent(new Event('input'))", budget)
+        text = texts(page, "#budget-answer")[0]
+        wanted = f"By mse {label(fits)}, " if fits else "By mse: nothing that was timed fits."
+        check(wanted in text, f"within {budget} ms: {text}")
+        equal("It cannot be told whether " + label(best) in text, budget == between, f"doubts at {budget} ms: {text}")
+        check("The clock did not prove itself" in text, text)
+    page.execute_script("const b = at('budget'); b.value = ''; b.dispatchEvent(new Event('input'))")
+    equal(texts(page, "#budget-answer"), [""], "without a budget")
 
 
 def opened(page):
@@ -186,6 +210,7 @@ def test_use(page, url, folder):
     page.get(answers)
     until_ready(page)
     test_answers(page, shots)
+    test_budget(page, folder, shots[0])
     test_matrix(page, shots)
     test_points(page)
     test_mistakes(page)

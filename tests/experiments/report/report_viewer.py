@@ -297,6 +297,24 @@ def test_crops(page):
         canvas(page, 0), *end
     ).release().key_up(Keys.SHIFT).perform()
     equal(page.execute_script("return crops.box"), [20, 50, 40, 30], "a box by Shift and dragging")
+    sums = page.execute_script(
+        """const sum = (x, y, w, h) => {
+            let all = 0;
+            const ref = viewer.shown[0].image;
+            for (const {image} of viewer.shown.slice(1))
+                for (let v = y; v < y + h; ++v)
+                    for (let u = x; u < x + w; ++u) {
+                        const i = v * image.width + u, a = pixelRgb(image, i), b = pixelRgb(ref, i);
+                        const error = (Math.abs(a[0] - b[0]) + Math.abs(a[1] - b[1]) + Math.abs(a[2] - b[2])) / 3;
+                        if (Number.isFinite(error)) all += error;
+                    }
+            return all;
+        };
+        const found = worstBox(), [, , w, h] = found, {width, height} = viewer.shown[0].image, others = [];
+        for (let y = 0; y + h <= height; y += 7) for (let x = 0; x + w <= width; x += 7) others.push(sum(x, y, w, h));
+        return [sum(...found), Math.max(...others), Math.min(...others)]"""
+    )
+    check(sums[0] >= sums[1] * (1 - 1e-5) > 1.1 * sums[2], f"the box of the largest error, every seventh, the least: {sums}")
     press(page, "c", Keys.ARROW_RIGHT)
     ActionChains(page).key_down(Keys.SHIFT).send_keys(Keys.ARROW_DOWN).key_up(Keys.SHIFT).perform()
     equal(page.execute_script("return crops.box"), [21, 50, 40, 31], "a box moved and sized by keys")

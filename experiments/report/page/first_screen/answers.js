@@ -28,6 +28,7 @@ function showAnswers() {
     const shots = unique(report.errors.map(r => r.shot));
     answerChoice.shot = shots[0];
     pointListeners.push(drawAnswerCharts);
+    showBudget();
     return drawAnswers(shots);
 }
 
@@ -110,6 +111,7 @@ function drawAnswerCharts() {
     const {shot} = answerChoice, metrics = headlineMetrics();
     const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), {width: 420, height: 320}));
     at("answer-charts").replaceChildren(...charts.filter(Boolean));
+    drawBudget(shot);
     at("answer-legend").replaceChildren(pointLegend(headlineRows(shot, metrics[0])));
 }
 

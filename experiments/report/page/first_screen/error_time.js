@@ -39,6 +39,7 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
     const limit =
         ladderOf(shot, {target, metricKey: metricKey(rows[0]), mask}).find(r => r.rung === "on_screen" && r.value > 0);
     const under = [
+        ...(hasTimes ? budgetLine(x) : []),
         ...(isLog && hasTimes ? [frontLine(paretoFront(timed))] : []),
         ...(none && rows.length < shown.length ?
                 levelLine("none", none, x, y, {stroke: "var(--faint)", strokeDasharray: "5 4"}) :

@@ -12,10 +12,35 @@ function toggleCropMode() {
     at("crop-mode").setAttribute("aria-pressed", crops.isOn);
     at("panes").classList.toggle("cropping", crops.isOn);
     if (crops.isOn && !crops.box) {
-        const {width, height} = viewer.shown[0].image;
-        setCropBox([width * 3 >> 3, height * 3 >> 3, width >> 2, height >> 2]);
+        setCropBox(worstBox());
     }
     showCrops();
+}
+
+/// Of the boxes of a quarter of the image's width and height, the one in which the methods shown beside the truth err
+/// most together; in the middle, where there is no error to look at.
+function worstBox() {
+    const {width, height} = viewer.shown[0].image, w = Math.max(width >> 2, 1), h = Math.max(height >> 2, 1);
+    const truth = viewer.shown.find(s => s.method.key === truthKey);
+    const others = viewer.shown.filter(s => s !== truth);
+    const middle = [(width - w) >> 1, (height - h) >> 1, w, h];
+    if (!truth || !others.length) return middle;
+    const sums = new Float64Array((width + 1) * (height + 1));  // of all pixels above and to the left
+    const errors = others.map(s => scalarsOf(s.image, truth.image, "absolute"));
+    for (let y = 0; y < height; ++y)
+        for (let x = 0, line = 0; x < width; ++x) {
+            for (const values of errors)
+                line += Number.isFinite(values[y * width + x]) ? values[y * width + x] : 0;
+            sums[(y + 1) * (width + 1) + x + 1] = sums[y * (width + 1) + x + 1] + line;
+        }
+    const sumAt = (x, y) => sums[y * (width + 1) + x];
+    let worst = middle, most = 0;
+    for (let y = 0; y + h <= height; ++y)
+        for (let x = 0; x + w <= width; ++x) {
+            const sum = sumAt(x + w, y + h) - sumAt(x, y + h) - sumAt(x + w, y) + sumAt(x, y);
+            if (sum > most) [worst, most] = [[x, y, w, h], sum];
+        }
+    return worst;
 }
 
 function clearCropBox() {
@@ -122,14 +147,16 @@ function cropInput(name, place) {
 
 const cropEditor = () => h(
     "div", {class: "controls"}, h("b", {}, "Crop"), ["x", "y", "width", "height"].map(cropInput),
-    h("button", {id: "crop-add", click: addCrop}, "Add to figures.json"), h("span", {class: "note", id: "crop-note"}));
+    h("button", {id: "crop-worst", click: () => setCropBox(worstBox())}, "Where these err most"),
+    h("button", {id: "crop-add", click: addCrop}, "Add to figures.json"), h("span", {class: "note", id: "crop-note"}),
+    h("span", {class: "note"}, "Drag on an image for another box."));
 
 function cropList() {
     const lines = crops.list.map(
         (crop, i) =>
             h("li", {},
               `${crop.shot}, ${crop.target}: [${crop.box.join(", ")}], ${number(crop.exposure)} EV, ${
-                  crop.points.length} points `,
+                  crop.points.length === 1 ? "truth and 1 point" : `truth and ${crop.points.length} points`} `,
               h("button", {
                   "aria-label": `Remove crop ${i + 1}`,
                   click: () => {
@@ -139,14 +166,14 @@ function cropList() {
               },
                 "×")));
     const url = "data:application/json;charset=utf-8," + encodeURIComponent(cropsText());
-    const text = h("textarea", {id: "crops-json", readonly: true, rows: 6, "aria-label": "figures.json"});
+    const text = h("textarea", {id: "crops-json", readonly: true, rows: 12, "aria-label": "figures.json"});
     text.value = cropsText();
     return [
         h("ol", {}, lines),
         h("div", {class: "controls"},
           h("a", {href: url, download: "figures.json", id: "crops-download"}, "Download figures.json"),
           h("button", {click: copyCrops}, "Copy"),
-          h("span", {class: "note"}, "Then: ", h("code", {}, "ssrlab figures DIR figures.json"))),
+          h("span", {class: "note"}, "Then: ", h("code", {}, "ssrlab figures DIR figures.json"), ", DIR being the folder of this page")),
         text
     ];
 }
