@@ -1,7 +1,7 @@
 #include "experiments/measuring/error_causes.h"
 
+#include "metrics/noise.h"
 #include "metrics/statistics.h"
-#include "variants/tracers/outcome.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,33 +9,18 @@
 
 namespace {
 
-template <class Shares>
-double sum(const Shares& shares) {
-    return std::accumulate(shares.begin(), shares.end(), 0.0);
-}
-
-/// Mean over the channels.
-double squared_error(const MetricReference& reference, const HostImage& tested, size_t pixel) {
-    const HostImage& a = reference.halves ? reference.halves->a : reference.image;
-    const HostImage& b = reference.halves ? reference.halves->b : reference.image;
-    const glm::dvec3 x(tested.rgb(pixel));
-    const glm::dvec3 product = (x - glm::dvec3(a.rgb(pixel))) * (x - glm::dvec3(b.rgb(pixel)));
-    return (product.r + product.g + product.b) / 3;
-}
+double sum(const VerdictSums& sums) { return std::accumulate(sums.begin(), sums.end(), 0.0); }
 
 }  // namespace
 
 void ErrorCauses::add(const RecordedRays& recorded, const std::vector<ExactHit>& truth, glm::uvec2 extent) {
     const size_t pixels = size_t(extent.x) * extent.y;
-    of_pixel_.resize(pixels, Shares{});
-    std::vector<Shares> of_pass(pixels, Shares{});
+    of_pixel_.resize(pixels);
+    std::vector<VerdictSums> of_pass(pixels);
     for (size_t i = 0; i < recorded.rays.size(); ++i) {
         const RayRecord& ray = recorded.rays[i];
         const size_t pixel = i / recorded.rays_per_pixel;
-        if (ray.is_traced == 0 || pixel >= pixels) continue;
-        const double share = ray.outcome == outcome_hit ? double(ray.confidence) : 0.0;
-        of_pass[pixel][size_t(verdict_of_hit(ray, truth[i]))] += share;
-        of_pass[pixel][size_t(verdict_of_miss(truth[i]))] += 1.0 - share;
+        if (ray.is_traced > 0 && pixel < pixels) add_verdicts(of_pass[pixel], ray, truth[i]);
     }
     for (size_t pixel = 0; pixel < pixels; ++pixel)
         if (sum(of_pass[pixel]) > 0) of_pixel_[pixel] = of_pass[pixel];
@@ -51,26 +36,26 @@ size_t ErrorCauses::pixel_with_rays(size_t pixel, glm::uvec2 extent) const {
 }
 
 void ErrorCauses::finish(const MetricReference& reference, const HostImage& tested, const std::vector<Mask>& masks) {
-    const glm::uvec2 extent = tested.extent;
-    of_pixel_.resize(tested.pixel_count(), Shares{});
+    // As every mean squared error is measured, (x - A)(x - B); without halves both are the image.
+    const HostImage &a = reference.halves ? reference.halves->a : reference.image,
+                    &b = reference.halves ? reference.halves->b : reference.image;
+    const Plane squared_errors = cross_error(tested, a, b, a, metric_named("mse").squared_error_weight);
+    of_pixel_.resize(tested.pixel_count());
     for (const Mask& mask : masks) {
+        const Mask inside = intersection(mask, reference.finite);
         Shares errors{};
         size_t count = 0;
         for (size_t pixel = 0; pixel < tested.pixel_count(); ++pixel) {
-            if (!mask.inside.empty() && !mask.inside[pixel]) continue;
-            if (!reference.finite.inside.empty() && !reference.finite.inside[pixel]) continue;
-            const double error = squared_error(reference, tested, pixel);
-            if (!std::isfinite(error)) continue;
-            const Shares& rays = of_pixel_[pixel_with_rays(pixel, extent)];
-            const double all = sum(rays);
+            const double error = squared_errors.values[pixel];
+            if (!inside.inside[pixel] || !std::isfinite(error)) continue;
             ++count;
-            if (all == 0) {
-                errors.back() += error;
-                continue;
-            }
-            for (size_t cause = 0; cause < cause_count; ++cause) errors[cause] += error * rays[cause] / all;
+            const VerdictSums& rays = of_pixel_[pixel_with_rays(pixel, tested.extent)];
+            const double all = sum(rays);
+            if (all == 0) errors.back() += error;
+            for (size_t verdict = 0; all > 0 && verdict < ray_verdict_count; ++verdict)
+                errors[verdict] += error * rays[verdict] / all;
         }
-        const double whole = sum(errors);
+        const double whole = std::accumulate(errors.begin(), errors.end(), 0.0);
         if (!(whole > 0)) continue;
         for (double& error : errors) error /= whole;
         auto entry = std::ranges::find(by_mask_, mask.name, &decltype(by_mask_)::value_type::first);

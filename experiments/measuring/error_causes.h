@@ -35,7 +35,7 @@ private:
         Shares shares;
     };
 
-    std::vector<Shares> of_pixel_;  ///< of the frame and seed that are being added; sums over the rays of a pixel
+    std::vector<VerdictSums> of_pixel_;  ///< of the frame and seed that are being added: over the rays of each
     std::vector<std::pair<std::string, std::vector<SeedShares>>> by_mask_;
 
     size_t pixel_with_rays(size_t pixel, glm::uvec2 extent) const;

@@ -42,6 +42,9 @@ std::optional<Estimate> other_estimate(const std::vector<double>& values, double
     return mean_estimate(values);
 }
 
+/// How much of a hit the ray counts as.
+double hit_share(const RayRecord& ray) { return ray.outcome == outcome_hit ? double(ray.confidence) : 0.0; }
+
 bool is_nothing(const ExactHit& truth) {
     return truth.outcome == outcome_background || truth.outcome == outcome_own_surface;
 }
@@ -66,6 +69,11 @@ RayVerdict verdict_of_miss(const ExactHit& truth) {
                                         : RayVerdict::unavoidable_miss;
 }
 
+void add_verdicts(VerdictSums& sums, const RayRecord& ray, const ExactHit& truth) {
+    sums[size_t(verdict_of_hit(ray, truth))] += hit_share(ray);
+    sums[size_t(verdict_of_miss(truth))] += 1.0 - hit_share(ray);
+}
+
 JudgedHits::Count& JudgedHits::count(const Key& key, unsigned seed) {
     auto entry = std::ranges::find(counts_, key, &std::pair<Key, std::vector<Count>>::first);
     if (entry == counts_.end()) entry = counts_.insert(counts_.end(), {key, {}});
@@ -87,15 +95,13 @@ void JudgedHits::add(unsigned seed, const RecordedRays& recorded, const std::vec
             if (ray.is_traced == 0 || pixel >= size_t(extent.x) * extent.y) continue;
             if (pixel % extent.x % every != 0 || pixel / extent.x % every != 0) continue;
             if (!mask.inside.empty() && !mask.inside[pixel]) continue;
-            const double share = ray.outcome == outcome_hit ? double(ray.confidence) : 0.0;
-            const RayVerdict if_hit = verdict_of_hit(ray, truth[i]), if_missed = verdict_of_miss(truth[i]);
+            const double share = hit_share(ray);
             ++sums.rays;
             sums.fetches += ray.fetches;
-            sums.verdicts[size_t(if_hit)] += share;
-            sums.verdicts[size_t(if_missed)] += 1.0 - share;
-            if (if_missed == RayVerdict::avoidable_miss)
+            add_verdicts(sums.verdicts, ray, truth[i]);
+            if (verdict_of_miss(truth[i]) == RayVerdict::avoidable_miss)
                 sums.missed_by_outcome[std::min(ray.outcome, outcome_count - 1)] += 1.0 - share;
-            if (share > 0 && if_hit == RayVerdict::right && truth[i].distance > 0)
+            if (share > 0 && verdict_of_hit(ray, truth[i]) == RayVerdict::right && truth[i].distance > 0)
                 sums.distance_errors.push_back(std::abs(ray.distance / truth[i].distance - 1.0f));
         }
     }

@@ -25,6 +25,10 @@ const std::array<const char*, ray_verdict_count>& ray_verdict_names();
 RayVerdict verdict_of_hit(const RayRecord& ray, const ExactHit& truth);
 RayVerdict verdict_of_miss(const ExactHit& truth);
 
+/// How much of each verdict; of one ray they add up to 1.
+using VerdictSums = std::array<double, ray_verdict_count>;
+void add_verdicts(VerdictSums& sums, const RayRecord& ray, const ExactHit& truth);
+
 /// Collects the rays of a frame over seeds.
 class JudgedHits {
 public:
@@ -41,7 +45,7 @@ public:
 private:
     struct Count {
         double rays = 0, fetches = 0;
-        std::array<double, ray_verdict_count> verdicts{};
+        VerdictSums verdicts{};
         std::vector<double> missed_by_outcome;
         std::vector<float> distance_errors;  ///< relative, of rays that were right
     };

@@ -109,13 +109,13 @@ const Scored& find(const std::vector<Scored>& scored, const AnswerPoint& point) 
 }
 
 /// What a reader must know before a time is believed.
-struct Clock {
+struct ClockRecord {
     double floor = 0;        ///< by which two copies of the same point differed: smaller differences say nothing
     bool is_proven = false;  ///< the clock that timed the shot proved itself
 };
-Clock clock_of(const json& manifest, const std::string& shot) {
+ClockRecord clock_of(const json& manifest, const std::string& shot) {
     const json clock = manifest.value("clock", json::object());
-    Clock found;
+    ClockRecord found;
     if (clock.contains("aa_floor") && clock["aa_floor"].is_number()) found.floor = clock["aa_floor"];
     for (const json& proof : clock.value("proofs", json::array()))
         if (std::ranges::count(proof.value("shots", json::array()), json(shot)) > 0)
@@ -125,7 +125,7 @@ Clock clock_of(const json& manifest, const std::string& shot) {
 
 /// "; Y takes 0.6x its time at 1.8x the error": of the front's cheaper points, the one with the least error among those
 /// that save a fifth of the time or more, and more than copies of the same point differ by.
-std::string cheaper_clause(const ShotAnswer& answer, const std::vector<Scored>& scored, const Clock& clock) {
+std::string cheaper_clause(const ShotAnswer& answer, const std::vector<Scored>& scored, const ClockRecord& clock) {
     const double worth_while = std::min(0.8, 1 - clock.floor);
     const TimeSummary* own = find(scored, *answer.best).time;
     if (!own || !(own->median > 0)) return "";
@@ -159,7 +159,7 @@ std::string gain_clause(const ShotAnswer& answer) {
 }
 
 std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& scored, const Headline& headline,
-                        const Clock& clock) {
+                        const ClockRecord& clock) {
     if (!answer.best)
         return "No " + headline.metric + " of this shot has an interval that holds all noise: nothing is ranked.";
     std::string text;
@@ -249,7 +249,9 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
             if (p.low.value_or(p.value) <= answer.best->high.value_or(answer.best->value)) answer.tied.push_back(p);
         }
         answer.front = front_of(scored);
-        answer.sentence = sentence_of(answer, scored, headline, clock_of(manifest, shot));
+        const ClockRecord clock = clock_of(manifest, shot);
+        answer.is_clock_proven = clock.is_proven;
+        answer.sentence = sentence_of(answer, scored, headline, clock);
         answer.perceptual_sentence =
             perceptual_sentence_of(answer, perceived, headline.perceptual_metric, perceptual_floor);
         answers.push_back(std::move(answer));
@@ -282,6 +284,7 @@ json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headli
                         {"tied", tied},
                         {"baseline", optional_json(a.baseline)},
                         {"limit", optional_json(a.limit)},
+                        {"is_clock_proven", a.is_clock_proven},
                         {"front", front}});
     }
     return list;

@@ -30,6 +30,7 @@ struct ShotAnswer {
     std::optional<AnswerPoint> limit;  ///< error of the truth ladder's rung on_screen: see groundtruth/truth_ladder.h
     std::vector<AnswerPoint> front;    ///< that no other beats in both error and time, by ascending time; a hint, by
                                        ///< means and medians alone
+    bool is_clock_proven = false;      ///< that timed the shot; false where nothing was timed
     std::string sentence, perceptual_sentence;  ///< the latter is empty where no perceptual error was measured
 };
 

@@ -166,7 +166,7 @@ void write_page(const std::filesystem::path& folder, const std::string& title, c
 
 }  // namespace
 
-void write_report(const std::filesystem::path& folder, bool links_images) {
+std::vector<ShotAnswer> write_report(const std::filesystem::path& folder, bool links_images) {
     const json stability = stability_report_data(folder);
     const std::string stability_part = stability.is_null() ? "" : stability_html(stability);
     std::map<std::string, std::string> values = {{"style", part("style.css") + part("viewer/viewer.css")},
@@ -178,7 +178,8 @@ void write_report(const std::filesystem::path& folder, bool links_images) {
         for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
         data["manifest"] = data["defaults"] = json::object();
         data["stability"] = stability, data["is_study"] = false;
-        return write_page(folder, "What techniques bear", data, values, stability_part);
+        write_page(folder, "What techniques bear", data, values, stability_part);
+        return {};
     }
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
@@ -193,7 +194,8 @@ void write_report(const std::filesystem::path& folder, bool links_images) {
                         {"mask", headline.mask},
                         {"target", headline.target},
                         {"perceptual_metric", headline.perceptual_metric}};
-    data["answers"] = answers_json(shot_answers(tables, manifest), headline);
+    std::vector<ShotAnswer> answers = shot_answers(tables, manifest);
+    data["answers"] = answers_json(answers, headline);
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
     data["manifest"].erase("stale");   // not of this study as it is
@@ -214,4 +216,5 @@ void write_report(const std::filesystem::path& folder, bool links_images) {
     if (images.data.size() < images.descriptions.size()) values["script_source"] = linked_scripts;
     const json title = manifest.value("title", json());
     write_page(folder, title.is_string() ? title.get<std::string>() : "Study", data, values, for_no_scripts);
+    return answers;
 }

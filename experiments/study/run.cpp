@@ -6,7 +6,6 @@
 #include "core/json.h"
 #include "experiments/measuring/rung_errors.h"
 #include "experiments/measuring/timing.h"
-#include "experiments/report/answers.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_points.h"
 #include "experiments/results/effects.h"
@@ -203,8 +202,9 @@ void handle_stale_files(const StudyRun& study, nlohmann::json& manifest) {
     manifest["stale"] = {{"cells", stale.cells}, {"images", stale.images}};
 }
 
-/// Writes what is finished so far, so that a long study can be read while it runs.
-void write_results(StudyRun& study, bool is_last) {
+/// Writes what is finished so far, so that a long study can be read while it runs. Returns what the report says of each
+/// shot.
+std::vector<ShotAnswer> write_results(StudyRun& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
     const StudyRows rows = rows_of(study.finished);
     for (const Cell& cell : study.finished) {
@@ -225,12 +225,13 @@ void write_results(StudyRun& study, bool is_last) {
     set_families(effects, study.config.primary);
     write_rows(study.settings.out / "effects.csv", effects);
     write_rows(study.settings.out / "time_effects.csv", time_effects(rows.times, variants));
-    write_report(study.settings.out);
+    std::vector<ShotAnswer> answers = write_report(study.settings.out);
     if (is_last && manifest.contains("stale"))
         study.progress.say("note: " + std::to_string(manifest["stale"]["cells"].size()) + " cells and " +
                            std::to_string(manifest["stale"]["images"].size()) +
                            " images of earlier versions of this study stay in " + study.settings.out.string() +
                            "; --prune removes them");
+    return answers;
 }
 
 /// What a run before left, which may be of any version; null if it cannot be read.
@@ -246,11 +247,9 @@ nlohmann::json read_manifest_before(const std::filesystem::path& file) {
     }
 }
 
-/// What a reader wants to know first, once for each shot.
-void say_answers(StudyRun& study) {
-    const std::filesystem::path& out = study.settings.out;
-    const nlohmann::json manifest = read_json(out / "manifest.json");
-    for (const ShotAnswer& answer : shot_answers(read_report_tables(out, manifest), manifest))
+/// What a reader wants to know first.
+void say_answers(StudyRun& study, const std::vector<ShotAnswer>& answers) {
+    for (const ShotAnswer& answer : answers)
         study.progress.say("\n" + answer.shot + ": " + answer.sentence +
                            (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence));
 }
@@ -279,14 +278,15 @@ void run_study(const Config& config, const RunSettings& settings) {
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
     rehearse(device, config.variants);
     study.manifest_before = read_manifest_before(settings.out / "manifest.json");
+    std::vector<ShotAnswer> answers;
     for (const ShotConfig& shot : config.shots) {
         if (shot.gbuffer.empty())
             run_scene_shot(study, shot);
         else
             run_gbuffer_shot(study, shot);
-        write_results(study, &shot == &config.shots.back());
+        answers = write_results(study, &shot == &config.shots.back());
     }
-    say_answers(study);
+    say_answers(study, answers);
     study.progress.say("\nReport: " +
                        std::filesystem::absolute(settings.out / "report.html").lexically_normal().string());
 }

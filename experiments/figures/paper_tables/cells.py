@@ -101,6 +101,8 @@ class Selection:
     def __init__(self, results, table):
         self.table = table
         self.shots = results.manifest["shots"]
+        proofs = results.manifest.get("clock", {}).get("proofs", [])
+        self.proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof["shots"]}
         self.parameters = {(v["variant"], v["point"]): v.get("parameters", {}) for v in results.manifest["variants"]}
         rows = results.read_csv(SOURCES[table.of][0])
         if table.of == "splits":
@@ -171,7 +173,7 @@ def _cell(selection, row, name):
         is_significant=p is not None and p < SIGNIFICANT,
         seeds=seeds and int(seeds),
         interval=row.get("interval") or None,
-        clock=row.get("clock") or None,
+        clock=_clock(selection, row) if row.get("clock") else None,
         disturbed_share=_largest(shares),
     )
 
@@ -262,6 +264,11 @@ def _refuse_shared(selection, name, rows):
         seen[part] = row
 
 
+def _clock(selection, row):
+    """With what must be known before a time is believed: whether its clock proved itself."""
+    return row["clock"] if row["shot"] in selection.proven else f"{row['clock']}, which did not prove itself"
+
+
 def _about(selection, filled):
     """What is said of a table beside its cells; `filled`: the rows that have a value."""
     table = selection.table
@@ -273,7 +280,7 @@ def _about(selection, filled):
         "resolutions": sorted({f"{s['width']}x{s['height']}" for s in shots}),
         "over": table.over,
         "over_count": len({selection.entry(r, table.over) for r in selection.rows}) if table.over else None,
-        "clocks": sorted({r["clock"] for r in filled if r.get("clock")}),
+        "clocks": sorted({_clock(selection, r) for r in filled if r.get("clock")}),
     }
 
 

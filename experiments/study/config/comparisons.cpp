@@ -1,6 +1,38 @@
 #include "experiments/study/config/comparisons.h"
 
+#include "core/error.h"
+#include "core/json.h"
 #include "variants/registry.h"
+
+#include <map>
+#include <utility>
+
+namespace {
+
+/// Of all parameters, with some values in place of the point's own.
+nlohmann::json values_of(const VariantConfig& v, const nlohmann::json& changed = nlohmann::json::object()) {
+    nlohmann::json parameters = v.parameters;
+    parameters.update(changed);
+    return make_variant(v.variant, parameters, v.preset)->params.values();
+}
+
+}  // namespace
+
+void find_against_points(std::vector<VariantConfig>& variants, const std::string& where) {
+    std::map<std::pair<std::string, nlohmann::json>, std::string>
+        points;  // by variant and the values of all parameters
+    for (const VariantConfig& v : variants) points.try_emplace({v.variant, values_of(v)}, v.point);
+    for (VariantConfig& v : variants) {
+        if (v.against.is_null()) continue;
+        const nlohmann::json other = values_of(v, v.against);
+        if (other == values_of(v)) continue;
+        const auto found = points.find({v.variant, other});
+        if (found == points.end())
+            fail(where, ": variants: nothing is the same as '", v.variant, "' with the point '", v.point, "' but for ",
+                 shown(v.against), ", its 'against'; add that point");
+        v.against_point = found->second;
+    }
+}
 
 std::vector<PointComparison> comparisons_of(const std::vector<VariantConfig>& variants) {
     std::vector<PointComparison> comparisons;
@@ -18,9 +50,6 @@ std::vector<PointComparison> comparisons_of(const std::vector<VariantConfig>& va
 }
 
 std::vector<SingleChange> single_changes(const std::vector<VariantConfig>& variants) {
-    const auto values_of = [](const VariantConfig& v) {
-        return make_variant(v.variant, v.parameters, v.preset)->params.values();
-    };
     std::vector<SingleChange> changes;
     for (const VariantConfig& v : variants) {
         if (v.is_baseline || v.swept.empty()) continue;  // a preset is compared as a whole

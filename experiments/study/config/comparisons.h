@@ -4,6 +4,10 @@
 #include <string>
 #include <vector>
 
+/// Finds what each point with VariantConfig::against is compared with, wherever in the study it stands. Fails where no
+/// point is the same but for these values; `where` names the config.
+void find_against_points(std::vector<VariantConfig>& variants, const std::string& where);
+
 /// EffectRow::against of points that are compared with a point marked as a baseline.
 inline const std::string baseline_name = "baseline";
 

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "experiments/study/config/comparisons.h"
 #include "experiments/study/config/config_parts.h"
 #include "experiments/study/config/primary_comparisons.h"
 #include "metrics/ghost.h"
@@ -11,7 +12,6 @@
 #include "variants/registry.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 namespace {
@@ -285,25 +285,6 @@ void refuse_repetition(const std::vector<VariantConfig>& variants, const std::st
             if (variants[i].variant == variants[j].variant && variants[i].point == variants[j].point)
                 fail(where, ": variants: '", variants[i].variant, "' comes twice with the point '", variants[i].point,
                      "'; give the second a preset or a sweep that tells them apart");
-}
-
-/// Finds what each point with `against` is compared with, wherever in the study it stands.
-void find_against_points(std::vector<VariantConfig>& variants, const std::string& where) {
-    using Values = std::pair<std::string, nlohmann::json>;  // variant, all its parameters
-    std::map<Values, std::string> points;
-    for (const VariantConfig& v : variants)
-        points.try_emplace({v.variant, make_variant(v.variant, v.parameters, v.preset)->params.values()}, v.point);
-    for (VariantConfig& v : variants) {
-        if (v.against.is_null()) continue;
-        const auto own = make_variant(v.variant, v.parameters, v.preset)->params.values();
-        const auto other = make_variant(v.variant, with_values(v.parameters, v.against), v.preset)->params.values();
-        if (other == own) continue;
-        const auto found = points.find({v.variant, other});
-        if (found == points.end())
-            fail(where, ": variants: nothing is the same as '", v.variant, "' with the point '", v.point, "' but for ",
-                 shown(v.against), ", its 'against'; add that point");
-        v.against_point = found->second;
-    }
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ def write_rows(file, rows):
         writer.writerows(rows)
 
 
-def manifest(tables):
+def manifest(tables, verdict="passed"):
     points = [("default", 1), ("taps=4", 4), ("taps=16", 16)]
     return {
         "provenance": [
@@ -89,6 +89,7 @@ def manifest(tables):
         "title": "Made up",
         "is_complete": True,
         "config": {"tables": tables},
+        "clock": {"proofs": [{"verdict": verdict, "shots": SHOTS}]},
         "shots": [{"shot": s, "width": 320, "height": 180} for s in SHOTS],
         "variants": [{"variant": "sssr", "point": p, "parameters": {"taps": taps}} for p, taps in points],
     }
@@ -242,6 +243,11 @@ def test_times(folder):
     lines = read(os.path.join(folder, "tables", "times.md")).splitlines()
     check(lines[4].startswith("| default | 2.00 [1.90, 2.10] (host_fence) | 2.00 [1.90, 2.10]\N{SECTION SIGN} (gpu_timestamp) |"), lines[4])
     check("clock gpu_timestamp and host_fence." in lines[7], lines[7])
+    write(file, read(file).replace("host_fence", "gpu_timestamp", 1))
+    write(os.path.join(folder, "manifest.json"), json.dumps(manifest([times], verdict="failed")))
+    check(tables(folder).returncode == 0, "a clock that did not prove itself")
+    lines = read(os.path.join(folder, "tables", "times.md")).splitlines()
+    check("a device, clock gpu_timestamp, which did not prove itself." in lines[7], lines[7])
 
 
 def test_shares(folder):

@@ -9,7 +9,7 @@
 namespace {
 
 constexpr glm::uvec2 extent{4, 2};
-const Mask everywhere{.name = "all"};
+const Mask everywhere{.name = "all", .extent = extent, .inside = std::vector<uint8_t>(8, 1)};
 
 RecordedRays no_rays() { return {.stage = "trace", .rays = std::vector<RayRecord>(extent.x * extent.y)}; }
 
@@ -97,7 +97,7 @@ TEST(ErrorCauses, AreMeansOverSeedsWithTheirInterval) {
     RecordedRays rays = no_rays();
     trace(rays, 0, 1);
     ErrorCauses causes;
-    const Mask nothing{.name = "none", .extent = extent, .inside = std::vector<unsigned char>(8, 0)};
+    const Mask nothing{.name = "none", .extent = extent, .inside = std::vector<uint8_t>(8, 0)};
     for (const float error : {1.0f, 3.0f}) {
         causes.add(rays, all_meet(outcome_hit), extent);
         causes.finish(black_reference(), with_errors({error, 0, 0, 0, 0, 0, 0, 1}), {everywhere, nothing});

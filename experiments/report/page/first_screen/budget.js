@@ -24,14 +24,10 @@ const budgetLine = x => budget.milliseconds > x.domain[0] && budget.milliseconds
     [Plot.ruleX([budget.milliseconds], {stroke: "var(--accent)", strokeWidth: 1.5})] :
     [];
 
-/// Whether the clock that timed the shot proved itself.
-const isClockProven = shot =>
-    list(report.manifest.clock?.proofs).some(p => p.verdict === "passed" && list(p.shots).includes(shot));
-
 function drawBudget(shot) {
     if (!at("budget-answer")) return;
     const parts = budget.milliseconds === null ? [] : headlineMetrics().map(metric => budgetText(shot, metric));
-    if (parts.length && !isClockProven(shot)) parts.push("The clock did not prove itself: take the times with care.");
+    if (parts.length && !answerOf(shot)?.is_clock_proven) parts.push("The clock did not prove itself: take the times with care.");
     at("budget-answer").textContent = parts.join(" ");
 }
 
