@@ -202,8 +202,20 @@ void handle_stale_files(const StudyRun& study, nlohmann::json& manifest) {
     manifest["stale"] = {{"cells", stale.cells}, {"images", stale.images}};
 }
 
+/// The report reads all images of all shots so far: of a long study's time no more than about a twentieth goes into it.
+bool is_report_due(const StudyRun& study) {
+    return std::chrono::steady_clock::now() - study.report_made > 20 * study.report_took;
+}
+
+std::vector<ShotAnswer> make_report(StudyRun& study) {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<ShotAnswer> answers = write_report(study.settings.out);
+    study.report_made = std::chrono::steady_clock::now(), study.report_took = study.report_made - start;
+    return answers;
+}
+
 /// Writes what is finished so far, so that a long study can be read while it runs. Returns what the report says of each
-/// shot.
+/// shot; nothing where it was not made.
 std::vector<ShotAnswer> write_results(StudyRun& study, bool is_last) {
     nlohmann::json manifest = study.manifest;
     const StudyRows rows = rows_of(study.finished);
@@ -225,7 +237,8 @@ std::vector<ShotAnswer> write_results(StudyRun& study, bool is_last) {
     set_families(effects, study.config.primary);
     write_rows(study.settings.out / "effects.csv", effects);
     write_rows(study.settings.out / "time_effects.csv", time_effects(rows.times, variants));
-    std::vector<ShotAnswer> answers = write_report(study.settings.out);
+    std::vector<ShotAnswer> answers;
+    if (is_last || is_report_due(study)) answers = make_report(study);
     if (is_last && manifest.contains("stale"))
         study.progress.say("note: " + std::to_string(manifest["stale"]["cells"].size()) + " cells and " +
                            std::to_string(manifest["stale"]["images"].size()) +

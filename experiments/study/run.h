@@ -15,5 +15,6 @@ struct RunSettings {
     bool prunes = false;    ///< removes what earlier versions of the study left in the folder
 };
 
-/// Runs a study and fills the results folder (experiments/RESULTS.md). Tables and report are written after each shot.
+/// Runs a study and fills the results folder (experiments/RESULTS.md). Tables are written after each shot,
+/// the report and the summaries at the end, and before that as far as a twentieth of the time allows.
 void run_study(const Config& config, const RunSettings& settings);

@@ -7,6 +7,8 @@
 #include "experiments/study/run.h"
 #include "experiments/study/shot_truth.h"
 
+#include <chrono>
+
 /// A study on its way: all that it needs.
 struct StudyRun {
     const Config& config;
@@ -21,6 +23,8 @@ struct StudyRun {
     nlohmann::json manifest_before;   ///< what the folder held when the run began; null if nothing
     std::optional<ClockProof> clock;  ///< made when first needed
     std::vector<Cell> finished;
+    std::chrono::steady_clock::time_point report_made = {};  ///< when it was last done ...
+    std::chrono::steady_clock::duration report_took = {};    ///< ... and how long that took
 
     void report(double share, const std::string& what) {
         work.update(share);
