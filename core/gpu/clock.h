@@ -43,6 +43,6 @@ inline constexpr unsigned clock_attempts = 3;
 /// `measured_ms`, `expected` and `foreign_load`.
 void judge(ClockCheck& check);
 
-/// Takes about three seconds, three times that if it has to repeat.
+/// Takes about five seconds, three times that if it has to repeat.
 ClockProof prove_clock(Device& device, const CpuTimesReader& cpu_times = read_cpu_times);
 ClockProof prove_clock(Device& device, Clock clock, const CpuTimesReader& cpu_times = read_cpu_times);
