@@ -4,7 +4,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "experiments/report/answers.h"
-#include "experiments/report/html_text.h"
+#include "experiments/report/html_template.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
 namespace {
 
@@ -99,86 +98,63 @@ std::string number_text(double value) {
     return buffer;
 }
 
-std::string static_table(const std::vector<const MetricSummary*>& rows, const json& metrics) {
+json error_table(const std::vector<const MetricSummary*>& rows, const json& metrics) {
     const MetricSummary& chosen = *rows.front();
     const std::string unit = metrics.value(chosen.metric, json::object()).value("unit", "1");
-    std::string html = "<table><caption>" +
-                       html_text(chosen.metric + (unit == "1" ? "" : " (" + unit + ")") + " of target " +
-                                 chosen.target + " on mask " + chosen.mask) +
-                       "</caption><thead><tr><th>Shot<th>Variant<th>Point<th>Value<th>95 % interval<th>Noise "
-                       "floor</tr></thead><tbody>\n";
-    const auto number = [](const std::optional<double>& value) { return value ? number_text(*value) : "&ndash;"; };
+    const auto number = [](const std::optional<double>& value) { return value ? number_text(*value) : "–"; };
+    json table = {{"metric", chosen.metric + (unit == "1" ? "" : " (" + unit + ")")},
+                  {"target", chosen.target},
+                  {"mask", chosen.mask},
+                  {"rows", json::array()}};
     for (const MetricSummary* e : rows)
-        html += "<tr><td>" + html_text(e->shot) + "<td>" + html_text(e->variant) + "<td>" + html_text(e->point) +
-                "<td>" + number(e->value) + "<td>" +
-                (e->low && e->high ? number(e->low) + " to " + number(e->high) : "&ndash;") + "<td>" +
-                number(e->floor) + "</tr>\n";
-    return html + "</tbody></table>\n";
+        table["rows"].push_back({{"shot", e->shot},
+                                 {"variant", e->variant},
+                                 {"point", e->point},
+                                 {"value", number(e->value)},
+                                 {"interval", e->low && e->high ? number(e->low) + " to " + number(e->high) : "–"},
+                                 {"floor", number(e->floor)}});
+    return table;
 }
 
-std::string answers_html(const json& answers) {
-    std::string html;
-    for (const json& answer : answers)
-        html += "<li><b>" + html_text(answer.value("shot", "")) + "</b> " + html_text(answer.value("sentence", "")) +
-                " " + html_text(answer.value("perceptual_sentence", "")) + "</li>\n";
-    return html.empty() ? "" : "<h2>Answers</h2>\n<ol>\n" + html + "</ol>\n";
-}
-
-/// What a reader without scripts gets: the answers, the warnings, and both errors of the headline in each shot.
-std::string static_part(const json& data, const Headline& headline, std::span<const MetricSummary> errors,
-                        const PointSet& singles) {
-    std::string html = answers_html(data["answers"]);
-    for (const json& warning : data["warnings"])
-        html += "<p class=\"warning\">" + html_text(warning.get<std::string>()) + "</p>\n";
+/// What a reader without scripts gets of a study, as page/no_scripts.html names it: the answers, the warnings, and both
+/// errors of the headline in each shot.
+json without_scripts(const json& data, const Headline& headline, std::span<const MetricSummary> errors,
+                     const PointSet& singles) {
+    json values = {{"warnings", data["warnings"]}, {"error_tables", json::array()}};
+    if (!data["answers"].empty()) values["answers"] = {{"shots", data["answers"]}};
     const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, headline, headline.metric),
                                             others =
                                                 headline_rows(errors, singles, headline, headline.perceptual_metric);
-    if (!rows.empty()) html += static_table(rows, data["metrics"]);
+    if (!rows.empty()) values["error_tables"].push_back(error_table(rows, data["metrics"]));
     if (!others.empty() && others.front()->metric == headline.perceptual_metric)
-        html += static_table(others, data["metrics"]);
-    return html;
+        values["error_tables"].push_back(error_table(others, data["metrics"]));
+    return values;
 }
 
-/// Replaces each {{name}} of the template once; what is put in is not searched again.
-std::string filled(const std::string& page, const std::map<std::string, std::string>& values) {
-    std::string out;
-    size_t at = 0;
-    for (size_t open; (open = page.find("{{", at)) != std::string::npos;) {
-        const size_t close = page.find("}}", open);
-        out += page.substr(at, open - at) + values.at(page.substr(open + 2, close - open - 2));
-        at = close + 2;
-    }
-    return out + page.substr(at);
-}
-
-/// `values`: style, plot, script and, where there are any, images.
-void write_page(const std::filesystem::path& folder, const std::string& title, const json& data,
-                std::map<std::string, std::string> values, const std::string& for_no_scripts) {
-    values["title"] = html_text(title);
+/// `values`: those of page/template.html that are not the same on all pages, and of page/no_scripts.html.
+std::string page_text(const std::string& title, const json& data, json values) {
+    values["title"] = title;
     values["data"] = script_text(data);
-    values["static"] =
-        "<p>Charts, the viewer and sorting need JavaScript. All numbers are in the CSV files beside this page.</p>\n" +
-        for_no_scripts;
-    values.emplace("images", "");
-    values.emplace("script_source", "");
-    write_text(folder / "report.html", filled(part("template.html"), values));
+    values["style"] = part("style.css") + part("viewer/viewer.css");
+    values["plot"] = part("vendor/plot.js");
+    std::string script;
+    for (const char* name : scripts) script += part(name);
+    values["script"] = script;
+    return filled_template(part("template.html"), values, {{"no_scripts", part("no_scripts.html")}});
 }
 
 }  // namespace
 
 std::vector<ShotAnswer> write_report(const std::filesystem::path& folder, bool links_images) {
     const json stability = stability_report_data(folder);
-    const std::string stability_part = stability.is_null() ? "" : stability_html(stability);
-    std::map<std::string, std::string> values = {{"style", part("style.css") + part("viewer/viewer.css")},
-                                                 {"plot", part("vendor/plot.js")}};
-    for (const char* name : scripts) values["script"] += part(name);
     if (!stability.is_null() && !std::filesystem::exists(folder / "manifest.json")) {
         // No study: the page has this one section.
         json data = report_data({}, {});
         for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
         data["manifest"] = data["defaults"] = json::object();
         data["stability"] = stability, data["is_study"] = false;
-        write_page(folder, "What techniques bear", data, values, stability_part);
+        write_text(folder / "report.html",
+                   page_text("What techniques bear", data, {{"stability", stability_without_scripts(stability)}}));
         return {};
     }
     const json manifest = read_json(folder / "manifest.json");
@@ -202,19 +178,19 @@ std::vector<ShotAnswer> write_report(const std::filesystem::path& folder, bool l
     data["warnings"] = report_warnings(manifest, tables.errors, tables.times);
     data["defaults"] = parameter_defaults(manifest);
     data["stability"] = stability, data["is_study"] = true;
-    const std::string for_no_scripts = static_part(data, headline, tables.errors, singles) + stability_part;
+    json values = without_scripts(data, headline, tables.errors, singles);
+    if (!stability.is_null()) values["stability"] = stability_without_scripts(stability);
+    const json title = manifest.value("title", json());
+    const auto page = [&] { return page_text(title.is_string() ? title.get<std::string>() : "Study", data, values); };
 
-    size_t used = script_text(data).size() + for_no_scripts.size() + 100'000;  // the template, descriptions and notes
-    for (const auto& [name, text] : values) used += text.size();
+    const size_t used = page().size() + 100'000;  // the descriptions and notes of the images
     const ReportImages images =
         report_images(folder, manifest, links_images || used > page_bytes ? 0 : page_bytes - used);
     data["notes"] = images.notes;
     data["images"] = images.descriptions;
     for (size_t i = 0; i < images.data.size(); ++i)
-        values["images"] +=
-            "<script type=\"text/plain\" id=\"image-" + std::to_string(i) + "\">" + images.data[i] + "</script>\n";
+        values["images"].push_back({{"number", i}, {"data", images.data[i]}});
     if (images.data.size() < images.descriptions.size()) values["script_source"] = linked_scripts;
-    const json title = manifest.value("title", json());
-    write_page(folder, title.is_string() ? title.get<std::string>() : "Study", data, values, for_no_scripts);
+    write_text(folder / "report.html", page());
     return answers;
 }

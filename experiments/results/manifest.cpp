@@ -6,6 +6,7 @@
 #include "experiments/measuring/needs.h"
 #include "experiments/results/file_name.h"
 #include "experiments/study/cell_store.h"
+#include "experiments/study/config/comparisons.h"
 #include "groundtruth/reference_audit.h"
 #include "groundtruth/reference_error.h"
 #include "metrics/color_map.h"

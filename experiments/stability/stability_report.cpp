@@ -1,7 +1,6 @@
 #include "experiments/stability/stability_report.h"
 
 #include "core/error.h"
-#include "experiments/report/html_text.h"
 #include "experiments/results/csv.h"
 #include "experiments/stability/known_failures.h"
 #include "experiments/stability/stability_rows.h"
@@ -246,29 +245,22 @@ std::string failures_text(const json& data) {
     return text.empty() ? text : "Where values that are not finite arise, and what spreads them:\n" + text;
 }
 
-std::string stability_html(const json& data) {
-    std::string html = "<h2>What techniques bear</h2><p>" + html_text(data["lead"]) +
-                       "</p>\n<table><caption>Cases by verdict</caption><thead><tr><th>Technique";
-    for (const json& verdict : data["verdicts"]) html += "<th>" + html_text(verdict["name"]);
-    html += "</tr></thead><tbody>\n";
+json stability_without_scripts(const json& data) {
+    json techniques = json::array(), failures = json::array();
     std::vector<std::vector<size_t>> counts(data["techniques"].size(), std::vector<size_t>(data["verdicts"].size()));
     for (const json& row : data["rows"]) ++counts[row[1].get<size_t>()][row[2].get<size_t>()];
-    for (size_t t = 0; t < counts.size(); ++t) {
-        html += "<tr><td>" + html_text(point_name(data["techniques"][t]));
-        for (const size_t count : counts[t]) html += "<td>" + std::to_string(count);
-        html += "</tr>\n";
-    }
-    html += "</tbody></table>\n";
-    if (data["failures"].empty()) return html;
-    html +=
-        "<table><caption>Where values that are not finite arise, and what spreads "
-        "them</caption><thead><tr><th>Technique<th>Stage: "
-        "image<th>Cases<th>Operation<th>Mend</tr></thead><tbody>\n";
+    for (size_t t = 0; t < counts.size(); ++t)
+        techniques.push_back({{"technique", point_name(data["techniques"][t])}, {"counts", counts[t]}});
     for (const json& f : data["failures"])
         if (is_told(f))
-            html += "<tr><td>" + html_text(f["variant"].get<std::string>() + " " + joined(f["points"], ", ")) + "<td>" +
-                    html_text(f["place"]) + "<td>" + html_text(joined(f["cases"], ", ")) + "<td>" +
-                    html_text(explained(f, "operation", "; or ")) + "<td>" + html_text(explained(f, "mend", "; ")) +
-                    "</tr>\n";
-    return html + "</tbody></table>\n";
+            failures.push_back({{"technique", f["variant"].get<std::string>() + " " + joined(f["points"], ", ")},
+                                {"place", f["place"]},
+                                {"cases", joined(f["cases"], ", ")},
+                                {"operation", explained(f, "operation", "; or ")},
+                                {"mend", explained(f, "mend", "; ")}});
+    return {{"lead", data["lead"]},
+            {"verdicts", data["verdicts"]},
+            {"techniques", techniques},
+            {"has_failures", !failures.empty()},
+            {"failures", failures}};
 }

@@ -20,5 +20,6 @@ nlohmann::json stability_report_data(const std::filesystem::path& folder);
 /// Where values that are not finite come from, and how it is mended, as a table for terminals.
 std::string failures_text(const nlohmann::json& data);
 
-/// For readers without scripts: the lead, how often each technique got each verdict, and the failures.
-std::string stability_html(const nlohmann::json& data);
+/// The values of the section `stability` of report/page/no_scripts.html: the lead, how often each technique got each
+/// verdict, and the failures. `data`: as stability_report_data() returns it.
+nlohmann::json stability_without_scripts(const nlohmann::json& data);
