@@ -60,14 +60,17 @@ TEST_F(TracersTest, TraceForEveryTechniqueAndChangeNothingWhenRecorded) {
         for (const TracerEntry& tracer : tracer_table()) {
             if (entry.name == "none" || tracer.name == "exact_scene") continue;  // there is no scene to ask
             SCOPED_TRACE(entry.name + ", " + tracer.name);
-            const std::unique_ptr<Variant> plain = make_variant(entry.name, all_by(tracer, entry)),
-                                           probed = make_variant(entry.name, all_by(tracer, entry));
+            const std::unique_ptr<Variant> probed = make_variant(entry.name, all_by(tracer, entry));
             RayProbe probe;
             probe.is_recording = true;
             probed->ray_probe = &probe;
-            const Rendered result = render(*plain);
+            const Rendered result = render(*probed);
             expect_valid(result);
-            EXPECT_TRUE(render(*probed).radiance.values == result.radiance.values);
+            // Each technique's recording and each tracer's is compared once, as their shaders are compiled anew for it.
+            if (entry.name == "mcguire_dda" || &tracer == &tracer_table().front()) {
+                const std::unique_ptr<Variant> plain = make_variant(entry.name, all_by(tracer, entry));
+                EXPECT_TRUE(render(*plain).radiance.values == result.radiance.values);
+            }
             EXPECT_FALSE(probe.recorded.empty());
             size_t hits = 0, rays = 0;
             for (const RecordedRays& recorded : probe.recorded) {
