@@ -9,7 +9,8 @@ from dataclasses import fields
 from paper_figures.results import ResultsError
 from paper_tables.cells import Cell
 
-MOST_BYTES = 100_000
+MOST_BYTES = 160_000  # that of configs/comparison.json: 45 shots x 13 points, twice
+MOST_NAMED = 8  # shots below a table that does not show all of the study's; the summary's head names any number
 COLUMNS = [f.name for f in fields(Cell)]
 ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks")  # a table; see cells_of()
 MARK = "# "
@@ -115,7 +116,9 @@ def made_from(origin_of_all, table, cells):
     count, whole = len(table["shots"]), origin_of_all["shots"]
     shots = f"{count} shot{'s' * (count != 1)}"
     if count < whole:
-        shots = f"{count} of the study's {whole} shots" + f" ({', '.join(table['shots'])})" * (count > 0)
+        shots = f"{count} of the study's {whole} shots"
+        if 0 < count <= MOST_NAMED:
+            shots += f" ({', '.join(table['shots'])})"
     sizes = " at " + " and ".join(table["resolutions"]) if table["resolutions"] else ""
     clocks = " and ".join(table["clocks"])
     return (

@@ -370,7 +370,7 @@ def test_kept_numbers(temporary):
         summary_file.write(os.path.join(temporary, "large.csv"), origin, [kept["changes"][0]], many)
         check(False, "a large summary was written")
     except Exception as e:  # noqa: BLE001
-        check("at most 100000" in str(e), e)
+        check("at most 160000" in str(e), e)
     for whole, program, why in (
         ({"is_complete": False}, {}, "the study is not complete"),
         ({}, {"commit": ""}, "no commit is known"),
