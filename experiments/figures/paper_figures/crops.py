@@ -155,6 +155,7 @@ def _compose(shot, target, errors, chosen, images, maps, crops, maximum):
         layout="constrained",
     )
     figure.set_constrained_layout_pads(w_pad=0.02, h_pad=0.02, wspace=0.01, hspace=0.01)
+    letters = style.PANEL_LETTERS * 4 // max(4, len(images))
     grid = figure.subplots(len(ratios), len(images), squeeze=False, gridspec_kw={"height_ratios": ratios})
     for column, (key, image) in enumerate(images.items()):
         show(grid[0, column], display(image, crops[0].exposure, crops[0].tone_curve))
@@ -169,7 +170,7 @@ def _compose(shot, target, errors, chosen, images, maps, crops, maximum):
                 else "" if error.low is None else f"\n[{style.number(error.low)}, {style.number(error.high)}]"
             )
         )
-        grid[0, column].set_title(style.wrapped(label(*key), style.PANEL_LETTERS) + number)
+        grid[0, column].set_title(style.wrapped(label(*key), letters) + number)
         for index, (crop, box) in enumerate(zip(crops, boxes)):
             color = BOX_COLORS[index % len(BOX_COLORS)]
             _draw_crop(
