@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""The pictures of the repository's README, in experiments/figures/readme.
+"""The pictures of the repository's README, in experiments/figures/readme, and of experiments/findings.
 
-usage: experiments/figures/readme_pictures.py [RESULTS] [--report QUICKSTART]
+usage: experiments/figures/readme_pictures.py [RESULTS] [--report QUICKSTART] [--findings COMPARISON]
 
 error_time.png is drawn from experiments/summaries/quickstart.csv. With RESULTS, a folder that `ssrlab run
 experiments/configs/readme.json` filled, comparison.png too; with QUICKSTART, that of the quickstart, the first screen of
-its report (report.png). Needs chromium for that, and Debian's python3-matplotlib, -numpy and -pil.
+its report (report.png), for which it needs chromium; with COMPARISON, that of configs/comparison.json, the crops that
+findings/figures.json names. Needs Debian's python3-matplotlib, -numpy and -pil.
 """
 
 import argparse
@@ -29,12 +30,14 @@ from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
 from paper_figures import crops, style  # noqa: E402
+from paper_figures.crop_choice import read_crops  # noqa: E402
 from paper_figures.results import Results, ResultsError, label  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
 SUMMARY = FOLDER.parent / "summaries/quickstart.csv"
 OUT = FOLDER / "readme"
+FINDINGS = FOLDER.parent / "findings"
 SHOTS = ("roughness_gradient", "fence", "passing_pillars")  # all roughnesses, thin bars, in motion
 DOTS_PER_INCH = 150  # 1050 pixels across: what hosts show of a README is narrower
 SCENE, DISCS = np.s_[34:172], np.s_[104:172]  # rows of the comparison's images, and of its error maps, which are 0 above
@@ -45,20 +48,22 @@ def digest(file):
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
-def save(figure, name, made_from):
+def save(figure, file, made_from, is_reduced=True):
     """`made_from` is kept in the file's text "Source", by which a test knows whether the picture is up to date."""
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=DOTS_PER_INCH, format="png")
     plt.close(figure)
-    keep(Image.open(drawn), name, made_from)
+    keep(Image.open(drawn), file, made_from, is_reduced)
 
 
-def keep(picture, name, made_from):
-    picture = picture.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+def keep(picture, file, made_from, is_reduced=True):
+    """`is_reduced`: to a palette, which suffices where one scale of colours is shown."""
+    picture = picture.convert("RGB")
+    if is_reduced:
+        picture = picture.quantize(COLOURS, dither=Image.Dither.NONE)
     notes = PngImagePlugin.PngInfo()
     notes.add_text("Source", made_from)
-    OUT.mkdir(exist_ok=True)
-    file = OUT / f"{name}.png"
+    file.parent.mkdir(exist_ok=True)
     picture.save(file, optimize=True, pnginfo=notes)
     print(f"{file}: {file.stat().st_size} bytes")
 
@@ -94,7 +99,7 @@ def draw_error_time():
         axes.margins(0.12)
     panels[0].set_ylabel("MSE of the reflection")
     style.draw_legend(legend, panels)
-    save(figure, "error_time", digest(SUMMARY))
+    save(figure, OUT / "error_time.png", digest(SUMMARY))
 
 
 def draw_comparison(folder):
@@ -124,7 +129,7 @@ def draw_comparison(folder):
         value, low, high = (style.number(x) for x in (error.value, error.low, error.high))
         top.set_title(f"{label(*key)}: {value} [{low}, {high}]")
         crops.show(below, maps[key][DISCS], cmap="magma", vmin=0, vmax=most)
-    save(figure, "comparison", digest(FOLDER.parent / "configs/readme.json"))
+    save(figure, OUT / "comparison.png", digest(FOLDER.parent / "configs/readme.json"))
 
 
 def draw_report(folder):
@@ -135,13 +140,23 @@ def draw_report(folder):
         command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--window-size=1280,800"]
         command += ["--virtual-time-budget=10000", f"--screenshot={shot}", page.as_uri()]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        keep(Image.open(shot), "report", digest(FOLDER.parent / "configs/quickstart.json"))
+        keep(Image.open(shot), OUT / "report.png", digest(FOLDER.parent / "configs/quickstart.json"))
+
+
+def draw_findings(folder):
+    """A picture per shot of findings/figures.json, named after its scene."""
+    results, chosen = Results(folder), FINDINGS / "figures.json"
+    options = argparse.Namespace(target="specular", metric="mse", mask="reflective", crops=read_crops(str(chosen), results))
+    errors = results.errors_of(options.target, options.metric, options.mask)
+    for shot in options.crops:
+        save(crops.draw(results, shot, errors, options), FINDINGS / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced=False)
 
 
 def main():
     parser = argparse.ArgumentParser(description="The pictures of the README (PNG).")
     parser.add_argument("results", nargs="?", help="a folder that `ssrlab run experiments/configs/readme.json` filled")
     parser.add_argument("--report", metavar="QUICKSTART", help="the results folder of the quickstart, for a picture of its report")
+    parser.add_argument("--findings", metavar="COMPARISON", help="the results folder of the comparison, for the findings' pictures")
     arguments = parser.parse_args()
     style.apply()
     try:
@@ -150,6 +165,8 @@ def main():
             draw_comparison(arguments.results)
         if arguments.report:
             draw_report(arguments.report)
+        if arguments.findings:
+            draw_findings(arguments.findings)
     except ResultsError as mistake:
         print(f"error: {mistake}", file=sys.stderr)
         return 2

@@ -144,10 +144,12 @@ std::string cheaper_clause(const ShotAnswer& answer, const std::vector<Scored>& 
 
 std::string limit_clause(const ShotAnswer& answer) {
     if (!answer.limit) return "";
+    if (answer.limit->low.value_or(answer.limit->value) <= 0)  // noise can leave it below
+        return "; what this one frame shows leaves no error that can be told from 0";
     const std::string limit = shown(answer.limit->value) + interval_text(answer.limit->low, answer.limit->high);
     const double least = answer.best->low.value_or(answer.best->value),
                  most = answer.limit->high.value_or(answer.limit->value);
-    return least > most ? "; " + limit + " is what no technique of one frame can beat here"
+    return least > most ? "; " + limit + " is left by one that finds all that this one frame shows"
                         : "; that is no more than the " + limit +
                               " that a technique leaves which finds all that this one frame shows";
 }

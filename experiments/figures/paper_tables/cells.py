@@ -131,8 +131,10 @@ class Selection:
         return value if value is None or isinstance(value, str) else json.dumps(value)
 
     def _is_inside(self, row, key):
-        allowed = [v if isinstance(v, str) else json.dumps(v) for v in self.table.where[key]]
-        return self.entry(row, key) in allowed
+        listed = [v if isinstance(v, str) else json.dumps(v) for v in self.table.where[key]]
+        left_out = [v[1:] for v in listed if v.startswith("!")]
+        value = self.entry(row, key)
+        return value not in left_out and (value in listed or len(left_out) == len(listed))
 
     def label(self, row, keys):
         """How a row is named along an axis: parameters with their names, columns of the file by their values alone."""

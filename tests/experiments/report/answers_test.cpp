@@ -60,7 +60,8 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
     EXPECT_EQ(
         a.sentence,
         "slow has the least error, mse 0.065 [0.06, 0.07] (0.1x that of none); quick takes 0.6x [0.49x, 0.73x] its "
-        "time at 1.8x [1.6x, 2x] the error; 0.05 [0.049, 0.051] is what no technique of one frame can beat here.");
+        "time at 1.8x [1.6x, 2x] the error; 0.05 [0.049, 0.051] is left by one that finds all that this one frame "
+        "shows.");
     ASSERT_EQ(a.front.size(), 3u);
     EXPECT_EQ(a.front[1].variant, "quick");
     EXPECT_EQ(a.perceptual_sentence, "");
@@ -97,6 +98,15 @@ TEST(Answers, SayWhereALimitOfOneFrameIsReached) {
     made.add("a", 0.0505, 0.001);
     EXPECT_NE(made.answer().sentence.find("no more than the 0.05 [0.049, 0.051] that"), std::string::npos)
         << made.answer().sentence;
+}
+
+TEST(Answers, TakeALimitInTheNoiseForNone) {
+    Made made;
+    made.add("a", 0.0505, 0.001);
+    json noisy = manifest;
+    noisy["shots"][0]["truth_ladder"][1].update({{"value", -1e-7}, {"low", -2e-6}, {"high", 1e-6}});
+    EXPECT_NE(made.answer(noisy).sentence.find("leaves no error that can be told from 0."), std::string::npos)
+        << made.answer(noisy).sentence;
 }
 
 TEST(Answers, SayWhereTheEyeDisagrees) {
