@@ -9,6 +9,7 @@ function stackedBars({title, caption, rows, xLabel, limits = [], width = 760, ba
         return row.parts.map(p => ({
                                  ...p,
                                  row: row.label,
+                                 textEnd: row.total?.low ?? Infinity,
                                  from: start,
                                  to: start += p.value,
                                  className: "bar",
@@ -19,7 +20,8 @@ function stackedBars({title, caption, rows, xLabel, limits = [], width = 760, ba
     const x = isShare ? {domain: [0, 1], ticks: [0, 0.2, 0.4, 0.6, 0.8, 1], tickFormat: percent} :
                         linearAxis(ends, xLabel, true);
     const pixels = (width - marginLeft - 20) / (x.domain[1] - x.domain[0]);
-    const hasRoom = p => p.text && (p.to - p.from) * pixels > 6.5 * p.text.length + 6;
+    const textEnd = p => Math.min(p.to, p.textEnd);  // before the interval of the row's total
+    const hasRoom = p => p.text && (textEnd(p) - p.from) * pixels > 6.5 * p.text.length + 6;
     const totals = rows.filter(r => r.total);
     const picture = plot({
         width,
@@ -53,7 +55,7 @@ function stackedBars({title, caption, rows, xLabel, limits = [], width = 760, ba
                 ...named(parts)
             }),
             Plot.text(parts.filter(hasRoom), {
-                x: p => (p.from + p.to) / 2,
+                x: p => (p.from + textEnd(p)) / 2,
                 y: "row",
                 text: "text",
                 fill: "var(--ink)",

@@ -85,7 +85,7 @@ const named = marks => ({
 const inDomain = (v, axis) => v >= axis.domain[0] && v <= axis.domain[1];
 const clampTo = (v, axis) => Math.min(Math.max(v, axis.domain[0]), axis.domain[1]);
 
-/// Layers for `marks`: [{x, y, spanX, spanY, color, symbol, hasOutline, isHollow, number, tip, data, open, size}];
+/// Layers for `marks`: [{x, y, spanX, spanY, color, symbol, hasOutline, isHollow, tip, data, open, size}];
 /// spans are intervals [low, high], or null. What lies beyond an axis is an arrow at its end.
 function markLayers(marks, x, y) {
     const isInside = m => inDomain(m.x, x) && inDomain(m.y, y);
@@ -123,19 +123,6 @@ function markLayers(marks, x, y) {
             sort: null,
             ...named(inside)
         }),
-        Plot.text(inside.filter(m => m.number), {
-            x: "x",
-            y: "y",
-            text: m => String(m.number),
-            dx: 7,
-            dy: -7,
-            textAnchor: "start",
-            fontSize: 10.5,
-            fill: "var(--ink)",
-            stroke: "var(--card)",
-            strokeWidth: 3,
-            pointerEvents: "none"
-        }),
         ...arrows.map(own => Plot.text(own, {
             x: m => clampTo(m.x, x),
             y: m => clampTo(m.y, y),
@@ -165,16 +152,86 @@ function plot(options) {
     return picture;
 }
 
-/// A chart of marks on two axes; `under`: layers below them. Widths and heights are in CSS pixels at scale 1.
+const markRadius = 5, labelSize = 10.5;  // of the chart's own pixels
+const digitWidth = 0.64;                 // of DejaVu Sans, the widest font that the page names, over its size
+
+const overlap = (a, b) =>
+    Math.min(a.right, b.right) > Math.max(a.left, b.left) && Math.min(a.bottom, b.bottom) > Math.max(a.top, b.top);
+const around = (x, y, rx, ry = rx) => ({left: x - rx, right: x + rx, top: y - ry, bottom: y + ry});
+
+/// The box of a text whose middle line is at `y`, with a pixel of air.
+function textBox({x, y, anchor}, text) {
+    const width = digitWidth * labelSize * text.length,
+          left = anchor === "start" ? x :
+        anchor === "end"            ? x - width :
+                                      x - width / 2;
+    return {left: left - 1, right: left + width + 1, top: y - 0.6 * labelSize, bottom: y + 0.6 * labelSize};
+}
+
+/// Where a mark's number may stand, the best place first; far from it at the end of a line.
+function placesAround(x, y) {
+    const near = [[7, -8], [8, 0], [7, 8], [-7, -8], [-8, 0], [-7, 8], [0, -12], [0, 12]];
+    const far = [17, 26, 36, 48].flatMap(
+        radius => Array.from(
+            {length: 16}, (_, i) => [radius * Math.cos(Math.PI * i / 8), radius * Math.sin(Math.PI * i / 8)]));
+    const place = (dx, dy, line) =>
+        ({x: x + dx,
+          y: y + dy,
+          anchor: Math.abs(dx) < 2 ? "middle" :
+              dx > 0               ? "start" :
+                                     "end",
+          line});
+    return [
+        ...near.map(([dx, dy]) => place(dx, dy, [])),
+        // Points of the line from the mark's edge to the number.
+        ...far.map(([dx, dy]) => place(dx, dy, [0.3, 0.45, 0.6, 0.75, 0.9].map(t => [x + t * dx, y + t * dy])))
+    ];
+}
+
+/// `labels`: [{text, places}], the more important ones first. Each gets the first place within `field` where its text
+/// and line meet no mark, text or line before, and the fewest of the `lines`, or none: its mark tells its name.
+function placeLabels(labels, field, marks, lines) {
+    const taken = [...marks], placed = [];
+    for (const {text, places} of labels) {
+        const free =
+            places.map(place => ({text, place, box: textBox(place, text)}))
+                .filter(
+                    ({place, box}) => box.left >= field.left && box.right <= field.right && box.top >= field.top &&
+                        box.bottom <= field.bottom && !taken.some(other => overlap(box, other)) &&
+                        !place.line.slice(1).some(([x, y]) => taken.some(other => overlap(around(x, y, 0.5), other))));
+        // A place farther away is worth a line that is not crossed.
+        const cost = ({place, box}) => lines.filter(line => overlap(box, line)).length + (place.line.length ? 1.5 : 0);
+        const best = free.reduce((a, b) => a && cost(a) <= cost(b) ? a : b, null);
+        if (!best) continue;
+        placed.push(best);
+        taken.push(best.box, ...best.place.line.slice(1).map(([x, y]) => around(x, y, 1)));
+    }
+    return placed;
+}
+
+const labelLine = ({line}) => line.length ?
+    svg("line", {class: "mark-line", x1: line[0][0], y1: line[0][1], x2: line.at(-1)[0], y2: line.at(-1)[1]}) :
+    null;
+const labelText = ({place: {x, y, anchor}, text}) =>
+    svg("text", {class: "mark-label", x, y, dy: "0.32em", "text-anchor": anchor, "font-size": labelSize}, text);
+
+/// Pixels along an axis of markChart() from `start` to `end`.
+function pixelsOf({type, domain}, start, end) {
+    const map = type === "log" ? Math.log : v => v, [low, high] = domain.map(map);
+    return v => start + (end - start) * (map(v) - low) / (high - low);
+}
+
+/// A chart of marks on two axes; `under`: layers below them; `levels`: [{y, text}], names of lines across it. Widths
+/// and heights are in CSS pixels at scale 1. A mark's number stands where it covers nothing.
 function markChart(
-    {title, caption, width = 440, height = 300, x, y, marks, under = [], marginBottom = 44, ticks = {}}) {
-    const label = {labelAnchor: "center", labelArrow: "none"};
+    {title, caption, width = 440, height = 300, x, y, marks, under = [], levels = [], marginBottom = 44, ticks = {}}) {
+    const label = {labelAnchor: "center", labelArrow: "none"}, [marginLeft, marginRight, marginTop] = [62, 16, 14];
     const picture = plot({
         width,
         height,
-        marginLeft: 62,
-        marginRight: 16,
-        marginTop: 14,
+        marginLeft,
+        marginRight,
+        marginTop,
         marginBottom,
         ariaLabel: title,
         x: {...x, ...label},
@@ -194,6 +251,31 @@ function markChart(
             ...markLayers(marks, x, y)
         ]
     });
+    const right = width - marginRight, bottom = height - marginBottom;
+    const toX = pixelsOf(x, marginLeft, right), toY = pixelsOf(y, bottom, marginTop);
+    const shown = marks.filter(m => inDomain(m.x, x) && inDomain(m.y, y)).map(m => ({...m, x: toX(m.x), y: toY(m.y)}));
+    const span = ([low, high], axis, to) => [low, high].map(v => to(clampTo(v, axis)));
+    const lines = [
+        ...shown.filter(m => m.spanX).map(m => {
+            const [left, right] = span(m.spanX, x, toX);
+            return {left, right, top: m.y - 1, bottom: m.y + 1};
+        }),
+        ...shown.filter(m => m.spanY).map(m => {
+            const [bottom, top] = span(m.spanY, y, toY);
+            return {left: m.x - 1, right: m.x + 1, top, bottom};
+        }),
+        ...levels.map(l => around((marginLeft + right) / 2, toY(l.y), right, 1))
+    ];
+    const levelPlaces = at => [[right, "end"], [marginLeft + 2, "start"]].flatMap(
+        ([x, anchor]) => [-8, 9].map(dy => ({x, y: toY(at) + dy, anchor, line: []})));
+    const placed = placeLabels(
+        [
+            ...levels.map(l => ({text: l.text, places: levelPlaces(l.y)})),
+            ...shown.filter(m => m.number).map(m => ({text: String(m.number), places: placesAround(m.x, m.y)}))
+        ],
+        {left: marginLeft, right: width, top: marginTop - 4, bottom}, shown.map(m => around(m.x, m.y, markRadius)),
+        lines);
+    picture.append(svg("g", {}, placed.map(p => labelLine(p.place)), placed.map(labelText)));
     return h("figure", {class: "chart"}, h("figcaption", {}, caption ?? title), picture);
 }
 

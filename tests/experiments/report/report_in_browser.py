@@ -136,6 +136,35 @@ def test_charts(page, folder):
         check(abs(width - value / bars[0][0] * bars[0][1]) < 1, "a bar's length is not in proportion to its time")
 
 
+def test_labels(page):
+    """Numbers and names of lines cover neither each other nor marks: of charts as they are, and of one whose marks crowd."""
+    found = page.execute_script(
+        """const n = 14, of = i => ({...seriesStyle(i), x: 10 + 0.02 * (i % 4), y: 1 + 0.03 * Math.floor(i / 4), number: i + 1, tip: '', spanX: [9.9, 10.2]});
+        const axis = (low, high) => ({type: 'log', domain: [low, high], ticks: [low], tickFormat: String});
+        const crowd = markChart({title: 'a crowd', x: axis(8, 12), y: axis(0.5, 2), marks: Array.from({length: n}, (_, i) => of(i)),
+            levels: [{y: 1.9, text: 'one line 1.9'}, {y: 1.88, text: 'another line 1.88'}]});
+        document.body.append(crowd);
+        const box = e => e.getBoundingClientRect(), overlaps = [];
+        for (const chart of document.querySelectorAll('#answer-charts .chart, #scatter .chart, body > .chart')) {
+            const labels = [...chart.querySelectorAll('.mark-label')], marks = [...chart.querySelectorAll('.point')];
+            labels.forEach((a, i) => [...labels.slice(i + 1), ...marks].forEach(b => {
+                const [p, q] = [box(a), box(b)], height = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+                // A text's box has air above and below its digits.
+                if (Math.min(p.right, q.right) - Math.max(p.left, q.left) > 1 && height > 0.3 * p.height) overlaps.push(a.textContent + ' and ' + (b.textContent || b.tagName));
+            }));
+        }
+        const texts = of => [...of.querySelectorAll('.mark-label')].map(t => t.textContent);
+        const crowded = texts(crowd), plain = texts(document.querySelector('#scatter .chart'));
+        crowd.remove();
+        return [overlaps, crowded, plain]"""
+    )
+    overlaps, crowded, plain = found
+    equal(overlaps, [], "labels that cover something")
+    equal(crowded[:2], ["one line 1.9", "another line 1.88"], "names of lines")
+    check(len(crowded) >= 2 + 10, f"numbers of 14 marks that crowd: {crowded[2:]}")
+    equal([t for t in plain if t.isdigit()], ["2", "3"], "numbers of a plain chart")
+
+
 def check_quiet(page, url):
     # The only message allowed is about getImageData, which this test calls and the page does not.
     errors = [entry["message"] for entry in page.get_log("browser") if "willReadFrequently" not in entry["message"]]
@@ -191,6 +220,7 @@ def main():
             test_table(page, folder)
             test_sorting(page)
             test_charts(page, folder)
+            test_labels(page)
             test_linked_zoom(page)
             test_flip_and_split(page)
             test_exposure_and_tone_curves(page)

@@ -64,22 +64,55 @@ def test_rays(page, folder, shot_of_frames):
 def test_error_shares(page, folder, shot):
     """Bars as long as the error, and their sentences."""
     rows = [r for r in rows_of(folder, "hits.csv", shot=shot, stage="error") if r["point"] in ("first", "mended")]
-    equal(len(rows), 8, "shares of two points")
+    equal(len(rows), 10, "shares of two points")
     part = f"#error-shares details[data-shot='{shot}']"
     page.execute_script("document.querySelectorAll('#error-shares details').forEach(d => { d.open = true })")
     bars = page.execute_script(
         "return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => [b.dataset.verdict, +b.dataset.share, +b.dataset.value])", part
     )
     errors = {r["point"]: float(r["value"]) for r in rows_of(folder, "summary.csv", shot=shot, metric="mse", variant="sssr")}
-    order = ["right", "unavoidable_miss", "empty", "wrong_place"]
+    order = ["right", "unavoidable_miss", "empty", "avoidable_miss", "wrong_place"]
     rows.sort(key=lambda r: (r["point"] != "first", order.index(r["quantity"].split()[1])))
     equal([b[:2] for b in bars], [[r["quantity"].split()[1], float(r["value"])] for r in rows], "shares by verdict")
     for (_, share, value), row in zip(bars, rows):
         expected = share * errors[row["point"]]
         check(abs(value - expected) < 1e-12 * expected, f"a part's length is {value}, not {expected}")
-    sentences = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' li')].map(l => l.textContent)", part)
-    wanted = (
-        "Of sssr · first's error 37.5 % lies where the truth is not on the screen, 50 % where the march erred, "
-        "12.5 % where the ray was right (filter, fallback, view dependence)."
+    test_why(page, folder, shot, part, errors)
+
+
+def test_why(page, folder, shot, part, errors):
+    """The sentence of a bar, of a sentence below, of the first screen's question and, in short, of a cell."""
+    scene, frame = shot.split(".")[0], rows_of(folder, "hits.csv", shot=shot, stage="error")[0]["frame"]
+    rays = rows_of(folder, "hits.csv", shot=shot, point="first", mask="reflective", frame=frame)
+    missed = [[float(r["value"]) for r in rays if r["quantity"] == q] for q in ("avoidable_miss", "miss: off_screen", "miss: too_thick")]
+    equal([len(m) for m in missed], [2, 2, 2], "two passes of as many rays")
+    missed, off_screen, too_thick = (f"{100 * sum(m) / 2:.2g} %" for m in missed)
+    ours, least, more, less, ratio = page.execute_script(
+        "return arguments[0].map(([value, digits]) => number(value, digits))",
+        [(errors["first"], 3), (errors["mended"], 3), (0.375 * errors["first"], 2), (0.125 * errors["mended"], 2), (errors["first"] / errors["mended"], 3)],
     )
-    check(wanted in sentences, f"{wanted!r} is not among {sentences}")
+    wanted = (
+        f"sssr · first in {scene}, frame {frame}: 38 % of its error lies where rays missed what the screen shows, "
+        "25 % where rays hit the wrong place, 19 % where the truth is not on the screen, 13 % where rays were right (filter, fallback, "
+        f"view dependence), 6.3 % where nothing is there to be hit. {missed} of its rays missed so: {off_screen} left the screen, "
+        f"{too_thick} went too far behind a surface. Its mse, {ours}, is {ratio} times the least (sssr · mended, {least}); "
+        f"it errs more above all where rays missed what the screen shows: {more} against {less}. Its\u00a0rays Its\u00a0images"
+    )
+    text = "return document.querySelector(arguments[0]).textContent"
+    page.execute_script("document.querySelector(arguments[0] + ' .bar').dispatchEvent(new Event('click'))", part)
+    equal(page.execute_script(text, part + " .why"), wanted, "what a click on a bar says")
+    equal(page.execute_script(text, part + " li"), wanted, "the same in the list")
+    choose = "[...document.querySelectorAll('#answer-shots button')].find(b => b.title.startsWith(arguments[0])).click()"
+    first = page.execute_script("return answerChoice.shot")
+    page.execute_script("const w = at('why'); w.value = 'sssr|first'; w.dispatchEvent(new Event('change'))")
+    page.execute_script(choose, shot)
+    equal(page.execute_script(text, "#why-answer"), wanted, "the first screen's answer, kept from shot to shot")
+    page.execute_script("document.querySelectorAll('#hits details.shot').forEach(d => { d.open = false })")
+    page.execute_script("document.querySelector('#why-answer a').click()")
+    parts = page.execute_script("return [...document.querySelectorAll('#hits details.shot[open]')].map(d => [d.dataset.shot, d.getBoundingClientRect().top])")
+    equal([p[0] for p in parts], [shot], "the rays that its link opens")
+    check(abs(parts[0][1]) < 5, f"they are {parts[0][1]} pixels from the top")
+    page.execute_script(choose, first)
+    tips = page.execute_script("return [...document.querySelectorAll('#matrix button:not(.time)')].map(b => b.getAttribute('aria-label'))")
+    short = "why (mse): 38 % of its error lies where rays missed what the screen shows, 25 % where rays hit the wrong place"
+    check(any(shot in t and "sssr · first" in t and short in t for t in tips), f"no cell says why: {tips}")

@@ -170,6 +170,15 @@ def test_stages(page):
     equal([len(set(fills[:10])), fills[:10] == fills[10:]], [10, True], f"ten stages look ten ways, in all bars the same: {fills}")
     keys = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .stage rect')].map(r => r.getAttribute('fill'))", part)
     equal(keys, fills[:10], "the legend's colours")
+    looks = page.execute_script(  # 50 names, more than there are looks; the third technique has the first and the 33rd
+        """const of = (variant, names) => names.map((name, i) => ({variant, stage: variant + '/' + name, value: (variant === 'a' ? 200 : 100) - i}));
+        const numbers = (letter, count) => Array.from({length: count}, (_, i) => letter + i);
+        const looks = stageLooks([...of('a', numbers('a', 30)), ...of('b', numbers('b', 20)), ...of('c', ['a0', 'b2'])]);
+        return [numbers('a', 30), numbers('b', 20), ['a0', 'b2']].map(names => names.map(name => stageFill(looks.get(name))))"""
+    )
+    for names in looks:
+        equal(len(set(names)), len(names), "stages of one technique that look alike")
+    check(all(look.startswith("url(#plain") for look in looks[0][:8]), f"the longest stages are plain: {looks[0]}")
     text = page.find_element(By.CSS_SELECTOR, part).text
     for words in ("1.12 % (sssr · first, 6.2 ms)", "A/A floor of the study: 2 %"):
         check(words in text, f"the A/A floor: {text!r}")

@@ -151,11 +151,13 @@ def test_inspector(page, expected):
         "const c = document.querySelectorAll('#panes canvas')[0]; return [Math.floor(c.width / 2), Math.floor(c.height / 2)]"
     )
     colors = [pixels(page, i, *middle)[:3] for i in range(4)]
-    ActionChains(page).move_to_element(canvas(page, 0)).click().perform()
+    ActionChains(page).move_to_element(canvas(page, 0)).perform()
+    WebDriverWait(page, 10).until(lambda p: [row[10] for row in numbers_of(p)] == ["–", "–", "right", "right"], "rays at a pixel that is pointed at")
+    ActionChains(page).click().perform()
     caption = text_of(page, "#readout caption")
     check(f"Pixel {x}, {y} (pinned" in caption, f"the pointer is over pixel {x}, {y}, but it says {caption}")
     # What is not shown is loaded when a pixel is pinned.
-    WebDriverWait(page, 10).until(lambda p: numbers_of(p)[3][9] != "–" and numbers_of(p)[3][10] != "…" and "Rung on_screen" in text_of(p, "#pixel-facts"))
+    WebDriverWait(page, 10).until(lambda p: numbers_of(p)[3][9] not in ("–", "loading") and "Rung on_screen" in text_of(p, "#pixel-facts"))
     shown = numbers_of(page)
     equal([row[0] for row in shown], NAMES, "methods in the inspector")
     values = [[float(v) for v in row[1:4]] for row in shown]
@@ -179,6 +181,8 @@ def test_inspector(page, expected):
     check(abs(float(shown[3][8].split()[0]) - 100 * share) < 0.01 * 100 * share + 0.05, f"unknowable share {shown[3][8]}, expected {share}")
     check(abs(float(shown[2][9]) - 0.6) <= 0.5 / 254, f"confidence {shown[2][9]}")  # stored in 8 bits
     equal([row[10] for row in shown], ["–", "–", "right", "right"], "verdicts on the left")
+    cut = page.execute_script("return [...document.querySelectorAll('#readout td')].filter(c => c.scrollWidth > c.clientWidth + 1).map(c => c.textContent)")
+    equal(cut, [], "cells whose text is cut off")
     facts = text_of(page, "#pixel-facts")
     check(f"Roughness\n{x / 160:.2f}" in facts, "roughness: " + facts)
     check("Rung on_screen (incident)\n0.75, 0.75, 0.75" in facts, "the rung of the truth ladder: " + facts)

@@ -29,6 +29,7 @@ function showAnswers() {
     answerChoice.shot = shots[0];
     pointListeners.push(drawAnswerCharts);
     showBudget();
+    showWhy();
     return drawAnswers(shots);
 }
 
@@ -112,6 +113,7 @@ function drawAnswerCharts() {
     const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), {width: 420, height: 320}));
     at("answer-charts").replaceChildren(...charts.filter(Boolean));
     drawBudget(shot);
+    drawWhy(shot);
     at("answer-legend").replaceChildren(pointLegend(headlineRows(shot, metrics[0])));
 }
 

@@ -38,18 +38,19 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
         }));
     const limit =
         ladderOf(shot, {target, metricKey: metricKey(rows[0]), mask}).find(r => r.rung === "on_screen" && r.value > 0);
+    const levels = [
+        none && rows.length < shown.length ? level("none", none, y, {stroke: "var(--faint)", strokeDasharray: "5 4"}) :
+                                             null,
+        limit ? level("limit of one frame", limit, y, {stroke: "var(--accent)", strokeDasharray: "1 3"}) : null
+    ].filter(Boolean);
     const under = [
-        ...(hasTimes ? budgetLine(x) : []),
-        ...(isLog && hasTimes ? [frontLine(paretoFront(timed))] : []),
-        ...(none && rows.length < shown.length ?
-                levelLine("none", none, x, y, {stroke: "var(--faint)", strokeDasharray: "5 4"}) :
-                []),
-        ...(limit ? levelLine("limit of one frame", limit, x, y, {stroke: "var(--accent)", strokeDasharray: "1 3"}) :
-                    [])
+        ...(hasTimes ? budgetLine(x) : []), ...(isLog && hasTimes ? [frontLine(paretoFront(timed))] : []),
+        ...levels.flatMap(l => levelLayers(l, x, y))
     ];
     const frames = framesText(rows[0]);
     const caption = [`${shortShot(shot)}: ${metric}`, target, mask, frames].filter(Boolean).join(", ");
-    const chart = markChart({title: `${metric} against time, ${shot}`, caption, width, height, x, y, marks, under});
+    const chart =
+        markChart({title: `${metric} against time, ${shot}`, caption, width, height, x, y, marks, under, levels});
     chart.dataset.shot = shot;
     return chart;
 }
@@ -63,27 +64,16 @@ const frontLine = front => Plot.line(front, {
     strokeDasharray: "3 2"
 });
 
-/// A line across the chart at the value of `row`, with its interval, named at its right end; at the chart's edge, with
-/// an arrow, where the value lies beyond.
-function levelLine(name, {value, low, high}, x, y, style) {
-    const place = clampTo(value, y), arrow = place < value ? "▲ " : place > value ? "▼ " : "";
-    const isTop = place === y.domain[1];
-    return [
-        ...(low > 0 && !arrow ?
-                [Plot.rect(
-                    [{low: clampTo(low, y), high: clampTo(high, y)}],
+/// A line across the chart at the value of a row, with its interval and its name; at the chart's edge, with an arrow,
+/// where the value lies beyond.
+function level(name, {value, low, high}, axis, style) {
+    const y = clampTo(value, axis), arrow = y < value ? "▲ " : y > value ? "▼ " : "";
+    return {y, text: `${arrow}${name} ${number(value, 3)}`, span: low > 0 && !arrow ? [low, high] : null, style};
+}
+
+const levelLayers = ({y: place, span, style}, x, y) =>
+    [...(span ? [Plot.rect(
+                    [{low: clampTo(span[0], y), high: clampTo(span[1], y)}],
                     {x1: x.domain[0], x2: x.domain[1], y1: "low", y2: "high", fill: style.stroke, fillOpacity: 0.15})] :
                 []),
-        Plot.ruleY([place], {strokeWidth: 1.5, ...style}), Plot.text([place], {
-            x: x.domain[1],
-            y: d => d,
-            text: () => `${arrow}${name} ${number(value, 3)}`,
-            textAnchor: "end",
-            dy: isTop ? 8 : -7,
-            fontSize: 11,
-            fill: "var(--faint)",
-            stroke: "var(--card)",
-            strokeWidth: 3
-        })
-    ];
-}
+     Plot.ruleY([place], {strokeWidth: 1.5, ...style})];

@@ -10,7 +10,8 @@ function columnReference(rows) {
     const positive = rows.filter(r => r.value > 0 && !isOneSeed(r));
     if (!positive.length || (!rows[0].isTime && better(rows[0].metric) !== "lower")) return null;
     if (rows[0].isTime)
-        return positive.filter(r => r.variant !== "none").reduce((least, r) => r.value < least?.value ? r : least ?? r, null);
+        return positive.filter(r => r.variant !== "none")
+            .reduce((least, r) => r.value < least?.value ? r : least ?? r, null);
     if (shownPoints.relativeTo === "none") return positive.find(r => r.variant === "none") ?? null;
     return positive.reduce((least, r) => r.value < least.value ? r : least);
 }
@@ -97,16 +98,21 @@ function matrixCaption(columns) {
 }
 
 function matrixButton(row, ratio, {reference, best}) {
-    const text = row.value === null     ? "–" :
+    const text = row.value === null  ? "–" :
         ratio === null || row.isTime ? number(row.value, 3) :
                                        number(ratio, ratio < 10 ? 3 : 2);
     const mistakes = row.isTime ? [] : mistakesOfError(row);
     const button =
-        h("button", {"data-value": row.value, class: row.isTime ? "time" : row === best ? "best" : null}, text, mistakes.length ? " !" : "");
+        h("button",
+          {"data-value": row.value,
+           class: row.isTime ? "time" :
+               row === best  ? "best" :
+                               null},
+          text, mistakes.length ? " !" : "");
     withTip(button, [
         `${row.shot}\n${pointText(row)}`, row.isTime ? `${number(row.value)} ms ${interval(row)}` : rowText(row),
         ratio === null || reference === row ? null : `${number(ratio, 3)} times that of ${pointLabel(reference)}`,
-        row === best ? "best of its shot, no other interval touches its own" : null,
+        row === best ? "best of its shot, no other interval touches its own" : null, row.isTime ? null : shortWhy(row),
         ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
     ].filter(Boolean).join("\n"));
     button.removeAttribute("role");  // it has its own
@@ -120,7 +126,15 @@ const timeColumn = "time";
 /// The total times of the points of `rows`, as rows for a group of columns.
 const timeRows = rows => rows.flatMap(row => {
     const time = totalTime(row);
-    return time ? [{...row, metric: timeColumn, isTime: true, isRanked: false, value: time.value, low: time.low, high: time.high}] :
+    return time ? [{
+        ...row,
+        metric: timeColumn,
+        isTime: true,
+        isRanked: false,
+        value: time.value,
+        low: time.low,
+        high: time.high
+    }] :
                   [];
 });
 

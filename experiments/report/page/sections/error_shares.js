@@ -7,44 +7,120 @@ const untraced = {
     short: "untraced"
 };
 const sharedOut = [...verdicts, untraced];
-const errorRows = shot =>
-    report.hits.filter(r => r.stage === errorStage && r.shot === shot && r.quantity.startsWith("error: "));
-
-/// [{row, error, by, limit}] of the points of a shot: shares by verdict, and the error that they are shares of.
-function errorShares(shot) {
-    const groups = new Map(), {metric, target} = sharedError;
-    for (const r of filteredRows(errorRows(shot))) {
-        if (r.mask !== preferred(unique(errorRows(shot).map(o => o.mask)), headline.mask)) continue;
-        if (!groups.has(pointKey(r))) groups.set(pointKey(r), {row: r, by: new Map()});
-        groups.get(pointKey(r)).by.set(r.quantity.slice("error: ".length), r);
-    }
-    return [...groups.values()].map(g => ({
-                                        ...g,
-                                        error: report.errors.find(
-                                            e => isSamePoint(e, g.row) && e.metric === metric && e.target === target &&
-                                                e.mask === g.row.mask && e.value > 0)
-                                    }));
-}
-
 const sharedError = {
     metric: "mse",
     target: "specular"
 };  // what hits.csv shares out
 
-const shareOf = (by, ...keys) => keys.reduce((sum, key) => sum + (by.get(key)?.value ?? 0), 0);
+const lastFrame = rows => String(Math.max(...rows.map(r => Number(r.frame))));
 
-function shareText({row, by}) {
-    const parts = [
-        `${percent(shareOf(by, "unavoidable_miss", "empty"))} lies where the truth is not on the screen`,
-        `${percent(shareOf(by, "wrong_place", "false_hit", "avoidable_miss"))} where the march erred`,
-        `${percent(shareOf(by, "right"))} where the ray was right (filter, fallback, view dependence)`,
-        ...(by.has("untraced") ? [`${percent(shareOf(by, "untraced"))} where no ray was traced`] : [])
-    ];
-    return `Of ${pointLabel(row)}'s error ${parts.join(", ")}.`;
+/// By shot: [{row, error, by}] of its points: shares by verdict, and the error that they are shares of; undefined if
+/// it was not measured. Of several frames the last.
+const errorGroups = (() => {
+    const shots = new Map();
+    for (const r of report.hits)
+        if (r.stage === errorStage && r.quantity.startsWith("error: "))
+            shots.set(r.shot, [...shots.get(r.shot) ?? [], r]);
+    for (const [shot, all] of shots) {
+        const groups = new Map(), mask = preferred(unique(all.map(r => r.mask)), headline.mask), frame = lastFrame(all);
+        for (const r of all.filter(r => r.mask === mask && r.frame === frame)) {
+            if (!groups.has(pointKey(r))) groups.set(pointKey(r), {row: r, by: new Map()});
+            groups.get(pointKey(r)).by.set(r.quantity.slice("error: ".length), r);
+        }
+        const {metric, target} = sharedError;
+        const errors = [...report.frames, ...report.errors].filter(
+            e => e.shot === shot && e.metric === metric && e.target === target && e.mask === mask && e.value > 0);
+        const errorOf = row => errors.find(e => pointKey(e) === pointKey(row) && e.frame === frame) ??
+            errors.find(e => pointKey(e) === pointKey(row));
+        shots.set(shot, [...groups.values()].map(g => ({...g, error: errorOf(g.row)})));
+    }
+    return shots;
+})();
+const errorShares = shot => (errorGroups.get(shot) ?? []).filter(g => filteredRows([g.row]).length);
+const errorGroupOf = row => errorGroups.get(row.shot)?.find(g => isSamePoint(g.row, row));
+
+/// Where a verdict puts an error, after "lies".
+const causeTexts = {
+    avoidable_miss: "where rays missed what the screen shows",
+    wrong_place: "where rays hit the wrong place",
+    false_hit: "where rays hit what is not there",
+    unavoidable_miss: "where the truth is not on the screen",
+    empty: "where nothing is there to be hit",
+    right: "where rays were right (filter, fallback, view dependence)",
+    untraced: "where no ray was traced"
+};
+const leastShare = 0.01;  // smaller ones are not told
+
+/// [{key, value}] of what `of(verdict)` gives, the largest first.
+const rankedCauses = of =>
+    Object.keys(causeTexts).map(key => ({key, value: of(key)})).sort((a, b) => b.value - a.value);
+const ownCauses = ({by}) => rankedCauses(key => by.get(key)?.value ?? 0).filter(c => c.value >= leastShare);
+const shareText = share => number(100 * share, 2) + " %";
+const causesText = ([first, ...others]) => `${shareText(first.value)} of its error lies ${causeTexts[first.key]}` +
+    others.map(c => `, ${shareText(c.value)} ${causeTexts[c.key]}`).join("");
+
+/// For tips: the largest causes alone; empty where no shares were measured.
+function shortWhy(row) {
+    const group = errorGroupOf(row), own = group ? ownCauses(group) : [];
+    return own.length ? `why (${sharedError.metric}): ${causesText(own.slice(0, 2))}` : "";
+}
+
+/// How a point compares with the least error of its shot, and where it errs more.
+function comparisonText({row, by, error}) {
+    if (!error || isOneSeed(error)) return "";
+    const {metric} = sharedError;
+    const others = errorGroups.get(row.shot).filter(g => g.error && !isOneSeed(g.error) && mayShow(g.row));
+    const least = others.reduce((a, b) => b.error.value < a.error.value ? b : a);
+    const own = `Its ${metric}, ${number(error.value, 3)},`,
+          best = `the least (${pointLabel(least.row)}, ${number(least.error.value, 3)})`;
+    if (least.row === row) return `${own} is the least here. `;
+    if (!isApart(error, least.error)) return `${own} is not told from ${best}. `;
+    const part = (g, key) => (g.by.get(key)?.value ?? 0) * g.error.value;
+    const [{key}] = rankedCauses(key => part({by, error}, key) - part(least, key));
+    return `${own} is ${number(error.value / least.error.value, 3)} times ${best}; it errs more above all ${
+        causeTexts[key]}: ${number(part({by, error}, key), 2)} against ${number(part(least, key), 2)}. `;
+}
+
+/// Which rays missed what the screen shows, and what their tracer said of them.
+function missesText({row, by}) {
+    if (!(by.get("avoidable_miss")?.value >= leastShare)) return "";
+    const own = report.hits.filter(
+        r => r.stage !== errorStage && isSamePoint(r, row) && r.mask === row.mask && r.frame === row.frame);
+    const of = quantity => own.filter(r => r.quantity === quantity), missed = of("avoidable_miss"),
+          all = missed.reduce((sum, r) => sum + r.rays, 0);
+    if (!all) return "";
+    const share = quantity => of(quantity).reduce((sum, r) => sum + r.rays * r.value, 0) / all;
+    const reasons = Object.keys(missTexts)
+                        .map(key => ({key, value: share("miss: " + key)}))
+                        .filter(m => m.value > 0.1 * share("avoidable_miss"))
+                        .sort((a, b) => b.value - a.value);
+    return `${shareText(share("avoidable_miss"))} of its rays missed so` +
+        (reasons.length ? `: ${reasons.map(m => `${shareText(m.value)} ${missTexts[m.key]}`).join(", ")}` : "") + ". ";
+}
+
+/// Why a point errs, with links to its rays and its images.
+function whyText(group) {
+    const {row} = group, hasRays = report.hits.some(r => r.stage !== errorStage && r.shot === row.shot);
+    const own = ownCauses(group), hasFrames = list(manifestShots().find(s => s.shot === row.shot)?.frames).length > 1;
+    const link = (text, href, act) =>
+        h("a", {
+            href,
+            click: event => {
+                event.preventDefault();
+                act();
+            }
+        },
+          text);
+    return h(
+        "span", {},
+        h("b", {}, `${pointLabel(row)} in ${shortShot(row.shot)}${hasFrames ? `, frame ${row.frame}` : ""}: `),
+        own.length ? causesText(own) + ". " : "It has no error to share out. ", missesText(group),
+        comparisonText(group), hasRays ? [link("Its\u00a0rays", "#hits", () => showRaysOf(row.shot)), " "] : "",
+        report.images.some(i => isSamePoint(i, row)) ? link("Its\u00a0images", "#viewer", () => openPoint(row)) : "");
 }
 
 function showErrorShares() {
-    const shots = unique(report.hits.filter(r => r.stage === errorStage).map(r => r.shot));
+    const shots = [...errorGroups.keys()];
     if (!shots.length) return leaveOut("error-shares");
     at("error-shares").append(verdictLegend(sharedOut), ...shotParts(shots, errorSharesPart));
 }
@@ -52,6 +128,7 @@ function showErrorShares() {
 function errorSharesPart(shot) {
     const groups = errorShares(shot), {metric, target} = sharedError;
     if (!groups.length) return [];
+    const why = h("p", {class: "why", role: "status"});
     const isAbsolute = groups.every(g => g.error);
     const rows = groups.map(g => ({
                                 label: pointLabel(g.row),
@@ -65,7 +142,8 @@ function errorSharesPart(shot) {
                                         text: v.short,
                                         data: {verdict: v.key, share: r.value},
                                         tip: `${pointLabel(g.row)}\n${v.name}: ${percent(r.value)} of its error${
-                                            percentInterval(r)}${g.error ? `\n${rowText(g.error)}` : ""}`
+                                            percentInterval(r)}${g.error ? `\n${rowText(g.error)}` : ""}\nClick: why`,
+                                        open: () => why.replaceChildren(whyText(g))
                                     };
                                 })
                             }));
@@ -75,21 +153,45 @@ function errorSharesPart(shot) {
         null;
     const xLabel = isAbsolute ? `${metric}${unitText(metric)} of ${target}, ${mask}` :
                                 `share of the ${metric} of ${target}, ${mask}`;
-    const named = [answerOf(shot)?.best, answerOf(shot)?.baseline].filter(Boolean).map(pointKey);
-    const [foremost, others] = [true, false].map(is => groups.filter(g => named.includes(pointKey(g.row)) === is));
-    const sentences = some => h("ul", {class: "sentences"}, some.map(g => h("li", {}, shareText(g))));
+    const frames = list(manifestShots().find(s => s.shot === shot)?.frames);
+    why.append(...groups.filter(g => isSamePoint(g.row, {shot, ...answerOf(shot)?.best})).map(whyText));
     return [
-        foremost.length ? sentences(foremost) : "", stackedBars({
-            title: `Where the error lies, ${shot}`,
-            rows,
-            xLabel,
-            isShare: !isAbsolute,
-            limits: limit ? [{x: limit.value, rows: rows.map(r => r.label)}] : []
-        }),
-        limit ? h("p", {class: "note"},
-                  `Dotted: the information limit of one frame, ${`${metric} ${number(limit.value)} ${interval(limit)}`.trim()}.`) :
-                "",
-        others.length ? h("details", {open: others.length <= 20}, h("summary", {}, "In sentences"), sentences(others)) :
-                        ""
+        h("div", {class: "bars"}, stackedBars({
+              title: `Where the error lies, ${shot}`,
+              rows,
+              xLabel: xLabel + (frames.length > 1 ? `, frame ${groups[0].row.frame} alone` : ""),
+              isShare: !isAbsolute,
+              limits: limit ? [{x: limit.value, rows: rows.map(r => r.label)}] : []
+          }),
+          h("div", {}, why,
+            limit ? h("p", {class: "note"},
+                      `Dotted: the information limit of one frame, ${
+                      `${metric} ${number(limit.value)} ${interval(limit)}`.trim()}.`) :
+                    "")),
+        folded("All in sentences", h("ul", {class: "sentences"}, groups.map(g => h("li", {}, whyText(g)))))
     ];
+}
+
+/// For the first screen: the question, once.
+const whyChoice = {
+    key: ""
+};
+
+function showWhy() {
+    if (!errorGroups.size) return;
+    const changed = event => {
+        whyChoice.key = event.target.value;
+        drawWhy(answerChoice.shot);
+    };
+    at("answer-why").append(h("label", {}, "Why does ", h("select", {id: "why", change: changed}), " err?"));
+}
+
+/// What can be asked of the shot, and the answer; a choice is kept for the next shot.
+function drawWhy(shot) {
+    if (!at("why")) return;
+    const groups = errorShares(shot), chosen = groups.find(g => pointKey(g.row) === whyChoice.key);
+    at("why").replaceChildren(
+        h("option", {value: ""}, "…"),
+        ...groups.map(g => h("option", {value: pointKey(g.row), selected: g === chosen}, pointLabel(g.row))));
+    at("why-answer").replaceChildren(chosen ? whyText(chosen) : "");
 }

@@ -14,6 +14,18 @@ const verdicts = [
     {key: "wrong_place", name: "wrong place", color: "#e69f00", short: "wrong place"},
     {key: "false_hit", name: "false hit", color: "#cc79a7", short: "false hit"}
 ];
+/// What a ray did that missed what the screen shows, by the outcome that its tracer gave (variants/tracers/outcome.h).
+const missTexts = {
+    off_screen: "left the screen",
+    behind_camera: "reached the camera",
+    unfinished: "ran out of steps",
+    background: "ended on the background",
+    too_thick: "went too far behind a surface",
+    from_behind: "met the back of a surface",
+    own_surface: "met what they started from",
+    hidden: "met what is hidden",
+    hit: "hit with too little confidence"
+};
 const colorSwatch = color => h("span", {class: "swatch", style: `background:${color}`});
 const verdictLegend = some => legend(some.map(v => ({label: v.name, swatch: colorSwatch(v.color)})));
 
@@ -85,4 +97,13 @@ function hitPart(shot) {
         h("details", {open: lines.length <= longTable},
           h("summary", {}, "The same as numbers, with fetches and reasons"), scroller(table(columns, lines)))
     ];
+}
+
+/// Opens and scrolls to the rays of a shot.
+function showRaysOf(shot) {
+    const part = [...at("hits").querySelectorAll("details.shot")].find(p => p.dataset.shot === shot);
+    if (!part) return;
+    part.open = true;
+    part.drawNow();
+    part.scrollIntoView();
 }

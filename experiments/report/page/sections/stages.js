@@ -1,7 +1,6 @@
 // Stage times: stacked bars per shot and the numbers.
 
-/// Eight colours, each plain and in three textures: no two stages of a bar look alike. The textures are of start.js's
-/// page-wide <defs>.
+/// Eight colours, each plain and in three textures, of start.js's page-wide <defs>.
 const textures = ["plain", "stripes", "dots", "checks"];
 const stageFill = index => `url(#${textures[Math.floor(index / 8) % textures.length]}-${index % 8})`;
 
@@ -54,7 +53,7 @@ function stagesOf(shot) {
         {name: "Frames", number: true}, {name: "Clock"}
     ];
     const sorted = [...own].sort((a, b) => points.indexOf(pointLabel(a)) - points.indexOf(pointLabel(b)));
-    const swatch = t => t.stage === "total" || t.variant === "" ? null : textureSwatch(stageFill(stageIndex(t)));
+    const swatch = t => t.stage === "total" || t.variant === "" ? null : textureSwatch(lookOf(stageName(t.stage)));
     const row = t =>
         [t.variant === "" ? "–" : pointLabel(t),
          t.stage === "total" ? h("b", {}, "total") : h("span", {}, swatch(t), t.stage), cell(t.value, number(t.value)),
@@ -71,12 +70,35 @@ function stagesOf(shot) {
     ];
 }
 
-/// A stage's place among those of its variant: bars of other variants may use its colour for their own.
-const stagesOfVariant = new Map(
-    unique(report.times.map(t => t.variant))
-        .map(v => [v, unique(report.times.filter(t => t.variant === v && t.stage !== "total").map(t => t.stage))]));
-const stageIndex = t => stagesOfVariant.get(t.variant).indexOf(t.stage);
-const stageName = stage => stage.split("/").pop().replaceAll("_", " ");
+const lastPart = stage => stage.split("/").pop();
+/// What two stages of one technique end in.
+const ambiguousParts = new Set(unique(report.times.filter(t => t.stage !== "total").map(t => `${t.variant}|${t.stage}`))
+                                   .map(key => [key.split("|")[0], lastPart(key.split("|")[1])].join("|"))
+                                   .filter((key, i, all) => all.indexOf(key) !== i)
+                                   .map(key => key.split("|")[1]));
+/// A stage's name, without its folder where the rest tells it.
+const stageName = stage => (ambiguousParts.has(lastPart(stage)) ? stage : lastPart(stage)).replaceAll("_", " ");
+
+/// By name of a stage: the index of its look, the same in all techniques. No other name has it as long as there are
+/// looks, and none ever has that shares a technique with it as long as a technique has no more stages than there are
+/// looks. The plain ones go to those that take longest.
+function stageLooks(times) {
+    const own = times.filter(t => t.stage !== "total" && t.variant !== ""), longest = new Map(), together = new Map();
+    for (const t of own) longest.set(stageName(t.stage), Math.max(longest.get(stageName(t.stage)) ?? 0, t.value));
+    for (const variant of unique(own.map(t => t.variant))) {
+        const names = unique(own.filter(t => t.variant === variant).map(t => stageName(t.stage)));
+        for (const name of names) together.set(name, [...together.get(name) ?? [], ...names]);
+    }
+    const looks = new Map(), all = Array.from({length: 8 * textures.length}, (_, i) => i);
+    for (const name of [...longest.keys()].sort((a, b) => longest.get(b) - longest.get(a))) {
+        const near = new Set(together.get(name).map(other => looks.get(other))), taken = new Set(looks.values());
+        looks.set(name, all.find(i => !taken.has(i)) ?? all.find(i => !near.has(i)) ?? looks.size % all.length);
+    }
+    return looks;
+}
+
+const ownLooks = stageLooks(report.times);
+const lookOf = name => stageFill(ownLooks.get(name));
 
 function stageBars(own) {
     const areShares = stageChoice.bars === "shares";
@@ -89,7 +111,7 @@ function stageBars(own) {
                          const parts = stages.map(
                              t => ({
                                  value: areShares ? t.value / sum : t.value,
-                                 fill: stageFill(stageIndex(t)),
+                                 fill: lookOf(stageName(t.stage)),
                                  text: stageName(t.stage),
                                  data: {stage: t.stage, value: t.value},
                                  tip: `${label}\n${t.stage}: ${number(t.value)} ms ${interval(t)}${
@@ -98,15 +120,9 @@ function stageBars(own) {
                          return {label, parts, total: areShares ? null : total};
                      })
                      .filter(row => row.parts.length);
-    const legends = unique(own.map(t => t.variant)).map(variant => {
-        const stages = stagesOfVariant.get(variant).filter(s => own.some(t => t.variant === variant && t.stage === s));
-        return stages.length ? h("p", {class: "stage-names"}, h("b", {}, variant),
-                                 stages.map(
-                                     stage =>
-                                         h("span", {class: "stage"},
-                                           textureSwatch(stageFill(stageIndex({variant, stage}))), stageName(stage)))) :
-                               "";
-    });
+    const names = unique(rows.flatMap(row => row.parts.map(p => p.text)));
+    const key = h(
+        "p", {class: "stage-names"}, names.map(name => h("span", {class: "stage"}, textureSwatch(lookOf(name)), name)));
     const chart = stackedBars({
         title: `Stage times, ${own[0].shot}`,
         rows,
@@ -114,7 +130,7 @@ function stageBars(own) {
         xLabel: areShares ? "share of the point's time (medians)" :
                             "median time (ms); the line is the 95 % interval of the total"
     });
-    return h("div", {class: "bars"}, chart, h("div", {}, legends));
+    return h("div", {class: "bars"}, chart, h("div", {}, key));
 }
 
 /// What each point saves by leaving out what the scene has no use for: medians and intervals over the frames.

@@ -1,28 +1,42 @@
 // All methods at one pixel: value, error, confidence, what became of the ray, and what no single image can know.
 
-/// The images of all methods of the shot, for the pinned pixel; what is there is shown while the rest comes.
+const inspected = {
+    wanted: null,      // what images were asked for
+    isWaiting: false,  // for some of them
+};
+const missingText = () => inspected.isWaiting ? "loading" : "not there";
+
+/// The images behind a pixel's values: of all methods of the shot for the pinned one, of those shown for the one that
+/// is pointed at; what is there is shown while the rest comes.
 async function loadForInspector() {
-    const {request} = viewer;
+    const {request} = viewer, wanted = `${request} ${viewer.pinned ? "all" : "shown"}`;
+    if (inspected.wanted === wanted) return;
+    Object.assign(inspected, {wanted, isWaiting: true});
     const indices =
-        viewer.methods.flatMap(m => [resultIndex(m), m.confidence, m.roughness, ...m.verdicts.map(v => v.index)]);
+        inspectedMethods().flatMap(m => [resultIndex(m), m.confidence, m.roughness, ...m.verdicts.map(v => v.index)]);
     const missing = unique([...ladderIndices(), ...indices]).filter(i => i !== undefined && !loadedImages.has(i));
     for (let first = 0; first < missing.length; first += 8) {
         await loadImages(missing.slice(first, first + 8));
-        if (request !== viewer.request || !viewer.pinned) return;
+        if (request !== viewer.request || inspected.wanted !== wanted) return;
         showReadout();
     }
+    inspected.isWaiting = false;
+    showReadout();
 }
 
-/// What became of a method's rays at a pixel, by pass where there are several.
+const inspectedMethods = () => viewer.pinned ? viewer.methods : viewer.shown.map(s => s.method);
+
+/// What became of a method's rays at a pixel, by pass where there are several; of these those that traced one.
 function verdictText(method, i) {
-    const texts = method.verdicts.map(v => {
-        const image = loadedImages.get(v.index);
-        if (!image) return "…";
-        const key = verdictAt(image, i);
-        return (method.verdicts.length > 1 ? v.stage.split("/").pop() + ": " : "") +
-            (verdicts.find(v => v.key === key)?.name ?? "no ray");
+    if (!method.verdicts.length) return "–";
+    const images = method.verdicts.map(v => loadedImages.get(v.index));
+    if (images.some(image => !image)) return missingText();
+    const pass = ({stage}) => images.length > 1 ? stage.split("/").pop() + ": " : "";
+    const texts = method.verdicts.flatMap((v, k) => {
+        const found = verdicts.find(known => known.key === verdictAt(images[k], i));
+        return found ? [pass(v) + found.name] : [];
     });
-    return texts.length ? texts.join("; ") : "–";
+    return texts.join("; ") || "no ray";
 }
 
 const rgbText = rgb => rgb.map(v => number(v, 4)).join(", ");
@@ -57,10 +71,9 @@ function showReadout() {
         "Image", "R", "G", "B", "Luminance", "Signed difference", "Absolute difference", "Relative error",
         "Unknowable share", "Confidence", "Ray"
     ].map((name, c) => ({name, number: c > 0 && c < 10}));
-    const methods = viewer.pinned ? viewer.methods : viewer.shown.map(s => s.method);
-    const rows = methods.filter(m => resultIndex(m) !== undefined).map(method => {
+    const rows = inspectedMethods().filter(m => resultIndex(m) !== undefined).map(method => {
         const image = resultOf(method);
-        if (!image) return [method.label, "…", ...Array(columns.length - 2).fill("")];
+        if (!image) return [method.label, missingText(), ...Array(columns.length - 2).fill("")];
         const rgb = pixelRgb(image, i), hasError = ref && image !== ref;
         const error = mode => hasError ? scalarModes[mode].of(rgb, pixelRgb(ref, i)) : null;
         const absolute = error("absolute"), confidence = loadedImages.get(method.confidence);
@@ -71,7 +84,9 @@ function showReadout() {
             method.label, ...rgb.map(v => cell(v, number(v, 5))), number(luminance(rgb), 5),
             cell(error("signed"), hasError && error("signed") > 0 ? "+" : "", number(error("signed"), 4)),
             cell(absolute, number(absolute, 5)), cell(error("relative"), number(error("relative"), 4)), percent(share),
-            confidence ? cell(pixelByte(confidence, i), pixelByte(confidence, i).toFixed(2)) : "–",
+            confidence                          ? cell(pixelByte(confidence, i), pixelByte(confidence, i).toFixed(2)) :
+                method.confidence === undefined ? "–" :
+                                                  missingText(),
             verdictText(method, i)
         ];
     });

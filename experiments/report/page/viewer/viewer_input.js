@@ -19,8 +19,10 @@ function newPane() {
             viewer.pointed = pointerPlace(pane, event);
             if (viewer.drag)
                 drag(pane, event);
-            else if (!viewer.pinned)
+            else if (!viewer.pinned) {
+                loadForInspector();
                 showReadout();
+            }
         },
         pointerup: event => {
             if (viewer.drag && !viewer.drag.hasMoved && viewer.drag.does !== "split") pin(pointerPlace(pane, event));
@@ -55,8 +57,8 @@ function moveView(dx, dy) {
 function pin(place) {
     const isSame = viewer.pinned && viewer.pinned.x === place.x && viewer.pinned.y === place.y;
     viewer.pinned = isSame ? null : {x: place.x, y: place.y};
-    drawAll();
     if (viewer.pinned) loadForInspector();
+    drawAll();
 }
 
 function pinMiddle() {
