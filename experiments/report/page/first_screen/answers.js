@@ -17,9 +17,10 @@ function showShotBelow(shot) {
     if (viewer.shot !== null && report.images.some(i => i.shot === shot)) chooseShot(shot);
 }
 
-/// The viewer at that shot with the truth, this point and the base line.
+/// The viewer at that shot with the truth, this point and the best, or the base line beside the best itself.
 function openPoint(row) {
-    const points = unique([pointLabel(row), baselineLabel(row.shot)].filter(Boolean));
+    const best = answerOf(row.shot)?.best, isOther = best && pointLabel(best) !== pointLabel(row);
+    const points = unique([pointLabel(row), isOther ? pointLabel(best) : baselineLabel(row.shot)].filter(Boolean));
     return openViewer({shot: row.shot, points});
 }
 

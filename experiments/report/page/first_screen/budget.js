@@ -26,25 +26,48 @@ const budgetLine = x => budget.milliseconds > x.domain[0] && budget.milliseconds
 
 function drawBudget(shot) {
     if (!at("budget-answer")) return;
-    const parts = budget.milliseconds === null ? [] : headlineMetrics().map(metric => budgetText(shot, metric));
-    if (parts.length && !answerOf(shot)?.is_clock_proven) parts.push("The clock did not prove itself: take the times with care.");
-    at("budget-answer").textContent = parts.join(" ");
+    const parts = budget.milliseconds === null ? [] : headlineMetrics().flatMap(metric => budgetParts(shot, metric));
+    if (parts.length && !answerOf(shot)?.is_clock_proven) parts.push("The clock did not prove itself: take the times with care. ");
+    if (parts.length) parts.push(timesOf(shot));
+    at("budget-answer").replaceChildren(...parts);
+}
+
+/// Which machine and size the times are of, and from where on they differ.
+function timesOf(shot) {
+    const {width, height} = manifestShots().find(s => s.shot === shot) ?? {}, floor = report.manifest.clock?.aa_floor;
+    const devices = unique(makers.map(m => m.device).filter(Boolean));
+    const isCpu = devices.some(d => d.type === "cpu");
+    return `Times of ${unique(devices.map(d => d.name)).join(", ")}${width ? ` at ${width}x${height}` : ""}` +
+        (floor > 0 ? `; nearer than ${percent(floor)} they are the same` : "") +
+        (isCpu ? ". They compare techniques and are no GPU's." : ".");
 }
 
 /// "By mse A, 0.05 [0.04, 0.06], in 9 ms [8, 11]": the least error of the points whose median is within the budget; and
-/// those of less error whose interval holds the budget, so that it cannot be told whether they fit.
-function budgetText(shot, metric) {
+/// those of less error of which it cannot be told whether they fit: the interval, or the difference of two copies of a
+/// point, holds the budget. Each name opens its images.
+function budgetParts(shot, metric) {
     const timed = headlineRows(shot, metric)
                       .map(row => ({row, time: totalTime(row), badness: badness(metric, row.value)}))
                       .filter(p => p.time && p.badness !== null && !isOneSeed(p.row))
                       .sort((a, b) => a.badness - b.badness);
     const error = row => row.low === null ? interval(row) && `(${interval(row)})` : interval(row, 3);
-    const text = ({row, time}) => `${pointLabel(row)}, ${number(row.value, 3)} ${error(row)}`.trim() +
-        `, in ${number(time.value, 3)} ms ${interval(time, 3)}`;
+    const parts = ({row, time}) => {
+        const open = event => {
+            event.preventDefault();
+            openPoint(row);
+        };
+        return [
+            h("a", {href: "#viewer", title: pointText(row), click: open}, pointLabel(row)),
+            `, ${number(row.value, 3)} ${error(row)}`.trimEnd() + `, in ${number(time.value, 3)} ms ${interval(time, 3)}`
+        ];
+    };
+    const least = time => Math.min(time.low ?? time.value, time.value / (1 + (report.manifest.clock?.aa_floor ?? 0)));
     const best = timed.find(p => p.time.value <= budget.milliseconds);
     const doubtful = timed.filter(
-        p => p.time.value > budget.milliseconds && p.time.low <= budget.milliseconds && !(p.badness > best?.badness));
-    const none = `By ${metric}: nothing that was timed fits.`;
-    return (best ? `By ${metric} ${text(best)}.` : none) +
-        (doubtful.length ? ` It cannot be told whether ${doubtful.map(text).join("; ")} fits.` : "");
+        p => p.time.value > budget.milliseconds && least(p.time) <= budget.milliseconds && !(p.badness > best?.badness));
+    return [
+        ...(best ? [`By ${metric} `, ...parts(best), ". "] : [`By ${metric}: nothing that was timed fits. `]),
+        ...(doubtful.length ? ["It cannot be told whether ",
+                               ...doubtful.flatMap((p, i) => [i ? "; " : "", ...parts(p)]), " fits. "] : [])
+    ];
 }

@@ -86,8 +86,9 @@ function showViewer() {
         h("div", {class: "controls", id: "viewer-choice"}),
         h("div", {class: "controls", id: "viewer-time", hidden: true}),
         h("div", {class: "controls", id: "viewer-look"}), h("div", {id: "viewer-images"}),
-        h("div", {class: "controls", id: "viewer-pair", hidden: true}), h("div", {id: "viewer-crop", hidden: true}),
+        h("div", {class: "controls", id: "viewer-pair", hidden: true}),
         h("p", {class: "sr-only", id: "viewer-status", role: "status"}), h("div", {class: "panes", id: "panes"}),
+        h("div", {id: "viewer-crop", hidden: true}),  // below the images, which stay where the pointer is
         h("div", {id: "viewer-legend"}), h("div", {class: "scroll", id: "readout", "aria-live": "off"}), keyHelp());
     showLook();
     addEventListener("keydown", viewerKey);
