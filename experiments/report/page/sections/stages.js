@@ -40,7 +40,7 @@ function showStages() {
             stageChoice.bars = value;
             pointsChanged();
         });
-    at("stage-shots").append(h("div", {class: "controls"}, bars), ...shotParts(shots, stagesOf));
+    at("stage-shots").append(h("div", {class: "controls"}, bars), shotParts(shots, stagesOf));
 }
 
 function stagesOf(shot) {
