@@ -107,7 +107,8 @@ function valueCell(row, isBest) {
         notes.push("within the floor");
     return cell(
         row.value, h(isBest ? "b" : "span", {class: notes.length ? "below-floor" : null}, number(row.value)), " ",
-        h("small", {class: row.low === null ? "reason" : null}, [interval(row), intervalNote(row), ...notes].filter(Boolean).join(" ")));
+        h("small", {class: row.low === null ? "reason" : null},
+          [interval(row), intervalNote(row), ...notes].filter(Boolean).join(" ")));
 }
 
 function summaryRow(row, rows, best, others, otherBest) {

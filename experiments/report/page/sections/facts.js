@@ -87,10 +87,11 @@ function showParameters() {
         const first = points[0],
               stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
         const about = [first.source, stages.length && "Stages: " + stages.join(", "), limitsNote(points)];
-        at("parameters").append(h(
-            "div", {}, h("h3", {}, first.title ?? name),
-            h("p", {class: "note"}, about.filter(Boolean).join(". ").replaceAll("..", ".")),
-            parameterTables(points, name)));
+        at("parameters")
+            .append(
+                h("div", {}, h("h3", {}, first.title ?? name),
+                  h("p", {class: "note"}, about.filter(Boolean).join(". ").replaceAll("..", ".")),
+                  parameterTables(points, name)));
     }
 }
 
