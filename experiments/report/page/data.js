@@ -20,12 +20,20 @@ function readData() {
     const effect = e => ({...e, value: e.ratio, holm: e.pHolm, isPrimary: e.family === "primary"});
     const timeEffect = e => ({...e, value: e.ratio});
     const time = t => ({...t, value: t.medianMs, low: t.lowMs, high: t.highMs});
+    /// As experiments/stability/stability_report.h has it; its lists become objects.
+    const stability = raw.stability && {
+        ...raw.stability,
+        rows: raw.stability.rows.map(
+            ([place, technique, verdict, values]) => ({case: place, technique, verdict, values})),
+        stages: raw.stability.stages.map(
+            ([place, technique, image, nan, infinite]) => ({case: place, technique, image, nan, infinite}))
+    };
     return {
         isStudy: raw.is_study,  // else the page shows `stability` alone
-        stability: raw.stability,  // as experiments/stability/stability_report.h has it; null: none
+        stability,              // null: none
         manifest: raw.manifest,
         metrics: raw.metrics,
-        defaults: raw.defaults,  // variant to {parameter: value}, of those that this build knows
+        defaults: raw.defaults,          // variant to {parameter: value}, of those that this build knows
         headline: raw.headline ?? null,  // of studies, as their answers: experiments/report/answers.h
         answers: raw.answers ?? [],
         warnings: raw.warnings,

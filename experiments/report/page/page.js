@@ -142,6 +142,10 @@ function scroller(...content) {
 /// A folded part; printing opens all of them.
 const folded = (title, ...content) => h("details", {}, h("summary", {}, title), ...content);
 
+/// Names of scenes may break after each word, in cells and heads alike.
+const breakable = name => name.split(/(?<=[_.])/).flatMap(part => [part, h("wbr")]);
+const shotName = shot => h("span", {class: "shot-name"}, breakable(shot));
+
 const cell = (sort, ...content) => ({sort: sort === undefined ? null : sort, content: h("span", {}, ...content)});
 
 const tip = h("div", {class: "tip", hidden: true, role: "tooltip"});

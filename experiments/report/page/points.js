@@ -171,12 +171,13 @@ const shortShot = (() => {
     return shot => short.get(shot) ?? shot;
 })();
 
-/// A folded part per shot, the first one open; `draw(shot)` gives its content when it is opened, and anew when the
-/// shown points change.
+/// A folded part per shot, those of the first row open; `draw(shot)` gives its content when it is opened, and anew when
+/// the shown points change.
 function shotParts(shots, draw) {
-    return shots.map((shot, i) => {
+    const columns = Math.max(1, Math.floor(innerWidth / 1200));  // as the style sheet's .shots
+    const parts = shots.map((shot, i) => {
         const body = h("div"),
-              part = h("details", {open: i === 0, "data-shot": shot, class: "shot"}, h("summary", {}, shot), body);
+              part = h("details", {open: i < columns, "data-shot": shot, class: "shot"}, h("summary", {}, shot), body);
         let isDrawn = false;
         const update = () => {
             if (part.open && !isDrawn) body.replaceChildren(...draw(shot));
@@ -191,6 +192,7 @@ function shotParts(shots, draw) {
         update();
         return part;
     });
+    return h("div", {class: "shots"}, parts);
 }
 
 /// Takes a section that a study has nothing for off the page, and the link to it.

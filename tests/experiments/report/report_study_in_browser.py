@@ -164,6 +164,24 @@ def test_splits(page, folder):
     )
 
 
+def test_held_heads(page):
+    """What a table's rows and columns are of stays where the rest scrolls; each table in a box of its own."""
+    places = page.execute_script(
+        """const results = [];
+        for (const box of document.querySelectorAll('#summary .scroll, #splits .scroll, #effects .scroll, #references .scroll')) {
+            const place = element => { const a = box.getBoundingClientRect(), b = element.getBoundingClientRect(); return [Math.round(b.left - a.left), Math.round(b.top - a.top)]; };
+            Object.assign(box.style, {width: '200px', height: '90px'});
+            const head = box.querySelector('thead th'), last = head.parentElement.lastElementChild, first = box.querySelector('tbody :is(td, th)');
+            [box.scrollLeft, box.scrollTop] = [70, 30];
+            results.push([box.scrollLeft, box.scrollTop, ...place(head), place(last)[1], place(first)[0], getComputedStyle(box).maxHeight !== "none"]);
+            Object.assign(box.style, {width: '', height: ''});
+            [box.scrollLeft, box.scrollTop] = [0, 0];
+        }
+        return results"""
+    )
+    equal(places, [[70, 30, 0, 0, 0, 0, True]] * 4, "heads and first columns of tables that are scrolled")
+
+
 def test_stages(page):
     part = "#stages details[data-shot^=still_a]"
     fills = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => b.getAttribute('fill'))", part)
@@ -277,6 +295,7 @@ def main():
             test_splits(page, folder)
             test_rays(page, folder, MOVING)
             test_error_shares(page, folder, MOVING)
+            test_held_heads(page)
             test_stages(page)
             test_effects(page, folder, STEP)
             test_temporal(page, folder)

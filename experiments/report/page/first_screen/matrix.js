@@ -84,9 +84,6 @@ function matrix(groups, order) {
     return scroller(element);
 }
 
-/// Names of scenes may break after each word.
-const breakable = name => name.split(/(?<=[_.])/).flatMap(part => [part, h("wbr")]);
-
 function matrixCaption(columns) {
     const errors = columns.filter(c => c.metric !== timeColumn), hasTimes = errors.length < columns.length;
     const what = `${unique(errors.map(c => c.metric)).join(" and ")} of ${choice.target}, ${choice.mask} pixels`;

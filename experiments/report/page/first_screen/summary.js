@@ -107,13 +107,14 @@ function valueCell(row, isBest) {
         notes.push("within the floor");
     return cell(
         row.value, h(isBest ? "b" : "span", {class: notes.length ? "below-floor" : null}, number(row.value)), " ",
-        h("small", {}, [interval(row), intervalNote(row), ...notes].filter(Boolean).join(" ")));
+        h("small", {class: row.low === null ? "reason" : null},
+          [interval(row), intervalNote(row), ...notes].filter(Boolean).join(" ")));
 }
 
 function summaryRow(row, rows, best, others, otherBest) {
     const ratio = againstNone(row, rows), time = totalTime(row), other = others.find(o => isSamePoint(o, row));
     return [
-        row.shot, row.variant, cell(row.point, row.point, " ", badges(mistakesOfError(row))),
+        shotName(row.shot), row.variant, cell(row.point, row.point, " ", badges(mistakesOfError(row))),
         valueCell(row, best.has(row)), ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
         cell(row.floor, number(row.floor)),
         ...(rows.some(isLitNoisy) ? [cell(row.litNoise ?? null, number(row.litNoise))] : []),

@@ -122,7 +122,7 @@ function whyText(group) {
 function showErrorShares() {
     const shots = [...errorGroups.keys()];
     if (!shots.length) return leaveOut("error-shares");
-    at("error-shares").append(verdictLegend(sharedOut), ...shotParts(shots, errorSharesPart));
+    at("error-shares").append(verdictLegend(sharedOut), shotParts(shots, errorSharesPart));
 }
 
 function errorSharesPart(shot) {

@@ -28,7 +28,7 @@ function showReferences() {
     const rows = list(manifestShots()).map(s => {
         const r = s.reference ?? {}, e = r.relative_error ?? {};
         return [
-            s.shot, number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""),
+            shotName(s.shot), number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""),
             number(r.rays, 3), number(r.max_depth), percent(e.median), percent(e.p95), reachedCell(r),
             s.references ? String(s.references.length) : "1", known(s.lit, String(s.lit).replace("_", "\u2011")),
             h("span", {class: "hash", title: r.hash ?? ""}, known(r.hash, String(r.hash).slice(0, 12)))
@@ -86,10 +86,12 @@ function showParameters() {
         if (!points.length) continue;
         const first = points[0],
               stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
-        at("parameters").append(h("h3", {}, first.title ?? name), h("p", {class: "note"}, [
-                                    first.source, stages.length && "Stages: " + stages.join(", "), limitsNote(points)
-                                ].filter(Boolean).join(". ").replaceAll("..", ".")));
-        at("parameters").append(...parameterTables(points, name));
+        const about = [first.source, stages.length && "Stages: " + stages.join(", "), limitsNote(points)];
+        at("parameters")
+            .append(
+                h("div", {}, h("h3", {}, first.title ?? name),
+                  h("p", {class: "note"}, about.filter(Boolean).join(". ").replaceAll("..", ".")),
+                  parameterTables(points, name)));
     }
 }
 

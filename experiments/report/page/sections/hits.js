@@ -42,7 +42,7 @@ function showHits() {
     at("hits").append(h("div", {class: "controls"}, select("Mask", masks, hitChoice.mask, value => {
                             hitChoice.mask = value;
                             pointsChanged();
-                        })), verdictLegend(verdicts), ...parts);
+                        })), verdictLegend(verdicts), parts);
 }
 
 /// Rows of one point, frame and pass, by quantity.
@@ -92,11 +92,11 @@ function hitPart(shot) {
             told.slice(0, 3).map(r => `${r.quantity.slice(6).replace("_", " ")} ${percent(r.value)}`).join(", ")
         ];
     });
-    return [
+    return [h(
+        "div", {class: "bars"},
         stackedBars({title: `Where rays ended, ${shot}`, rows, xLabel: "share of the rays", isShare: true}),
         h("details", {open: lines.length <= longTable},
-          h("summary", {}, "The same as numbers, with fetches and reasons"), scroller(table(columns, lines)))
-    ];
+          h("summary", {}, "The same as numbers, with fetches and reasons"), scroller(table(columns, lines))))];
 }
 
 /// Opens and scrolls to the rays of a shot.

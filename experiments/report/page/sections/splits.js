@@ -44,7 +44,7 @@ function drawSplits() {
             {style: splitStyles[1], row: s.variance, isHollow: true, tip: tip("variance", s.variance), lane: 1}
         ];
         return [
-            s.shot, pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse, 3)),
+            shotName(s.shot), pointLabel(s), strip(scale, marks), cell(s.mse, number(s.mse, 3)),
             partCell(s.biasSquared, isAboutZero(s.biasSquared)), partCell(s.variance, false),
             cell(s.seeds, String(s.seeds))
         ];

@@ -15,8 +15,7 @@ const stabilityColumns = [
     ["benign_error", "Benign error", "the same without what makes the case hard"],
     ["error_ratio", "Error / benign error", ""],
     ["seeds", "Seeds", "of which the errors are means, where one alone might decide the verdict"],
-    ["non_finite", "NaN and Inf", "values of all stages and frames"],
-    ["first_non_finite", "First in", "stage: image"],
+    ["non_finite", "NaN and Inf", "values of all stages and frames"], ["first_non_finite", "First in", "stage: image"],
     ["spread_pixels", "Spread", "pixels of one frame that are not finite though their inputs are"],
     ["spread_frames", "Spread in time", "frames after the fault in which there are any"],
     ["negative", "Negative pixels", "of all frames"],
@@ -24,7 +23,7 @@ const stabilityColumns = [
     ["excess", "Excess", "the most by which a pixel is brighter"],
     ["bad_confidence", "Confidence outside [0, 1]", "pixels of all frames"],
     ["time_ratio", "Time / benign time", "of the fastest frames; of pictures this small anything below 4 may be noise"],
-    ["drift", "Drift", "relative change of the mean over a long rest"], ["drift_noise", "Drift\"s standard error", ""],
+    ["drift", "Drift", "relative change of the mean over a long rest"], ["drift_noise", "Drift's standard error", ""],
     ["gain", "Gain", "factor from frame to frame of an image that is fed back"], ["refusal", "Refused", ""]
 ];
 
@@ -39,14 +38,14 @@ function showStability() {
     if (!data) return leaveOut("stability");
     at("stability-lead").textContent = data.lead;
     at("stability-legend").replaceChildren(...data.verdicts.map((verdict, v) => {
-        const count = data.rows.filter(row => row[2] === v).length;
+        const count = data.rows.filter(row => row.verdict === v).length;
         return h(
             "span", {title: verdict.meaning},
             svg("svg", {viewBox: "-7 -7 14 14", "aria-hidden": "true"}, verdictMark(v, 0, 0, 5)),
             `${verdict.name} (${count})`);
     }));
-    const worst = data.rows.reduce((a, b) => b[2] > a[2] && b[2] < verdictMarks.length - 1 ? b : a);
-    [stabilityChoice.case, stabilityChoice.technique] = worst;
+    const worst = data.rows.reduce((a, b) => b.verdict > a.verdict && b.verdict < verdictMarks.length - 1 ? b : a);
+    chooseCell(worst);
     const isMetric = technique => technique.variant === "metrics";
     const indices = wanted => data.techniques.flatMap((technique, t) => isMetric(technique) === wanted ? [t] : []);
     at("stability-matrix")
@@ -55,6 +54,8 @@ function showStability() {
     at("stability-tables")
         .replaceChildren(...[failureTable(), spreadTable(), amplificationTable()].filter(part => part !== null));
 }
+
+function chooseCell({case: place, technique}) { Object.assign(stabilityChoice, {case: place, technique}); }
 
 const techniqueName = t => pointLabel(report.stability.techniques[t]);
 const verdictMark = (verdict, x, y, size) => svg("path", {
@@ -67,7 +68,7 @@ const verdictMark = (verdict, x, y, size) => svg("path", {
 /// Techniques as rows, the cases that they were in as columns.
 function stabilityMatrix(techniques) {
     const {rows, cases} = report.stability;
-    const own = rows.filter(row => techniques.includes(row[1])), columns = unique(own.map(row => row[0]));
+    const own = rows.filter(row => techniques.includes(row.technique)), columns = unique(own.map(row => row.case));
     const longest = (names, size) => Math.ceil(Math.max(...names.map(name => name.length)) * size * 0.56) + 10;
     const cellWidth = Math.max(9, Math.min(16, Math.floor(900 / columns.length))), cellHeight = 13;
     const left = longest(techniques.map(techniqueName), 10.5), top = longest(columns.map(c => cases[c].name), 9),
@@ -102,8 +103,9 @@ function stabilityMatrix(techniques) {
                 isFirst(techniques, i, variant) ? [{x1: -6, x2: width, y1: i * cellHeight, y2: i * cellHeight}] : [])
     ].map(ends => svg("line", {class: "axis", ...ends}));
     const marks = own.map(
-        ([c, t, v]) =>
-            verdictMark(v, middle(columns.indexOf(c), cellWidth), middle(techniques.indexOf(t), cellHeight), 4));
+        row => verdictMark(
+            row.verdict, middle(columns.indexOf(row.case), cellWidth),
+            middle(techniques.indexOf(row.technique), cellHeight), 4));
     const chosen = svg("rect", {class: "chosen", width: cellWidth, height: cellHeight, hidden: true});
     const field = svg("rect", {class: "field", width, height});
     const chart =
@@ -119,13 +121,14 @@ function stabilityMatrix(techniques) {
         const box = field.getBoundingClientRect();
         const column = Math.floor((event.clientX - box.left) / box.width * columns.length),
               row = Math.floor((event.clientY - box.top) / box.height * techniques.length);
-        return own.find(([c, t]) => c === columns[column] && t === techniques[row]);
+        return own.find(cell => cell.case === columns[column] && cell.technique === techniques[row]);
     };
     chart.addEventListener("pointermove", event => {
         const row = cellAt(event);
         tip.hidden = !row;
         if (!row) return;
-        tip.textContent = `${techniqueName(row[1])}\n${cases[row[0]].name}: ${report.stability.verdicts[row[2]].name}`;
+        tip.textContent =
+            `${techniqueName(row.technique)}\n${cases[row.case].name}: ${report.stability.verdicts[row.verdict].name}`;
         tip.style.left = Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8) + "px";
         tip.style.top = Math.min(event.clientY + 14, innerHeight - tip.offsetHeight - 8) + "px";
     });
@@ -135,7 +138,7 @@ function stabilityMatrix(techniques) {
     chart.addEventListener("click", event => {
         const row = cellAt(event);
         if (!row) return;
-        [stabilityChoice.case, stabilityChoice.technique] = row;
+        chooseCell(row);
         showStabilityCell();
     });
     chart.markChosen = () => {
@@ -160,11 +163,11 @@ function showStabilityCell() {
         .replaceChildren(
             select("Technique", options(data.techniques.map(pointLabel)), technique, change("technique")),
             select("Case", options(data.cases.map(c => c.name)), chosen, change("case")));
-    const row = data.rows.find(r => r[0] === chosen && r[1] === technique);
-    const verdict = row ? data.verdicts[row[2]] : {name: "not run", meaning: "the case is not for this technique"};
-    const values = row ? row[3] : {};
+    const row = data.rows.find(r => r.case === chosen && r.technique === technique);
+    const verdict = row ? data.verdicts[row.verdict] : {name: "not run", meaning: "the case is not for this technique"};
+    const values = row ? row.values : {};
     const shown = stabilityColumns.filter(([column]) => column in values && (column !== "seeds" || values.seeds > 1));
-    const stages = data.stages.filter(stage => stage[0] === chosen && stage[1] === technique);
+    const stages = data.stages.filter(s => s.case === chosen && s.technique === technique);
     at("stability-cell")
         .replaceChildren(
             h("p", {}, h("b", {}, `${techniqueName(technique)}, ${data.cases[chosen].name}: ${verdict.name}`),
@@ -176,11 +179,11 @@ function showStabilityCell() {
                     shown.map(([column, name,
                                 meaning]) => [name, cell(values[column], stabilityNumber(values[column])), meaning])) :
                 "",
-            stages.length ? table(
-                                [{name: "Stage: image"}, {name: "NaN", number: true}, {name: "Inf", number: true}],
-                                stages.map(([, , place, nan, infinite]) => [place, nan, infinite].map(String)),
-                                {caption: "Values of all frames"}) :
-                            "");
+            stages.length ?
+                table(
+                    [{name: "Stage: image"}, {name: "NaN", number: true}, {name: "Inf", number: true}],
+                    stages.map(s => [s.image, s.nan, s.infinite].map(String)), {caption: "Values of all frames"}) :
+                "");
 }
 
 const stabilityNumber = value => typeof value === "number" ? number(value) : value;
@@ -191,13 +194,12 @@ function failureTable() {
     const isTold = f => f.first || f.explanations.length;
     const names = (some, ...before) =>
         h("details", {}, h("summary", {}, ...before, String(some.length)), some.join(", "));
-    const line = f => [
-        names(f.points, `${f.variant}, presets: `), f.place, names(f.cases), `${f.nan}, ${f.infinite}`,
-        f.first ? String(f.first) : "passed on",
-        [...f.explanations.map(e => e.operation), ...(f.unexplained ? [`unexplained in ${f.unexplained}`] : [])].join(
-            "; or "),
-        f.explanations.map(e => e.mend).join("; ")
-    ];
+    const line = f =>
+        [names(f.points, `${f.variant}, presets: `), f.place, names(f.cases), `${f.nan}, ${f.infinite}`,
+         f.first ? String(f.first) : "passed on",
+         [...f.explanations.map(e => e.operation), ...(f.unexplained ? [`unexplained in ${f.unexplained}`] : [])].join(
+             "; or "),
+         f.explanations.map(e => e.mend).join("; ")];
     const columns = [
         {name: "Technique"}, {name: "Stage: image"}, {name: "Cases"}, {name: "NaN, Inf", number: true},
         {name: "Arises there", number: true}, {name: "Operation"}, {name: "Mend"}
@@ -214,14 +216,17 @@ function failureTable() {
 
 /// Of cases in which something spreads, and techniques in which it does.
 function spreadTable() {
-    const {rows, cases} = report.stability, own = rows.filter(row => row[3].spread_pixels);
+    const {rows, cases} = report.stability, own = rows.filter(row => row.values.spread_pixels);
     if (!own.length) return null;
-    const columns = unique(own.map(row => row[0])).sort((a, b) => a - b);
-    const text = row => row ? `${row[3].spread_pixels}${row[3].spread_frames ? ` +${row[3].spread_frames}` : ""}` : "·";
-    const lines =
-        unique(own.map(row => row[1]))
-            .sort((a, b) => a - b)
-            .map(t => [techniqueName(t), ...columns.map(c => text(own.find(row => row[0] === c && row[1] === t)))]);
+    const columns = unique(own.map(row => row.case)).sort((a, b) => a - b);
+    const text = row =>
+        row ? `${row.values.spread_pixels}${row.values.spread_frames ? ` +${row.values.spread_frames}` : ""}` : "·";
+    const lines = unique(own.map(row => row.technique))
+                      .sort((a, b) => a - b)
+                      .map(
+                          t =>
+                              [techniqueName(t),
+                               ...columns.map(c => text(own.find(row => row.case === c && row.technique === t)))]);
     return part(
         "Spread of bad inputs",
         "The most pixels of a frame that are not finite though their inputs are; behind a +, frames after the fault in " +
@@ -231,21 +236,21 @@ function spreadTable() {
 
 function amplificationTable() {
     const {rows, cases} = report.stability, inputs = ["depth", "normal", "lit"];
-    const own = rows.filter(row => inputs.some(input => `${input}_p999` in row[3]));
+    const own = rows.filter(row => inputs.some(input => `${input}_p999` in row.values));
     if (!own.length) return null;
-    const choices = unique(own.map(row => row[0])).map(c => [c, cases[c].name]);
+    const choices = unique(own.map(row => row.case)).map(c => [c, cases[c].name]);
     stabilityChoice.amplified = choices[0][0];
     const body = scroller();
-    const value = (row, column) => cell(row[3][column] ?? 0, number(row[3][column] ?? 0, 3));
+    const value = (row, column) => cell(row.values[column] ?? 0, number(row.values[column] ?? 0, 3));
     const show = () => body.replaceChildren(table(
         [
             {name: "Technique"},
             ...inputs.flatMap(i => [{name: `${i}, median`, number: true}, {name: "99.9 %", number: true}])
         ],
-        own.filter(row => row[0] === stabilityChoice.amplified)
+        own.filter(row => row.case === stabilityChoice.amplified)
             .map(
                 row =>
-                    [techniqueName(row[1]),
+                    [techniqueName(row.technique),
                      ...inputs.flatMap(i => [value(row, `${i}_median`), value(row, `${i}_p999`)])]),
         {sortable: true}));
     show();

@@ -40,7 +40,7 @@ function showStages() {
             stageChoice.bars = value;
             pointsChanged();
         });
-    at("stage-shots").append(h("div", {class: "controls"}, bars), ...shotParts(shots, stagesOf));
+    at("stage-shots").append(h("div", {class: "controls"}, bars), shotParts(shots, stagesOf));
 }
 
 function stagesOf(shot) {
@@ -150,6 +150,7 @@ function savedNote(shot) {
         h("p", {class: "note"}, "Which parts, and why: ", h("a", {href: "#needs"}, "What the scenes need"), "."));
 }
 
+const longList = 6;  // of paragraphs; longer ones are folded
 /// What was timed: a point's name does not tell which form of a stage ran. Single changes equal their baseline in all
 /// but what their name says.
 function formNote(times) {
@@ -161,7 +162,7 @@ function formNote(times) {
     if (!lines.length) return "";
     const items = lines.map(([label, text]) => h("li", {}, h("b", {}, label), ": " + text));
     const note = h("div", {class: "note forms"}, "What was timed:", h("ul", {}, items));
-    return lines.length > longTable ? folded("What was timed", note) : note;
+    return lines.length > longList ? folded("What was timed", note) : note;
 }
 
 /// The forms a point chose, and what else it changes of its variant's defaults.

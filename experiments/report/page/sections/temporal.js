@@ -61,7 +61,7 @@ function temporalTable({title, metrics, hasDisoccluded}, all) {
                 const own = rows.filter(isOwn);
                 return own.length ?
                     [
-                        shot, pointLabel(point), ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
+                        shotName(shot), pointLabel(point), ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
                         ...(disoccluded.length ? [disoccludedCell(disoccluded.find(isOwn))] : [])
                     ] :
                     null;
