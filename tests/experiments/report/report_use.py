@@ -89,6 +89,9 @@ def test_budget(page, folder, shot):
         check(wanted in text, f"within {budget} ms: {text}")
         equal("It cannot be told whether " + label(best) in text, budget == between, f"doubts at {budget} ms: {text}")
         check("The clock did not prove itself" in text, text)
+        check("Times nearer than 2 % are the same" in text, f"the A/A floor: {text}")
+    axes = page.execute_script("return [...document.querySelectorAll('#answer-charts svg')].map(s => s.textContent)")
+    check(axes and all(re.search(r"total time \(ms\), .*\d+x\d+", a) for a in axes), f"machine and size at the axes of times: {axes}")
     page.execute_script("const b = at('budget'); b.value = ''; b.dispatchEvent(new Event('input'))")
     equal(texts(page, "#budget-answer"), [""], "without a budget")
 

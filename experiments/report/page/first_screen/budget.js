@@ -27,19 +27,24 @@ const budgetLine = x => budget.milliseconds > x.domain[0] && budget.milliseconds
 function drawBudget(shot) {
     if (!at("budget-answer")) return;
     const parts = budget.milliseconds === null ? [] : headlineMetrics().flatMap(metric => budgetParts(shot, metric));
-    if (parts.length && !answerOf(shot)?.is_clock_proven) parts.push("The clock did not prove itself: take the times with care. ");
-    if (parts.length) parts.push(timesOf(shot));
+    if (parts.length && !answerOf(shot)?.is_clock_proven)
+        parts.push("The clock did not prove itself: take the times with care. ");
+    if (parts.length) parts.push(floorText());
     at("budget-answer").replaceChildren(...parts);
 }
 
-/// Which machine and size the times are of, and from where on they differ.
-function timesOf(shot) {
-    const {width, height} = manifestShots().find(s => s.shot === shot) ?? {}, floor = report.manifest.clock?.aa_floor;
-    const devices = unique(makers.map(m => m.device).filter(Boolean));
-    const isCpu = devices.some(d => d.type === "cpu");
-    return `Times of ${unique(devices.map(d => d.name)).join(", ")}${width ? ` at ${width}x${height}` : ""}` +
-        (floor > 0 ? `; nearer than ${percent(floor)} they are the same` : "") +
-        (isCpu ? ". They compare techniques and are no GPU's." : ".");
+/// Which machine and size the times of a shot are of: "llvmpipe (a CPU), 256x144".
+function timedOn(shot) {
+    const {width, height} = manifestShots().find(s => s.shot === shot) ?? {};
+    const devices = makers.map(m => m.device).filter(Boolean)
+                        .map(d => d.name.split(" (")[0] + (d.type === "cpu" ? " (a CPU)" : ""));
+    return [...unique(devices), width ? `${width}x${height}` : ""].filter(Boolean).join(", ");
+}
+
+/// From where on times differ, by two copies of a point.
+function floorText() {
+    const floor = report.manifest.clock?.aa_floor;
+    return floor > 0 ? `Times nearer than ${percent(floor)} are the same.` : "";
 }
 
 /// "By mse A, 0.05 [0.04, 0.06], in 9 ms [8, 11]": the least error of the points whose median is within the budget; and

@@ -22,7 +22,7 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
           hasTimes = timed.length > 0;
     const points = hasTimes ? timed : rows.map((row, i) => ({row, time: {value: i + 1, low: null, high: null}}));
     const y = errorAxis(isLog, points.map(p => p.row), metric + unitText(metric));
-    const x = hasTimes ? logAxis(timed.flatMap(p => [p.time.low, p.time.high]), "total time (ms)") :
+    const x = hasTimes ? logAxis(timed.flatMap(p => [p.time.low, p.time.high]), "total time (ms), " + timedOn(shot)) :
                          linearAxis([1, rows.length], "points, in the order of the study (no times)");
     const mistakes =
         row => [...mistakesOfError(row), ...(hasTimes ? mistakesOfTime(row) : [])].map(m => `\n! ${m.text}`).join("");
