@@ -196,10 +196,12 @@ std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<A
     if (own == first)
         return "By " + metric + ", which is nearer to what people see, it leads, too: " + shown(own->value) +
                interval_text(own->low, own->high) + noise + ".";
-    const bool overlaps = own->low && first->high && first->low && own->high &&
-                          std::max(*own->low, *first->low) <= std::min(*own->high, *first->high);
+    // Where the noise of one is not known, no difference counts that noise alone would score.
+    const bool have_intervals = own->low && own->high && first->low && first->high;
+    const bool is_told = have_intervals ? std::max(*own->low, *first->low) > std::min(*own->high, *first->high)
+                                        : floor && badness(metric, own->value) - badness(metric, first->value) > *floor;
     return "By " + metric + ", which is nearer to what people see, " + with_value(*first) + ", " +
-           (overlaps ? "cannot be told from it" : "is ahead of it") + " at " + shown(own->value) +
+           (is_told ? "is ahead of it" : "cannot be told from it") + " at " + shown(own->value) +
            interval_text(own->low, own->high) + noise + ".";
 }
 

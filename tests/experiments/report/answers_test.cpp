@@ -120,6 +120,13 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
         << made.answer().perceptual_sentence;
     made.tables.errors[3].value = 0.195, made.tables.errors[3].low = 0.185, made.tables.errors[3].high = 0.205;
     EXPECT_NE(made.answer().perceptual_sentence.find("cannot be told from it"), std::string::npos);
+    made.tables.errors[3].value = 0.17, made.tables.errors[3].low = made.tables.errors[3].high = {};
+    EXPECT_NE(made.answer().perceptual_sentence.find("cannot be told from it"), std::string::npos)
+        << "no noise is known";
+    for (MetricSummary& e : made.tables.errors) e.floor = 0.02;
+    EXPECT_NE(made.answer().perceptual_sentence.find("b, 0.17, is ahead of it"), std::string::npos);
+    for (MetricSummary& e : made.tables.errors) e.floor = 0.04;
+    EXPECT_NE(made.answer().perceptual_sentence.find("cannot be told from it"), std::string::npos);
     made.tables.errors[3].value = 0.3;
     EXPECT_NE(made.answer().perceptual_sentence.find("it leads, too"), std::string::npos);
 }
