@@ -77,18 +77,20 @@ def test_budget(page, folder, shot):
         (r["variant"], r["point"]): float(r["value"])
         for r in rows_of(folder, "summary.csv", shot=shot, metric="mse", mask="reflective", target="specular")
     }
+    high_of = lambda point: max(float(r["high_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["variant"], r["point"]) == point)
     label = lambda point: point[0] if point[1] == "default" else " · ".join(point)
     by_error = sorted(times, key=errors.get)
     best, cheapest = by_error[0], min(times, key=times.get)
     check(best != cheapest, "the fixture has a faster point of more error")
     between = (times[best][1] + times[best][0]) / 2  # within the interval of the best one's time
-    for budget, fits in ((times[best][0] + 1, best), (between, cheapest), (times[cheapest][1] / 2, None)):
+    for budget, fits in ((times[best][0] + 1, best), (times[best][0] + 1e-6, best), (between, cheapest), (times[cheapest][1] / 2, None)):
         page.execute_script("const b = at('budget'); b.value = arguments[0]; b.dispatchEvent(new Event('input'))", budget)
         text = texts(page, "#budget-answer")[0]
         wanted = f"By mse {label(fits)}, " if fits else "By mse: nothing that was timed fits."
         check(wanted in text, f"within {budget} ms: {text}")
         equal("It cannot be told whether " + label(best) in text, budget == between, f"doubts at {budget} ms: {text}")
         check("The clock did not prove itself" in text, text)
+        equal(", which may not fit" in text.split("By flip")[0], bool(fits) and high_of(fits) > budget, f"may not fit {budget} ms: {text}")
         check("Times nearer than 2 % are the same" in text, f"the A/A floor: {text}")
     axes = page.execute_script("return [...document.querySelectorAll('#answer-charts svg')].map(s => s.textContent)")
     check(axes and all(re.search(r"total time \(ms\), .*\d+x\d+", a) for a in axes), f"machine and size at the axes of times: {axes}")

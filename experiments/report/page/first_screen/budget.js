@@ -47,9 +47,9 @@ function floorText() {
     return floor > 0 ? `Times nearer than ${percent(floor)} are the same.` : "";
 }
 
-/// "By mse A, 0.05 [0.04, 0.06], in 9 ms [8, 11]": the least error of the points whose median is within the budget; and
-/// those of less error of which it cannot be told whether they fit: the interval, or the difference of two copies of a
-/// point, holds the budget. Each name opens its images.
+/// "By mse A, 0.05 [0.04, 0.06], in 9 ms [8, 11]": the least error of the points whose median is within the budget, and
+/// those of less error whose median is not. Where the interval of a time, or the difference of two copies of a point,
+/// holds the budget, it is said that it may not fit, or may. Each name opens its images.
 function budgetParts(shot, metric) {
     const timed = headlineRows(shot, metric)
                       .map(row => ({row, time: totalTime(row), badness: badness(metric, row.value)}))
@@ -66,12 +66,17 @@ function budgetParts(shot, metric) {
             `, ${number(row.value, 3)} ${error(row)}`.trimEnd() + `, in ${number(time.value, 3)} ms ${interval(time, 3)}`
         ];
     };
-    const least = time => Math.min(time.low ?? time.value, time.value / (1 + (report.manifest.clock?.aa_floor ?? 0)));
-    const best = timed.find(p => p.time.value <= budget.milliseconds);
-    const doubtful = timed.filter(
-        p => p.time.value > budget.milliseconds && least(p.time) <= budget.milliseconds && !(p.badness > best?.badness));
+    const spread = 1 + (report.manifest.clock?.aa_floor ?? 0), limit = budget.milliseconds;
+    const least = time => Math.min(time.low ?? time.value, time.value / spread),
+          most = time => Math.max(time.high ?? time.value, time.value * spread);
+    const best = timed.find(p => p.time.value <= limit), sure = timed.find(p => most(p.time) <= limit);
+    const doubtful =
+        timed.filter(p => p.time.value > limit && least(p.time) <= limit && !(p.badness > best?.badness));
+    if (!best && !doubtful.length) return [`By ${metric}: nothing that was timed fits. `];
     return [
-        ...(best ? [`By ${metric} `, ...parts(best), ". "] : [`By ${metric}: nothing that was timed fits. `]),
+        ...(best ? [`By ${metric} `, ...parts(best)] : [`By ${metric}: nothing that was timed surely fits`]),
+        ...(best && best !== sure ? [", which may not fit", ...(sure ? ["; surely fits ", ...parts(sure)] : [])] : []),
+        ". ",
         ...(doubtful.length ? ["It cannot be told whether ",
                                ...doubtful.flatMap((p, i) => [i ? "; " : "", ...parts(p)]), " fits. "] : [])
     ];
