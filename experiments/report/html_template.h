@@ -4,8 +4,8 @@
 #include <string>
 
 /// A text with the tags of Mustache (mustache(5)), filled in: {{name}} is escaped for HTML, {{{name}}} is put in as it
-/// is, and a section {{#name}} ... {{/name}} is repeated for each element of an array, or left out where `values` has
-/// no such name, an empty array or false. `partials`: the texts, with tags of their own, that {{>name}} stands for.
-/// Fails with Error if the template is malformed.
+/// is (both are empty where `values` has no such name), and a section {{#name}} ... {{/name}} is repeated for each
+/// element of an array, or left out where `values` has no such name, an empty array or false. `partials`: the texts,
+/// with tags of their own, that {{>name}} stands for. Fails with Error if the template is malformed.
 std::string filled_template(const std::string& text, const nlohmann::json& values,
                             const std::map<std::string, std::string>& partials = {});

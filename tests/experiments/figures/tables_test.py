@@ -160,13 +160,17 @@ def test_numbers(folder):
 
 
 def test_bold(folder):
-    """A ratio that Holm's test tells from 1 is bold, in a table of single shots."""
+    """A ratio that Holm's test tells from 1 is bold, in a table of single shots; "!wall" leaves that one out."""
     table = TABLES[0] | {"columns": ["metric", "shot"], "where": {"metric": "mse"}}
     table = {k: v for k, v in table.items() if k not in ("over", "sort")}
     write_results(folder, [table])
     check(tables(folder).returncode == 0, "single shots")
     line = read(os.path.join(folder, "tables", "changes.md")).splitlines()[4]
     check(line == "| taps = 4 | **0.500 [0.450, 0.556]** | **2.00 [1.80, 2.22]** |", line)
+    write_results(folder, [table | {"where": {"metric": "mse", "shot": "!wall"}}])
+    check(tables(folder).returncode == 0, "a shot left out")
+    text = read(os.path.join(folder, "tables", "changes.md"))
+    check("**0.500 [0.450, 0.556]** |" in text and "wall" not in text and "2.00" not in text, text)
 
 
 def footer(folder, name):

@@ -33,14 +33,6 @@ function drawBudget(shot) {
     at("budget-answer").replaceChildren(...parts);
 }
 
-/// Which machine and size the times of a shot are of: "llvmpipe (a CPU), 256x144".
-function timedOn(shot) {
-    const {width, height} = manifestShots().find(s => s.shot === shot) ?? {};
-    const devices = makers.map(m => m.device).filter(Boolean)
-                        .map(d => d.name.split(" (")[0] + (d.type === "cpu" ? " (a CPU)" : ""));
-    return [...unique(devices), width ? `${width}x${height}` : ""].filter(Boolean).join(", ");
-}
-
 /// From where on times differ, by two copies of a point.
 function floorText() {
     const floor = report.manifest.clock?.aa_floor;

@@ -64,6 +64,14 @@ const frontLine = front => Plot.line(front, {
     strokeDasharray: "3 2"
 });
 
+/// Which machine and size the times of a shot are of: "llvmpipe (a CPU), 256x144".
+function timedOn(shot) {
+    const {width, height} = manifestShots().find(s => s.shot === shot) ?? {};
+    const devices = makers.map(m => m.device).filter(Boolean)
+                        .map(d => d.name.split(" (")[0] + (d.type === "cpu" ? " (a CPU)" : ""));
+    return [...unique(devices), width ? `${width}x${height}` : ""].filter(Boolean).join(", ");
+}
+
 /// A line across the chart at the value of a row, with its interval and its name; at the chart's edge, with an arrow,
 /// where the value lies beyond.
 function level(name, {value, low, high}, axis, style) {

@@ -173,7 +173,8 @@ function cropList() {
         h("div", {class: "controls"},
           h("a", {href: url, download: "figures.json", id: "crops-download"}, "Download figures.json"),
           h("button", {click: copyCrops}, "Copy"),
-          h("span", {class: "note"}, "Then: ", h("code", {}, "ssrlab figures DIR figures.json"), ", DIR being the folder of this page")),
+          h("span", {class: "note"}, "Then: ", h("code", {}, "ssrlab figures DIR figures.json"),
+            ", DIR being the folder of this page")),
         text
     ];
 }

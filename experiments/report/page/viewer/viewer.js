@@ -93,7 +93,8 @@ function showViewer() {
     showLook();
     addEventListener("keydown", viewerKey);
     new ResizeObserver(drawAll).observe(at("panes"));
-    const start = () => viewer.shot === null ? chooseShot(report.images.find(i => i.shot === answerChoice.shot)?.shot ?? report.images[0].shot) : undefined;
+    const first = report.images.find(i => i.shot === answerChoice.shot) ?? report.images[0];
+    const start = () => viewer.shot === null ? chooseShot(first.shot) : undefined;
     if (!report.images.some(i => i.file)) return start();
     // Images beside the page are loaded when the viewer is about to be seen.
     new IntersectionObserver((entries, observer) => {
