@@ -77,8 +77,45 @@ int parse_and_run(int argc, char** argv) {
                           "Give a results folder of another study to this one; cells that both share are kept");
     run_command_.add_flag("--prune", run.prunes,
                           "Remove cells and images that earlier versions of the study left in its folder");
+    run_command_
+        .add_option("--cells", run.cells,
+                    "Do these cells alone, of a study that several processes or machines share: references, renders, "
+                    "times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
+                    "kinds narrow each other. Tables are made by `ssrlab merge`")
+        ->delimiter(',')
+        ->type_name("TERM");
     add_device(run_command_, common), add_scene_path(run_command_, common), add_cache(run_command_, common);
     run_command_.callback([&] { run_study_command(run, common); });
+
+    PlanOptions plan;
+    CLI::App& plan_command_ = *app.add_subcommand(
+        "plan", "Say which cells a study has, which are done, and about how long and how much memory the others take");
+    plan_command_.add_option("config", plan.config, "The study")->required()->type_name("CONFIG.json");
+    plan_command_.add_option("--out", plan.out, "Its results folder; default: results/<name of the config>")
+        ->type_name("DIR");
+    plan_command_.add_option("--cells", plan.cells, "Of these cells alone, as of `ssrlab run`")
+        ->delimiter(',')
+        ->type_name("TERM");
+    plan_command_.add_flag("--list", plan.has_list, "List the cells in place of estimates");
+    plan_command_.add_option("--json", plan.json, "Also write all cells with their estimates")->type_name("FILE.json");
+    plan_command_.add_flag("--keep-all", plan.keep_all, "As of `ssrlab run`");
+    add_device(plan_command_, common), add_scene_path(plan_command_, common);
+    plan_command_.callback([&] { plan_command(plan, common); });
+
+    MergeOptions merge;
+    CLI::App& merge_command_ = *app.add_subcommand(
+        "merge", "Make one results folder of those that processes filled with parts of a study (`ssrlab run --cells`)");
+    merge_command_.add_option("config", merge.config, "The study")->required()->type_name("CONFIG.json");
+    merge_command_
+        .add_option("results", merge.folders, "Folders of its parts; default: the one that --out names")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR...");
+    merge_command_.add_option("--out", merge.out, "Results folder; default: results/<name of the config>")
+        ->type_name("DIR");
+    merge_command_.add_flag("--keep-all", merge.keep_all, "The parts were run with --keep-all");
+    merge_command_.add_flag("--replace", merge.replaces, "As of `ssrlab run`");
+    add_device(merge_command_, common), add_scene_path(merge_command_, common);
+    merge_command_.callback([&] { status = merge_command(merge, common); });
 
     std::filesystem::path report_folder;
     CLI::App& report_command_ = *app.add_subcommand("report", "Make report.html anew from the tables of a folder");
@@ -103,6 +140,16 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("figures.json");
     figures_command_.add_option("--out", figures.out, "Default: figures in the results folder")->type_name("DIR");
     figures_command_.callback([&] { status = figures_command(figures); });
+
+    DiffOptions diff;
+    CLI::App& diff_command_ = *app.add_subcommand(
+        "diff", "Say which numbers changed beyond their intervals between two results folders (exit code 1 if any did)");
+    diff_command_.add_option("old", diff.before, "A folder that `ssrlab run` filled")->required()->type_name("OLD");
+    diff_command_.add_option("new", diff.after, "Another, of the same shots and points")->required()->type_name("NEW");
+    diff_command_.add_flag("--times", diff.judges_times, "Changed times count, too");
+    diff_command_.add_flag("--all", diff.shows_all, "Name all changes, not only the largest");
+    diff_command_.add_option("--csv", diff.csv, "Also write all rows that were compared")->type_name("FILE.csv");
+    diff_command_.callback([&] { status = diff_command(diff); });
 
     TablesOptions tables;
     CLI::App& tables_command_ =

@@ -78,19 +78,26 @@ ReferenceState pick_up(const ReferenceRun& run, const std::string& stream, glm::
 
 std::string groundtruth_code_version() { return std::string(code_version); }
 
-std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
-                             const ReferenceSettings& settings) {
+std::string reference_request(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
+                              const ReferenceSettings& settings) {
     if (scene.content_hash.empty())
         fail("the scene '", scene.name, "' has no content hash, so its reference cannot be told from others");
     ContentHash hash;
-    hash.add(code_version);
-    hash.add(render_platform());
     hash.add(scene.content_hash);
     add(hash, pose);
     add(hash, camera);
     for (const unsigned value : {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder),
                                  unsigned(settings.keep_all)})
         hash.add(value);
+    return hash.hex();
+}
+
+std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
+                             const ReferenceSettings& settings) {
+    ContentHash hash;
+    for (const std::string& part :
+         {std::string(code_version), render_platform(), reference_request(scene, pose, camera, extent, settings)})
+        hash.add(part);
     return hash.hex();
 }
 

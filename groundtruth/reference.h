@@ -139,8 +139,13 @@ struct ReferenceRun {
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 
-/// Hash of all that decides which samples a render draws and what they are: scene content, pose, camera, extent, seed,
-/// depth, ladder, the code of the path tracer and the platform. Fails with Error if scene.content_hash is empty.
+/// Hash of what a reference is asked to show: scene content, pose, camera, extent, seed, depth, ladder. Fails with Error
+/// if scene.content_hash is empty.
+std::string reference_request(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
+                              const ReferenceSettings& settings);
+
+/// Hash of all that decides which samples a render draws and what they are: the request, the
+/// code of the path tracer and the platform. Fails as reference_request().
 std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                              const ReferenceSettings& settings);
 

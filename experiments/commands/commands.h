@@ -23,13 +23,35 @@ struct ShotOptions {
 struct RunOptions {
     std::filesystem::path config, out;
     bool keep_all = false, replaces = false, prunes = false;
+    std::vector<std::string> cells;  ///< as CellSelection takes them; empty: all
 };
 void run_study_command(const RunOptions& options, const CommonOptions& common);
+
+struct PlanOptions {
+    std::filesystem::path config, out;
+    std::filesystem::path json;      ///< file that gets all cells with their estimates; "": none
+    std::vector<std::string> cells;  ///< as CellSelection takes them; empty: all
+    bool has_list = false, keep_all = false;
+};
+void plan_command(const PlanOptions& options, const CommonOptions& common);
+
+struct MergeOptions {
+    std::filesystem::path config, out;
+    std::vector<std::filesystem::path> folders;
+    bool keep_all = false, replaces = false;
+};
+int merge_command(const MergeOptions& options, const CommonOptions& common);  ///< 1 if cells are missing, else 0
 
 struct FiguresOptions {
     std::filesystem::path results, out, crops;
 };
 int figures_command(const FiguresOptions& options);  ///< the exit code: 0, 2 or 3
+
+struct DiffOptions {
+    std::filesystem::path before, after, csv;
+    bool judges_times = false, shows_all = false;
+};
+int diff_command(const DiffOptions& options);  ///< the exit code: 0, 1 if a number changed, 2 or 3
 
 struct TablesOptions {
     std::filesystem::path results, out;

@@ -11,17 +11,42 @@
 
 #include <cstdio>
 
+namespace {
+
+Config config_of_study(const std::filesystem::path& file) {
+    Config config = read_config(file);
+    if (config.is_search) fail(file.string(), ": has a 'search': `ssrlab search` runs it");
+    return config;
+}
+
+std::filesystem::path default_results(const std::filesystem::path& config) {
+    return std::filesystem::path("results") / config.stem();
+}
+
+}  // namespace
+
 void run_study_command(const RunOptions& options, const CommonOptions& common) {
-    const Config config = read_config(options.config);
-    if (config.is_search) fail(options.config.string(), ": has a 'search': `ssrlab search` runs it");
-    run_study(config,
-              {.out = options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out,
+    run_study(config_of_study(options.config),
+              {.out = options.out.empty() ? default_results(options.config) : options.out,
                .device = common.device,
                .cache = common.cache.empty() ? default_cache_folder() : common.cache,
                .search_path = scene_search_path(common.scene_path),
                .keep_all = options.keep_all,
                .replaces = options.replaces,
-               .prunes = options.prunes});
+               .prunes = options.prunes,
+               .cells = options.cells});
+}
+
+int merge_command(const MergeOptions& options, const CommonOptions& common) {
+    const std::filesystem::path out = options.out.empty() ? default_results(options.config) : options.out;
+    const size_t missing = merge_study(config_of_study(options.config),
+                                       {.out = out,
+                                        .device = common.device,
+                                        .search_path = scene_search_path(common.scene_path),
+                                        .keep_all = options.keep_all,
+                                        .replaces = options.replaces},
+                                       options.folders.empty() ? std::vector{out} : options.folders);
+    return missing > 0 ? 1 : 0;
 }
 
 void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common) {

@@ -302,13 +302,6 @@ ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& con
     return result;
 }
 
-nlohmann::json timed_work(const Config& config, const nlohmann::json& variants, const nlohmann::json& host) {
-    nlohmann::json work = {
-        {"variants", variants}, {"frames", config.timing.frames}, {"warm_up", config.timing.warm_up}, {"host", host}};
-    for (const VariantConfig& variant : config.variants) work["timed"].push_back(variant.is_timed);
-    return work;
-}
-
 nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, const ClockProof& clock) {
     nlohmann::json pairs = nlohmann::json::array(), saved = nlohmann::json::object(), largest;
     if (times.load.largest) largest = *times.load.largest;
@@ -340,9 +333,11 @@ nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, con
             {"clock", clock_entry(clock)}};
 }
 
-bool is_disturbed(const nlohmann::json& timing_entry) {
-    return timing_entry.is_object() && timing_entry.at("load").at("disturbed_frames").get<unsigned>() > 0;
+double disturbed_frames(const nlohmann::json& timing_entry) {
+    return timing_entry.is_object() ? timing_entry.at("load").at("disturbed_frames").get<double>() : 0.0;
 }
+
+bool is_disturbed(const nlohmann::json& timing_entry) { return disturbed_frames(timing_entry) > 0; }
 
 void add_timing(nlohmann::json& manifest, const nlohmann::json& entry) {
     nlohmann::json& clock = manifest["clock"];

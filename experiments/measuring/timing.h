@@ -2,7 +2,7 @@
 #include "core/cpu_times.h"
 #include "core/gpu/clock.h"
 #include "experiments/results/cell.h"
-#include "experiments/results/results.h"
+#include "experiments/results/median_interval.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shot.h"
 #include "experiments/study/frame_source.h"
@@ -72,13 +72,11 @@ std::vector<FrameStep> timed_steps(const std::vector<unsigned>& frames, unsigned
 /// For each round an order of 0 .. count - 1, drawn at random, the same for each run.
 std::vector<std::vector<size_t>> timed_turns(size_t count, unsigned rounds);
 
-/// What the times of a shot depend on besides the shot itself, for the name of their cell: what is timed, and the
-/// machine that they are those of. `variants` as in manifest.json, `host` as host_info() gives it.
-nlohmann::json timed_work(const Config& config, const nlohmann::json& variants, const nlohmann::json& host);
-
 /// ShotTimes without its rows, to be kept in Cell::timing, with the proof of the clock that took them.
 nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, const ClockProof& clock);
 
+/// How many of the frames that count were disturbed by other work; 0 of null, where nothing was timed.
+double disturbed_frames(const nlohmann::json& timing_entry);
 /// Whether another timing of the same shot might be less disturbed.
 bool is_disturbed(const nlohmann::json& timing_entry);
 

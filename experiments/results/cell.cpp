@@ -55,6 +55,8 @@ void to_json(nlohmann::json& json, const Cell& cell) {
             {"images", cell.images},
             {"timing", cell.timing},
             {"notes", cell.notes},
+            {"truth", cell.truth},
+            {"shot", cell.shot},
             {"provenance", cell.provenance}};
 }
 
@@ -65,5 +67,6 @@ void from_json(const nlohmann::json& json, Cell& cell) {
     cell.hits = rows_from_json<HitRow>(json.at("hits"));
     json.at("reference_noise").get_to(cell.reference_noise);
     cell.images = json.at("images"), cell.timing = json.at("timing");
-    json.at("notes").get_to(cell.notes), cell.provenance = json.at("provenance");
+    json.at("notes").get_to(cell.notes), json.at("truth").get_to(cell.truth);
+    cell.shot = json.at("shot"), cell.provenance = json.at("provenance");
 }

@@ -11,10 +11,14 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 namespace fs = std::filesystem;
+
+extern const std::string_view compiled_source_table;  // written by source_table, see CMakeLists.txt
 
 namespace {
 
@@ -70,6 +74,25 @@ std::string code_hash() {
     hash.add(read_text("/proc/self/exe"));
     for (const fs::path& file : files_read_at_run_time()) hash.add(read_text(file));
     return hash.hex();
+}
+
+std::vector<SourceFile> present_sources() {
+    std::map<std::string, SourceFile> sources;
+    for (SourceFile& source : parse_source_table(compiled_source_table))
+        if (source.path.ends_with(".cpp") || source.path.ends_with(".h"))
+            sources.insert_or_assign(source.path, std::move(source));
+    for (SourceFile& source : read_sources(SSRLAB_SOURCE_DIR)) {
+        if (source.path.ends_with(".cpp")) continue;
+        const auto compiled = sources.find(source.path);
+        const bool is_only_read = !source.path.ends_with(".h");
+        if (is_only_read)
+            sources.insert_or_assign(source.path, std::move(source));
+        else if (compiled != sources.end() && !source.path.starts_with("experiments/"))
+            compiled->second.hash += source.hash;  // C++ saw it then, and shaders see it now
+    }
+    std::vector<SourceFile> list;
+    for (auto& [path, source] : sources) list.push_back(std::move(source));
+    return list;
 }
 
 std::string time_stamp() {

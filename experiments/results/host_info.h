@@ -1,4 +1,6 @@
 #pragma once
+#include "experiments/results/source_code.h"
+
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -13,6 +15,10 @@ nlohmann::json build_info();
 /// The hash of this executable and of what it reads from the source tree at run time, shaders and the tables of
 /// variants: a result computed by other code is another result.
 std::string code_hash();
+
+/// The sources that this program was compiled from, but those that it reads when it runs as they lie in the source tree
+/// now: shaders, what they include, tables.
+std::vector<SourceFile> present_sources();
 
 /// UTC, ISO 8601: 2026-01-31T12:00:00Z.
 std::string time_stamp();

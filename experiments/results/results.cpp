@@ -1,9 +1,6 @@
 #include "experiments/results/results.h"
 
-#include "core/error.h"
-
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -50,22 +47,4 @@ void write_tables(const std::filesystem::path& folder, const StudyRows& rows) {
         std::filesystem::remove(folder / "hits.csv");  // of an earlier version of the study
     else
         write_rows(folder / "hits.csv", rows.hits);
-}
-
-MedianInterval median_interval(std::vector<double> values) {
-    if (values.empty()) fail("no values to take a median of");
-    std::ranges::sort(values);
-    const size_t n = values.size();
-    const double median = n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-    // The largest r for which P(Binomial(n, 1/2) < r) <= 2.5 %: then [x_r, x_(n+1-r)] covers the median with at least
-    // 95 %.
-    double probability = std::pow(0.5, double(n)), cumulative = 0.0;
-    size_t r = 0;
-    while (cumulative + probability <= 0.025) {
-        cumulative += probability;
-        probability *= double(n - r) / double(r + 1);
-        ++r;
-    }
-    r = std::max<size_t>(r, 1);
-    return {median, values[r - 1], values[n - r]};
 }

@@ -23,10 +23,3 @@ void mark_what_speaks(std::span<ResultRow> rows);
 /// Writes results.csv, splits.csv and times.csv, and hits.csv if rays were judged; the columns are explained in
 /// experiments/RESULTS.md.
 void write_tables(const std::filesystem::path& folder, const StudyRows& rows);
-
-/// The median of the values and its distribution-free 95 % interval from order statistics (binomial with p = 1/2),
-/// which needs at least 6 values; with fewer the interval is the range.
-struct MedianInterval {
-    double median = 0, low = 0, high = 0;
-};
-MedianInterval median_interval(std::vector<double> values);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "experiments/results/interval.h"
+#include "experiments/results/median_interval.h"
 #include "experiments/results/results.h"
 #include "metrics/quantiles.h"
 #include "metrics/temporal.h"

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "experiments/results/result_images.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -29,14 +30,6 @@ std::string damage(const std::filesystem::path& results, const nlohmann::json& i
 }
 
 }  // namespace
-
-std::string file_hash(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) return "";
-    ContentHash hash;
-    hash.add(read_text(file));
-    return hash.hex();
-}
 
 std::optional<Cell> CellStore::read(const std::string& name) const {
     std::error_code error;

@@ -46,6 +46,3 @@ private:
     std::filesystem::path results_;
     std::function<void(const std::string&)> notice_;
 };
-
-/// The hash of a file's bytes; "" if it cannot be read.
-std::string file_hash(const std::filesystem::path& file);

@@ -89,3 +89,10 @@ FolderOwner::~FolderOwner() {
     if (has_created_ && !has_cells && !fs::exists(folder_ / "manifest.json", error))
         fs::remove(folder_ / "study.json", error);
 }
+
+void check_owner(const fs::path& folder, const Config& config, bool keep_all) {
+    const std::optional<json> owner = read_owner(folder);
+    if (!owner) fail(folder.string(), " is no results folder: it has no study.json; `ssrlab run` makes one");
+    if (const json record = study_record(config.source, keep_all); *owner != record)
+        fail(folder.string(), " holds the results of another study, which differs in ", differences(*owner, record));
+}

@@ -25,3 +25,6 @@ private:
     std::filesystem::path folder_;
     bool has_created_ = false;
 };
+
+/// Fails with Error unless the folder holds results of this study.
+void check_owner(const std::filesystem::path& folder, const Config& config, bool keep_all);

@@ -101,6 +101,10 @@ FrameStore::FrameStore(FrameSource& source, DepthFormat depth_format, size_t max
     : source_(source), depth_format_(depth_format), max_bytes_(max_bytes) {}
 FrameStore::~FrameStore() = default;
 
+bool FrameStore::keeps_all() const {
+    return std::ranges::none_of(stored_, [](const auto& frame) { return frame.second == nullptr; });
+}
+
 FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit) {
     constexpr size_t bytes_per_pixel = 140;  // of the formats in gbuffer.h, with both depth layers
     const auto key = std::pair(step.frame, step.previous_frame);

@@ -40,6 +40,9 @@ public:
     };
     Frame frame(const FrameStep& step, const HostImage& lit);
 
+    /// Whether all frames that were asked for so far are kept.
+    bool keeps_all() const;
+
     /// Values that are NaN or infinite, by layer, over all frames so far (each counted once): see count_non_finite().
     const std::map<std::string, size_t>& non_finite() const { return non_finite_; }
 

@@ -9,7 +9,7 @@
 #include "experiments/measuring/lit_noise.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/measuring/splits.h"
-#include "experiments/results/manifest.h"
+#include "experiments/results/result_images.h"
 #include "metrics/flicker.h"
 #include "metrics/frame_difference.h"
 #include "metrics/ghost.h"
@@ -94,11 +94,11 @@ bool reads_noisy_light(const PointRun& point) {
            std::ranges::any_of(point.truth.poses, [](const auto& pose) { return is_noisy(*pose.second->lit_halves); });
 }
 
-/// How many seeds' images are held at once: those of a technique take some 400 bytes per pixel, and what means over
-/// frames need 150 more, so this is about 1.6 GB.
-size_t seeds_at_once(glm::uvec2 extent) {
-    constexpr size_t pixels = 3'000'000;
-    return std::max<size_t>(1, pixels / (size_t(extent.x) * extent.y));
+/// How many seeds' images are held at once: one, unless each frame is drawn anew whenever it is asked for. Then as many
+/// as take some 0.5 GB: those of a technique are some 400 bytes per pixel, and what means over frames need 150 more.
+size_t seeds_at_once(const FrameStore& store, glm::uvec2 extent) {
+    constexpr size_t pixels = 1'000'000;
+    return store.keeps_all() ? 1 : std::max<size_t>(1, pixels / (size_t(extent.x) * extent.y));
 }
 
 /// The full measure of the shot's last frame, its images, and its part in the split over seeds.
@@ -173,6 +173,14 @@ bool is_shown(const PointRun& point, const SeedRun& run, const FrameStep& step) 
     return &step == &point.last_step() || (point.config.keeps_all_images && step.is_measured);
 }
 
+/// Calls `save`, whose time is that of files of images.
+template <class Save>
+auto saved(const PointRun& point, Save save) {
+    std::optional<SpentTime::Span> span;
+    if (point.settings.spent) span.emplace(*point.settings.spent, "images");
+    return save();
+}
+
 /// What tells the images of a step from those of other steps and cells.
 std::string image_suffix(const PointRun& point, const FrameStep& step) {
     const std::string of_frame = &step == &point.last_step() ? "" : ".f" + std::to_string(step.frame);
@@ -207,9 +215,10 @@ void judge_rays(PointRun& point, SeedRun& run, const FrameStep& step, const Came
                                      {masks.begin(), masks.end()});
         if (has_causes) point.causes[step.frame].add(recorded, truth, point.shot.config.extent);
         if (is_shown(point, run, step) && point.config.hits->every == 1)
-            point.cell.images.push_back(save_verdict_image(point.settings.out, row, image_suffix(point, step),
-                                                           recorded.stage,
-                                                           map_of_verdicts(recorded, truth, point.shot.config.extent)));
+            point.cell.images.push_back(saved(point, [&] {
+                return save_verdict_image(point.settings.out, row, image_suffix(point, step), recorded.stage,
+                                          map_of_verdicts(recorded, truth, point.shot.config.extent));
+            }));
     }
     if (has_causes) point.causes[step.frame].finish(*reference, specular, {masks.begin(), masks.end()});
     run.probe->recorded.clear();
@@ -246,9 +255,11 @@ void render_step(PointRun& point, SeedRun& run, const FrameStep& step, const Fra
             judge_rays(point, run, step, frame.camera, images.specular,
                        truth ? masks_of(*truth, images.confidence, point.config) : std::vector<Mask>{everywhere});
         if (is_shown(point, run, step) && point.config.has_reference)
-            for (nlohmann::json& entry : save_result_images(
-                     point.settings.out, point.row(std::to_string(step.frame), run.seed), image_suffix(point, step),
-                     point.truth.pose(step), images, point.shot.camera.exposure_ev))
+            for (nlohmann::json& entry : saved(point, [&] {
+                     return save_result_images(point.settings.out, point.row(std::to_string(step.frame), run.seed),
+                                               image_suffix(point, step), point.truth.pose(step), images,
+                                               point.shot.camera.exposure_ev);
+                 }))
                 point.cell.images.push_back(std::move(entry));
         run.before = images.specular;
     }
@@ -369,7 +380,7 @@ Cell run_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameSt
                    .variant = variant,
                    .settings = settings};
     if (reads_reference_light(point)) measure_lit_noise(point);
-    const size_t batch = seeds_at_once(shot.config.extent);
+    const size_t batch = seeds_at_once(store, shot.config.extent);
     for (size_t first = 0; first < variant.seeds.size(); first += batch) {
         std::vector<SeedRun> runs;
         for (size_t i = first; i < std::min(first + batch, variant.seeds.size()); ++i)

@@ -1,49 +1,20 @@
-#include "core/files.h"
 #include "experiments/measuring/timing.h"
 #include "experiments/measuring/timing_lock.h"
 #include "experiments/results/host_info.h"
 #include "experiments/results/provenance.h"
 #include "experiments/study/point_run.h"
+#include "experiments/study/rehearsal.h"
+#include "experiments/study/shot_run.h"
 #include "experiments/study/study_run.h"
-#include "variants/registry.h"
 
 #include <algorithm>
 #include <map>
 
 namespace {
 
-/// The name of a cell: the hash of all that its numbers depend on.
-std::string cell_hash(const StudyRun& study, const ShotRun& run, const std::string& what,
-                      const nlohmann::json& parameters, const std::vector<unsigned>& seeds) {
-    const Config& c = study.config;
-    const ShotConfig& shot = run.shot.config;
-    ContentHash hash;
-    for (const std::string& part :
-         {study.code, study.device.info().name + study.device.info().driver, run.shot.scene.content_hash,
-          run.shot.name(), run.truth.content_hash(), what, parameters.dump()})
-        hash.add(part);
-    for (const auto& list : {c.metrics, c.masks, c.targets, c.frame_metrics, c.frame_masks}) {
-        hash.add(list.size());
-        for (const std::string& name : list) hash.add(name);
-    }
-    for (const auto& list :
-         {shot.frames,
-          seeds,
-          {shot.warm_up, shot.repeat, shot.change.value_or(0), unsigned(shot.measures_last_only), shot.measure_from}}) {
-        hash.add(list.size());
-        for (const unsigned number : list) hash.add(number);
-    }
-    hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)),
-        hash.add(int(study.settings.keep_all)), hash.add(int(c.composite)), hash.add(c.normal_bits);
-    hash.add(c.hits ? int(c.hits->every) : 0), hash.add(c.hits ? int(c.hits->seeds) : 0);
-    hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance), hash.add(run.shot.camera.exposure_ev);
-    return hash.hex();
-}
-
-/// A piece of work with a name of its own.
+/// A cell that is to be done.
 struct CellTask {
-    std::string hash, what, kind;
-    double units;
+    const PlannedCell& planned;
     std::function<Cell(const std::function<void(double)>& report)> make;
     /// Why a cell that is there is tried once more; "" if it is not. The better of both is kept.
     std::function<std::string(const Cell&)> why_again = [](const Cell&) { return ""; };
@@ -74,63 +45,48 @@ void say_result(StudyRun& study, const Cell& cell) {
     study.progress.say(line + left_out);
 }
 
+/// The cell if it was done before, of this truth (of any, if none is given).
+std::optional<Cell> load_cell(const StudyRun& study, const PlannedCell& planned, const std::optional<std::string>& truth) {
+    std::optional<Cell> cell = study.cells.load(planned.name);
+    if (cell && truth && cell->truth != *truth) return {};
+    return cell;
+}
+
 /// Loads the cell if it was done before, else does it and keeps it. Nothing if another process is at it, unless
 /// `waits`.
-std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, bool waits) {
-    study.work.start(task.kind, task.units);
-    study.report(0, task.what);
-    std::optional<Cell> found = study.cells.load(task.hash);
+std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, const std::optional<std::string>& truth, bool waits) {
+    const PlannedCell& planned = task.planned;
+    // References were rendered when the shot was opened.
+    study.work.start(name_of(planned.kind), planned.kind == CellKind::references ? 0 : planned.units);
+    study.report(0, planned.what);
+    std::optional<Cell> found = load_cell(study, planned, truth);
     const bool is_tried_again = found && !task.why_again(*found).empty();
     if (found && !is_tried_again) {
         study.work.skip();
         return found;
     }
-    const auto claim = study.cells.claim(task.hash, waits);
+    const auto claim = study.cells.claim(planned.name, waits);
     if (!claim) return {};
-    found = study.cells.load(task.hash);  // another may have made it since
+    found = load_cell(study, planned, truth);  // another may have made it since
     const std::string why = found ? task.why_again(*found) : "";
     if (found && why.empty()) {
         study.work.skip();
         return found;
     }
-    if (found) study.progress.say("note: " + task.what + ": " + why);
+    if (found) study.progress.say("note: " + planned.what + ": " + why);
     const std::string started = time_stamp();
-    Cell cell = task.make([&](double share) { study.report(share, task.what); });
-    cell.name = task.hash;
-    cell.provenance = cell_provenance(study.maker, task.what, started);
+    const SpentTime::Span span(study.spent, name_of(planned.kind));
+    Cell cell = task.make([&](double share) { study.report(share, planned.what); });
+    cell.name = planned.name;
+    cell.provenance = cell_provenance(study.maker, planned.what, started);
     const bool is_kept = !found || task.is_better(cell, *found);
-    if (is_kept) study.cells.save(task.hash, cell);
+    if (is_kept) {
+        const SpentTime::Span saving(study.spent, "cells");
+        study.cells.save(planned.name, cell);
+    }
+    ++study.made;
     study.work.finish();
     return is_kept ? std::move(cell) : std::move(*found);
-}
-
-/// All variant points of a shot.
-std::vector<CellTask> point_tasks(StudyRun& study, ShotRun& run) {
-    std::vector<CellTask> tasks;
-    for (const VariantConfig& variant : study.config.variants) {
-        const nlohmann::json parameters =
-            make_variant(variant.variant, variant.parameters, variant.preset)->params.values();
-        // Times do not depend on which images are kept, and the cells of points do: these have them.
-        const std::string what =
-            variant.variant + "\n" + variant.point + (study.config.keeps_all_images ? "\nall images" : "");
-        CellTask task{.hash = cell_hash(study, run, what, parameters, variant.seeds),
-                      .what = run.shot.name() + ": " + variant.variant + " " + variant.point,
-                      .kind = "frames",
-                      .units = double(run.shot.steps.size() * variant.seeds.size())};
-        task.make = [&study, &run, &variant, suffix = task.hash.substr(0, 8)](const auto& report) {
-            return run_point(study.device, run.shot, run.truth, run.store, study.config, variant,
-                             {.out = study.settings.out,
-                              .image_suffix = suffix,
-                              .keep_all = study.settings.keep_all,
-                              .report = report});
-        };
-        tasks.push_back(std::move(task));
-    }
-    return tasks;
-}
-
-bool has_times(const Config& config) {
-    return config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed);
 }
 
 /// The proof of the clock, made once in a process.
@@ -150,11 +106,10 @@ const ClockProof& proven_clock(StudyRun& study) {
 
 /// All times of a shot, while no other ssrlab takes any on this machine.
 Cell timing_cell(StudyRun& study, ShotRun& run, const std::function<void(double)>& report) {
-    if (!has_times(study.config)) return {};
     const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
     const ClockProof& clock = proven_clock(study);
     const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
-    const ShotTimes times = time_variants(run.source, run.shot, study.config, lit, study.settings.keep_all, report);
+    const ShotTimes times = time_variants(*run.source, run.shot, study.config, lit, study.settings.keep_all, report);
     if (times.load.disturbed > 0)
         study.progress.say("warning: " + run.shot.name() + ": other programs disturbed " +
                            std::to_string(times.load.disturbed) + " of " + std::to_string(study.config.timing.frames) +
@@ -162,35 +117,92 @@ Cell timing_cell(StudyRun& study, ShotRun& run, const std::function<void(double)
     return Cell{.times = times.rows, .timing = timing_entry(times, run.shot.name(), clock)};
 }
 
-double disturbed_frames(const Cell& cell) { return cell.timing.at("load").at("disturbed_frames").get<double>(); }
+Cell renders_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, const std::function<void(double)>& report) {
+    return run_point(study.device, run.shot, run.truth, *run.store, study.config, *planned.variant,
+                     {.out = study.settings.out,
+                      .image_suffix = planned.name.substr(0, 8),
+                      .keep_all = study.settings.keep_all,
+                      .report = report,
+                      .spent = &study.spent});
+}
 
-CellTask timing_task(StudyRun& study, ShotRun& run) {
-    const nlohmann::json what = timed_work(study.config, study.manifest["variants"], study.maker["host"]);
-    std::vector<unsigned> seeds;
-    for (const VariantConfig& variant : study.config.variants) seeds.push_back(variant.seeds.front());
-    return {.hash = cell_hash(study, run, "times", what, seeds),
-            .what = run.shot.name() + ": timing",
-            .kind = "times",
-            .units = 1,
-            .make = [&study, &run](const auto& report) { return timing_cell(study, run, report); },
-            .why_again = [](const Cell& cell) -> std::string {
-                return is_disturbed(cell.timing) ? "its times were disturbed by other programs; they are taken again"
-                                                 : "";
-            },
-            .is_better = [](const Cell& again,
-                            const Cell& before) { return disturbed_frames(again) < disturbed_frames(before); }};
+/// How a cell of an open shot is made.
+CellTask task_of(StudyRun& study, ShotRun& run, const PlannedCell& planned) {
+    CellTask task{.planned = planned, .make = {}};
+    const auto make = [&study, &run, &planned](const auto& report) {
+        Cell cell = planned.kind == CellKind::references ? references_cell(run)
+                    : planned.kind == CellKind::times    ? timing_cell(study, run, report)
+                                                         : renders_cell(study, run, planned, report);
+        cell.truth = run.truth.content_hash();
+        return cell;
+    };
+    task.make = make;
+    if (planned.kind != CellKind::times) return task;
+    task.why_again = [](const Cell& cell) -> std::string {
+        return is_disturbed(cell.timing) ? "its times were disturbed by other programs; they are taken again" : "";
+    };
+    task.is_better = [](const Cell& again, const Cell& before) {
+        return disturbed_frames(again.timing) < disturbed_frames(before.timing);
+    };
+    return task;
+}
+
+/// The cells if all of them were done before and none is to be tried again.
+std::optional<std::vector<Cell>> load_finished(StudyRun& study, const std::vector<const PlannedCell*>& planned) {
+    const SpentTime::Span span(study.spent, "loading cells");
+    std::vector<Cell> cells;
+    for (const PlannedCell* p : planned) {
+        std::optional<Cell> cell = study.cells.load(p->name);
+        if (!cell || is_disturbed(cell->timing)) return {};
+        if (!cells.empty() && cell->truth != cells.front().truth) return {};
+        cells.push_back(std::move(*cell));
+    }
+    for (const PlannedCell* p : planned) study.work.start(name_of(p->kind), p->units), study.work.skip();
+    return cells;
+}
+
+std::unique_ptr<ShotRun> open(StudyRun& study, const PlannedShot& shot) {
+    const SpentTime::Span span(study.spent, name_of(CellKind::references));
+    study.work.start(name_of(CellKind::references), shot.cells.front().units);
+    std::unique_ptr<ShotRun> run =
+        open_shot(study.device, shot.config, study.config,
+                  {.out = study.settings.out,
+                   .cache = study.settings.cache,
+                   .search_path = study.settings.search_path,
+                   .keep_all = study.settings.keep_all,
+                   .say = [&](const std::string& text) { study.progress.say(text); },
+                   .report = [&](double share, const std::string& what) { study.report(share, what); }});
+    run->has_rendered_references ? study.work.finish() : study.work.skip();
+    return run;
+}
+
+/// Compiles all that the study renders, so that a mistake in a shader is told before hours of work. Once in a process.
+void rehearse_once(StudyRun& study) {
+    if (study.is_rehearsed) return;
+    const SpentTime::Span span(study.spent, "rehearsal");
+    rehearse(study.device, study.config.variants);
+    study.is_rehearsed = true;
 }
 
 }  // namespace
 
-void run_cells(StudyRun& study, ShotRun& run) {
-    std::vector<CellTask> tasks = point_tasks(study, run);
-    tasks.push_back(timing_task(study, run));
-    std::vector<std::optional<Cell>> cells(tasks.size());
+void run_shot(StudyRun& study, const PlannedShot& shot, const CellSelection& selection) {
+    std::vector<const PlannedCell*> planned;
+    for (const PlannedCell& cell : shot.cells)
+        if (selection.holds(cell)) planned.push_back(&cell);
+    if (planned.empty()) return;
+    if (std::optional<std::vector<Cell>> all = load_finished(study, planned)) {
+        std::ranges::move(*all, std::back_inserter(study.finished));
+        return;
+    }
+    rehearse_once(study);
+    const std::unique_ptr<ShotRun> run = open(study, shot);
+    const std::string truth = run->truth.content_hash();
+    std::vector<std::optional<Cell>> cells(planned.size());
     for (const bool waits : {false, true})
-        for (size_t i = 0; i < tasks.size(); ++i) {
+        for (size_t i = 0; i < planned.size(); ++i) {
             if (cells[i]) continue;
-            cells[i] = do_cell(study, tasks[i], waits);
+            cells[i] = do_cell(study, task_of(study, *run, *planned[i]), truth, waits);
             if (cells[i]) say_result(study, *cells[i]);
         }
     for (std::optional<Cell>& cell : cells) study.finished.push_back(std::move(*cell));

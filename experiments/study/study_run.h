@@ -5,9 +5,8 @@
 #include "experiments/study/cell_store.h"
 #include "experiments/study/progress.h"
 #include "experiments/study/run.h"
-#include "experiments/study/shot_truth.h"
-
-#include <chrono>
+#include "experiments/study/spent_time.h"
+#include "experiments/study/study_plan.h"
 
 /// A study on its way: all that it needs.
 struct StudyRun {
@@ -16,15 +15,14 @@ struct StudyRun {
     Device& device;
     CellStore cells;
     Progress& progress;
-    Workload work;
-    std::string code;
     nlohmann::json maker;  ///< of cells, see provenance.h
-    nlohmann::json manifest;
-    nlohmann::json manifest_before;   ///< what the folder held when the run began; null if nothing
-    std::optional<ClockProof> clock;  ///< made when first needed
-    std::vector<Cell> finished;
-    std::chrono::steady_clock::time_point report_made = {};  ///< when it was last done ...
-    std::chrono::steady_clock::duration report_took = {};    ///< ... and how long that took
+    StudyPlan plan = {};
+    Workload work = {};
+    SpentTime spent = {};
+    std::optional<ClockProof> clock = {};  ///< made when first needed
+    std::vector<Cell> finished = {};       ///< in the order of the plan
+    size_t made = 0;                       ///< cells that were not found done
+    bool is_rehearsed = false;
 
     void report(double share, const std::string& what) {
         work.update(share);
@@ -32,16 +30,6 @@ struct StudyRun {
     }
 };
 
-/// A shot on its way: everything that its cells need.
-struct ShotRun {
-    const Shot& shot;
-    FrameSource& source;
-    FrameStore store;
-    ShotTruth truth = {};
-    nlohmann::json reference_entries = nlohmann::json::object();  ///< of the manifest's entry of the shot
-    std::map<unsigned, std::vector<nlohmann::json>> reference_images = {};  ///< by the frame whose reference they are
-};
-
-/// All variants, points and seeds of a shot, then their times, into study.finished. What was done before is loaded;
-/// what other processes are at is left to the end, and taken over from them.
-void run_cells(StudyRun& study, ShotRun& run);
+/// The cells of a shot that are asked for, into study.finished. What was done before is loaded; what other processes
+/// are at is left to the end, and taken over from them. Nothing of the shot itself is loaded if all is done.
+void run_shot(StudyRun& study, const PlannedShot& shot, const CellSelection& selection);

@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "experiments/results/provenance.h"
+#include "experiments/results/result_images.h"
 #include "experiments/study/stale_files.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "core/exr.h"
 #include "core/json.h"
 #include "experiments/results/file_name.h"
-#include "experiments/results/manifest.h"
+#include "experiments/results/result_images.h"
 #include "experiments/study/cell_store.h"
 #include "experiments/study/folder_owner.h"
 #include "tests/experiments/study/study_fixture.h"

@@ -88,25 +88,70 @@ TEST_F(StudyTest, ProcessesShareAFolder) {
         cells += entry.path().extension() == ".json";
         EXPECT_NE(entry.path().extension(), ".claim");
     }
-    EXPECT_EQ(cells, 6u) << "two shots of two points, and the times of each";
+    EXPECT_EQ(cells, 6u) << "two shots of two points, and the references of each";
 }
 
-TEST_F(StudyTest, ANewReferenceMakesNewCells) {
-    // The same request may be answered by other pixels: where a time limit stops it, or a file was replaced.
+TEST_F(StudyTest, PartsMakeTheWhole) {
+    const Config study = config(R"(["mirror_pillars", "fence"])");
+    const std::string alone = read_text(run(study, "alone") / "results.csv");
+    const auto run_part = [&](const std::string& out, const std::vector<std::string>& cells) {
+        run_study(study, {.out = folder / out,
+                          .device = "",
+                          .cache = folder / "cache",
+                          .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"},
+                          .cells = cells});
+    };
+    const auto merge = [&](const std::vector<fs::path>& parts, const std::string& out) {
+        return merge_study(study,
+                           {.out = folder / out, .device = "", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}},
+                           parts);
+    };
+    run_part("a", {"references", "shard=1/2"});  // of these shards some are without references, or without renders
+    run_part("a", {"references", "shard=2/2"});
+    run_part("b", {"renders", "shot=fence.*"});
+    EXPECT_FALSE(fs::exists(folder / "b/results.csv")) << "tables are of all cells";
+    EXPECT_EQ(merge({folder / "a", folder / "b"}, "merged"), 2u) << "the other shot's points are missing";
+    EXPECT_FALSE(read_json(folder / "merged/manifest.json")["is_complete"].get<bool>());
+    run_part("c", {"renders", "variant=none"});
+    run_part("c", {"renders", "variant=mcguire_dda", "shot=mirror*"});
+    EXPECT_EQ(merge({folder / "a", folder / "b", folder / "c"}, "merged"), 0u);
+    EXPECT_EQ(read_text(folder / "merged/results.csv"), alone);
+    EXPECT_EQ(read_text(folder / "merged/splits.csv"), read_text(folder / "alone/splits.csv"));
+    EXPECT_TRUE(fs::exists(folder / "merged/report.html"));
+    // Whole, so that a run finds nothing to do.
+    fs::remove_all(folder / "cache");
+    EXPECT_EQ(read_text(run(study, "merged") / "results.csv"), alone);
+    EXPECT_FALSE(fs::exists(folder / "cache")) << "no reference was looked for";
+    EXPECT_EQ(read_json(folder / "merged/manifest.json")["run"]["cells_made"], 0);
+
+    Config other = study;
+    other.source["title"] = "another";
+    EXPECT_THROW(merge_study(other, {.out = folder / "x", .device = ""}, {folder / "a"}), Error);
+    EXPECT_THROW(run_part("d", {"shot=nowhere"}), Error) << "a selection of nothing is a mistake";
+}
+
+TEST_F(StudyTest, WhatWasMeasuredAgainstAnotherTruthIsNotUsed) {
+    // The same request may be answered by other pixels: where a time limit stops it, or on another processor.
     const Config study = config(R"("fence")");
-    run(study, "a");
-    const auto count = [&] { return std::distance(fs::directory_iterator(folder / "a/cells"), {}); };
-    const auto before = count();
-    run(study, "a");
-    EXPECT_EQ(count(), before);
+    const std::string before = read_text(run(study, "a") / "results.csv");
     for (const auto& entry : fs::directory_iterator(folder / "cache"))
         if (entry.path().extension() == ".exr") {
             ReferenceState state = read_reference_state(entry.path());
-            state.reference.specular.mean.values[0] += 1;
+            for (float& value : state.reference.specular.mean.values) value += 1;
             write_reference(entry.path(), state.reference, state.settings);
         }
-    run(study, "a");
-    EXPECT_EQ(count(), 2 * before);
+    EXPECT_EQ(read_text(run(study, "a") / "results.csv"), before) << "all is done: nobody looks at the cache";
+    fs::path of_references;
+    for (const auto& entry : fs::directory_iterator(folder / "a/cells"))
+        if (!read_json(entry.path())["cell"]["shot"].is_null()) of_references = entry.path();
+    fs::copy(folder / "a", folder / "b", fs::copy_options::recursive);
+    fs::remove(of_references);
+    EXPECT_NE(read_text(run(study, "a") / "results.csv"), before) << "all cells of the shot are done again";
+    EXPECT_EQ(read_json(folder / "a/manifest.json")["run"]["cells_made"], 3);
+    EXPECT_THROW(
+        merge_study(study, {.out = folder / "c", .device = "", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}},
+                    {folder / "a", folder / "b"}),
+        Error);
 }
 
 TEST_F(StudyTest, OtherSeedsMakeNewCells) {

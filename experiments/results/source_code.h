@@ -1,0 +1,44 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// A source of ssrlab: C++, GLSL, or a table that is read when it runs.
+struct SourceFile {
+    std::string path;                   ///< from the project's root
+    std::string hash;                   ///< of its bytes
+    std::vector<std::string> includes;  ///< what it includes in quotes, as written
+};
+
+/// The sources below `root` of core, groundtruth, metrics, variants and experiments, ordered by path; benchmarks are
+/// none of them. Fails with MachineError if one cannot be read.
+std::vector<SourceFile> read_sources(const std::filesystem::path& root);
+
+/// One line for each: its path, its hash, what it includes.
+std::string source_table(const std::vector<SourceFile>& sources);
+std::vector<SourceFile> parse_source_table(std::string_view table);
+
+/// Which sources a number depends on, so that an edit of one redoes what may have changed and nothing else.
+///
+/// A source needs what it includes. Of core, groundtruth, metrics, variants/common, variants/tracers and each technique
+/// whatever needs one source needs the whole folder, with those in it (of core's and variants/tracers' own folders only
+/// the sources that lie there): a class may be spread over several. In experiments a header needs the source of its
+/// name: each of them implements its own header alone. What reads a config is needed by nobody: cells hold what it read
+/// by value. No technique and no single tracer is included by what runs them (they are declared by name, see
+/// variants/registry.cpp and variants/tracers/tracers.cpp), so that they are asked for by their folders.
+class SourceCode {
+public:
+    explicit SourceCode(std::vector<SourceFile> sources);
+
+    /// All that these need, themselves included: sources, or folders by a name that ends in "/". Unknown names are
+    /// errors of the program.
+    std::set<std::string> needed_by(const std::vector<std::string>& roots) const;
+    /// Of all that these need.
+    std::string hash_of(const std::vector<std::string>& roots) const;
+
+private:
+    std::map<std::string, SourceFile> sources_;
+};

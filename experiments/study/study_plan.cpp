@@ -1,0 +1,168 @@
+#include "experiments/study/study_plan.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/results/manifest.h"
+#include "experiments/results/source_code.h"
+#include "experiments/study/capture.h"
+#include "experiments/study/config/shot.h"
+#include "variants/registry.h"
+#include "variants/tracers/tracers.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace {
+
+/// A point as cells are named by it.
+struct PointIdentity {
+    std::string parameters;              ///< all values
+    std::vector<std::string> sources;  ///< the folders of its technique and of the tracers that it has chosen
+};
+
+PointIdentity identity_of(const VariantConfig& config) {
+    const nlohmann::json values = make_variant(config.variant, config.parameters, config.preset)->params.values();
+    PointIdentity identity{.parameters = values.dump(), .sources = {"variants/" + config.variant + "/"}};
+    for (const auto& [name, value] : values.items())
+        for (const TracerEntry& tracer : tracer_table())
+            if (value == tracer.name)
+                identity.sources.push_back("variants/" + tracer.shader.substr(0, tracer.shader.rfind('/') + 1));
+    return identity;
+}
+
+/// Names the cells of a study.
+class CellNames {
+public:
+    CellNames(const Config& config, const DeviceInfo& device, bool keep_all, std::vector<SourceFile> sources)
+        : config_(config), device_(device.name + device.driver), keep_all_(keep_all), code_(std::move(sources)) {
+        for (const VariantConfig& variant : config.variants) points_.push_back(identity_of(variant));
+    }
+
+    std::string of_references(const std::string& request) { return name({"experiments/study/shot_run.cpp"}, request, {}); }
+    std::string of_renders(const std::string& request, size_t variant) {
+        const PointIdentity& point = points_[variant];
+        std::vector<std::string> sources = point.sources;
+        sources.push_back("experiments/study/point_run.cpp"), sources.push_back("experiments/study/shot_run.cpp");
+        const VariantConfig& v = config_.variants[variant];
+        std::vector<std::string> what = {v.variant, v.point, point.parameters};
+        for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
+        // Times do not depend on which images are kept.
+        if (config_.keeps_all_images) what.push_back("all images");
+        return name(sources, request, what);
+    }
+    std::string of_times(const std::string& request) {
+        std::vector<std::string> sources = {"experiments/measuring/timing.cpp", "experiments/study/shot_run.cpp"};
+        std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up)};
+        for (size_t i = 0; i < points_.size(); ++i) {
+            const VariantConfig& v = config_.variants[i];
+            if (!v.is_timed) continue;
+            sources.insert(sources.end(), points_[i].sources.begin(), points_[i].sources.end());
+            what.insert(what.end(), {v.variant, v.point, points_[i].parameters, std::to_string(v.seeds.front())});
+        }
+        return name(sources, request, what);
+    }
+
+private:
+    std::string name(const std::vector<std::string>& sources, const std::string& request,
+                     const std::vector<std::string>& what) {
+        const Config& c = config_;
+        ContentHash hash;
+        auto [code, is_new] = hashes_.try_emplace(sources);
+        if (is_new) code->second = code_.hash_of(sources);
+        for (const std::string& part : {code->second, device_, request}) hash.add(part);
+        for (const auto& list : {what, c.metrics, c.masks, c.targets, c.frame_metrics, c.frame_masks}) {
+            hash.add(list.size());
+            for (const std::string& text : list) hash.add(text);
+        }
+        hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)),
+            hash.add(int(keep_all_)), hash.add(int(c.composite)), hash.add(c.normal_bits);
+        hash.add(c.hits ? int(c.hits->every) : 0), hash.add(c.hits ? int(c.hits->seeds) : 0);
+        hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance);
+        return hash.hex();
+    }
+
+    const Config& config_;
+    std::string device_;
+    bool keep_all_;
+    SourceCode code_;
+    std::vector<PointIdentity> points_;                         ///< as Config::variants
+    std::map<std::vector<std::string>, std::string> hashes_;  ///< of sources
+};
+
+Shot load(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
+    return config.gbuffer.empty() ? load_shot(config, search_path)
+                                  : gbuffer_shot(config, load_gbuffer(config.gbuffer).gbuffer);
+}
+
+/// What a shot shows and how it is played: all that its cells depend on, but for what is rendered.
+std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
+    ReferenceSettings settings = config.reference;
+    settings.keep_all = keep_all;
+    ContentHash hash;
+    hash.add(shot.scene.content_hash), hash.add(shot.name()), hash.add(shot.camera.exposure_ev);
+    for (const unsigned frame : shot.config.frames) {
+        hash.add(frame);
+        if (!shot.config.gbuffer.empty()) continue;
+        const ShotFrame now = shot_frame(shot, frame);
+        settings.ladder = frame == shot.config.frames.back() && needs_ladder(config);
+        hash.add(reference_key(reference_request(shot.scene, now.scene, now.camera, shot.config.extent, settings), settings));
+    }
+    if (!shot.config.reference.empty()) hash.add(read_text(shot.config.reference));
+    for (const unsigned number : {shot.config.warm_up, shot.config.repeat, shot.config.change.value_or(0),
+                                  unsigned(shot.config.measures_last_only), shot.config.measure_from,
+                                  unsigned(config.has_reference)})
+        hash.add(number);
+    return hash.hex();
+}
+
+}  // namespace
+
+const std::vector<std::string>& cell_kind_names() {
+    static const std::vector<std::string> names = {"references", "renders", "times"};
+    return names;
+}
+
+const std::string& name_of(CellKind kind) { return cell_kind_names()[size_t(kind)]; }
+
+size_t StudyPlan::cell_count() const {
+    return std::accumulate(shots.begin(), shots.end(), size_t(0),
+                           [](size_t sum, const PlannedShot& shot) { return sum + shot.cells.size(); });
+}
+
+StudyPlan plan_study(const Config& config, const DeviceInfo& device,
+                     const std::vector<std::filesystem::path>& search_path, bool keep_all,
+                     std::vector<SourceFile> sources) {
+    CellNames names(config, device, keep_all, std::move(sources));
+    StudyPlan plan;
+    std::set<std::string> known;
+    for (const ShotConfig& of_shot : config.shots) {
+        const Shot shot = load(of_shot, search_path);
+        if (!known.insert(shot.name()).second)
+            fail("two shots are called '", shot.name(),
+                 "': they differ in nothing that results are named by; give them other frames, another camera or "
+                 "another resolution");
+        const std::string request = request_of(shot, config, keep_all);
+        PlannedShot& planned = plan.shots.emplace_back();
+        planned.config = of_shot, planned.name = shot.name();
+        planned.entry = shot_entry(shot, config, keep_all);
+        const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
+            return planned.cells.emplace_back(PlannedCell{.kind = kind,
+                                                          .name = std::move(name),
+                                                          .what = planned.name + ": " + what,
+                                                          .shot = planned.name,
+                                                          .units = units});
+        };
+        add(CellKind::references, names.of_references(request), "references", double(of_shot.frames.size()));
+        for (size_t i = 0; i < config.variants.size(); ++i) {
+            const VariantConfig& variant = config.variants[i];
+            add(CellKind::renders, names.of_renders(request, i), variant.variant + " " + variant.point,
+                double(shot.steps.size() * variant.seeds.size()))
+                .variant = &variant;
+        }
+        if (config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed))
+            add(CellKind::times, names.of_times(request), "times", 1);
+    }
+    return plan;
+}
