@@ -222,7 +222,7 @@ class Study:
             key = (row["shot"], row["variant"], row["point"])
             if row["stage"] == TOTAL:
                 totals[key] = float(row["value"])
-            elif row["variant"]:
+            else:
                 sums[key] = sums.get(key, 0.0) + float(row["value"])
         for key, value in (sums | totals).items():
             if key in points:

@@ -6,6 +6,7 @@ import zlib
 
 from analysis import curves, dominance, fits, scenes, stages, uncertainty
 
+LACKING = 0.1  # of the shots: so many may a point lack an error above 0 in, and be ranked
 RUNGS = ("on_screen", "camera_radiance")  # the first that the study has
 
 
@@ -124,9 +125,9 @@ class Analysis:
                     row["floor_over_rung_high"] = fit.floor_high / low if low and low > 0 else None
             yield row
 
-    def _comparison(self, table, shots, certainly_less):
+    def _comparison(self, table, shots, certainly_less, lacking=0.0):
         base = {s.name: s.divisor(self.baseline) for s in shots}
-        return scenes.Comparison(table, {s.name: s.scene for s in shots}, base, certainly_less).rows()
+        return scenes.Comparison(table, {s.name: s.scene for s in shots}, base, certainly_less, lacking).rows()
 
     def _whole_rows(self):
         """Points at whatever they cost, over all shots."""
@@ -140,7 +141,7 @@ class Analysis:
             s = shots[shot]
             return dominance.error_ratio(s, s.point_of(a), s.point_of(b))[1] < 1
 
-        for row in self._comparison(table, self.study.shots, certainly_less):
+        for row in self._comparison(table, self.study.shots, certainly_less, LACKING):
             variant, point = row.pop("method")
             yield self._named(row) | {"variant": variant, "point": point, "label": self.study.label_of((variant, point))}
 

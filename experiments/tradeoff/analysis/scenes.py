@@ -89,11 +89,12 @@ def rank_stability(by_method):
 
 class Comparison:
     """Errors of methods in shots, compared over scenes. `table`: method to {shot: (error, low, high)}; `scene_of`: shot to scene;
-    `base`: shot to the baseline's error, None where it is
-    no measure; `certainly_less(a, b, shot)`: whether method a's error is."""
+    `base`: shot to the baseline's error, None where it is no measure; `certainly_less(a, b, shot)`: whether method a's error is.
+    Ranked, over the shots that they have in common, are the methods that lack at most the share `lacking` of the shots."""
 
-    def __init__(self, table, scene_of, base, certainly_less):
+    def __init__(self, table, scene_of, base, certainly_less, lacking=0.0):
         self.table, self.scene_of, self.base, self.certainly_less = table, scene_of, base, certainly_less
+        self.lacking = lacking
         self.shots = [s for s in scene_of if base[s]]
         self.logs = {
             m: {s: math.log(of_shot[s][0] / base[s]) for s in self.shots if s in of_shot and of_shot[s][0] > 0}
@@ -102,9 +103,12 @@ class Comparison:
 
     def rows(self):
         """A dictionary for each method, in the order of their ratios."""
-        complete = {m for m, logs in self.logs.items() if logs and len(logs) == len(self.shots)}
-        stability = rank_stability({m: self._scenes_of(m) for m in complete}) if complete else {}
-        first = min(complete, key=lambda m: (stability[m][0], m), default=None)
+        ranked = [m for m, logs in self.logs.items() if logs and len(logs) >= (1 - self.lacking) * len(self.shots)]
+        common = [s for s in self.shots if all(s in self.logs[m] for m in ranked)]
+        for method in ranked if common else []:
+            self.logs[method] = {s: self.logs[method][s] for s in common}
+        stability = rank_stability({m: self._scenes_of(m) for m in ranked}) if ranked and common else {}
+        first = min(stability, key=lambda m: (stability[m][0], m), default=None)
         wins, shared = self._wins()
         rows = []
         for method, logs in self.logs.items():

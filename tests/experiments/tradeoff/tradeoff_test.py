@@ -40,7 +40,14 @@ def shot(*of_points, floor=0.0, effects=None):
 
 
 def verdicts(a_shot):
-    return {key[0]: (verdict, [p.variant for p in rivals]) for key, (verdict, _, rivals) in dominance.judge(a_shot).items()}
+    """Variant to (verdict, undecided with), which do not depend on the order of the points."""
+    found = []
+    for of_points in (a_shot.points, a_shot.points[::-1]):
+        a_shot.points = of_points
+        found.append({key[0]: (verdict, sorted(p.variant for p in rivals)) for key, (verdict, _, rivals) in dominance.judge(a_shot).items()})
+    if found[0] != found[1]:
+        raise AssertionError(found)
+    return found[0]
 
 
 class Dominance(unittest.TestCase):
@@ -149,6 +156,10 @@ class Fits(unittest.TestCase):
         self.assertEqual(fit.floor_low, 0)
         self.assertAlmostEqual(fit.b, 1, delta=0.05)
 
+    def test_floors_are_not_below_0(self):
+        fit = self.fit(2 * self.costs**-0.5 - 0.1)
+        self.assertEqual((fit.floor, fit.floor_low), (0, 0))
+
     def test_intervals_grow_with_noise_and_with_misfit(self):
         law = 0.2 + 3 * self.costs**-1.25
         narrow, wide = self.fit(law), self.fit(law, 0.05)
@@ -166,13 +177,13 @@ class Fits(unittest.TestCase):
         self.assertIsNone(step.b_high)
 
     def test_axes_differ_in_one_number_alone(self):
-        made = [point(f"v:rays={r} wide={w}", 1) for w in (0, 1) for r in (1, 2, 4, 8)][:7] + [point("v", 1)]
-        parameters = {p.key: {"rays": 16, "wide": 0, "mode": "a"} for p in made}
-        for p in made[:-1]:
-            rays, wide = re.findall(r"=(\d)", p.point)
-            parameters[p.key] = {"rays": int(rays), "wide": int(wide), "mode": "a"}
+        made = [point(f"v:rays={r} wide={w}", 1) for w, counts in ((1, (1, 2, 4)), (0, (1, 2, 4, 8))) for r in counts]
+        parameters = {p.key: dict(zip(("rays", "wide"), map(int, re.findall(r"=(\d)", p.point)))) | {"mode": "a"} for p in made}
+        made.append(point("v", 1))
+        parameters[made[-1].key] = {"rays": 16, "wide": 0, "mode": "a"}
         (axis,) = fits.axes_of(made, parameters)
-        self.assertEqual((axis.parameter, axis.fixed, len(axis.points)), ("rays", "wide=0", 5))
+        self.assertEqual((axis.parameter, axis.fixed), ("rays", "wide=0"))
+        self.assertEqual([parameters[p.key] for p in axis.points], [{"rays": r, "wide": 0, "mode": "a"} for r in (1, 2, 4, 8, 16)])
 
 
 class Scenes(unittest.TestCase):
@@ -246,6 +257,7 @@ def write_study(folder):
             errors.append(row | {"low": row["value"] * 0.99, "high": row["value"] * 1.01, "ranked": 1, "floor": 0.001, "seed": 0})
             for frame in range(FRAMES):
                 times.append(own | {"seed": 0, "stage": "total", "frame": frame, "milliseconds": ms * (1 + 0.01 * (frame % 3)), "clock": "host_fence", "disturbed": 0})
+                times.append(own | {"stage": "v/march", "frame": frame, "milliseconds": 500, "clock": "host_fence"})
                 times.append(own | {"variant": "", "point": "", "stage": "gbuffer/draw", "frame": frame, "milliseconds": 1000, "clock": "host_fence"})
             counts += [own | {"stage": stage, "quantity": "fetches", "value": 50 * ms} for stage in ("march", "shade")]
         compared = {"shot": a_shot, "variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "target": "specular"}
