@@ -26,6 +26,7 @@ FILES = {
     "error_at_cost.csv": (*SHOT, "cost", "unit", "status", "error", "low", "high", "fits", "start", "end", "point", "point_error"),
     "cost_to_error.csv": (*SHOT, "factor", "error", "unit", "status", "cost", "low", "high", "share_that_reach", "start", "end"),
     "fits.csv": (*SHOT, "parameter", "fixed", "points", "cost_from", "cost_to", "unit", "floor", "floor_low", "floor_high", "a", "b", "b_low", "b_high", "misfit", "status", "rung", "rung_error", "rung_low", "rung_high", "floor_over_rung", "floor_over_rung_low", "floor_over_rung_high"),
+    "limits.csv": (*SHOT[:3], "rung", "rung_error", "rung_low", "rung_high", "variant", "point", "label", "error", "error_low", "error_high", "over_rung", "over_rung_low", "over_rung_high", "cost", "unit"),
     "across.csv": ("machine", "cost", "unit", "variant", "point", "label", "baseline", "scenes", "shots", "ratio", "low", "high", "bootstrap_low", "bootstrap_high", "scenes_that_fit", "wins", "shared", "rank", "rank_low", "rank_high", "against_best", "against_best_low", "against_best_high", "p_holm"),
     "stages.csv": ("shot", "scenes", "machine", "variant", "point", "label", "against_variant", "against_point", "change", "error_ratio", "error_low", "error_high", "cost", "cost_low", "cost_high", "unit", "cost_per_percent", "cost_per_percent_low", "cost_per_percent_high", "verdict"),
 }  # fmt: skip
@@ -65,6 +66,7 @@ def main():
             "error_at_cost.csv": analysis.error_at_cost,
             "cost_to_error.csv": analysis.cost_to_error,
             "fits.csv": analysis.fits,
+            "limits.csv": analysis.limits,
             "across.csv": analysis.across,
             "stages.csv": analysis.stages,
         }

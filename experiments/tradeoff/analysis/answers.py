@@ -223,21 +223,51 @@ class Answers:
         return f"at most {text}, its cheapest" if row["status"] == "before start" else text
 
     def _floors(self):
+        if not self.analysis.fits and not self.analysis.limits:
+            return []
+        lines = [f"## What more {'time' if self.unit == 'ms' else self.unit} can never buy", ""]
+        return lines + self._limits() + self._fits()
+
+    def _limits(self):
+        rows = [r for r in self.analysis.limits if r["rung"] == RUNGS[0]]
+        if not rows:
+            return []
+        told = [r for r in rows if r.get("over_rung_high") is not None]
+        above = [r for r in told if r["over_rung_low"] > 1]
+        lines = [
+            f"`{RUNGS[0]}` is what one frame's image leaves to a technique that finds all that it shows, and sees the environment elsewhere; only what earlier frames showed, or luck, goes below it. "
+            + (f"The least error of all points is certainly above it in {len(above)} of the {len(told)} shots in which it is told from 0: there better techniques are possible." if told else ""),
+            "",
+        ]
+        cells = [
+            (r["shot"], r["label"], number(r["cost"]), measured(r["error"], r["error_low"], r["error_high"]), measured(r["rung_error"], r["rung_low"], r["rung_high"]), measured(r.get("over_rung"), r.get("over_rung_low"), r.get("over_rung_high")))
+            for r in rows
+        ]
+        return lines + table(("shot", "least error", self.unit, "its error", f"`{RUNGS[0]}`", f"error / `{RUNGS[0]}`"), cells)
+
+    def _fits(self):
         rows = self.analysis.fits
         if not rows:
             return []
-        lines = [f"## What more {'time' if self.unit == 'ms' else self.unit} can never buy", ""]
-        lines.append(
-            "error = floor + a cost^-b along each axis of quality: the floor is what is left however much is spent along that axis"
-            + (f"; `{RUNGS[0]}` is what one frame's image leaves to a technique that finds all that it shows." if any(r.get("rung") for r in rows) else ".")
-        )
+        lines = ["error = floor + a cost^-b along each axis of quality: the floor is what is left however much is spent along that axis alone.", ""]
+        axes = {}
+        for r in rows:
+            axes.setdefault(f"{r['variant']} {r['fixed']}".strip() + f" along {r['parameter']}", []).append(r)
+        for axis, of_axis in axes.items():
+            floors = [r for r in of_axis if r["floor_low"]]
+            above = [r for r in floors if (r.get("floor_over_rung_low") or 0) > 1]
+            lines.append(
+                f"- {axis}: a floor above 0 is certain in {len(floors)} of {len(of_axis)} shots" + (f", one above `{above[0]['rung']}` in {len(above)}" if above else "") + "."
+            )
         lines.append("")
         cells = []
-        for r in rows:
-            axis = f"{r['variant']} {r['fixed']}".strip() + f", {r['parameter']}"
-            ends = f"{number(r.get('cost_from'))} to {number(r.get('cost_to'))}"
-            cells.append((r["shot"], axis, r["points"], ends, measured(r["floor"], r["floor_low"], r["floor_high"]), measured(r["b"], r["b_low"], r["b_high"]), number(r["misfit"]), measured(r.get("rung_error"), r.get("rung_low"), r.get("rung_high")), measured(r.get("floor_over_rung"), r.get("floor_over_rung_low"), r.get("floor_over_rung_high")), r["status"]))
-        return lines + table(("shot", "axis", "points", f"{self.unit}", "floor", "b", "misfit", "rung's error", "floor / rung", "status"), cells)
+        for axis, of_axis in axes.items():
+            for r in of_axis:
+                ends = f"{number(r.get('cost_from'))} to {number(r.get('cost_to'))}"
+                over = measured(r.get("floor_over_rung"), r.get("floor_over_rung_low"), r.get("floor_over_rung_high"))
+                fitted = (measured(r["floor"], r["floor_low"], r["floor_high"]), over, measured(r["b"], r["b_low"], r["b_high"]), number(r["misfit"]))
+                cells.append((axis, r["shot"], r["points"], ends, *fitted, r["status"]))
+        return lines + table(("axis", "shot", "points", self.unit, "floor", "floor / rung", "b", "misfit", "status"), cells)
 
     def _stages(self):
         rows = [r for r in self.analysis.stages if not r["shot"]]

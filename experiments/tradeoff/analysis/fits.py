@@ -141,7 +141,7 @@ def fit_axis(axis, floor_of_costs):
         return points, Fit(f"only {len(points)} of its points are judged")
     costs = [p.cost for p in points]
     if max(costs) <= (1 + floor_of_costs) ** 2 * min(costs):
-        return points, Fit("its costs hardly differ")
+        return points, Fit("its costs hardly differ, for what copies of one point do")
     errors = [_log_deviation(p.error, p.error_low, p.error_high) for p in points]
     of_costs = [_log_deviation(p.cost, *cost_interval(p)) for p in points]
     return points, fit_law(costs, [p.error for p in points], errors, of_costs)

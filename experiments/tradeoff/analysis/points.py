@@ -41,7 +41,7 @@ class Point:
         if not self.is_ranked or self.error_low is None or self.error_high is None:
             return "not ranked"
         if self.cost is None or not self.cost > 0:
-            return "not timed"
+            return "no cost"
         return "" if self.error > 0 else "error not above 0"
 
 

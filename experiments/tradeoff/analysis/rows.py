@@ -38,6 +38,7 @@ class Analysis:
         self.error_at_cost = [row for s in study.shots for row in self._error_at_cost_rows(s)]
         self.cost_to_error = [row for s in study.shots for row in self._cost_to_error_rows(s)]
         self.fits = [row for s in study.shots for row in self._fit_rows(s)]
+        self.limits = [row for s in study.shots for row in self._limit_rows(s)]
         self.across = [*self._whole_rows(), *(row for m in self.machines() for c in costs for row in self._across_rows(m, c))]
         self.changes = stages.shot_changes(study)
         self.stages = [self._stage_row(c) for c in [*self.changes, *stages.over_scenes(self.changes)]]
@@ -108,6 +109,15 @@ class Analysis:
                         row["high"] = None
                 yield row
 
+    def _limit_rows(self, shot):
+        """The least error of all points beside each rung of the truth ladder."""
+        ranked = [p for p in shot.points if p.is_ranked and p.error_low is not None and not p.asks_scene]
+        for rung in (r for r in RUNGS if r in shot.ladder and ranked):
+            p = min(ranked, key=lambda p: p.error)
+            row = self._shot_columns(shot) | {"variant": p.variant, "point": p.point, "label": p.label, "cost": p.cost}
+            row |= {"error": p.error, "error_low": p.error_low, "error_high": p.error_high}
+            yield row | _rung_columns(rung, shot.ladder[rung], (p.error, p.error_low, p.error_high), "over_rung")
+
     def _fit_rows(self, shot):
         rung = next((r for r in RUNGS if r in shot.ladder), None)
         for axis in fits.axes_of(shot.points, {p.key: self.study.parameters_of(p.key) for p in shot.points}):
@@ -117,12 +127,7 @@ class Analysis:
             if points:
                 row |= {"cost_from": min(p.cost for p in points), "cost_to": max(p.cost for p in points)}
             if rung:
-                error, low, high = shot.ladder[rung]
-                row |= {"rung": rung, "rung_error": error, "rung_low": low, "rung_high": high}
-                if fit.floor is not None and error > 0:
-                    row["floor_over_rung"] = fit.floor / error
-                    row["floor_over_rung_low"] = fit.floor_low / (high or error)
-                    row["floor_over_rung_high"] = fit.floor_high / low if low and low > 0 else None
+                row |= _rung_columns(rung, shot.ladder[rung], (fit.floor, fit.floor_low, fit.floor_high), "floor_over_rung")
             yield row
 
     def _comparison(self, table, shots, certainly_less, lacking=0.0):
@@ -175,6 +180,16 @@ class Analysis:
         for name, values in (("error", c.error), ("cost", c.costs), ("cost_per_percent", c.worth)):
             row |= dict(zip((name + ("_ratio" if name == "error" else ""), name + "_low", name + "_high"), values))
         return row
+
+
+def _rung_columns(rung, error, measured, name):
+    """A rung's own columns, and `measured` over it by the ends of both: no upper end where the rung cannot be told from 0."""
+    value, low, high = error
+    columns = {"rung": rung, "rung_error": value, "rung_low": low, "rung_high": high}
+    if measured[0] is not None and value > 0:
+        upper = measured[2] / low if low and low > 0 else None
+        columns |= {name: measured[0] / value, name + "_low": measured[1] / (high or value), name + "_high": upper}
+    return columns
 
 
 def _place(cost, curve):

@@ -323,6 +323,8 @@ class Folder(unittest.TestCase):
         self.assertEqual((to["roof", "w"]["status"], to["roof", "w"]["cost"]), ("not reached", ""))
         (fit, *_) = read(self.out, "fits.csv")
         self.assertEqual((fit["parameter"], fit["points"], fit["floor_low"], fit["rung"]), ("rays", "4", "0", "on_screen"))
+        (limit, *_) = read(self.out, "limits.csv")
+        self.assertEqual((limit["label"], float(limit["over_rung"])), ("v rays=8", 2.5))
         change = next(r for r in read(self.out, "stages.csv") if r["shot"] == "floor")
         self.assertEqual((change["change"], change["verdict"]), ("rays: 1 -> 2", "buys error"))
         self.assertAlmostEqual(float(change["cost_per_percent"]), 4.04 / 100, places=4)  # 100 % more error without
