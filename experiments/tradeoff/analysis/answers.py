@@ -54,7 +54,7 @@ class Answers:
         )
         machines = self.analysis.machines()
         if not machines:
-            lines.append(f"Nothing was timed: errors alone are compared." if self.unit == "ms" else f"Nothing has {self.unit}.")
+            lines.append("Nothing was timed: errors alone are compared." if self.unit == "ms" else f"Nothing has {self.unit}.")
         elif self.unit == "ms":
             lines.append(
                 f"Times are medians of the sum of a technique's own stages. Taken on {'; '.join(machines)}."
@@ -90,12 +90,28 @@ class Answers:
         lines = []
         for machine in self.analysis.machines():
             lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"On {machine}, over scenes.", ""]
+            lines += table((self.unit, "least error", f"error / {self.base}", "not told from it"), [self._short(machine, c) for c in self.analysis.costs])
             for cost in self.analysis.costs:
                 lines += self._at_cost(machine, cost)
         return lines
 
+    def _rows_at(self, machine, cost):
+        return [r for r in self.analysis.across if r.get("machine") == machine and r.get("cost") == cost]
+
+    def _short(self, machine, cost):
+        rows = self._rows_at(machine, cost)
+        first = next((r for r in rows if r["rank"] == 1), None)
+        if first is None or first["label"] == self.base:
+            return number(cost), "none that fits in all scenes", "", ""
+        near = [r["label"] for r in rows if r["rank"] and r is not first and not self._is_beaten(r)]
+        return number(cost), first["label"], measured(first["ratio"], first["low"], first["high"]), ", ".join(near)
+
+    @staticmethod
+    def _is_beaten(row):
+        return row["p_holm"] is not None and row["p_holm"] <= 0.05
+
     def _at_cost(self, machine, cost):
-        rows = [r for r in self.analysis.across if r.get("machine") == machine and r.get("cost") == cost]
+        rows = self._rows_at(machine, cost)
         lines = [f"### {number(cost)} {self.unit}", ""]
         if not rows:
             return [*lines, "Nothing that was measured fits in any scene.", ""]
@@ -104,7 +120,11 @@ class Answers:
         lines.append(self._first_sentence(first, rows, of_scenes))
         partly = [r for r in rows if r["scenes"] < of_scenes]
         if partly:
-            lines.append("Not ranked, since they do not fit everywhere: " + ", ".join(f"{r['label']} ({r['scenes']} of {of_scenes})" for r in partly) + ".")
+            lines.append(
+                "Not ranked, since they do not fit everywhere: "
+                + "; ".join(f"{r['label']} ({r['scenes']} of {of_scenes} scenes, there {measured(r['ratio'], r['low'], r['high'])} of {self.base}'s error)" for r in partly)
+                + "."
+            )
         absent = {v for c in self.analysis.curves.values() for v in c} - {r["variant"] for r in rows}
         if absent:
             lines.append(f"In no scene fit {listed(sorted(absent))}.")
@@ -128,7 +148,7 @@ class Answers:
         if first is None or (first["ratio"] == 1 and first["label"] == self.base):
             return f"No technique fits in all {of_scenes} scenes" + (f" with less error than {self.base}." if first else ".")
         others = [r for r in rows if r["rank"] and r is not first]
-        beaten = [r for r in others if r["p_holm"] is not None and r["p_holm"] <= 0.05]
+        beaten = [r for r in others if self._is_beaten(r)]
         near = [r for r in others if r not in beaten]
         text = f"**{first['label']}** has the least error, {measured(first['ratio'], first['low'], first['high'])} of that of {self.base} (geometric mean, {first['scenes']} scenes)"
         if not others:

@@ -118,7 +118,7 @@ def fit_law(costs, errors, log_error_deviations, log_cost_deviations):
     if constant <= limit or a[best] <= 0:
         return Fit("the error does not surely fall with the cost", misfit=fit.misfit)
     fit.b_low, fit.b_high = _accepted(EXPONENTS, squares, limit)
-    floors = np.linspace(0, float(errors.max()), 801)
+    floors = np.linspace(0, min(errors.max(), 3 * errors.min()), 801)
     residuals = errors[None, :] - floors[:, None]
     profile = np.full(len(floors), np.inf)
     for x in powers:
@@ -126,7 +126,7 @@ def fit_law(costs, errors, log_error_deviations, log_cost_deviations):
         profile = np.minimum(profile, (weights * (residuals - amount[:, None] * x) ** 2).sum(1))
     step = floors[1]
     low, high = _accepted(floors, profile, max(limit, float(profile.min())))
-    fit.floor_low, fit.floor_high = max(low - step, 0.0), high + step
+    fit.floor_low, fit.floor_high = max(low - float(step), 0.0), high + float(step)
     if fit.b_high >= EXPONENTS[-1]:
         fit.status, fit.b_high, fit.a, fit.b = "exponent has no upper end: the error falls in one step", None, None, None
     elif fit.b_low <= EXPONENTS[0]:

@@ -333,6 +333,10 @@ class Folder(unittest.TestCase):
         with open(os.path.join(self.out, "answers.md"), encoding="utf-8") as stream:
             answers = stream.read()
         self.assertIn("Times of different machines or sizes are never compared", answers)
+        # 0.8 of 8 in `floor` and as much in `wall`; nothing fits in 3 ms but `none`.
+        self.assertIn("| 3 | none that fits in all scenes |", answers)
+        self.assertIn("**v** has the least error, 0.101 of that of none (geometric mean, 2 scenes)", answers)
+        self.assertIn("2 scenes are too few for an interval", answers)
         self.assertIn("The clock did not prove itself in 1 of 3 shots", answers)
         rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
