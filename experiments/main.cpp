@@ -170,6 +170,32 @@ int parse_and_run(int argc, char** argv) {
         ->excludes(fill_option);
     tables_command_.callback([&] { status = tables_command(tables); });
 
+    TradeoffOptions tradeoff;
+    CLI::App& tradeoff_command_ = *app.add_subcommand(
+        "tradeoff", "Answer error against run time: fronts, which technique at which time, what no time can buy");
+    tradeoff_command_.add_option("results", tradeoff.results, "A folder that `ssrlab run` filled")
+        ->required()
+        ->type_name("DIR");
+    tradeoff_command_.add_option("--out", tradeoff.out, "Default: tradeoff in the results folder")->type_name("DIR");
+    tradeoff_command_
+        .add_option("--baseline", tradeoff.baseline,
+                    "Errors are told as multiples of its; default: none, else the study's first baseline")
+        ->type_name("VARIANT:POINT");
+    tradeoff_command_.add_option("--times", tradeoff.times, "Default: 5 10 20 40; with --cost as much of that")
+        ->check(CLI::PositiveNumber)
+        ->type_name("MS");
+    tradeoff_command_
+        .add_option("--factors", tradeoff.factors,
+                    "Of the baseline's error, for the time to reach them; default: 0.5 0.25 0.1")
+        ->check(CLI::PositiveNumber)
+        ->type_name("F");
+    tradeoff_command_.add_option("--metric", tradeoff.metric, "Default: that of the study's primary error");
+    tradeoff_command_.add_option("--mask", tradeoff.mask, "Default: likewise");
+    tradeoff_command_.add_option("--target", tradeoff.target, "Default: likewise");
+    tradeoff_command_.add_option("--cost", tradeoff.cost, "A counted quantity of costs.csv in place of time")
+        ->type_name("QUANTITY");
+    tradeoff_command_.callback([&] { status = tradeoff_command(tradeoff); });
+
     SearchOptions search;
     CLI::App& search_command_ = *app.add_subcommand(
         "search", "Search a variant's parameters for the least error; every step is a study of its own");

@@ -7,6 +7,7 @@ build_packages=(
     libembree-dev libtbb-dev libopenexr-dev libpng-dev libglm-dev libtinygltf-dev
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil
+    python3-scipy  # distributions and intervals of `ssrlab tradeoff`
 )
 # What only the tests need: the validation layer, and a browser for the report.
 test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium)

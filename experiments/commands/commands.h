@@ -59,6 +59,13 @@ struct TablesOptions {
 };
 int tables_command(const TablesOptions& options);  ///< the exit code: 0, 2 or 3
 
+struct TradeoffOptions {
+    std::filesystem::path results, out;
+    std::string baseline, metric, mask, target, cost;  ///< empty: the study's own, and time
+    std::vector<double> times, factors;                ///< empty: the script's
+};
+int tradeoff_command(const TradeoffOptions& options);  ///< the exit code: 0, 2 or 3
+
 struct SearchOptions {
     std::filesystem::path config, out;
 };
