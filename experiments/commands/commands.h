@@ -27,7 +27,7 @@ struct RunOptions {
 void run_study_command(const RunOptions& options, const CommonOptions& common);
 
 struct FiguresOptions {
-    std::filesystem::path results, out, crops;
+    std::filesystem::path results, out, choice;
 };
 int figures_command(const FiguresOptions& options);  ///< the exit code: 0, 2 or 3
 
