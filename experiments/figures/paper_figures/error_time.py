@@ -1,12 +1,16 @@
 """Error against run time, both logarithmic, with intervals: a panel per shot, with the front of those that no other beats."""
 
+import math
+
 from paper_figures import style
 from paper_figures.placed_labels import place_labels
 
 
+JUDGED = "tradeoff/front.csv"  # what `ssrlab tradeoff` says of the same errors and times
+
+
 def front(places):
-    """Of {key: (time, error)} those that none beats in both by its interval, by time; measured against time and error as
-    they are, a point belongs to the line where none is at most as slow and at most as wrong."""
+    """Of {key: (time, error)} those that no other is at most as slow and at most as wrong as, by time."""
     ordered = sorted(places, key=lambda k: (places[k][0].value, places[k][1].value))
     found, least = [], float("inf")
     for key in ordered:
@@ -24,6 +28,17 @@ def is_beaten(place, others):
     return any(
         None not in (t.high, e.high) and t.high < time.low and e.high < error.low for t, e in others if (t, e) != place
     )
+
+
+def _judged(results, shot, places):
+    """(keys of the front by time, keys that are beaten): as `ssrlab tradeoff` judged them by intervals, where its file has these
+    very errors, else as front() and is_beaten() do. Techniques that ask the scene, as no engine can, take no part."""
+    rows = {(r["variant"], r["point"]): r for r in results.read_csv(JUDGED, is_optional=True) if r["shot"] == shot and r["unit"] == "ms"}
+    if rows and all(k in rows and rows[k]["error"] and math.isclose(float(rows[k]["error"]), e.value, rel_tol=1e-6) for k, (_, e) in places.items()):
+        line = [k for k in places if rows[k]["is_nominal_front"] == "1" and rows[k]["verdict"] in ("front", "undecided", "dominated")]
+        return sorted(line, key=lambda k: places[k][0].value), {k for k in places if rows[k]["verdict"] == "dominated"}
+    fair = {k: p for k, p in places.items() if not results.variants.get(k, {}).get("asks_scene")}
+    return front(fair), {k for k, p in places.items() if is_beaten(p, fair.values())}
 
 
 def _places(results, errors, shot):
@@ -44,7 +59,7 @@ def _draw_none(axes, results, errors, shot):
     return []
 
 
-def _draw_points(axes, results, chosen, places, groups):
+def _draw_points(axes, results, places, groups, beaten):
     """Marks with whiskers; returns where the whiskers are."""
     whiskers = []
     for (variant, point), (time, error) in places.items():
@@ -62,7 +77,7 @@ def _draw_points(axes, results, chosen, places, groups):
             elinewidth=0.7,
             markerfacecolor="white" if is_hollow else color,
             markeredgewidth=0.8 if is_hollow else 0,
-            alpha=0.4 if chosen.option("front", True) and is_beaten((time, error), places.values()) else 1.0,
+            alpha=0.4 if (variant, point) in beaten else 1.0,
         )
         axes.plot([], [], mark, color=color, label=group)
         whiskers.append((time.value - x[0][0], error.value, time.value + x[1][0], error.value))
@@ -70,9 +85,9 @@ def _draw_points(axes, results, chosen, places, groups):
     return whiskers
 
 
-def _draw_front(axes, places):
+def _draw_front(axes, places, line):
     """A staircase; returns its steps."""
-    corners = [(places[k][0].value, places[k][1].value) for k in front(places)]
+    corners = [(places[k][0].value, places[k][1].value) for k in line]
     if len(corners) < 2:
         return []
     axes.plot(
@@ -104,14 +119,14 @@ def draw(results, chosen):
     keys = list(dict.fromkeys(key for places in every.values() for key in places))
     groups = list(dict.fromkeys(results.point_group(*k) for k in keys))
     figure, panels = style.panels(len(every), chosen, height=6.4 if len(every) == 1 else 5.6)
-    has_nonpositive, whiskers = False, {}
+    has_nonpositive, has_beaten, whiskers = False, False, {}
     for axes, (shot, places) in zip(panels, every.items()):
         shown = {k: p for k, p in places.items() if p[1].value > 0}
         has_nonpositive |= len(shown) < len(places)
         of_none = _draw_none(axes, results, errors, shot)
-        whiskers[shot] = _draw_points(axes, results, chosen, shown, groups)
-        if chosen.option("front", True):
-            whiskers[shot] += _draw_front(axes, shown)
+        line, beaten = _judged(results, shot, shown) if chosen.option("front", True) else ([], set())
+        has_beaten |= bool(beaten)
+        whiskers[shot] = _draw_points(axes, results, shown, groups, beaten) + _draw_front(axes, shown, line)
         axes.set(xscale="log", yscale="log", xlabel="time of a frame (ms)")
         axes.set_title(style.panel_title(results.shot_label(shot), axes))
         style.log_axis(axes.xaxis)
@@ -121,9 +136,9 @@ def draw(results, chosen):
         every[shot] = shown
     panels[0].set_ylabel(f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels")
     notes = ["median times, mean errors; 95 % intervals"]
-    if any(is_beaten(p, places.values()) for places in every.values() for p in places.values()) and chosen.option("front", True):
+    if has_beaten:
         notes.append("pale: another is told to be faster and better")
-    notes += [style.NOT_POSITIVE_NOTE] if has_nonpositive else []
+    notes += [style.NOT_POSITIVE_NOTE.replace("\n", " ")] if has_nonpositive else []
     notes += [style.ONE_SEED_NOTE] if any(e.is_one_seed for places in every.values() for _, e in places.values()) else []
     style.draw_legend(figure, panels, groups)
     style.note(figure, "; ".join(notes))
@@ -151,6 +166,7 @@ def _name(figure, results, panels, every, whiskers, keys, groups, notes):
         for text in list(axes.texts)[count:]:
             text.remove()
     numbers = {key: str(1 + i) for i, key in enumerate(k for k in keys if texts[k])}
-    legend = "; ".join(f"{n}: {results.point_label(*key)}" for key, n in numbers.items())
+    entries = (f"{n}: {results.point_label(*key)}" for key, n in numbers.items())
+    legend = style.listed(entries, figure.get_figwidth() / style.CENTIMETRE)
     style.note(figure, legend + "\n" + "; ".join(notes))
     placed({key: numbers.get(key, "") for key in keys})

@@ -5,8 +5,9 @@ import math
 
 import numpy as np
 
-DISTANCES = (3, 6, 10, 15, 21, 28, 36, 45, 55)  # pt from the mark's middle to the label's nearest side, beyond the mark
+DISTANCES = (3, 6, 10, 15, 21, 28, 36, 45, 55, 70, 90)  # pt from the mark's middle to the label's nearest side, beyond the mark
 DIRECTIONS = 24
+RETRIES = 10
 NEAR = 4  # pt up to which a label needs no line
 GAP = 1.2  # pt that stay free around each label
 MARK = 3.2  # pt, half of a mark's size with its edge
@@ -43,7 +44,7 @@ def _candidates(anchor, size):
 
 
 def _arranged(order, anchors, sizes, obstacles, frame):
-    """(cost, {index: box}) of the labels in this order; None where one finds no place."""
+    """(cost, {index: box}) of the labels in this order; the index of the first that finds no place, where there is one."""
     taken, places, cost = np.asarray(obstacles, float).reshape(-1, 4), {}, 0.0
     for index in order:
         for distance, box in _candidates(anchors[index], sizes[index]):
@@ -59,8 +60,18 @@ def _arranged(order, anchors, sizes, obstacles, frame):
             cost += distance
             break
         else:
-            return None
+            return index
     return cost, places
+
+
+def _arranged_somehow(order, *what):
+    """_arranged(), with labels that found no place before all others in the next attempt; None after RETRIES of them."""
+    for _ in range(RETRIES):
+        found = _arranged(order, *what)
+        if not isinstance(found, int):
+            return found
+        order = [found, *(i for i in order if i != found)]
+    return None
 
 
 def _pixels(axes, xs, ys):
@@ -93,7 +104,7 @@ def place_labels(axes, items, whiskers=()):
     every = range(len(items))
     orders = [sorted(every, key=key) for key in (lambda i: -near[i], lambda i: anchors[i][0], lambda i: -anchors[i][0],
                                                 lambda i: anchors[i][1], lambda i: -anchors[i][1])]
-    found = [a for a in (_arranged(o, anchors, sizes, obstacles, frame) for o in orders) if a is not None]
+    found = [a for a in (_arranged_somehow(o, anchors, sizes, obstacles, frame) for o in orders) if a is not None]
     if not found:
         return False
     _, places = min(found, key=lambda a: a[0])

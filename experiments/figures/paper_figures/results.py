@@ -88,6 +88,11 @@ class Results:
     def shot_label(self, shot):
         return self.labels.get(shot) or self.shot_entries.get(shot, {}).get("label") or shot
 
+    def shot_group(self, shot):
+        """What a shot is counted with: its group's display name, else its scene."""
+        entry = self.shot_entries.get(shot, {})
+        return entry.get("group") or entry.get("scene") or shot
+
     def parameters_of(self, variant, point):
         """Name to value of all parameters of a point."""
         return self.variants.get((variant, point), {}).get("parameters", {})

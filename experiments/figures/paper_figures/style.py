@@ -147,6 +147,18 @@ def note(figure, text):
     _grow(figure, below=lines * 1.2 * text_size() / 72)
 
 
+def listed(entries, centimetres):
+    """Entries in lines that fit into a width, none broken."""
+    lines = [""]
+    for entry in entries:
+        added = f"{lines[-1]}; {entry}" if lines[-1] else entry
+        if lines[-1] and len(added) > letters(centimetres):
+            lines.append(entry)
+        else:
+            lines[-1] = added
+    return "\n".join(lines)
+
+
 def text_width(text):
     """cm of a line of text."""
     return TextPath((0, 0), text, size=text_size()).get_extents().width / 72 * 2.54 if text.strip() else 0.0

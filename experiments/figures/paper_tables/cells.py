@@ -27,6 +27,10 @@ KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "be
 COMPARED = ("results", "times", "limits")  # of these the cells of a row or column have a best, as far as their metric knows which way
 UNDIRECTED = ("bias", "energy_ratio")
 NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
+GROUPS = {  # what rows, columns and means are by, beside the columns of a file
+    "group": lambda results, row: results.point_group(row.get("variant"), row.get("point")),
+    "shot_group": lambda results, row: results.shot_group(row.get("shot")),
+}
 SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
 
 
@@ -133,9 +137,11 @@ class Selection:
         self.disturbed = {_timed(r): _number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
 
     def entry(self, row, key):
-        """What a row has under a key: a column of the file, else a parameter of its point."""
+        """What a row has under a key: a column of the file, the group of its point or shot, else a parameter of its point."""
         if key in row:
             return row[key]
+        if key in GROUPS:
+            return GROUPS[key](self.results, row)
         value = self.parameters.get((row.get("variant"), row.get("point")), {}).get(key)
         return value if value is None or isinstance(value, str) else json.dumps(value)
 
@@ -154,7 +160,7 @@ class Selection:
             value = self.entry(row, key)
             if value is None or own and key == "variant":
                 continue
-            text = value if key in row else f"{key} = {value}"
+            text = value if key in row or key in GROUPS else f"{key} = {value}"
             if key == "point" and own:
                 text = own
             elif key == "shot":

@@ -193,15 +193,21 @@ def test_best(folder):
 
 
 def test_display_names(folder):
-    """Points and shots that have a display name are called by it."""
+    """Points and shots that have a display name are called by it, and can be told apart by the groups that they are in."""
     write_results(folder)
-    named = manifest([TABLES[1]])
+    by_group = {"name": "groups", "rows": ["group", "point"], "columns": "shot_group", "over": "shot"}
+    named = manifest([TABLES[1], TABLES[1] | by_group])
+    for shot in named["shots"]:
+        shot["group"] = "rooms"
+    named["variants"][0]["group"] = "faithful"
     named["variants"][1]["label"], named["shots"][0]["label"] = "four | taps", "The floor"
     write(os.path.join(folder, "manifest.json"), json.dumps(named))
     check(tables(folder).returncode == 0, "display names")
     lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
     check(lines[2] == "| | The floor | wall |" and lines[4].startswith(r"| four \| taps | 0.00234 |"), lines[2:5])
     check(lines[5].startswith("| sssr, default |"), lines[5])
+    lines = read(os.path.join(folder, "tables", "groups.md")).splitlines()
+    check(lines[2] == "| | rooms |" and [line.split(" | ")[0] for line in lines[4:6]] == [r"| sssr, four \| taps", "| faithful, default"], lines)
 
 
 def footer(folder, name):
