@@ -23,7 +23,7 @@ try:
     import numpy as np
     from figures import SHOT_FIGURES, STUDY_FIGURES
     from matplotlib.text import Text
-    from paper_figures import crops, effects, fetches, style
+    from paper_figures import crops, effects, error_time, fetches, style
     from paper_figures.crop_choice import read_crops
     from paper_figures.crops import crop_boxes
     from paper_figures.exr import ExrError, read_exr_rgb
@@ -177,7 +177,32 @@ def test_sweep_figures(folder):
         check(False, "a parameter that is none")
     except ResultsError as e:
         check("f.json: no point has the parameter 'float_historie'; did you mean 'float_histories'?" == str(e), e)
+    narrow = Results(folder).narrowed(["still_a.main.160x90.w8.r8"], [("sssr", "mended")])
+    split = next(s for s in narrow.splits if (s["target"], s["mask"]) == ("specular", "reflective"))
+    figure = STUDY_FIGURES["convergence"](narrow, request_of("convergence", "mse", options={"over": "seeds"}))
+    means = [float(split["bias_squared"]) + float(split["variance"]) / n for n in (1, 2, 3, 4)]
+    check(np.allclose(drawn(figure.get_axes(), "y"), sorted(means), rtol=1e-9), "what the mean over seeds errs")
     plt.close("all")
+
+
+def test_front(folder):
+    """Fast and good points; those of an oracle take no part; where `ssrlab tradeoff` judged the same errors, its word counts."""
+    exact = lambda v: Measured(v, 0.95 * v, 1.05 * v)
+    places = {("v", name): (exact(t), exact(e)) for name, t, e in (("a", 1, 4), ("b", 2, 2), ("c", 2.05, 2.1), ("d", 4, 3), ("oracle", 1, 1))}
+    results = Results(folder)
+    results.variants = {("v", "oracle"): {"asks_scene": True}}
+    line, beaten = error_time._judged(results, "s", places)
+    check(line == [("v", "a"), ("v", "b")] and beaten == {("v", "d")}, f"{line}, {beaten}")
+    os.makedirs(os.path.join(folder, "tradeoff"))
+    for factor, is_same in ((1.0, True), (1.1, False)):
+        with open(os.path.join(folder, "tradeoff", "front.csv"), "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(["shot", "variant", "point", "error", "unit", "is_nominal_front", "verdict"])
+            for (variant, name), (_, error) in places.items():
+                verdict = "dominated" if name == "c" else "asks the scene" if name == "oracle" else "undecided"
+                writer.writerow(["s", variant, name, factor * error.value, "ms", int(name in "abd"), verdict])
+        line, beaten = error_time._judged(results, "s", places)
+        check(([k[1] for k in line], {k[1] for k in beaten}) == ((["a", "b", "d"], {"c"}) if is_same else (["a", "b"], {"d"})), f"{line}, {beaten}")
 
 
 def test_same_bytes(folder, temporary):
@@ -467,6 +492,7 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     subprocess.run([program, "--study", study], check=True)
     test_study(study)
     test_sweep_figures(study)
+    test_front(study)
     test_images_of_frames(study)
     test_several_baselines(study)
     test_ratios_far_from_one(study)
