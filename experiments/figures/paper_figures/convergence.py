@@ -90,9 +90,9 @@ def _draw_line(axes, name, points, color, mark):
         fmt=mark,
         color=color,
         linestyle="-",
-        linewidth=0.7,
-        markersize=3,
-        elinewidth=0.7,
+        linewidth=0.7 * style.scale(),
+        markersize=3 * style.scale(),
+        elinewidth=0.7 * style.scale(),
     )
     axes.plot([], [], mark, color=color, linestyle="-", label=name)
     xs, ys = (numpy.log([float(v) for v in values]) for values in zip(*((x, m.value) for x, m in points)))

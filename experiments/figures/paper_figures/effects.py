@@ -90,7 +90,7 @@ def _draw(results, chosen, rows, groups, against):
         columns,
         figsize=(
             width * style.CENTIMETRE,
-            (grid_rows * (1.5 + 0.38 * len(groups)) + lines * 0.32) * style.text_size() / style.TEXT * style.CENTIMETRE,
+            (grid_rows * (1.5 + 0.38 * len(groups)) + lines * 0.32) * style.scale() * style.CENTIMETRE,
         ),
         layout="constrained",
         sharex=True,
@@ -148,7 +148,7 @@ def _draw_shot(results, axes, rows, keys):
             xerr=ratio.whiskers(),
             fmt=mark,
             color=color,
-            markersize=3.4,
+            markersize=3.4 * style.scale(),
             markeredgewidth=0.8,
             markerfacecolor=color if is_significant else "white",
         )

@@ -44,14 +44,14 @@ def draw(results, chosen):
                 axes.text(0.01, row, "no value above 0", transform=axes.get_yaxis_transform(), va="center")
                 continue
             color = results.colors.get(key, style.COLORS[0])
-            axes.hlines(row, min(limit, error.value), max(limit, error.value), color=color, linewidth=2.2, alpha=0.45)
+            axes.hlines(row, min(limit, error.value), max(limit, error.value), color=color, linewidth=2.2 * style.scale(), alpha=0.45)
             axes.errorbar(
                 [error.value],
                 [row],
                 xerr=error.whiskers(),
                 fmt="o",
                 color=color,
-                markersize=3.4,
+                markersize=3.4 * style.scale(),
                 markerfacecolor="white" if error.is_one_seed else color,
                 markeredgewidth=0.8,
             )

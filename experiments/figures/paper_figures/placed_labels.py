@@ -5,12 +5,14 @@ import math
 
 import numpy as np
 
+from paper_figures import style
+
 DISTANCES = (3, 6, 10, 15, 21, 28, 36, 45, 55, 70, 90)  # pt from the mark's middle to the label's nearest side, beyond the mark
 DIRECTIONS = 24
 RETRIES = 10
 NEAR = 4  # pt up to which a label needs no line
 GAP = 1.2  # pt that stay free around each label
-MARK = 3.2  # pt, half of a mark's size with its edge
+MARK = 3.2  # pt, half of a mark's size with its edge, on a page
 
 
 def _overlaps(box, boxes):
@@ -85,7 +87,8 @@ def place_labels(axes, items, whiskers=()):
         return True
     figure = axes.figure
     figure.draw_without_rendering()
-    unit = figure.dpi / 72
+    scale = style.scale()
+    unit = figure.dpi / 72 * scale  # pixels of what is a point on a page
     anchors = _pixels(axes, [i[0] for i in items], [i[1] for i in items]) / unit
     renderer = figure.canvas.get_renderer()
     sizes = []
@@ -110,7 +113,7 @@ def place_labels(axes, items, whiskers=()):
     _, places = min(found, key=lambda a: a[0])
     for index, (x, y, text, color) in enumerate(items):
         box, anchor = places[index], anchors[index]
-        middle = ((box[0] + box[2]) / 2 - anchor[0], (box[1] + box[3]) / 2 - anchor[1])
+        middle = (scale * ((box[0] + box[2]) / 2 - anchor[0]), scale * ((box[1] + box[3]) / 2 - anchor[1]))
         end = (min(max(anchor[0], box[0]), box[2]), min(max(anchor[1], box[1]), box[3]))
         is_far = math.dist(anchor, end) > MARK + NEAR
         axes.annotate(
@@ -121,6 +124,6 @@ def place_labels(axes, items, whiskers=()):
             ha="center",
             va="center",
             color=color,
-            arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888", "shrinkA": 0, "shrinkB": MARK} if is_far else None,
+            arrowprops={"arrowstyle": "-", "linewidth": 0.4 * scale, "color": "#888888", "shrinkA": 0, "shrinkB": scale * MARK} if is_far else None,
         ).set_in_layout(False)
     return True

@@ -23,7 +23,7 @@ def _grid(count, rows, chosen):
     width = style.width_of(chosen, count)
     columns = min(count, max(int(width / 4.3), 1))
     blocks = -(-count // columns)
-    height = (chosen.height or 4.0 * style.text_size() / style.TEXT) * rows * blocks
+    height = (chosen.height or 4.0 * style.scale()) * rows * blocks
     figure, grid = plt.subplots(
         rows * blocks, columns, figsize=(width * style.CENTIMETRE, height * style.CENTIMETRE), layout="constrained", squeeze=False
     )

@@ -54,7 +54,7 @@ def draw(results, shot, chosen):
     if not groups:
         return None
     width = style.width_of(chosen, 1 if sum(map(len, groups.values())) <= 8 else 2)
-    scale = style.text_size() / style.TEXT
+    scale = style.scale()
     longest = style.letters(0.36 * width)
     blocks = []
     for variant, points in groups.items():

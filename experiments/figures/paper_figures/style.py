@@ -71,6 +71,11 @@ def text_size():
     return matplotlib.rcParams["font.size"]
 
 
+def scale():
+    """By how much lines, marks and letters are larger than on a page."""
+    return text_size() / TEXT
+
+
 def letters(centimetres):
     """How many letters of the text fit into a width, about."""
     return max(int(centimetres / (0.0215 * text_size())), 8)
@@ -98,7 +103,7 @@ def panels(count, chosen=None, most_columns=3, height=4.6, **shared):
     most = min(count, most_columns, max(int(width / 5.0), 1))
     rows = -(-count // most)
     columns = -(-count // rows)
-    height = getattr(chosen, "height", None) or height * text_size() / TEXT
+    height = getattr(chosen, "height", None) or height * scale()
     size = (width * CENTIMETRE, height * rows * CENTIMETRE)
     figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False, **shared)
     for unused in axes.flat[count:]:
