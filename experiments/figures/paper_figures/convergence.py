@@ -150,7 +150,7 @@ def draw(results, chosen):
         axes.margins(0.12)
     panels[0].set_ylabel(f"{chosen.metric} of {chosen.target},\n{chosen.mask} pixels")
     style.draw_legend(figure, panels, names)
-    fitted = "; dashed: error = a x^slope by least squares of logarithms; slope ± 95 %, of the scatter about it" if is_fitted else ""
+    fitted = "; dashed: error = a x^slope by least squares of logarithms; slope ± 95 %, of the scatter about it" if is_fitted else "; bias\N{SUPERSCRIPT TWO} + variance / n"
     style.note(figure, f"95 % intervals{fitted}")
     if is_fitted:
         for axes, (shot, lines) in zip(panels, every.items()):

@@ -221,7 +221,7 @@ def _reference_noise(results, shot):
 
 
 def _percent(share):
-    return f"{100 * share:.2g} %" if share >= 0.0005 else "< 0.1 %"
+    return (f"{100 * share:.2g} %" if share >= 0.0005 else "< 0.1 %").replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def _truth_title(results, shot, letters):

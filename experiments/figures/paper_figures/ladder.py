@@ -62,5 +62,5 @@ def draw(results, chosen):
     panels[0].set_yticks(range(len(keys)), names)
     panels[0].set_ylim(len(keys) - 0.4, -0.6)
     style.draw_legend(figure, panels)
-    style.note(figure, f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, 95 % intervals; the bar is what lies between the limit and the technique")
+    style.note(figure, f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, 95 % intervals; bars begin at that limit")
     return figure

@@ -21,7 +21,7 @@ def _wanted(chosen):
 def _grid(count, rows, chosen):
     """(figure, axes[row][shot]): shots beside each other, as many as fit."""
     width = style.width_of(chosen, count)
-    columns = min(count, max(int(width / 4.3), 1))
+    columns = min(count, max(int(width / 4.0), 1))
     blocks = -(-count // columns)
     height = (chosen.height or 4.0 * style.scale()) * rows * blocks
     figure, grid = plt.subplots(

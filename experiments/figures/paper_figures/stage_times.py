@@ -85,7 +85,7 @@ def draw(results, shot, chosen):
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
     axes.grid(axis="y", visible=False)
-    style.note(figure, "time of a frame (ms): median, with its 95 % interval")
+    style.note(figure, "median time of a frame (ms) with its 95 % interval")
     axes.set_title(results.shot_label(shot))
     _draw_totals(figure, axes, list(ticks), [s for _, points, *_ in blocks for s in points.values()])
     return figure

@@ -78,7 +78,8 @@ def scale():
 
 def letters(centimetres):
     """How many letters of the text fit into a width, about."""
-    return max(int(centimetres / (0.0215 * text_size())), 8)
+    width = 0.018 if matplotlib.rcParams["font.family"][0] == FONTS["serif"][0] else 0.0215  # cm for each pt of their size
+    return max(int(centimetres / (width * text_size())), 8)
 
 
 def series(index, color=None):
