@@ -137,8 +137,9 @@ int parse_and_run(int argc, char** argv) {
         ->required()
         ->type_name("DIR");
     figures_command_
-        .add_option("crops", figures.crops,
-                    "Crops that the report's viewer collected; of other shots, those of the largest errors")
+        .add_option("choice", figures.choice,
+                    "Which figures, and how they look (experiments/README.md), or the crops that the report's viewer "
+                    "collected; default: all that there are results for")
         ->type_name("figures.json");
     figures_command_.add_option("--out", figures.out, "Default: figures in the results folder")->type_name("DIR");
     figures_command_.callback([&] { status = figures_command(figures); });

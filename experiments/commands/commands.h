@@ -43,7 +43,7 @@ struct MergeOptions {
 int merge_command(const MergeOptions& options, const CommonOptions& common);  ///< 1 if cells are missing, else 0
 
 struct FiguresOptions {
-    std::filesystem::path results, out, crops;
+    std::filesystem::path results, out, choice;
 };
 int figures_command(const FiguresOptions& options);  ///< the exit code: 0, 2 or 3
 

@@ -30,7 +30,7 @@ int figures_command(const FiguresOptions& options) {
     check_results(options.results);
     const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
     std::vector<std::string> arguments = {"--out=" + out.string()};
-    if (!options.crops.empty()) arguments.push_back("--crops=" + options.crops.string());
+    if (!options.choice.empty()) arguments.push_back("--choice=" + options.choice.string());
     arguments.insert(arguments.end(), {"--", options.results.string()});
     return run_script("figures/figures.py", arguments);
 }

@@ -39,6 +39,7 @@ void check_tables(JsonObject& config) {
         check_names(table, "columns");
         table.text("over", "");
         table.text("sort", "");
+        table.choice("best", {"", "column", "row"}, "");
         check_object(table, "labels");
         table.finish();
     }

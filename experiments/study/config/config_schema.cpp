@@ -61,6 +61,7 @@ json table_schema() {
                    {"columns", one_or_more(text)},
                    {"over", text},
                    {"sort", text},
+                   {"best", {{"enum", {"column", "row"}}}},
                    {"labels", any_object}},
                   {"name", "caption", "of", "rows", "columns"});
 }
