@@ -11,6 +11,7 @@ struct StudyRows {
     std::vector<SplitRow> splits;
     std::vector<TimeRow> times;
     std::vector<HitRow> hits;
+    std::vector<CostRow> costs;
     std::vector<ReferenceNoise> reference_noise;
 };
 /// With mark_what_speaks() done.
@@ -20,8 +21,8 @@ StudyRows rows_of(const std::vector<Cell>& cells);
 /// mask) the rows over its frames ("all") where a point has such, else those of its last frame.
 void mark_what_speaks(std::span<ResultRow> rows);
 
-/// Writes results.csv, splits.csv and times.csv, and hits.csv if rays were judged; the columns are explained in
-/// experiments/RESULTS.md.
+/// Writes results.csv, splits.csv and times.csv, hits.csv if rays were judged, and costs.csv if costs were counted; the
+/// columns are explained in experiments/RESULTS.md.
 void write_tables(const std::filesystem::path& folder, const StudyRows& rows);
 
 /// The median of the values and its distribution-free 95 % interval from order statistics (binomial with p = 1/2),

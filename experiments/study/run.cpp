@@ -44,6 +44,8 @@ void plan_work(StudyRun& study) {
         study.work.plan("reference", double(config.frames.size()), reference_guess);
         for (const VariantConfig& variant : study.config.variants)
             study.work.plan("frames", double(timeline(config).size() * variant.seeds.size()), frame_guess);
+        if (study.config.counts_costs)
+            study.work.plan("costs", double(timeline(config).size() * study.config.variants.size()), frame_guess);
         if (study.config.timing.frames > 0) study.work.plan("times", 1, timing_guess);
     }
 }

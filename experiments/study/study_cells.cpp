@@ -1,4 +1,5 @@
 #include "core/files.h"
+#include "experiments/measuring/costs.h"
 #include "experiments/measuring/timing.h"
 #include "experiments/measuring/timing_lock.h"
 #include "experiments/results/host_info.h"
@@ -129,6 +130,29 @@ std::vector<CellTask> point_tasks(StudyRun& study, ShotRun& run) {
     return tasks;
 }
 
+/// What each point's passes do, if the study asks for it.
+std::vector<CellTask> cost_tasks(StudyRun& study, ShotRun& run) {
+    std::vector<CellTask> tasks;
+    if (!study.config.counts_costs) return tasks;
+    for (const VariantConfig& variant : study.config.variants) {
+        const nlohmann::json parameters =
+            make_variant(variant.variant, variant.parameters, variant.preset)->params.values();
+        const unsigned seed = variant.seeds.front();
+        CellTask task{
+            .hash = cell_hash(study, run, "costs\n" + variant.variant + "\n" + variant.point, parameters, {seed}),
+            .what = run.shot.name() + ": costs of " + variant.variant + " " + variant.point,
+            .kind = "costs",
+            .units = double(run.shot.steps.size())};
+        task.make = [&study, &run, &variant](const auto& report) {
+            const auto lit = [&](const FrameStep& step) -> const HostImage& { return run.truth.lit(step); };
+            return Cell{
+                .costs = count_costs(study.device, run.shot, run.store, lit, variant, study.settings.keep_all, report)};
+        };
+        tasks.push_back(std::move(task));
+    }
+    return tasks;
+}
+
 bool has_times(const Config& config) {
     return config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed);
 }
@@ -185,6 +209,7 @@ CellTask timing_task(StudyRun& study, ShotRun& run) {
 
 void run_cells(StudyRun& study, ShotRun& run) {
     std::vector<CellTask> tasks = point_tasks(study, run);
+    for (CellTask& task : cost_tasks(study, run)) tasks.push_back(std::move(task));
     tasks.push_back(timing_task(study, run));
     std::vector<std::optional<Cell>> cells(tasks.size());
     for (const bool waits : {false, true})
