@@ -82,7 +82,7 @@ int parse_and_run(int argc, char** argv) {
     run_command_
         .add_option("--cells", run.cells,
                     "Do these cells alone, of a study that several processes or machines share: references, renders, "
-                    "times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
+                    "costs, times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
                     "kinds narrow each other. Tables are made by `ssrlab merge`")
         ->delimiter(',')
         ->type_name("TERM");

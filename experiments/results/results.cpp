@@ -33,7 +33,8 @@ StudyRows rows_of(const std::vector<Cell>& cells) {
     const auto append = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
     for (const Cell& cell : cells) {
         append(rows.results, cell.rows), append(rows.splits, cell.splits), append(rows.times, cell.times);
-        append(rows.hits, cell.hits), append(rows.reference_noise, cell.reference_noise);
+        append(rows.hits, cell.hits), append(rows.costs, cell.costs);
+        append(rows.reference_noise, cell.reference_noise);
     }
     mark_what_speaks(rows.results);
     return rows;
@@ -43,8 +44,11 @@ void write_tables(const std::filesystem::path& folder, const StudyRows& rows) {
     write_rows(folder / "results.csv", rows.results);
     write_rows(folder / "splits.csv", rows.splits);
     write_rows(folder / "times.csv", rows.times);
-    if (rows.hits.empty())
-        std::filesystem::remove(folder / "hits.csv");  // of an earlier version of the study
-    else
-        write_rows(folder / "hits.csv", rows.hits);
+    const auto write_if_any = [&](const char* file, const auto& some) {
+        if (some.empty())
+            std::filesystem::remove(folder / file);  // of an earlier version of the study
+        else
+            write_rows(folder / file, some);
+    };
+    write_if_any("hits.csv", rows.hits), write_if_any("costs.csv", rows.costs);
 }

@@ -11,6 +11,7 @@ struct StudyRows {
     std::vector<SplitRow> splits;
     std::vector<TimeRow> times;
     std::vector<HitRow> hits;
+    std::vector<CostRow> costs;
     std::vector<ReferenceNoise> reference_noise;
 };
 /// With mark_what_speaks() done.
@@ -20,6 +21,6 @@ StudyRows rows_of(const std::vector<Cell>& cells);
 /// mask) the rows over its frames ("all") where a point has such, else those of its last frame.
 void mark_what_speaks(std::span<ResultRow> rows);
 
-/// Writes results.csv, splits.csv and times.csv, and hits.csv if rays were judged; the columns are explained in
-/// experiments/RESULTS.md.
+/// Writes results.csv, splits.csv and times.csv, hits.csv if rays were judged, and costs.csv if costs were counted; the
+/// columns are explained in experiments/RESULTS.md.
 void write_tables(const std::filesystem::path& folder, const StudyRows& rows);

@@ -1,3 +1,5 @@
+#include "core/error.h"
+#include "experiments/measuring/costs.h"
 #include "experiments/measuring/timing.h"
 #include "experiments/measuring/timing_lock.h"
 #include "experiments/results/host_info.h"
@@ -146,13 +148,31 @@ Cell renders_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, con
                       .spent = &study.spent});
 }
 
+Cell costs_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, const std::function<void(double)>& report) {
+    const auto lit = [&](const FrameStep& step) -> const HostImage& { return run.truth.lit(step); };
+    return {.costs = count_costs(study.device, run.shot, *run.store, lit, *planned.variant, study.settings.keep_all,
+                                 report)};
+}
+
+Cell make_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, const std::function<void(double)>& report) {
+    switch (planned.kind) {
+        case CellKind::references:
+            return references_cell(run);
+        case CellKind::renders:
+            return renders_cell(study, run, planned, report);
+        case CellKind::costs:
+            return costs_cell(study, run, planned, report);
+        case CellKind::times:
+            return timing_cell(study, run, report);
+    }
+    fail("no cell is made of kind ", int(planned.kind));
+}
+
 /// How a cell of an open shot is made.
 CellTask task_of(StudyRun& study, ShotRun& run, const PlannedCell& planned) {
     CellTask task{.planned = planned, .make = {}};
     const auto make = [&study, &run, &planned](const auto& report) {
-        Cell cell = planned.kind == CellKind::references ? references_cell(run)
-                    : planned.kind == CellKind::times    ? timing_cell(study, run, report)
-                                                         : renders_cell(study, run, planned, report);
+        Cell cell = make_cell(study, run, planned, report);
         cell.truth = run.truth.content_hash();
         return cell;
     };

@@ -52,6 +52,13 @@ public:
         for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
         return name(sources, request, with_images(what));
     }
+    std::string of_costs(const std::string& request, size_t variant) {
+        const PointIdentity& point = points_[variant];
+        std::vector<std::string> sources = point.sources;
+        sources.push_back("experiments/measuring/costs.cpp"), sources.push_back("experiments/study/shot_run.cpp");
+        const VariantConfig& v = config_.variants[variant];
+        return name(sources, request, {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())});
+    }
     std::string of_times(const std::string& request) {
         std::vector<std::string> sources = {"experiments/measuring/timing.cpp", "experiments/study/shot_run.cpp"};
         std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up)};
@@ -125,7 +132,7 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
 }  // namespace
 
 const std::vector<std::string>& cell_kind_names() {
-    static const std::vector<std::string> names = {"references", "renders", "times"};
+    static const std::vector<std::string> names = {"references", "renders", "costs", "times"};
     return names;
 }
 
@@ -164,6 +171,12 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
             const VariantConfig& variant = config.variants[i];
             add(CellKind::renders, names.of_renders(request, i), variant.variant + " " + variant.point,
                 double(shot.steps.size() * variant.seeds.size()))
+                .variant = &variant;
+        }
+        for (size_t i = 0; i < config.variants.size() && config.counts_costs; ++i) {
+            const VariantConfig& variant = config.variants[i];
+            add(CellKind::costs, names.of_costs(request, i), "costs of " + variant.variant + " " + variant.point,
+                double(shot.steps.size()))
                 .variant = &variant;
         }
         if (config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed))

@@ -348,6 +348,7 @@ Config read_config(const std::filesystem::path& file) {
         config.hits->seeds = unsigned(hits.integer("seeds", 1, 1000000, int(config.hits->seeds)));
         hits.finish();
     }
+    config.counts_costs = object.boolean("costs", false);
     config.keeps_all_images = object.choice("images", {"last", "all"}, "last") == "all";
     config.metrics = known_names(object, "metrics", metric_names(),
                                  {"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"});

@@ -82,6 +82,7 @@ struct Config {
     unsigned normal_bits = 0;  ///< RasterizerOptions::normal_bits
     TimingConfig timing;
     std::optional<JudgedRays> hits;    ///< none: no ray is judged
+    bool counts_costs = false;         ///< what each stage does, see count_costs()
     bool keeps_all_images = false;     ///< of every measured frame; else of each shot's last
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;

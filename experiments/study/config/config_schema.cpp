@@ -127,6 +127,7 @@ nlohmann::json config_schema(const std::string& variant) {
                 {"normal_encoding", {{"enum", {"float", "octahedral_16", "octahedral_8"}}}},
                 {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}})},
                 {"hits", object({{"every", integer(1, 64)}, {"seeds", integer(1, 1000000)}})},
+                {"costs", {{"type", "boolean"}}},
                 {"images", {{"enum", {"last", "all"}}}},
                 {"metrics", list_of(metric_names())},
                 {"masks", masks()},

@@ -152,6 +152,15 @@ void add_times(const StudyShot& shot, const StudyPoint& point, double slowness, 
     }
 }
 
+/// Of the two stages that read, the second one twice as much.
+void add_costs(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
+    for (const auto& [stage, fetches] :
+         {std::pair("sssr/stage_0", 1'000'000), {"sssr/stage_1", 2'000'000}, {"total", 3'000'000}})
+        for (const auto& [quantity, value] :
+             {std::pair("fetches", fetches), {"bytes_read", 4 * fetches}, {"bytes_written", fetches}})
+            cell.costs.push_back({shot.name, "sssr", point.point, stage, quantity, size_t(value)});
+}
+
 /// Two passes, one of which traced rough surfaces only; two masks. The moving shot has two frames.
 void add_hits(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     const auto add = [&](const std::string& frame, const char* stage, const char* mask, double right) {
@@ -310,6 +319,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
             }
             add_split(shot, point, cell);
             if (point.point == "first" || point.point == "mended") add_hits(shot, point, cell);
+            if (point.point == "first" || point.point == "mended") add_costs(shot, point, cell);
             if (point.point == "first") add_times(shot, point, 1, cell);
             if (point.point == "mended") add_times(shot, point, 2, cell);
             cells.push_back(std::move(cell));

@@ -211,6 +211,13 @@ def test_stages(page):
     choose_in(page, "stages", "Bars show", "shares of each point's total")
     widths = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => +b.getAttribute('width'))", part)
     check(abs(sum(widths[:10]) - sum(widths[10:])) < 1, "bars of shares are equally long, whatever the times")
+    choose_in(page, "stages", "Bars show", "bytes")
+    bars = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => [b.getAttribute('fill'), b.getAttribute('width') / 1, +b.dataset.value])", part)
+    equal([bar[::2] for bar in bars[:2]], [[fills[0], 5], [fills[1], 10]], "stages by MB read and written, which look as by their times")
+    check(abs(bars[1][1] / bars[0][1] - 2) < 0.01, f"bars of costs are as long as they say: {bars}")
+    choose_in(page, "results", "Charts against", "bytes")
+    labels = [chart.text for chart in page.find_elements(By.CSS_SELECTOR, "#scatter figure, #answer-charts figure")]
+    check(labels and all("MB read and written" in label for label in labels), f"charts against bytes: {labels}")
 
 
 def test_temporal(page, folder):
