@@ -36,7 +36,7 @@ void plan_work(StudyRun& study) {
     std::set<std::string> names;
     for (const ShotConfig& config : study.config.shots) {
         const std::string name = config.gbuffer.empty() ? load_shot(config, study.settings.search_path).name()
-                                                        : capture_name(config.gbuffer);
+                                                        : capture_shot(config, Capture(config.gbuffer)).name();
         if (!names.insert(name).second)
             fail("two shots are called '", name,
                  "': they differ in nothing that results are named by; give them other frames, another camera or "
@@ -145,7 +145,7 @@ void run_scene_shot(StudyRun& study, const ShotConfig& config) {
         .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
     unsigned references = 0;
     if (!study.config.has_reference)
-        run.truth = truth_of_lit(shot, {});
+        run.truth = truth_of_lit(shot, [](unsigned) { return HostImage(); });
     else
         run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, ReferenceUse use) {
             Reference reference = obtain_reference(study, shot, frame, use);
@@ -163,30 +163,32 @@ void run_scene_shot(StudyRun& study, const ShotConfig& config) {
 
 /// A capture: measured if it comes with a reference, else only rendered and timed.
 void run_gbuffer_shot(StudyRun& study, const ShotConfig& config) {
-    LoadedGBuffer loaded = load_gbuffer(config.gbuffer);
-    const Shot shot = gbuffer_shot(config, loaded.gbuffer);
+    Capture capture(config.gbuffer);
+    Shot shot = capture_shot(config, capture);
     study.progress.say(shot.scene.name + ", from files");
-    for (const std::string& note : loaded.notes) study.progress.say("note: " + note);
-    study.work.plan("reference", -1, reference_guess);  // read, not rendered
-    std::optional<Reference> reference;
-    if (!config.reference.empty())
-        reference = read_capture_reference(config.reference, loaded.gbuffer, needs_ladder(study.config));
+    const CaptureContents contents = inspect_capture(shot, capture);
+    shot.facts = contents.facts;
+    for (const std::string& note : contents.notes) study.progress.say("note: " + note);
+    study.work.plan("reference", -double(config.frames.size()), reference_guess);  // read, not rendered
+    const bool is_measured = !config.reference.empty();
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
-    if (reference && !study.config.direct_lit) loaded.gbuffer.lit = {};
-    ShotTruth lit_alone =
-        truth_of_lit(shot, loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
-    const std::unique_ptr<FrameSource> source = file_source(study.device, std::move(loaded.gbuffer));
+    const bool reads_own_lit = contents.has_lit && (!is_measured || study.config.direct_lit);
+    const std::unique_ptr<FrameSource> source = capture_source(study.device, capture, shot, reads_own_lit);
     ShotRun run{
         .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
-    run.truth = std::move(lit_alone);
-    if (reference) {
+    if (is_measured)
         run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, ReferenceUse use) {
-            note_reference(study, run, *reference, frame, use);
-            return *reference;
+            Reference reference =
+                read_capture_reference(shot, capture, frame, use.is_of_last && needs_ladder(study.config));
+            note_reference(study, run, reference, frame, use);
+            return reference;
         });
-    }
+    else
+        run.truth = truth_of_lit(shot, [&](unsigned frame) {
+            return contents.has_lit ? channels_of(capture.load(frame).gbuffer.lit, 0, 3) : HostImage();
+        });
     enter_truth_images(study, run);
-    enter_shot(study, run, loaded.notes);
+    enter_shot(study, run, contents.notes);
     run_cells(study, run);
     enter_non_finite(study, run);
 }
