@@ -150,7 +150,8 @@ def prepare_scene(scene, size):
     render.film_transparent = False
     scene.camera.data.dof.use_dof = False
     cycles.use_denoising = cycles.use_adaptive_sampling = False
-    cycles.pixel_filter_type, cycles.filter_width = "BOX", 0.01  # pixels: samples lie within 0.005 of the centre
+    # Pixels; the first sample lies in the middle, whatever the filter. A box filter would be one pixel wide.
+    cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     settings = render.image_settings
     settings.file_format, settings.color_depth, settings.exr_codec = "OPEN_EXR_MULTILAYER", "32", "ZIPS"

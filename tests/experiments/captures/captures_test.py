@@ -1,4 +1,4 @@
-"""Writing captures, and turning Blender's passes into layers: without Blender, read by ssrlab.
+"""Writing captures, and turning Blender's passes and engines' textures into layers: without Blender and RenderDoc.
 
 usage: captures_test.py SSRLAB
 """
@@ -16,6 +16,7 @@ sys.path[:0] = [str(EXPERIMENTS / "captures"), str(EXPERIMENTS / "figures")]
 from blender_passes import PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
 from capture_files import CaptureError, write_environment, write_exr, write_frame  # noqa: E402
 from paper_figures.exr import read_exr_planes  # noqa: E402
+from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
 
 SSRLAB = sys.argv.pop(1)
 SIZE = (48, 27)  # pixels
@@ -132,6 +133,54 @@ class CapturesTest(unittest.TestCase):
         np.testing.assert_array_equal(-PANORAMA_CAMERA[:3, 2], (1, 0, 0))
         np.testing.assert_array_equal(PANORAMA_CAMERA[:3, 0], (0, -1, 0))
         np.testing.assert_array_equal(PANORAMA_CAMERA[:3, 1], (0, 0, 1))
+
+    def test_texels_are_read_as_their_format_says(self):
+        def first(data, *texture_format):
+            return list(decoded(data, (1, 1), texture_format)[0, 0])
+
+        self.assertEqual(first(np.array([1, 2], "<f2").tobytes(), "regular", "float", 2, 2), [1, 2])
+        self.assertEqual(first(bytes([0, 255, 51, 255]), "bgra", "unorm", 1, 4), [0.2, 1, 0, 1])
+        self.assertEqual(first(bytes([0x81, 127]), "regular", "snorm", 1, 2), [-1, 1])
+        self.assertEqual(first(b"\xff\xff", "regular", "depth", 2, 1), [1])
+        self.assertAlmostEqual(first(bytes([188, 0, 0, 128]), "regular", "srgb", 1, 4)[0], 0.5029, 4)  # IEC 61966-2-1
+        self.assertEqual(first(bytes([188, 0, 0, 51]), "regular", "srgb", 1, 4)[3], 0.2)
+        self.assertEqual(first(((3 << 30) | (1023 << 10)).to_bytes(4, "little"), "r10g10b10a2", "", 0, 0), [0, 1, 0, 1])
+        # 1.5 is exponent 15 and half of the mantissa; 2^-15 is half of the smallest normal number.
+        packed = (15 << 6 | 32) | (32 << 11) | ((16 << 5) << 22)
+        self.assertEqual(first(packed.to_bytes(4, "little"), "r11g11b10", "", 0, 0), [1.5, 2.0**-15, 2])
+        self.assertEqual(first(b"\xff\xff\xff\x07", "d24s8", "", 0, 0), [1])
+        self.assertEqual(first(np.array([0.25, 9], "<f4").tobytes(), "d32s8", "", 0, 0), [0.25])
+        with self.assertRaisesRegex(CaptureError, "layout 'BC7' are not read"):
+            first(b"", "BC7", "", 0, 0)
+
+    def test_a_mapping_decodes_layers_and_matrices(self):
+        _, _, camera = blender_camera(0.0, 0)
+
+        def layer(name, texel, **entry):
+            return layer_of(name, np.array(texel, float).reshape(1, 1, -1), entry, camera)[0, 0]
+
+        for direction in ((0.6, 0, 0.8), (-0.36, 0.48, -0.8), (0, -1, 0)):
+            n = np.array(direction)
+            p = n / np.abs(n).sum()  # the octahedron; its lower half is folded outwards
+            flat = p[:2] if p[2] >= 0 else (1 - np.abs(p[1::-1])) * np.where(p[:2] >= 0, 1, -1)
+            np.testing.assert_allclose(layer("normal", (flat + 1) / 2, decode=["snorm", "octahedral"]), n, atol=1e-12)
+        # The view looks 30 degrees down: its axis that points up leans forward.
+        up = layer("normal", (0, 1, 0), decode=["view_to_world"])
+        np.testing.assert_allclose(up, (0, np.cos(np.radians(30)), -0.5), atol=1e-12)
+        self.assertAlmostEqual(layer("roughness", (0, 0, 0, 0.75), channels="A", decode=["one_minus", "square_root"])[0], 0.5)
+        np.testing.assert_allclose(layer("motion", (4.8, 2.7), decode=["pixels_to_uv", "y_up", "negate"]), (-0.1, 0.1))
+        np.testing.assert_allclose(layer("normal", (1, 2, 3), decode=["z_up"]), (1, 3, -2))
+        with self.assertRaisesRegex(CaptureError, "layer 'roughness': the texture has no channel A, only RG"):
+            layer("roughness", (1, 1), channels="A")
+        with self.assertRaisesRegex(CaptureError, "no decoder 'sgrb'"):
+            layer("base_color", (1, 1, 1), decode=["sgrb"])
+
+        matrix, projection, ours = blender_camera(0.3, 0)
+        clip = camera_value("clip_from_view", projection.T, {"decode": ["transpose", "opengl_clip"]})
+        np.testing.assert_allclose(clip, ours["clip_from_view"])
+        view = camera_value("view_from_world", matrix, {"decode": ["inverse", "z_up"]})
+        np.testing.assert_allclose(view, ours["view_from_world"], atol=1e-12)
+        self.assertEqual(camera_value("far", np.array([[0.1, 50, 1, 0]]), {"component": 1}), 50)
 
 
 if __name__ == "__main__":
