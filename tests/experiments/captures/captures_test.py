@@ -23,12 +23,13 @@ SIZE = (48, 27)  # pixels
 NEAR, FAR = 0.5, 40.0  # m
 
 
-def blender_camera(x, frame):
-    """At (x, -6, 2) of Blender's world, looking along +y, 30 degrees down."""
+def blender_camera(x, frame, height=2.0, yaw=0.0):
+    """At (x, -6, height) of Blender's world, looking along +y, 30 degrees down, turned by `yaw` (radians) to the left."""
     angle = np.radians(60)
     rotation = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = rotation, (x, -6, 2)
+    turn = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1]])
+    matrix[:3, :3], matrix[:3, 3] = turn @ rotation, (x, -6, height)
     f = 2.0  # cot of half the horizontal field of view
     projection = np.array([[f, 0, 0, 0], [0, f * SIZE[0] / SIZE[1], 0, 0],
                            [0, 0, -(FAR + NEAR) / (FAR - NEAR), -2 * FAR * NEAR / (FAR - NEAR)], [0, 0, -1, 0]])  # fmt: skip
@@ -41,7 +42,7 @@ def in_pixels(points, matrix, projection):
     return (clip[..., :2] / clip[..., 3:] * 0.5 + 0.5) * SIZE
 
 
-def passes_of_ground(x, x_before):
+def passes_of_ground(x, x_before, height_before=2.0):
     """What Blender renders of the ground, z = 0, up to 6 m away, and of the sky behind it."""
     matrix, projection, camera = blender_camera(x, 1)
     column, row = np.meshgrid(np.arange(SIZE[0]) + 0.5, np.arange(SIZE[1]) + 0.5)
@@ -53,7 +54,7 @@ def passes_of_ground(x, x_before):
         distance = -eye[2] / direction[..., 2:]  # along -z of the view, whose part is 1
     hit = (distance > 0) & (distance < 6)
     position = np.where(hit, eye + distance * direction, 0)
-    before = blender_camera(x_before, 0)
+    before = blender_camera(x_before, 0, height_before)
     motion = in_pixels(position, *before[:2]) - in_pixels(position, matrix, projection)
     full = np.ones(hit.shape)
     passes = {
@@ -96,6 +97,18 @@ class CapturesTest(unittest.TestCase):
         np.testing.assert_allclose(layers["motion"][hit][:, 0], -0.2 / distance[hit], atol=1e-9)
         np.testing.assert_allclose(layers["motion"][hit][:, 1], 0, atol=1e-9)
         np.testing.assert_allclose(layers["motion"][~hit], 0, atol=1e-9)
+        # From below, the ground moves down: the image is y down.
+        passes, hit, _, camera, before = passes_of_ground(0.0, 0.0, 1.8)
+        self.assertGreater(layers_of(passes, camera, before)["motion"][hit][:, 1].min(), 0)
+        # Of a sky, what is in the middle now was before where a camera that is turned by `yaw` saw it.
+        yaw, view_axis = 0.1, camera["view_from_world"][2, :3]
+        matrix, projection, turned = blender_camera(0.0, 0, yaw=yaw)
+        far_away = matrix[:3, 3] + 1e9 * np.array([-view_axis[0], view_axis[2], -view_axis[1]])
+        pixels = in_pixels(far_away, matrix, projection) * (1, -1) + (0, SIZE[1])
+        passes["Depth"][:] = 1e10
+        middle = layers_of(passes, camera, turned)["motion"][SIZE[1] // 2, SIZE[0] // 2 - 1 : SIZE[0] // 2 + 1].mean(axis=0)
+        np.testing.assert_allclose(middle, 0.5 - pixels / SIZE, atol=1e-3)  # half a pixel's difference of perspective
+        self.assertGreater(np.abs(middle).max(), 0.05)
         self.assertEqual(set(np.unique(layers["specular"])), {0.0, 0.5})
         self.assertEqual(layers["base_color"].max(), 1.0)
         lit = {"DiffDir": np.full((27, 48, 3), 2.0), "DiffInd": np.full((27, 48, 3), 1.0),
@@ -145,9 +158,9 @@ class CapturesTest(unittest.TestCase):
         self.assertAlmostEqual(first(bytes([188, 0, 0, 128]), "regular", "srgb", 1, 4)[0], 0.5029, 4)  # IEC 61966-2-1
         self.assertEqual(first(bytes([188, 0, 0, 51]), "regular", "srgb", 1, 4)[3], 0.2)
         self.assertEqual(first(((3 << 30) | (1023 << 10)).to_bytes(4, "little"), "r10g10b10a2", "", 0, 0), [0, 1, 0, 1])
-        # 1.5 is exponent 15 and half of the mantissa; 2^-15 is half of the smallest normal number.
-        packed = (15 << 6 | 32) | (32 << 11) | ((16 << 5) << 22)
-        self.assertEqual(first(packed.to_bytes(4, "little"), "r11g11b10", "", 0, 0), [1.5, 2.0**-15, 2])
+        # 3 is exponent 16 and half of the mantissa; 2^-15 is half of the smallest normal number.
+        packed = 32 | (16 << 6 | 32) << 11 | (16 << 5) << 22
+        self.assertEqual(first(packed.to_bytes(4, "little"), "r11g11b10", "", 0, 0), [2.0**-15, 3, 2])
         self.assertEqual(first(b"\xff\xff\xff\x07", "d24s8", "", 0, 0), [1])
         self.assertEqual(first(np.array([0.25, 9], "<f4").tobytes(), "d32s8", "", 0, 0), [0.25])
         with self.assertRaisesRegex(CaptureError, "layout 'BC7' are not read"):
