@@ -279,6 +279,11 @@ int parse_and_run(int argc, char** argv) {
     CLI::App& gbuffer_command_ =
         *app.add_subcommand("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
     add_shot(gbuffer_command_, gbuffer.shot);
+    gbuffer_command_
+        .add_option("--frames", gbuffer.frames, "First and last, both included: a capture of frames in a row")
+        ->expected(2)
+        ->type_name("A B")
+        ->excludes("--frame");
     gbuffer_command_.add_option("--out", gbuffer.out, "Folder; default: <scene>_gbuffer")->type_name("DIR");
     gbuffer_command_.add_option("--depth-format", gbuffer.depth_format)
         ->check(CLI::IsMember({"d32f", "d24", "d16"}))
@@ -286,6 +291,16 @@ int parse_and_run(int argc, char** argv) {
     gbuffer_command_.add_flag("--reversed-depth", gbuffer.is_reversed, "1 at the near plane, 0 at the far plane");
     add_device(gbuffer_command_, common), add_scene_path(gbuffer_command_, common);
     gbuffer_command_.callback([&] { gbuffer_command(gbuffer, common); });
+
+    CaptureCommandOptions capture;
+    CLI::App& capture_command_ =
+        *app.add_subcommand("capture", "Say what a capture of an engine's G-buffer holds, and what is wrong with it");
+    capture_command_
+        .add_option("folder", capture.folder,
+                    "With gbuffer.exr and camera.json, or with folders frame_<number> of them")
+        ->required()
+        ->type_name("DIR");
+    capture_command_.callback([&] { capture_command(capture); });
 
     NeedsOptions needs;
     CLI::App& needs_command_ = *app.add_subcommand(

@@ -11,6 +11,8 @@ build_packages=(
 )
 # What only the tests need: the validation layer, and a browser for the report.
 test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium)
+# What only tests/exporters.sh needs: Blender; RenderDoc, its Python module, and the header of its in-application API.
+exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)
 # What only the website of the documents needs.
 docs_packages=(python3-sphinx python3-myst-parser furo)
 

@@ -90,11 +90,17 @@ void reference_command(const ReferenceCommandOptions& options, const CommonOptio
 
 struct GBufferCommandOptions {
     ShotOptions shot;
+    std::vector<unsigned> frames;  ///< first and last, each into a folder of its own; empty: shot.frame alone
     std::filesystem::path out;
     std::string depth_format = "d32f";
     bool is_reversed = false;
 };
 void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common);
+
+struct CaptureCommandOptions {
+    std::filesystem::path folder;
+};
+void capture_command(const CaptureCommandOptions& options);
 
 struct NeedsOptions {
     ShotOptions shot;

@@ -5,7 +5,6 @@
 #include "experiments/measuring/rung_errors.h"
 #include "experiments/results/result_images.h"
 #include "experiments/results/shot_facts.h"
-#include "experiments/study/capture.h"
 #include "groundtruth/reference_cache.h"
 
 #include <cstdio>
@@ -118,7 +117,7 @@ void open_scene(Opening& opening, const ShotConfig& config) {
     run.source = scene_source(opening.device, run.shot, opening.config, opening.settings.keep_all);
     run.store = std::make_unique<FrameStore>(*run.source, opening.config.depth_format, max_stored_bytes);
     if (!opening.config.has_reference)
-        run.truth = truth_of_lit(run.shot, {});
+        run.truth = truth_of_lit(run.shot, [](unsigned) { return HostImage(); });
     else
         run.truth = shot_truth(run.shot, opening.config, *run.store, run.source->graph(),
                                [&](unsigned frame, ReferenceUse use) {
@@ -132,28 +131,32 @@ void open_scene(Opening& opening, const ShotConfig& config) {
 /// A capture: measured if it comes with a reference, else only rendered and timed.
 void open_capture(Opening& opening, const ShotConfig& config) {
     ShotRun& run = opening.run;
-    LoadedGBuffer loaded = load_gbuffer(config.gbuffer);
-    run.shot = gbuffer_shot(config, loaded.gbuffer);
+    run.capture = std::make_unique<Capture>(config.gbuffer);
+    run.shot = capture_shot(config, *run.capture);
     opening.settings.say(run.shot.scene.name + ", from files");
-    for (const std::string& note : loaded.notes) {
+    const CaptureContents contents = inspect_capture(run.shot, *run.capture);
+    run.shot.facts = contents.facts;
+    for (const std::string& note : contents.notes) {
         opening.settings.say("note: " + note);
         run.entry["warnings"].push_back(note);
     }
-    std::optional<Reference> reference;
-    if (!config.reference.empty())
-        reference = read_capture_reference(config.reference, loaded.gbuffer, needs_ladder(opening.config));
+    const bool is_measured = !config.reference.empty();
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
-    if (reference && !opening.config.direct_lit) loaded.gbuffer.lit = {};
-    run.truth = truth_of_lit(
-        run.shot, loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
-    run.source = file_source(opening.device, std::move(loaded.gbuffer));
+    const bool reads_own_lit = contents.has_lit && (!is_measured || opening.config.direct_lit);
+    run.source = capture_source(opening.device, *run.capture, run.shot, reads_own_lit);
     run.store = std::make_unique<FrameStore>(*run.source, opening.config.depth_format, max_stored_bytes);
-    if (reference)
+    if (is_measured)
         run.truth = shot_truth(run.shot, opening.config, *run.store, run.source->graph(),
                                [&](unsigned frame, ReferenceUse use) {
-                                   note_reference(opening, *reference, frame, use);
-                                   return *reference;
+                                   Reference reference = read_capture_reference(
+                                       run.shot, *run.capture, frame, use.is_of_last && needs_ladder(opening.config));
+                                   note_reference(opening, reference, frame, use);
+                                   return reference;
                                });
+    else
+        run.truth = truth_of_lit(run.shot, [&](unsigned frame) {
+            return contents.has_lit ? channels_of(run.capture->load(frame).gbuffer.lit, 0, 3) : HostImage();
+        });
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ bool needs_reference(const Shot& shot, const Config& config, const FrameStep& st
 
 /// Equal for poses that look alike.
 std::string look_of(const Shot& shot, unsigned frame, const ReferenceSettings& settings) {
-    if (is_capture(shot)) return "";
+    if (is_capture(shot)) return capture_reference_file(shot.config, frame).string();
     const ShotFrame now = shot_frame(shot, frame);
     return reference_stream(shot.scene, now.scene, now.camera, shot.config.extent, settings);
 }
@@ -93,19 +93,20 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     return truth;
 }
 
-ShotTruth truth_of_lit(const Shot& shot, HostImage lit) {
+ShotTruth truth_of_lit(const Shot& shot, const std::function<HostImage(unsigned frame)>& lit) {
     ShotTruth truth;
-    PoseTruth pose{.diffuse = lit,
-                   .lit_halves = {},
-                   .direct = std::move(lit),
-                   .targets = {},
-                   .rungs = {},
-                   .view_depth = {},
-                   .normal = {},
-                   .material_id = {},
-                   .flip_exposures = {},
-                   .content_hash = "none"};
-    const auto shared = std::make_shared<PoseTruth>(std::move(pose));
-    for (const FrameStep& step : shot.steps) truth.poses[step.frame] = shared;
+    for (const unsigned frame : shot.config.frames) {
+        const HostImage of_frame = lit(frame);
+        truth.poses[frame] = std::make_shared<PoseTruth>(PoseTruth{.diffuse = of_frame,
+                                                                   .lit_halves = {},
+                                                                   .direct = of_frame,
+                                                                   .targets = {},
+                                                                   .rungs = {},
+                                                                   .view_depth = {},
+                                                                   .normal = {},
+                                                                   .material_id = {},
+                                                                   .flip_exposures = {},
+                                                                   .content_hash = "none"});
+    }
     return truth;
 }

@@ -104,8 +104,11 @@ private:
 };
 
 Shot load(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
-    return config.gbuffer.empty() ? load_shot(config, search_path)
-                                  : gbuffer_shot(config, load_gbuffer(config.gbuffer).gbuffer);
+    if (config.gbuffer.empty()) return load_shot(config, search_path);
+    Capture capture(config.gbuffer);
+    Shot shot = capture_shot(config, capture);
+    shot.facts = inspect_capture(shot, capture).facts;
+    return shot;
 }
 
 /// What a shot shows and how it is played: all that its cells depend on, but for what is rendered.
@@ -116,12 +119,12 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
     hash.add(shot.scene.content_hash), hash.add(shot.name()), hash.add(shot.camera.exposure_ev);
     for (const unsigned frame : shot.config.frames) {
         hash.add(frame);
+        if (!shot.config.reference.empty()) hash.add(read_text(capture_reference_file(shot.config, frame)));
         if (!shot.config.gbuffer.empty()) continue;
         const ShotFrame now = shot_frame(shot, frame);
         settings.ladder = frame == shot.config.frames.back() && needs_ladder(config);
         hash.add(reference_key(reference_request(shot.scene, now.scene, now.camera, shot.config.extent, settings), settings));
     }
-    if (!shot.config.reference.empty()) hash.add(read_text(shot.config.reference));
     for (const unsigned number : {shot.config.warm_up, shot.config.repeat, shot.config.change.value_or(0),
                                   unsigned(shot.config.measures_last_only), shot.config.measure_from,
                                   unsigned(config.has_reference)})
@@ -157,7 +160,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
                  "another resolution");
         const std::string request = request_of(shot, config, keep_all);
         PlannedShot& planned = plan.shots.emplace_back();
-        planned.config = of_shot, planned.name = shot.name();
+        planned.config = shot.config, planned.name = shot.name();
         planned.entry = shot_entry(shot, config, keep_all);
         const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
             return planned.cells.emplace_back(PlannedCell{.kind = kind,

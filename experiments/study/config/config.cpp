@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "experiments/study/capture.h"
 #include "experiments/study/config/comparisons.h"
 #include "experiments/study/config/config_parts.h"
 #include "experiments/study/config/primary_comparisons.h"
@@ -99,17 +100,9 @@ glm::uvec2 read_extent(JsonObject& shot) {
     return {width, height};
 }
 
-/// A G-buffer from files; its paths are relative to the config's folder.
-ShotConfig read_gbuffer_shot(JsonObject& shot, const std::filesystem::path& folder) {
-    ShotConfig config{.gbuffer = folder / shot.text("gbuffer")};
-    if (shot.has("reference")) config.reference = folder / shot.text("reference");
-    shot.finish();
-    return config;
-}
-
-/// A count, an array, or {"from", "to"}, both included.
-std::vector<unsigned> read_frames(JsonObject& shot) {
-    if (!shot.has("frames") || !shot.any("frames").is_object()) return numbers(shot, "frames", max_frames, {0});
+/// A count, an array, or {"from", "to"}, both included; `all` where the shot names none.
+std::vector<unsigned> read_frames(JsonObject& shot, const std::vector<unsigned>& all) {
+    if (!shot.has("frames") || !shot.any("frames").is_object()) return numbers(shot, "frames", max_frames, all);
     JsonObject range = shot.object("frames");
     const int from = range.integer("from", 0, int(max_frames)), to = range.integer("to", from, int(max_frames));
     range.finish();
@@ -118,9 +111,9 @@ std::vector<unsigned> read_frames(JsonObject& shot) {
     return frames;
 }
 
-/// How a shot is played.
+/// How a shot is played; config.frames holds all that it has.
 void read_timeline(JsonObject& shot, ShotConfig& config) {
-    config.frames = read_frames(shot);
+    config.frames = read_frames(shot, config.frames);
     config.measure_from = unsigned(shot.integer("measure_from", int(config.frames.front()), int(config.frames.back()),
                                                 int(config.frames.front())));
     config.warm_up = unsigned(shot.integer("warm_up", 0, int(max_frames), 0));
@@ -140,9 +133,19 @@ void read_timeline(JsonObject& shot, ShotConfig& config) {
              least_ghost_frames, " must show how it fades: add 'frames', or a 'repeat' of the last");
 }
 
+/// G-buffers from files; their paths are relative to the config's folder.
+ShotConfig read_capture(JsonObject& shot, const std::filesystem::path& folder) {
+    ShotConfig config{.gbuffer = folder / shot.text("gbuffer")};
+    if (shot.has("reference")) config.reference = folder / shot.text("reference");
+    config.frames = Capture(config.gbuffer).frames();
+    read_timeline(shot, config);
+    shot.finish();
+    return config;
+}
+
 /// scene x camera; frames stay together, since a history runs through them.
 void read_shot(JsonObject shot, const std::filesystem::path& folder, std::vector<ShotConfig>& shots) {
-    if (shot.has("gbuffer")) return shots.push_back(read_gbuffer_shot(shot, folder));
+    if (shot.has("gbuffer")) return shots.push_back(read_capture(shot, folder));
     const std::vector<std::string> scenes = one_or_more(shot, "scene", ""), cameras = one_or_more(shot, "camera", "");
     if (!shot.has("scene")) shot.text("scene");  // says that it is missing
     ShotConfig config;

@@ -53,17 +53,19 @@ json variant_schema(const VariantEntry& entry) {
 
 json table_schema() {
     const json text = {{"type", "string"}}, any_object = {{"type", "object"}};
-    return object({{"name", text},
-                   {"caption", text},
-                   {"of", {{"enum", {"effects", "results", "splits", "times", "time_effects", "hits", "limits", "agreement", "eye"}}}},
-                   {"where", any_object},
-                   {"rows", one_or_more(text)},
-                   {"columns", one_or_more(text)},
-                   {"over", text},
-                   {"sort", text},
-                   {"best", {{"enum", {"column", "row"}}}},
-                   {"labels", any_object}},
-                  {"name", "caption", "of", "rows", "columns"});
+    return object(
+        {{"name", text},
+         {"caption", text},
+         {"of",
+          {{"enum", {"effects", "results", "splits", "times", "time_effects", "hits", "limits", "agreement", "eye"}}}},
+         {"where", any_object},
+         {"rows", one_or_more(text)},
+         {"columns", one_or_more(text)},
+         {"over", text},
+         {"sort", text},
+         {"best", {{"enum", {"column", "row"}}}},
+         {"labels", any_object}},
+        {"name", "caption", "of", "rows", "columns"});
 }
 
 json search_schema() {
@@ -93,18 +95,19 @@ nlohmann::json config_schema(const std::string& variant) {
     const json text = {{"type", "string"}};
     json frames = counts(100000);
     frames["anyOf"].push_back(object({{"from", integer(0, 100000)}, {"to", integer(0, 100000)}}, {"from", "to"}));
-    const json shot =
-        object({{"scene", one_or_more(text)},
-                {"camera", one_or_more(text)},
-                {"resolution", {{"type", "array"}, {"items", integer(1, 16384)}, {"minItems", 2}, {"maxItems", 2}}},
-                {"frames", frames},
-                {"measure_from", integer(0, 100000)},
-                {"warm_up", integer(0, 100000)},
-                {"repeat", integer(1, 100000)},
-                {"change", integer(1, 100000)},
-                {"measure", {{"enum", {"all", "last"}}}}},
-               {"scene"});
-    const json capture = object({{"gbuffer", text}, {"reference", text}}, {"gbuffer"});
+    const json timeline = {{"frames", frames},
+                           {"measure_from", integer(0, 100000)},
+                           {"warm_up", integer(0, 100000)},
+                           {"repeat", integer(1, 100000)},
+                           {"change", integer(1, 100000)},
+                           {"measure", {{"enum", {"all", "last"}}}}};
+    json of_scene = {{"scene", one_or_more(text)},
+                     {"camera", one_or_more(text)},
+                     {"resolution",
+                      {{"type", "array"}, {"items", integer(1, 16384)}, {"minItems", 2}, {"maxItems", 2}}}},
+         of_capture = {{"gbuffer", text}, {"reference", text}};
+    of_scene.update(timeline), of_capture.update(timeline);
+    const json shot = object(of_scene, {"scene"}), capture = object(of_capture, {"gbuffer"});
     json samples = integer(16, 1 << 24);
     samples["description"] = "per pixel, at most; without it " + std::to_string(ReferenceSettings::default_samples) +
                              ", or no limit if seconds or target_relative_error is set";

@@ -1,5 +1,4 @@
 #pragma once
-#include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
@@ -39,9 +38,6 @@ struct Shot {
 
 /// Fails with Error if the scene or the camera is unknown (with a near miss) or broken.
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path);
-
-/// A shot of a G-buffer from files: no scene, one frame; its facts are those of the images.
-Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer);
 
 /// Scene and camera at one frame of a shot.
 struct ShotFrame {

@@ -183,30 +183,39 @@ TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
 }
 
 TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
-    // The G-buffer and the reference of a scene, saved and loaded back in its place, must give the same numbers.
+    // G-buffers and references of frames in a row, saved and loaded back in the scene's place, must give the same
+    // numbers: of a technique without and of one with a history, while the camera moves and while it rests.
     const std::string common =
         "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() + "' '" SSRLAB_PROGRAM "' ";
-    ASSERT_EQ(std::system((common + "gbuffer mirror_pillars --size 96 54 --out capture > log 2>&1").c_str()), 0)
-        << read_text(folder / "log");
-    ASSERT_EQ(
-        std::system((common + "reference mirror_pillars --size 96 54 --samples 64 --out truth.exr > log 2>&1").c_str()),
-        0)
-        << read_text(folder / "log");
-    write_text(
-        folder / "capture.json",
-        R"({"shots": [{"gbuffer": "capture", "reference": "truth.exr"}], "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
-    write_text(
-        folder / "scene.json",
-        R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54]}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "lit": "direct"})");
-    const auto capture = read_rows<ResultRow>(run(read_config(folder / "capture.json"), "a") / "results.csv"),
-               scene = read_rows<ResultRow>(run(read_config(folder / "scene.json"), "b") / "results.csv");
+    const auto ssrlab = [&](const std::string& arguments) {
+        ASSERT_EQ(std::system((common + arguments + " > log 2>&1").c_str()), 0) << read_text(folder / "log");
+    };
+    ssrlab("gbuffer disocclusion --camera lateral --size 96 54 --frames 3 5 --out capture");
+    for (const std::string frame : {"3", "4", "5"})
+        ssrlab("reference disocclusion --camera lateral --size 96 54 --samples 16 --frame " + frame + " --out truth_0" +
+               frame + ".exr");
+    const auto study = [&](const std::string& name, const std::string& shot) {
+        write_text(folder / (name + ".json"),
+                   R"({"shots": [{)" + shot + R"(, "warm_up": 2, "repeat": 2}], "reference": {"samples": 16},
+            "variants": [{"variant": "mcguire_dda"}, {"variant": "amd_sssr", "preset": "corrected"}],
+            "seeds": 1, "timing": {"frames": 0}, "lit": "direct"})");
+        return read_config(folder / (name + ".json"));
+    };
+    const Config of_capture = study("capture", R"("gbuffer": "capture", "reference": "truth_##.exr")"),
+                 of_scene = study(
+                     "scene",
+                     R"("scene": "disocclusion", "camera": "lateral", "resolution": [96, 54], "frames": [3, 4, 5])");
+    const auto capture = read_rows<ResultRow>(run(of_capture, "a") / "results.csv"),
+               scene = read_rows<ResultRow>(run(of_scene, "b") / "results.csv");
     ASSERT_EQ(capture.size(), scene.size());
+    ASSERT_GT(std::ranges::count(scene, "4", &ResultRow::frame), 0);
     for (size_t i = 0; i < scene.size(); ++i)
         EXPECT_EQ(capture[i].value, scene[i].value)
-            << scene[i].target << " " << scene[i].metric << " " << scene[i].mask;
+            << scene[i].variant << " " << scene[i].frame << " " << scene[i].target << " " << scene[i].metric << " "
+            << scene[i].mask;
 
     // Without a truth it is rendered all the same.
-    Config alone = read_config(folder / "capture.json");
+    Config alone = of_capture;
     alone.shots.front().reference.clear();
     EXPECT_TRUE(read_rows<ResultRow>(run(alone, "alone") / "results.csv").empty());
     EXPECT_FALSE(read_json(folder / "alone/manifest.json")["images"].empty());
@@ -214,7 +223,7 @@ TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
     // The truth of another scene may have the same size.
     ASSERT_EQ(std::system((common + "reference fence --size 96 54 --samples 16 --out other.exr > log 2>&1").c_str()),
               0);
-    Config mismatched = read_config(folder / "capture.json");
+    Config mismatched = of_capture;
     mismatched.shots.front().reference = folder / "other.exr";
     EXPECT_THROW(run(mismatched, "c"), Error);
 }
