@@ -189,6 +189,7 @@ void run_gbuffer_shot(StudyRun& study, const ShotConfig& config) {
         });
     enter_truth_images(study, run);
     enter_shot(study, run, contents.notes);
+    if (reads_own_lit) study.manifest["shots"].back()["lit"] = "file";
     run_cells(study, run);
     enter_non_finite(study, run);
 }
