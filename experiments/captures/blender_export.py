@@ -13,6 +13,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "figures")]
@@ -224,7 +225,7 @@ def panorama(scene, height, place):
     data.type = "PANO"
     (data if hasattr(data, "panorama_type") else data.cycles).panorama_type = "EQUIRECTANGULAR"
     camera = bpy.data.objects.new("ssrlab_sky", data)
-    camera.matrix_world = PANORAMA_CAMERA.tolist()
+    camera.matrix_world = Matrix(PANORAMA_CAMERA.tolist())  # a bare list would be its columns
     other.collection.objects.link(camera)
     other.camera = camera
     prepare_scene(other, (2 * height, height))

@@ -96,7 +96,7 @@ void enter_shot(Opening& opening) {
         if (needs_ladder(opening.config))
             run.entry["truth_ladder"] = rung_entries(run.truth.pose(last), run.truth.frame(last)->masks);
     } else {
-        run.entry["lit"] = opening.config.has_reference ? "file" : "direct";
+        if (!run.entry.contains("lit")) run.entry["lit"] = opening.config.has_reference ? "file" : "direct";
         run.entry["warnings"].push_back(
             opening.config.has_reference
                 ? "This G-buffer came without a reference: its results are rendered and timed, not measured."
@@ -143,6 +143,7 @@ void open_capture(Opening& opening, const ShotConfig& config) {
     const bool is_measured = !config.reference.empty();
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
     const bool reads_own_lit = contents.has_lit && (!is_measured || opening.config.direct_lit);
+    if (reads_own_lit) run.entry["lit"] = "file";
     run.source = capture_source(opening.device, *run.capture, run.shot, reads_own_lit);
     run.store = std::make_unique<FrameStore>(*run.source, opening.config.depth_format, max_stored_bytes);
     if (is_measured)
