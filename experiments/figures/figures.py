@@ -12,6 +12,7 @@ and writes the same bytes whenever they are the same. Needs Debian's python3-mat
 import argparse
 import os
 import sys
+from dataclasses import replace
 
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into its files
 
@@ -72,14 +73,12 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def unasked_requests(results, texts, width):
-    """All that a study has results for; what of it has none is drawn as nothing."""
-    of_shots = [
-        request.Request(kind, f"{kind}_{shot}", **texts, shots=[shot], width=width)
-        for shot in results.shots()
-        for kind in UNASKED_OF_SHOTS
-    ]
-    return of_shots + [request.Request(kind, kind, **texts, width=width) for kind in UNASKED]
+def for_each_shot(results, requests):
+    """Of UNASKED_OF_SHOTS one for each shot; the others as they are."""
+    single = [r for r in requests if r.kind in UNASKED_OF_SHOTS]
+    shots = (single[0].shots if single else None) or results.shots()
+    of_shots = [replace(r, name=f"{r.kind}_{shot}", shots=[shot]) for shot in shots for r in single]
+    return of_shots + [r for r in requests if r.kind not in UNASKED_OF_SHOTS]
 
 
 def drawn(results, chosen):
@@ -131,11 +130,11 @@ def main():
             "mask": texts["mask"] or "reflective",
         }
         look = request.read_look(file, content)
-        requests = request.read_requests(file, content, results, texts) if file else []
+        requests = request.read_requests(file, content, results, texts, (*UNASKED_OF_SHOTS, *UNASKED))
         collected = read_crops(file, content, results)
         results.colors = request.read_colors(file, content, results)
         if "figures" not in content:
-            requests = unasked_requests(results, texts, None)
+            requests = for_each_shot(results, requests)
         for chosen in requests:
             chosen.crops = collected
         if results.errors:

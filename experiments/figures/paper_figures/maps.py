@@ -81,5 +81,5 @@ def draw(results, chosen):
     what = "time of a frame" if show == "time" else f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels"
     bar.set_label("over the least")
     style.log_axis(bar.ax.yaxis)
-    style.note(figure, f"{family}: {what}, as a multiple of the panel's least; framed: not to be told from it (95 % intervals)")
+    style.note(figure, f"{family}: {what}, as a multiple of the panel's least; framed: not told from it (95 % intervals)")
     return figure

@@ -4,7 +4,7 @@ keys). What the report's viewer writes has crops alone: then all figures of the 
 import json
 import math
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
 from paper_figures import style
@@ -201,14 +201,16 @@ def _request(where, entry, defaults, results):
     )
 
 
-def read_requests(file, content, results, defaults):
-    """The figures of a file, checked; an empty list where it names none. `defaults`: target, metric and mask, where a
-    figure does not name its own."""
+def read_requests(file, content, results, defaults, unasked=()):
+    """The figures of a file, checked; where it names none a Request of each of the kinds `unasked` with what the file says of
+    all figures. `defaults`: target, metric and mask, where a figure does not name its own."""
     refuse_unknown(file, content, SHARED)
     shared = {k: v for k, v in content.items() if k in EVERY} | defaults
     _text_map(file, "labels", content.get("labels", {}))
+    if "figures" not in content:
+        return [replace(_request(file, {"kind": kind}, shared, results), where="") for kind in unasked]
     requests = []
-    for index, entry in enumerate(content.get("figures", [])):
+    for index, entry in enumerate(content["figures"]):
         where = f"{file}: figures[{index}]"
         if not isinstance(entry, dict):
             raise ResultsError(f"{where} must be an object, not {json.dumps(entry)}")

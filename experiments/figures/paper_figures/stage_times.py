@@ -5,10 +5,21 @@ from matplotlib.transforms import blended_transform_factory
 
 from paper_figures import numbers, style
 
-MOST_STAGES = 7  # of a technique, named and coloured; the shortest others are added up
+MOST_STAGES = 7  # of a technique, named and coloured; the shortest others are added up, unless there is but one
 REST = "others"
 REST_COLOR = "#bbbbbb"
-HATCHES = ("", "////", "", "....", "", "\\\\\\\\", "")  # every second: neighbours differ in grey print, too
+# Okabe and Ito's colours, dark and light in turn; what has about the same lightness differs by its hatch, so that neighbours and
+# the names above them are told apart in grey print, too.
+LOOKS = (
+    ("#0072b2", ""),
+    ("#e69f00", ""),
+    ("#009e73", "////"),
+    ("#56b4e9", "...."),
+    ("#d55e00", ""),
+    ("#cc79a7", "\\\\\\\\"),
+    ("#666666", "xxxx"),
+    ("#f0e442", ""),
+)
 ROW, LINE = 0.42, 0.34  # cm of a bar and of a line of names, at the size of a page's text
 
 
@@ -98,9 +109,8 @@ def _text(axes, transform, x, y, text, **options):
 def _look(stage, named):
     if stage not in named:
         return {"facecolor": REST_COLOR, "hatch": ""}
-    index = named.index(stage)
-    color = style.COLORS[index % len(style.COLORS)]
-    return {"facecolor": color, "hatch": HATCHES[index % len(HATCHES)]}
+    color, hatch = LOOKS[named.index(stage)]
+    return {"facecolor": color, "hatch": hatch}
 
 
 def _draw_key(axes, transform, x, y, stage, named, width, scale):

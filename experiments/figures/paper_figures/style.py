@@ -54,6 +54,7 @@ def apply(font="sans", width=None):
             "grid.color": "#dddddd",
             "grid.linewidth": 0.5 * scale,
             "axes.axisbelow": True,
+            "hatch.linewidth": 0.6 * scale,
             "lines.linewidth": 0.9 * scale,
             "lines.markersize": 4 * scale,
             "errorbar.capsize": 1.8 * scale,

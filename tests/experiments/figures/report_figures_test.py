@@ -26,7 +26,7 @@ try:
     from paper_figures import crops, effects, error_time, fetches, style
     from paper_figures.crop_choice import read_crops
     from paper_figures.exr import ExrError, read_exr_rgb
-    from paper_figures.request import Request, read_requests
+    from paper_figures.request import Request, read_colors, read_requests
     from paper_figures.results import Measured, Results, ResultsError, is_over_frames
     from report_crops import FIGURES_JSON, SHOT
 except ImportError as missing:
@@ -88,6 +88,9 @@ def test_chosen_figures(folder, temporary):
         check(fonts and fonts == files and b"STIXGeneral" in data and b"/Type3" not in data, f"{name}: {fonts} fonts, {files} embedded")
 
     results = Results(folder)
+    colors = read_colors("f.json", {"colors": {"mcguire*": "#102030", "nothing": "#ffffff"}, "labels": {"none": "nothing"}}, results)
+    expected = {("mcguire_dda", "stride=1"): "#102030", ("mcguire_dda", "stride=4"): "#102030", ("none", "default"): "#ffffff"}
+    check(colors == expected, f"colours {colors}")
 
     def mistake(change, part):
         content = copy.deepcopy(CHOICE)
