@@ -8,8 +8,10 @@ build_packages=(
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil
 )
-# What only the tests need: the validation layer, and a browser for the report.
-test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium)
+# What only the tests need: the validation layer, a browser for the report, and Snakemake for studies in parallel.
+test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake)
+# What only experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.
+cluster_packages=(snakemake slurmctld slurmd slurm-client munge)
 # What only the website of the documents needs.
 docs_packages=(python3-sphinx python3-myst-parser furo)
 
