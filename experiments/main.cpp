@@ -77,6 +77,8 @@ int parse_and_run(int argc, char** argv) {
                           "Give a results folder of another study to this one; cells that both share are kept");
     run_command_.add_flag("--prune", run.prunes,
                           "Remove cells and images that earlier versions of the study left in its folder");
+    run_command_.add_flag("--times-here", run.takes_times_here,
+                          "Take times on this machine in place of those that another took; else they are kept");
     run_command_
         .add_option("--cells", run.cells,
                     "Do these cells alone, of a study that several processes or machines share: references, renders, "

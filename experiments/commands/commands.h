@@ -22,7 +22,7 @@ struct ShotOptions {
 
 struct RunOptions {
     std::filesystem::path config, out;
-    bool keep_all = false, replaces = false, prunes = false;
+    bool keep_all = false, replaces = false, prunes = false, takes_times_here = false;
     std::vector<std::string> cells;  ///< as CellSelection takes them; empty: all
 };
 void run_study_command(const RunOptions& options, const CommonOptions& common);

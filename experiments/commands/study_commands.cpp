@@ -34,6 +34,7 @@ void run_study_command(const RunOptions& options, const CommonOptions& common) {
                .keep_all = options.keep_all,
                .replaces = options.replaces,
                .prunes = options.prunes,
+               .takes_times_here = options.takes_times_here,
                .cells = options.cells});
 }
 

@@ -88,7 +88,7 @@ class Change:
         if a and a.keys() == b.keys() and old.truths.get(key[0]) == new.truths.get(key[0]):
             self.pair([b[s] - a[s] for s in a], max(abs(self.old), abs(self.new)))
         else:
-            self.by_intervals(half_width(old.rows[key]), half_width(new.rows[key]))
+            self.by_intervals(half_width(old.rows[key]), half_width(new.rows[key]), min(len(a), len(b)))
 
     def pair(self, differences, size):
         n = len(differences)
@@ -103,13 +103,15 @@ class Change:
             self.p = 2 * stats.t.sf(abs(mean) / (deviation / math.sqrt(n)), n - 1) if deviation > 0 else 0.0
             self.is_certain = self.p < 1 - CERTAINTY
 
-    def by_intervals(self, old_half, new_half):
+    def by_intervals(self, old_half, new_half, seeds):
+        """Half-widths are Student's of so many seeds at least; of a single value the reference's noise alone."""
         both = math.hypot(old_half, new_half)
         if not both > 0:
             self.how = "no interval"
             return
         self.how = "by intervals"
-        self.p = 2 * stats.norm.sf(abs(self.new - self.old) / (both / stats.norm.isf((1 - CERTAINTY) / 2)))
+        distribution = stats.t(seeds - 1) if seeds > 1 else stats.norm
+        self.p = 2 * distribution.sf(abs(self.new - self.old) / both * distribution.isf((1 - CERTAINTY) / 2))
         self.is_certain = None
 
 

@@ -1,10 +1,12 @@
 #include "experiments/study/estimate.h"
 
-#include "experiments/measuring/timing.h"
+#include "experiments/measuring/render_variant.h"
 #include "experiments/study/point_run.h"
 #include "experiments/study/shot_run.h"
 #include "groundtruth/reference.h"
+#include "variants/registry.h"
 
+#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -16,6 +18,7 @@ namespace {
 
 constexpr std::array<glm::uvec2, 2> calibration_extents = {glm::uvec2(64, 36), glm::uvec2(160, 90)};
 constexpr unsigned calibration_samples = 32;
+constexpr double clock_proof_seconds = 5;
 
 double seconds_of(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -42,8 +45,6 @@ struct Rates {
     Line opening;                                      ///< a shot: its scene, its first frame, what is measured of the truth
     double per_sample = 0;                             ///< seconds per pixel and sample of a reference
     std::map<std::string, Line> per_step, per_frame;  ///< by kind_of(): a frame of a seed, measured; a frame, timed
-
-    const Line& of(const std::map<std::string, Line>& lines, const std::string& kind) const { return lines.at(kind); }
 };
 
 /// Points that take about equally long.
@@ -64,7 +65,6 @@ public:
             }
         config_.variants = std::move(one_of_each);
         config_.reference = {.max_samples = calibration_samples, .max_depth = config.reference.max_depth};
-        config_.timing = {.frames = 3, .warm_up = 1};
     }
     ~Calibration() {
         std::error_code error;
@@ -125,16 +125,19 @@ private:
     }
 
     void measure_frames(ShotRun& run, size_t size, std::map<std::string, std::array<double, 2>>& seconds) {
-        for (const VariantConfig& variant : config_.variants) {
-            Config alone = config_;
-            alone.variants = {variant};
-            if (!variant.is_timed) continue;
-            const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
-            seconds[kind_of(variant)][size] =
-                seconds_of([&] {
-                    time_variants(*run.source, run.shot, alone, lit, settings_.keep_all, [](double) {});
-                }) /
-                (config_.timing.frames + config_.timing.warm_up);
+        const FrameStep& step = run.shot.steps.front();
+        const FrameStore::Frame frame = run.store->frame(step, run.truth.lit(step));
+        for (const VariantConfig& config : config_.variants) {
+            if (!config.is_timed) continue;
+            PassGraph graph(device_, run.shot.config.extent);
+            const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
+            if (!settings_.keep_all) variant->leave_out(run.shot.facts);
+            const auto render = [&] {
+                render_variant(graph, *variant, frame.camera, 0, frame.gbuffer);
+                graph.times();  // waits
+            };
+            render();  // compiles, and allocates
+            seconds[kind_of(config)][size] = seconds_of(render);
         }
     }
 
@@ -179,12 +182,14 @@ std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config&
                 const double seeds = double(cell.variant->seeds.size());
                 estimate.seconds = seeds * step.fixed + step.per_pixel * pixels * cell.units;
             } else {
+                // Two copies of each point, and one that leaves nothing out, take turns.
                 for (const VariantConfig& variant : config.variants)
                     if (variant.is_timed) {
-                        estimate.seconds += rates.per_frame.at(kind_of(variant)).at(pixels) *
+                        estimate.seconds += 3 * rates.per_frame.at(kind_of(variant)).at(pixels) *
                                             (config.timing.frames + config.timing.warm_up);
                         copies += 3;
                     }
+                estimate.seconds += rates.opening.at(pixels) + clock_proof_seconds;
             }
             estimate.memory_mib = memory_of(shot.config, copies);
         }

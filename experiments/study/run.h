@@ -13,6 +13,7 @@ struct RunSettings {
     bool keep_all = false;
     bool replaces = false;           ///< gives a folder with the results of another study to this one
     bool prunes = false;             ///< removes what earlier versions of the study left in the folder
+    bool takes_times_here = false;   ///< in place of times that another machine took
     std::vector<std::string> cells;  ///< which are done, as CellSelection takes them; empty: all
 };
 

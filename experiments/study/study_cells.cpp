@@ -45,6 +45,25 @@ void say_result(StudyRun& study, const Cell& cell) {
     study.progress.say(line + left_out);
 }
 
+bool is_of_another_machine(const StudyRun& study, const Cell& cell) {
+    return cell.provenance.at("host") != study.maker.at("host");
+}
+
+/// Why times that are there are taken once more; "" if they are not.
+std::string why_timed_again(const StudyRun& study, const Cell& cell) {
+    if (study.settings.takes_times_here && is_of_another_machine(study, cell))
+        return "its times are another machine's; they are taken here";
+    return is_disturbed(cell.timing) ? "its times were disturbed by other programs; they are taken again" : "";
+}
+
+/// Times are kept whatever machine took them, which nobody is to overlook.
+void say_whose_times(const StudyRun& study, const PlannedCell& planned, const Cell& cell) {
+    if (planned.kind == CellKind::times && is_of_another_machine(study, cell))
+        study.progress.say("note: " + planned.what + " are those of " + cell.provenance["host"]["name"].get<std::string>() +
+                           " (" + cell.provenance["host"]["cpu"].get<std::string>() +
+                           "); --times-here takes them on this machine");
+}
+
 /// The cell if it was done before, of this truth (of any, if none is given).
 std::optional<Cell> load_cell(const StudyRun& study, const PlannedCell& planned, const std::optional<std::string>& truth) {
     std::optional<Cell> cell = study.cells.load(planned.name);
@@ -63,6 +82,7 @@ std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, const std::op
     const bool is_tried_again = found && !task.why_again(*found).empty();
     if (found && !is_tried_again) {
         study.work.skip();
+        say_whose_times(study, planned, *found);
         return found;
     }
     const auto claim = study.cells.claim(planned.name, waits);
@@ -138,11 +158,10 @@ CellTask task_of(StudyRun& study, ShotRun& run, const PlannedCell& planned) {
     };
     task.make = make;
     if (planned.kind != CellKind::times) return task;
-    task.why_again = [](const Cell& cell) -> std::string {
-        return is_disturbed(cell.timing) ? "its times were disturbed by other programs; they are taken again" : "";
-    };
-    task.is_better = [](const Cell& again, const Cell& before) {
-        return disturbed_frames(again.timing) < disturbed_frames(before.timing);
+    task.why_again = [&study](const Cell& cell) { return why_timed_again(study, cell); };
+    task.is_better = [&study](const Cell& again, const Cell& before) {
+        return disturbed_frames(again.timing) < disturbed_frames(before.timing) ||
+               (study.settings.takes_times_here && is_of_another_machine(study, before));
     };
     return task;
 }
@@ -153,11 +172,14 @@ std::optional<std::vector<Cell>> load_finished(StudyRun& study, const std::vecto
     std::vector<Cell> cells;
     for (const PlannedCell* p : planned) {
         std::optional<Cell> cell = study.cells.load(p->name);
-        if (!cell || is_disturbed(cell->timing)) return {};
+        if (!cell || (p->kind == CellKind::times && !why_timed_again(study, *cell).empty())) return {};
         if (!cells.empty() && cell->truth != cells.front().truth) return {};
         cells.push_back(std::move(*cell));
     }
-    for (const PlannedCell* p : planned) study.work.start(name_of(p->kind), p->units), study.work.skip();
+    for (size_t i = 0; i < planned.size(); ++i) {
+        study.work.start(name_of(planned[i]->kind), planned[i]->units), study.work.skip();
+        say_whose_times(study, *planned[i], cells[i]);
+    }
     return cells;
 }
 

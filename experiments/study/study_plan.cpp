@@ -40,7 +40,9 @@ public:
         for (const VariantConfig& variant : config.variants) points_.push_back(identity_of(variant));
     }
 
-    std::string of_references(const std::string& request) { return name({"experiments/study/shot_run.cpp"}, request, {}); }
+    std::string of_references(const std::string& request) {
+        return name({"experiments/study/shot_run.cpp"}, request, with_images({}));
+    }
     std::string of_renders(const std::string& request, size_t variant) {
         const PointIdentity& point = points_[variant];
         std::vector<std::string> sources = point.sources;
@@ -48,9 +50,7 @@ public:
         const VariantConfig& v = config_.variants[variant];
         std::vector<std::string> what = {v.variant, v.point, point.parameters};
         for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
-        // Times do not depend on which images are kept.
-        if (config_.keeps_all_images) what.push_back("all images");
-        return name(sources, request, what);
+        return name(sources, request, with_images(what));
     }
     std::string of_times(const std::string& request) {
         std::vector<std::string> sources = {"experiments/measuring/timing.cpp", "experiments/study/shot_run.cpp"};
@@ -65,6 +65,11 @@ public:
     }
 
 private:
+    /// Times do not depend on which images are kept.
+    std::vector<std::string> with_images(std::vector<std::string> what) const {
+        if (config_.keeps_all_images) what.push_back("all images");
+        return what;
+    }
     std::string name(const std::vector<std::string>& sources, const std::string& request,
                      const std::vector<std::string>& what) {
         const Config& c = config_;

@@ -237,19 +237,6 @@ TEST_F(Timing, MeasuresWhatLeavingOutSaved) {
     EXPECT_TRUE(time(mirror_source, mirrors).saved.empty());
 }
 
-TEST(TimedWork, IsThatOfOneMachine) {
-    const Config config{.variants = {{.variant = "none", .seeds = {0}}}};
-    const nlohmann::json here = host_info();
-    nlohmann::json there = here;
-    EXPECT_EQ(timed_work(config, {}, here), timed_work(config, {}, there));
-    for (const char* key : {"name", "cpu", "cores", "memory_gib", "kernel"}) {
-        ASSERT_TRUE(here.contains(key)) << key;
-        there = here;
-        there[key] = "another";
-        EXPECT_NE(timed_work(config, {}, here), timed_work(config, {}, there)) << key;
-    }
-}
-
 TEST(TimingEntry, GoesIntoTheManifest) {
     const ClockProof clock{.method = "host_fence", .empty_submit_ms = 0.1, .checks = {}};
     nlohmann::json manifest = {

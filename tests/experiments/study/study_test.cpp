@@ -106,8 +106,7 @@ TEST_F(StudyTest, PartsMakeTheWhole) {
                            {.out = folder / out, .device = "", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}},
                            parts);
     };
-    run_part("a", {"references", "shard=1/2"});  // of these shards some are without references, or without renders
-    run_part("a", {"references", "shard=2/2"});
+    run_part("a", {"references"});
     run_part("b", {"renders", "shot=fence.*"});
     EXPECT_FALSE(fs::exists(folder / "b/results.csv")) << "tables are of all cells";
     EXPECT_EQ(merge({folder / "a", folder / "b"}, "merged"), 2u) << "the other shot's points are missing";
