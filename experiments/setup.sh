@@ -9,10 +9,12 @@ build_packages=(
     python3 python3-numpy python3-matplotlib python3-pil
     python3-scipy  # distributions and intervals of `ssrlab tradeoff`
 )
-# What only the tests need: the validation layer, and a browser for the report.
-test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium)
+# What only the tests need: the validation layer, a browser for the report, and Snakemake for studies in parallel.
+test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake)
 # What only tests/exporters.sh needs: Blender; RenderDoc, its Python module, and the header of its in-application API.
 exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)
+# What only experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.
+cluster_packages=(snakemake slurmctld slurmd slurm-client munge)
 # What only the website of the documents needs.
 docs_packages=(python3-sphinx python3-myst-parser furo)
 

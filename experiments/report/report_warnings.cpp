@@ -51,7 +51,26 @@ bool differ(const json& provenance, const char* part, std::initializer_list<cons
     return false;
 }
 
-void warn_of_provenance(std::vector<std::string>& warnings, const json& provenance) {
+/// The shots that each machine timed, by its name and processor.
+std::map<std::string, std::string> shots_by_host(const json& clock) {
+    std::map<std::string, std::string> shots;
+    for (const json& load : member(clock, "load")) {
+        const json& host = member(load, "host");
+        std::string& names = shots[text(member(host, "name")) + " (" + text(member(host, "cpu")) + ")"];
+        names += (names.empty() ? "" : ", ") + text(member(load, "shot"));
+    }
+    return shots;
+}
+
+void warn_of_hosts(std::vector<std::string>& warnings, const json& clock) {
+    const std::map<std::string, std::string> shots = shots_by_host(clock);
+    if (shots.size() < 2) return;
+    std::string list;
+    for (const auto& [host, names] : shots) list += (list.empty() ? "" : "; ") + names + " on " + host;
+    warnings.push_back("Times were taken on different machines, so compare them within one shot only: " + list + ".");
+}
+
+void warn_of_provenance(std::vector<std::string>& warnings, const json& provenance, const json& clock) {
     if (!provenance.is_array()) return;
     std::string different;
     const auto add = [&](bool is_different, const char* what) {
@@ -61,9 +80,17 @@ void warn_of_provenance(std::vector<std::string>& warnings, const json& provenan
     add(differ(provenance, "host", {"kernel"}), "kernels");
     add(differ(provenance, "device", {"name", "driver", "api"}), "devices or drivers");
     add(differ(provenance, "ssrlab", {"commit", "code", "compiler", "build"}), "versions of ssrlab");
+    const size_t machines = shots_by_host(clock).size();
+    const bool are_known =
+        std::ranges::all_of(member(clock, "load"), [](const json& load) { return member(load, "host").is_object(); });
+    // Other machines that only rendered do nothing to the times of one; of several, warn_of_hosts() says more.
+    const char* const of_times = machines > 1 ? "."
+                                 : machines == 1 && are_known && different == "hosts"
+                                     ? "; all times were taken on one machine."
+                                     : "; compare times within one shot only.";
     if (!different.empty())
         warnings.push_back("Parts of this study were made by different " + different +
-                           ": `provenance` in manifest.json says which; compare times within one shot only.");
+                           ": `provenance` in manifest.json says which" + of_times);
     if (std::ranges::any_of(provenance,
                             [](const json& maker) { return is_true(member(member(maker, "ssrlab"), "dirty")); }))
         warnings.push_back(
@@ -203,7 +230,8 @@ std::vector<std::string> report_warnings(const json& manifest, std::span<const M
     std::vector<std::string> warnings;
     warn_of_study(warnings, manifest);
     warn_of_variation(warnings, member(manifest, "variants"));
-    warn_of_provenance(warnings, member(manifest, "provenance"));
+    warn_of_provenance(warnings, member(manifest, "provenance"), member(manifest, "clock"));
+    warn_of_hosts(warnings, member(manifest, "clock"));
     warn_of_clock(warnings, member(manifest, "clock"), !times.empty());
     warn_of_load(warnings, times);
     for (const json& shot : member(manifest, "shots")) warn_of_shot(warnings, shot);

@@ -136,8 +136,12 @@ def changes_of_times(old, new):
     return sorted(found)
 
 
-def hosts_of(study):
-    return {f"{p['host']['name']} ({p['host']['cpu']}), {p['device']['name']}" for p in study.manifest.get("provenance", [])}
+def machine_of(study, shot):
+    """The machine that took the shot's times, and its device; of older folders all that made any part of them."""
+    makers = study.manifest.get("provenance", [])
+    hosts = [load["host"] for load in study.manifest["clock"].get("load", []) if load["shot"] == shot and "host" in load]
+    names = {f"{host['name']} ({host['cpu']})" for host in hosts or [p["host"] for p in makers]}
+    return ", ".join([*sorted(names), *sorted({p["device"]["name"] for p in makers})])
 
 
 def print_techniques(changes):
@@ -190,10 +194,14 @@ def compare(old, new, arguments):
         if points:
             print(f"\nIn {one.folder} alone: {len(points)} points of shots, as {' '.join(sorted(points)[0])}")
     times = changes_of_times(old, new)
-    if hosts_of(old) != hosts_of(new):
-        print("\nTimes are of different machines and are not compared: " + "; ".join(sorted(hosts_of(old) ^ hosts_of(new))))
-        times = []
-    elif times:
+    moved = {shot: (machine_of(old, shot), machine_of(new, shot)) for shot in sorted({key[0] for key in old.times.keys() & new.times.keys()})}
+    moved = {shot: machines for shot, machines in moved.items() if machines[0] != machines[1]}
+    if moved:
+        print(f"\nTimes of {len(moved)} shots are of different machines and are not compared:")
+        for machines in dict.fromkeys(moved.values()):
+            print(f"  {machines[0]} / {machines[1]}: {', '.join(shot for shot in moved if moved[shot] == machines)}")
+        times = [change for change in times if change[0][0] not in moved]
+    if times:
         print(f"\nTimes of {len(times)} points changed beyond their intervals and what two copies of a point differ by:")
         for (shot, variant, point), a, b in times if arguments.all else times[:12]:
             print(f"  {shot}: {variant} {point}: {a:.3g} ms -> {b:.3g} ms (x{b / a:.3f})")

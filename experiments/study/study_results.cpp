@@ -28,7 +28,9 @@ nlohmann::json manifest_of(const StudyRun& study, bool is_complete) {
     for (const Cell& cell : study.finished) {
         for (const nlohmann::json& entry : cell.images) manifest["images"].push_back(entry);
         for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
-        if (!cell.timing.is_null()) add_timing(manifest, cell.timing);
+        if (cell.timing.is_null()) continue;
+        add_timing(manifest, cell.timing);
+        if (cell.provenance.is_object()) manifest["clock"]["load"].back()["host"] = cell.provenance.at("host");
     }
     manifest["provenance"] = provenance_entries(study.finished);
     manifest["is_complete"] = is_complete;

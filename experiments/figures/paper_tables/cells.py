@@ -116,6 +116,8 @@ class Selection:
         self.shots = results.manifest["shots"]
         proofs = results.manifest.get("clock", {}).get("proofs", [])
         self.proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof["shots"]}
+        hosts = {load["shot"]: load.get("host", {}).get("name") for load in results.manifest.get("clock", {}).get("load", [])}
+        self.hosts = hosts if len(set(hosts.values())) > 1 else {}  # by shot, where times are of several machines
         self.parameters = {(v["variant"], v["point"]): v.get("parameters", {}) for v in results.manifest["variants"]}
         rows = results.read_csv(SOURCES[table.of][0])
         if table.of == "splits":
@@ -288,8 +290,10 @@ def _refuse_shared(selection, name, rows):
 
 
 def _clock(selection, row):
-    """With what must be known before a time is believed: whether its clock proved itself."""
-    return row["clock"] if row["shot"] in selection.proven else f"{row['clock']}, which did not prove itself"
+    """With what must be known before a time is believed: whether its clock proved itself, and whose it is where others
+    are of another machine."""
+    clock = row["clock"] + (f" of {host}" if (host := selection.hosts.get(row["shot"])) else "")
+    return clock if row["shot"] in selection.proven else f"{clock}, which did not prove itself"
 
 
 def _about(selection, filled):

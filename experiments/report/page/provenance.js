@@ -35,6 +35,7 @@ function showProvenance() {
             known(proofs[0]?.empty_submit_ms, proofs.map(p => number(p.empty_submit_ms, 3)).join(", ") + " ms")
         ],
         ["Foreign load, at most", foreignLoad(list(clock?.load))],
+        ["Times taken on", known(unique(list(clock?.load).map(l => l.host?.name).filter(Boolean)).join(", "))],
     ];
     const columns = [{name: "Cell"}, {name: "Started"}, {name: "Finished"}, {name: "Hash"}];
     const cellRow = c =>

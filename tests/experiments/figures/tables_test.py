@@ -285,6 +285,13 @@ def test_times(folder):
     check(lines[4].startswith("| default | 2.00 [1.90, 2.10] (host_fence) | 2.00 [1.90, 2.10]\N{SECTION SIGN} (gpu_timestamp) |"), lines[4])
     check("clock gpu_timestamp and host_fence." in lines[7], lines[7])
     write(file, read(file).replace("host_fence", "gpu_timestamp", 1))
+    of_two = manifest([times])
+    of_two["clock"]["load"] = [{"shot": shot, "host": {"name": f"node_{shot}"}} for shot in SHOTS]
+    write(os.path.join(folder, "manifest.json"), json.dumps(of_two))
+    check(tables(folder).returncode == 0, "times of two machines")
+    lines = read(os.path.join(folder, "tables", "times.md")).splitlines()
+    check(f"(gpu_timestamp of node_{SHOTS[0]}) | 2.00" in lines[4] and f"of node_{SHOTS[1]})" in lines[4], lines[4])
+    check(all(f"gpu_timestamp of node_{shot}" in lines[7] for shot in SHOTS), lines[7])
     write(os.path.join(folder, "manifest.json"), json.dumps(manifest([times], verdict="failed")))
     check(tables(folder).returncode == 0, "a clock that did not prove itself")
     lines = read(os.path.join(folder, "tables", "times.md")).splitlines()

@@ -263,6 +263,15 @@ TEST_F(Report, WarnsOfDisturbedTimesAndOfSeveralMakers) {
     EXPECT_EQ(now().size(), before + 1) << "the same maker";
     manifest["provenance"][1]["host"]["cores"] = 64;
     EXPECT_TRUE(contains(now(), "Parts of this study were made by different hosts:"));
+    EXPECT_TRUE(contains(now(), "says which; compare times within one shot only."));
+    nlohmann::json& load = manifest["clock"]["load"];
+    const nlohmann::json node = {{"name", "node1"}, {"cpu", "a CPU"}};
+    load = {{{"shot", "one"}, {"host", node}}, {{"shot", "two"}, {"host", node}}, {{"shot", "three"}, {"host", node}}};
+    EXPECT_TRUE(contains(now(), "all times were taken on one machine"));
+    load[1]["host"]["name"] = "node2";
+    EXPECT_TRUE(
+        contains(now(), "compare them within one shot only: one, three on node1 (a CPU); two on node2 (a CPU)."));
+    EXPECT_TRUE(contains(now(), "`provenance` in manifest.json says which."));
     manifest["provenance"][1]["ssrlab"]["commit"] = "another";
     EXPECT_TRUE(contains(now(), "Parts of this study were made by different hosts, versions of ssrlab:"));
     EXPECT_FALSE(contains(now(), "are not those of the commit"));

@@ -107,6 +107,21 @@ with tempfile.TemporaryDirectory() as place:
     other = {"host": {"name": "other", "cpu": "c"}, "device": {"name": "d"}}
     code, said = run(old, study(os.path.join(place, "elsewhere"), base, milliseconds=12, host=other), "--times")
     check(code == 0 and "different machines" in said, said)
+    # Folders of the same two machines, which have changed places for one shot.
+    node = {"host": {"name": "node", "cpu": "c"}, "device": {"name": "d"}}
+    folders = [os.path.join(place, name) for name in ("one_of_two", "other_of_two")]
+    for folder, milliseconds, taken_on in zip(folders, (10, 12), (HOST, node)):
+        study(folder, base, milliseconds)
+        file = os.path.join(folder, "manifest.json")
+        with open(file, encoding="utf-8") as stream:
+            manifest = json.load(stream)
+        manifest["provenance"].append(node)
+        manifest["clock"]["load"] = [{"shot": s, "host": (taken_on if s == "s0" else HOST)["host"]} for s in shots]
+        with open(file, "w", encoding="utf-8") as stream:
+            json.dump(manifest, stream)
+    code, said = run(*folders, "--times")
+    check(code == 1 and "Times of 1 shots are of different machines" in said and "h (c), d / node (c), d: s0" in said, said)
+    check(f"Times of {3 * len(shots) - 3} points changed" in said, said)
 
     # What only one of them has, and mistakes.
     fewer = {k: of for k, of in base.items() if k[0] != "kept"}

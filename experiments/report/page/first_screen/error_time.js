@@ -83,12 +83,17 @@ const frontLine = front => Plot.line(front, {
     strokeDasharray: "3 2"
 });
 
-/// Which machine and size the times of a shot are of: "llvmpipe (a CPU), 256x144".
+/// Which machine and size the times of a shot are of: "llvmpipe (a CPU), 256x144"; its name, too, where others took the
+/// times of other shots.
 function timedOn(shot) {
     const {width, height} = manifestShots().find(s => s.shot === shot) ?? {};
     const devices = makers.map(m => m.device).filter(Boolean)
                         .map(d => d.name.split(" (")[0] + (d.type === "cpu" ? " (a CPU)" : ""));
-    return [...unique(devices), width ? `${width}x${height}` : ""].filter(Boolean).join(", ");
+    const loads = list(report.manifest.clock?.load), host = loads.find(l => l.shot === shot)?.host;
+    const isOneOfSeveral = unique(loads.map(l => l.host?.name)).length > 1;
+    return [...unique(devices), isOneOfSeveral ? host?.name : "", width ? `${width}x${height}` : ""]
+        .filter(Boolean)
+        .join(", ");
 }
 
 /// A line across the chart at the value of a row, with its interval and its name; at the chart's edge, with an arrow,
