@@ -135,6 +135,26 @@ class Curves(unittest.TestCase):
         self.assertEqual(curves.cost_to(self.costs, self.errors, 20)[0], 1)
 
 
+    def test_a_front_chosen_by_chance_is_not_believed(self):
+        noise = ([-3, 1, 1, 1], [1, -3, 1, 1], [1, 1, -3, 1], [1, 1, 1, -3])
+        seeds = [{str(s): 1 + 0.05 * v for s, v in enumerate(values)} for values in noise]
+        half = 3.18245 * 0.1 / 2  # t(0.975, 3), deviation 0.1
+        near = [point(f"v:{i}", 1 + 1e-3 * i, half, 10 - i, seeds=of) for i, of in enumerate(seeds)]
+        curve = curves.Curve(near, uncertainty.ShotDraws(near, 20000), [0, 1, 2, 3])
+        error, low, high, share = curve.error_at(20)
+        self.assertEqual((error, share, curve.upper), (1, 1, 1 - 0.025 / 4))  # any of the four may be the least
+        alone = uncertainty.ShotDraws(near, 20000).errors
+        self.assertLess(low, np.quantile(alone[0], 0.025))  # as the least of four falls
+        self.assertAlmostEqual(high, np.quantile(alone[0], 1 - 0.025 / 4), places=2)  # not as low as that
+
+    def test_upper_ends_are_left_out_where_draws_do_not_reach(self):
+        made = [point("v:a", 2, 0.01, 10), point("v:b", 1, 0.2, 20)]
+        curve = curves.Curve(made, uncertainty.ShotDraws(made), [0, 1])
+        cost, low, high, share = curve.cost_to(1.05)
+        self.assertTrue(low < cost < 20 and 0.5 < share < 0.9)
+        self.assertIsNone(high)
+
+
 class Fits(unittest.TestCase):
     costs = np.array([2.0, 4, 8, 16, 32, 64])
 
