@@ -357,6 +357,7 @@ class Folder(unittest.TestCase):
         self.assertIn("| 3 | none that fits in all scenes |", answers)
         self.assertIn("**v** has the least error, 0.101 of that of none (geometric mean, 2 scenes)", answers)
         self.assertIn("2 scenes are too few for an interval", answers)
+        self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-51, -49] |", answers)
         self.assertIn("The clock did not prove itself in 1 of 3 shots", answers)
         rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
