@@ -1,9 +1,9 @@
 """How often the intervals of `ssrlab tradeoff` hold the truth, on real noise.
 
-usage: coverage_study.py SEEDS_AND_ROUNDS SCENES [--trials N]
+usage: coverage_study.py SEEDS_AND_ROUNDS... --scenes SCENES [--leave-out SCENE ...] [--trials N]
 
-SEEDS_AND_ROUNDS: results of configs/tradeoff_coverage.json. Its 96 seeds and 400 rounds are the truth; a trial draws 4 or 8 seeds with
-replacement and 15 successive rounds. SCENES: results of a study of many scenes (configs/comparison.json), which are the truth of
+SEEDS_AND_ROUNDS: results of configs/tradeoff_coverage.json, or of other seeds without times, which take those of the first shot that
+has some. All seeds and rounds are the truth; a trial draws 4 or 8 seeds with replacement and 15 successive rounds. SCENES: results of a study of many scenes (configs/comparison.json), which are the truth of
 what holds over scenes; a trial draws some with replacement. Prints the tables of README.md.
 """
 
@@ -46,8 +46,12 @@ def students(values):
 class World:
     """One shot's points with all their seeds and rounds."""
 
-    def __init__(self, shot):
+    def __init__(self, shot, rounds_of):
+        """`rounds_of`: key to rounds, of points that were not timed here."""
         self.shot = shot
+        for p in shot.points:
+            p.rounds = p.rounds or rounds_of.get(p.key, {})
+            p.cost = float(np.median(list(p.rounds.values()))) if p.rounds else None
         self.points = [p for p in shot.judged() if p.variant != "none"]
         self.seeds = [np.array([p.seeds[s] for s in sorted(p.seeds, key=int)]) for p in self.points]
         self.rounds = [np.array([p.rounds[r] for r in sorted(p.rounds)]) for p in self.points]
@@ -116,17 +120,16 @@ def study_curves(worlds, trials, tally):
                 ):
                     for _, rows, asked, wanted in truths:
                         curve = curves.Curve([drawn[i] for i in rows], draws, rows)
+                        if kind:
+                            curve.front, curve.upper = np.arange(len(rows)), 0.975
                         for cost, error in asked:
-                            found, draws_at = curve.error_at(cost)
-                            ends = uncertainty.interval(draws_at) if found == found else (None, None)
+                            _, low, high, _ = curve.error_at(cost)
                             name = "error past the front's end" if cost > curve.end else "error at a cost"
-                            tally.add((kind + name, count), *ends, error)
+                            tally.add((kind + name, count), low, high, error)
                         for error, cost in wanted:
-                            found, draws_to = curve.cost_to(error)
-                            ends = uncertainty.interval(draws_to) if found == found else (None, None)
-                            if (draws_to == draws_to).mean() < 0.975:
-                                ends = ends[0], math.inf if ends[0] else None
-                            tally.add((kind + "cost to an error", count), *ends, cost)
+                            _, low, high, _ = curve.cost_to(error)
+                            high = math.inf if low is not None and high is None else high
+                            tally.add((kind + "cost to an error", count), low, high, cost)
 
 
 def truly_dominates(a, b):
@@ -214,14 +217,16 @@ def print_table(tally, names, counts, of):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("seeds_and_rounds")
-    parser.add_argument("scenes")
+    parser.add_argument("seeds_and_rounds", nargs="+")
+    parser.add_argument("--scenes", required=True)
     parser.add_argument("--leave-out", nargs="+", default=[], help="scenes")
     parser.add_argument("--trials", type=int, default=300)
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")  # BCa of samples that hardly differ
-    study = points.Study(arguments.seeds_and_rounds)
-    worlds, tally = [World(s) for s in study.shots], Tally()
+    shots = [s for folder in arguments.seeds_and_rounds for s in points.Study(folder).shots]
+    rounds_of = {p.key: p.rounds for s in reversed(shots) for p in s.points if p.rounds}
+    worlds, tally = [World(s, rounds_of) for s in shots], Tally()
+    print(f"{sum(len(w.points) for w in worlds)} points of {len(worlds)} shots\n")
     study_curves(worlds, arguments.trials, tally)
     names = ["error", "median cost", "error at a cost", "error past the front's end", "cost to an error"]
     names += ["resampled: " + n for n in names[2:]]

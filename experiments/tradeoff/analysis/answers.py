@@ -290,17 +290,40 @@ class Answers:
         return lines + table(("axis", "shot", "points", self.unit, "floor", "floor / rung", "b", "misfit", "status"), cells)
 
     def _stages(self):
-        rows = [r for r in self.analysis.stages if not r["shot"]]
+        rows = self.analysis.stages
         if not rows:
             return []
-        per = f"{self.unit} per % of error"
-        lines = ["## Which change buys what", "", "Points that differ in one parameter, over scenes: geometric mean of the errors' ratios, mean of the costs. A stage that is "
-                 "switched off *saves cost* at the price of error; the last column is what each percent of error costs.", ""]
+        lines = ["## Which change buys what", ""]
+        lines.append(
+            "Points that differ in one parameter. A stage that is switched off *saves cost* at the price of error; the last column is what each percent of error costs."
+        )
+        lines.append("")
         for machine in dict.fromkeys(r["machine"] for r in rows):
-            cells = [
-                (f"{r['against_variant']} {r['against_point']}: {r['change']}", r["scenes"], measured(r["error_ratio"], r["error_low"], r["error_high"]), measured(r["cost"], r["cost_low"], r["cost_high"]), r["verdict"], measured(r["cost_per_percent"], r["cost_per_percent_low"], r["cost_per_percent_high"]))
-                for r in rows
-                if r["machine"] == machine
-            ]
-            lines += [f"On {machine}:", "", *table(("change", "scenes", "error after / before", f"{self.unit} more", "verdict", per), cells)]
+            own = [r for r in rows if r["machine"] == machine]
+            pooled = [r for r in own if not r["shot"] and r["scenes"] >= scenes.LEAST_SCENES]
+            changes = {self._change_key(r) for r in pooled}
+            single = [r for r in own if r["shot"] and self._change_key(r) not in changes]
+            lines += [f"On {machine}{', over scenes: geometric mean of the ratios of errors, mean of the costs' if pooled else ''}:", ""]
+            lines += self._stage_table("scenes", pooled)
+            if single:
+                lines += [f"In each shot, since {scenes.LEAST_SCENES - 1} scenes or fewer are too few for an interval:", ""] + self._stage_table("shot", single)
         return lines
+
+    @staticmethod
+    def _change_key(row):
+        return row["variant"], row["point"], row["against_variant"], row["against_point"]
+
+    def _stage_table(self, first, rows):
+        cells = [
+            (
+                f"{self.study.label_of((r['against_variant'], r['against_point']))}: {r['change']}",
+                r[first],
+                measured(*(None if v is None else 100 * (v - 1) for v in (r["error_ratio"], r["error_low"], r["error_high"]))),
+                measured(r["cost"], r["cost_low"], r["cost_high"]),
+                r["verdict"],
+                measured(r["cost_per_percent"], r["cost_per_percent_low"], r["cost_per_percent_high"]),
+            )
+            for r in sorted(rows, key=self._change_key)
+        ]
+        head = ("change", first, "% more error", f"{self.unit} more", "verdict", f"{self.unit} per % of error")
+        return table(head, cells) if cells else []

@@ -73,12 +73,12 @@ class Analysis:
         for variant, curve in self.curves[shot.name].items():
             for cost in self.costs:
                 row = self._curve_columns(shot, variant, curve) | {"cost": cost}
-                error, drawn = curve.error_at(cost)
+                error, low, high, _ = curve.error_at(cost)
                 best = curve.best_within(cost)
                 row["status"] = _place(cost, curve) if best else "before start"
                 row["fits"] = self._fits(shot, curve, cost)
                 if best:
-                    row["error"], (row["low"], row["high"]) = error, uncertainty.interval(drawn)
+                    row |= {"error": error, "low": low, "high": high}
                     row |= {"point": best.point, "point_error": best.error}
                 yield row
 
@@ -97,16 +97,14 @@ class Analysis:
         for variant, curve in self.curves[shot.name].items():
             for factor in self.factors:
                 error = factor * base
-                cost, drawn = curve.cost_to(error)
+                cost, low, high, share = curve.cost_to(error)
                 row = self._curve_columns(shot, variant, curve) | {"factor": factor, "error": error}
-                row["share_that_reach"] = float((drawn == drawn).mean())
+                row["share_that_reach"] = share
                 if cost != cost:
                     row["status"] = "not reached"
                 else:
                     row["status"] = "before start" if cost <= curve.start else "at" if cost == curve.end else "between"
-                    row["cost"], (row["low"], row["high"]) = cost, uncertainty.interval(drawn)
-                    if row["share_that_reach"] < 0.975:
-                        row["high"] = None
+                    row |= {"cost": cost, "low": low, "high": high}
                 yield row
 
     def _limit_rows(self, shot):

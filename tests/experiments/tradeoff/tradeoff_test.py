@@ -135,6 +135,26 @@ class Curves(unittest.TestCase):
         self.assertEqual(curves.cost_to(self.costs, self.errors, 20)[0], 1)
 
 
+    def test_a_front_chosen_by_chance_is_not_believed(self):
+        noise = ([-3, 1, 1, 1], [1, -3, 1, 1], [1, 1, -3, 1], [1, 1, 1, -3])
+        seeds = [{str(s): 1 + 0.05 * v for s, v in enumerate(values)} for values in noise]
+        half = 3.18245 * 0.1 / 2  # t(0.975, 3), deviation 0.1
+        near = [point(f"v:{i}", 1 + 1e-3 * i, half, 10 - i, seeds=of) for i, of in enumerate(seeds)]
+        curve = curves.Curve(near, uncertainty.ShotDraws(near, 20000), [0, 1, 2, 3])
+        error, low, high, share = curve.error_at(20)
+        self.assertEqual((error, share, curve.upper), (1, 1, 1 - 0.025 / 4))  # any of the four may be the least
+        alone = uncertainty.ShotDraws(near, 20000).errors
+        self.assertLess(low, np.quantile(alone[0], 0.025))  # as the least of four falls
+        self.assertAlmostEqual(high, np.quantile(alone[0], 1 - 0.025 / 4), places=2)  # not as low as that
+
+    def test_upper_ends_are_left_out_where_draws_do_not_reach(self):
+        made = [point("v:a", 2, 0.01, 10), point("v:b", 1, 0.2, 20)]
+        curve = curves.Curve(made, uncertainty.ShotDraws(made), [0, 1])
+        cost, low, high, share = curve.cost_to(1.05)
+        self.assertTrue(low < cost < 20 and 0.5 < share < 0.9)
+        self.assertIsNone(high)
+
+
 class Fits(unittest.TestCase):
     costs = np.array([2.0, 4, 8, 16, 32, 64])
 
@@ -213,6 +233,12 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(rows[0]["ratio"], 0.25)
         self.assertAlmostEqual(rows[1]["against_best"], (2 * 2 * 1.1 * 3) ** 0.25)
 
+    def test_what_lacks_shots_is_not_ranked(self):
+        table = {"a": {s: (2, 2, 2) for s in "stuv"}, "b": {s: (1, 1, 1) for s in "stu"}}
+        for lacking, ranks in ((0.1, {"a": 1, "b": None}), (0.25, {"a": 2, "b": 1})):
+            compared = scenes.Comparison(table, {s: s for s in "stuv"}, dict.fromkeys("stuv", 4.0), lambda m, n, s: True, lacking)
+            self.assertEqual({r["method"]: r["rank"] for r in compared.rows()}, ranks)
+
 
 class Stages(unittest.TestCase):
     def change(self, error, costs, is_told=True):
@@ -250,6 +276,11 @@ def write_study(folder):
     keys = {name: tuple(name.partition(":")[::2]) for name in PRESETS}
     keys = {name: (v, p or "default") for name, (v, p) in keys.items()}
     errors, times, counts, effects = [], [], [], []
+    oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "speaks": 1, "seed": 0}
+    errors += [oracle | {"shot": s, "value": 0.01, "low": 0.01, "high": 0.01, "ranked": 1} for s in shots]
+    # Over the frames of `sky` there is next to no error, and no time.
+    nearly_none = {"shot": "sky", "variant": "none", "frame": "", "value": 0.0015, "low": 0.0014, "high": 0.0016, "ranked": 1, "floor": 0.001}
+    errors.append(oracle | nearly_none)
     for number, a_shot in enumerate(shots):
         for name, (ms, error) in PRESETS.items():
             own = {"shot": a_shot, "variant": keys[name][0], "point": keys[name][1]}
@@ -275,9 +306,10 @@ def write_study(folder):
         "primary": {"metric": "mse", "mask": "reflective", "target": "specular"},
         "clock": {"aa_floor": 0.02, "proofs": [{"verdict": "passed", "shots": ["floor", "wall"]}]},
         "provenance": [{"host": {"name": n, "cpu": "c", "cores": 2}, "device": {"name": "d"}, "cells": [{"what": f"{s}: timing"} for s in of]} for n, of in MACHINES],
-        "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in shots],
+        "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in (*shots, "sky")],
         "variants": [{"variant": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
     }
+    manifest["variants"].append({"variant": "oracle", "point": "default", "asks_scene": True, "parameters": {}})
     with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
         json.dump(manifest, stream)
 
@@ -300,7 +332,7 @@ class Folder(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = cls.temporary.name
         write_study(cls.folder)
-        asked = ["--times", "3", "10", "--factors", "0.0625", "--baseline", "none:default"]
+        asked = ["--times", "3", "4.1", "10", "--factors", "0.0625", "--baseline", "none:default"]
         cls.done = subprocess.run([SSRLAB, "tradeoff", cls.folder, *asked], capture_output=True, text=True)
         cls.out = os.path.join(cls.folder, "tradeoff")
 
@@ -323,6 +355,9 @@ class Folder(unittest.TestCase):
         self.assertEqual((to["roof", "w"]["status"], to["roof", "w"]["cost"]), ("not reached", ""))
         (fit, *_) = read(self.out, "fits.csv")
         self.assertEqual((fit["parameter"], fit["points"], fit["floor_low"], fit["rung"]), ("rays", "4", "0", "on_screen"))
+        self.assertEqual((at["floor", "v", 4.1]["fits"], at["floor", "v", 10]["fits"]), ("maybe", "surely"))  # 4.04 ms and 2 %
+        self.assertEqual(front["floor", "oracle"]["verdict"], "asks the scene")
+        self.assertEqual({r["shot"] for r in read(self.out, "limits.csv")}, {"floor", "wall", "roof"})
         (limit, *_) = read(self.out, "limits.csv")
         self.assertEqual((limit["label"], float(limit["over_rung"])), ("v rays=8", 2.5))
         change = next(r for r in read(self.out, "stages.csv") if r["shot"] == "floor")
@@ -337,6 +372,8 @@ class Folder(unittest.TestCase):
         self.assertIn("| 3 | none that fits in all scenes |", answers)
         self.assertIn("**v** has the least error, 0.101 of that of none (geometric mean, 2 scenes)", answers)
         self.assertIn("2 scenes are too few for an interval", answers)
+        self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-51, -49] |", answers)
+        self.assertIn("Multiples leave out sky:", answers)
         self.assertIn("The clock did not prove itself in 1 of 3 shots", answers)
         rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
