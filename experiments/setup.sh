@@ -5,11 +5,12 @@ build_packages=(
     g++ cmake ninja-build ccache pkg-config git ca-certificates
     libvulkan-dev mesa-vulkan-drivers glslang-dev spirv-tools
     libembree-dev libtbb-dev libopenexr-dev libpng-dev libglm-dev libtinygltf-dev
+    libboost-dev  # Sobol's sequence, for designs of studies
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil
 )
-# What only the tests need: the validation layer, and a browser for the report.
-test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium)
+# What only the tests need: the validation layer, a browser for the report, and pandas for the example that reads results.
+test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium python3-pandas)
 # What only the website of the documents needs.
 docs_packages=(python3-sphinx python3-myst-parser furo)
 

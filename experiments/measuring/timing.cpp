@@ -302,10 +302,11 @@ ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& con
     return result;
 }
 
-nlohmann::json timed_work(const Config& config, const nlohmann::json& variants, const nlohmann::json& host) {
+nlohmann::json timed_work(const Config& config, nlohmann::json variants, const nlohmann::json& host) {
+    for (nlohmann::json& variant : variants) variant.erase("label"), variant.erase("group");  // names change no time
     nlohmann::json work = {
         {"variants", variants}, {"frames", config.timing.frames}, {"warm_up", config.timing.warm_up}, {"host", host}};
-    for (const VariantConfig& variant : config.variants) work["timed"].push_back(variant.is_timed);
+    for (const VariantConfig& variant : config.variants) work["timed"].push_back({variant.variant, variant.point, variant.is_timed});
     return work;
 }
 

@@ -74,7 +74,7 @@ std::vector<std::vector<size_t>> timed_turns(size_t count, unsigned rounds);
 
 /// What the times of a shot depend on besides the shot itself, for the name of their cell: what is timed, and the
 /// machine that they are those of. `variants` as in manifest.json, `host` as host_info() gives it.
-nlohmann::json timed_work(const Config& config, const nlohmann::json& variants, const nlohmann::json& host);
+nlohmann::json timed_work(const Config& config, nlohmann::json variants, const nlohmann::json& host);
 
 /// ShotTimes without its rows, to be kept in Cell::timing, with the proof of the clock that took them.
 nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, const ClockProof& clock);

@@ -20,7 +20,7 @@ public:
     virtual PassGraph& graph() = 0;
 };
 
-/// Rasterises shot.scene. With config.direct_lit its lit colour is rasterised direct light, and `lit` is not looked at.
+/// Rasterises shot.scene. With shot.config.direct_lit its lit colour is rasterised direct light, and `lit` is not looked at.
 std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all);
 
 /// The same G-buffer for every frame. `lit` is not looked at if the file has a lit colour.

@@ -13,8 +13,10 @@
 #include "experiments/results/manifest.h"
 #include "experiments/results/provenance.h"
 #include "experiments/results/results.h"
+#include "experiments/results/results_schema.h"
 #include "experiments/results/time_effects.h"
 #include "experiments/study/capture.h"
+#include "experiments/study/config/conditions.h"
 #include "experiments/study/folder_owner.h"
 #include "experiments/study/rehearsal.h"
 #include "experiments/study/stale_files.h"
@@ -36,7 +38,7 @@ void plan_work(StudyRun& study) {
     std::set<std::string> names;
     for (const ShotConfig& config : study.config.shots) {
         const std::string name = config.gbuffer.empty() ? load_shot(config, study.settings.search_path).name()
-                                                        : capture_name(config.gbuffer);
+                                                        : capture_name(config.gbuffer) + config.name_suffix;
         if (!names.insert(name).second)
             fail("two shots are called '", name,
                  "': they differ in nothing that results are named by; give them other frames, another camera or "
@@ -74,8 +76,12 @@ void enter_shot(StudyRun& study, ShotRun& run, const std::vector<std::string>& n
     const FrameStep& last = run.shot.steps.back();
     const FrameStore::Frame frame = run.store.frame(last, run.truth.lit(last));
     const HostGBuffer host =
-        download_gbuffer(run.source.graph(), frame.gbuffer, frame.camera, study.config.depth_format);
+        download_gbuffer(run.source.graph(), frame.gbuffer, frame.camera, run.shot.config.depth_format);
     nlohmann::json entry = shot_entry(run.shot, pixel_facts(host), study.config, study.settings.keep_all);
+    for (const VariantConfig& v : study.config.variants)
+        if (const std::string why = why_skipped(v, run.shot); !why.empty())
+            study.manifest["skipped"].push_back(
+                {{"shot", run.shot.name()}, {"variant", v.variant}, {"point", v.point}, {"condition", why}});
     entry.update(run.reference_entries);
     if (run.truth.is_measured()) {
         const FlipExposures& flip = run.truth.pose(last).flip_exposures;
@@ -142,7 +148,7 @@ void run_scene_shot(StudyRun& study, const ShotConfig& config) {
     study.progress.say(shot.scene.name + ", camera " + shot.camera.name);
     const std::unique_ptr<FrameSource> source = scene_source(study.device, shot, study.config, study.settings.keep_all);
     ShotRun run{
-        .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
+        .shot = shot, .source = *source, .store = FrameStore(*source, shot.config.depth_format, max_stored_bytes)};
     unsigned references = 0;
     if (!study.config.has_reference)
         run.truth = truth_of_lit(shot, {});
@@ -172,12 +178,12 @@ void run_gbuffer_shot(StudyRun& study, const ShotConfig& config) {
     if (!config.reference.empty())
         reference = read_capture_reference(config.reference, loaded.gbuffer, needs_ladder(study.config));
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
-    if (reference && !study.config.direct_lit) loaded.gbuffer.lit = {};
+    if (reference && !config.direct_lit) loaded.gbuffer.lit = {};
     ShotTruth lit_alone =
         truth_of_lit(shot, loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
     const std::unique_ptr<FrameSource> source = file_source(study.device, std::move(loaded.gbuffer));
     ShotRun run{
-        .shot = shot, .source = *source, .store = FrameStore(*source, study.config.depth_format, max_stored_bytes)};
+        .shot = shot, .source = *source, .store = FrameStore(*source, shot.config.depth_format, max_stored_bytes)};
     run.truth = std::move(lit_alone);
     if (reference) {
         run.truth = shot_truth(shot, study.config, run.store, source->graph(), [&](unsigned frame, ReferenceUse use) {
@@ -230,6 +236,7 @@ std::vector<ShotAnswer> write_results(StudyRun& study, bool is_last) {
     if (is_last) handle_stale_files(study, manifest);
     write_text(study.settings.out / "manifest.json", manifest.dump(1) + "\n");
     write_tables(study.settings.out, rows);
+    write_parameters(study.settings.out, study.config.variants);
     const auto not_repeatable = points_not_repeatable(study.manifest);
     const std::vector<VariantConfig>& variants = study.config.variants;
     std::vector<EffectRow> effects = paired_effects(rows.results, variants, not_repeatable, rows.reference_noise);

@@ -3,6 +3,7 @@
 #include "experiments/measuring/timing_lock.h"
 #include "experiments/results/host_info.h"
 #include "experiments/results/provenance.h"
+#include "experiments/study/config/conditions.h"
 #include "experiments/study/point_run.h"
 #include "experiments/study/study_run.h"
 #include "variants/registry.h"
@@ -33,8 +34,8 @@ std::string cell_hash(const StudyRun& study, const ShotRun& run, const std::stri
         hash.add(list.size());
         for (const unsigned number : list) hash.add(number);
     }
-    hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)),
-        hash.add(int(study.settings.keep_all)), hash.add(int(c.composite)), hash.add(c.normal_bits);
+    hash.add(int(shot.direct_lit)), hash.add(int(shot.depth_format)), hash.add(int(shot.depth_direction)),
+        hash.add(int(study.settings.keep_all)), hash.add(int(c.composite)), hash.add(shot.normal_bits);
     hash.add(c.hits ? int(c.hits->every) : 0), hash.add(c.hits ? int(c.hits->seeds) : 0);
     hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance), hash.add(run.shot.camera.exposure_ev);
     return hash.hex();
@@ -61,13 +62,14 @@ void say_result(StudyRun& study, const Cell& cell) {
         if (r.target == shown.target && r.metric == shown.metric && r.mask == shown.mask && r.value)
             values[r.frame].push_back(*r.value), non_finite = std::max(non_finite, size_t(r.non_finite));
     if (values.empty()) return;
-    const auto& [frame, seeds] = *values.rbegin();  // "all" comes after every number
+    const auto& [frame, seeds] = values.contains(over_frames) ? *values.find(over_frames) : *values.rbegin();
     double sum = 0;
     for (const double value : seeds) sum += value;
     char line[240];
-    std::snprintf(line, sizeof line, "  %-24s %-32s %s of %s pixels %.4g (frame %s, %zu seed%s)",
-                  cell.rows.front().variant.c_str(), cell.rows.front().point.c_str(), shown.metric.c_str(),
-                  shown.mask.c_str(), sum / double(seeds.size()), frame.c_str(), seeds.size(),
+    std::snprintf(line, sizeof line, "  %-56s %s of %s pixels %.4g (%s, %zu seed%s)",
+                  display_name(study.config, cell.rows.front().variant, cell.rows.front().point).c_str(),
+                  shown.metric.c_str(), shown.mask.c_str(), sum / double(seeds.size()),
+                  frame == over_frames ? "over all frames" : ("frame " + frame).c_str(), seeds.size(),
                   seeds.size() == 1 ? "" : "s");
     const std::string left_out =
         non_finite > 0 ? ", without " + std::to_string(non_finite) + " that are not finite" : "";
@@ -108,6 +110,7 @@ std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, bool waits) {
 std::vector<CellTask> point_tasks(StudyRun& study, ShotRun& run) {
     std::vector<CellTask> tasks;
     for (const VariantConfig& variant : study.config.variants) {
+        if (!runs_on(variant, run.shot)) continue;
         const nlohmann::json parameters =
             make_variant(variant.variant, variant.parameters, variant.preset)->params.values();
         // Times do not depend on which images are kept, and the cells of points do: these have them.
@@ -150,11 +153,12 @@ const ClockProof& proven_clock(StudyRun& study) {
 
 /// All times of a shot, while no other ssrlab takes any on this machine.
 Cell timing_cell(StudyRun& study, ShotRun& run, const std::function<void(double)>& report) {
-    if (!has_times(study.config)) return {};
+    const Config config = config_on(study.config, run.shot);
+    if (!has_times(config)) return {};
     const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
     const ClockProof& clock = proven_clock(study);
     const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
-    const ShotTimes times = time_variants(run.source, run.shot, study.config, lit, study.settings.keep_all, report);
+    const ShotTimes times = time_variants(run.source, run.shot, config, lit, study.settings.keep_all, report);
     if (times.load.disturbed > 0)
         study.progress.say("warning: " + run.shot.name() + ": other programs disturbed " +
                            std::to_string(times.load.disturbed) + " of " + std::to_string(study.config.timing.frames) +
@@ -165,9 +169,10 @@ Cell timing_cell(StudyRun& study, ShotRun& run, const std::function<void(double)
 double disturbed_frames(const Cell& cell) { return cell.timing.at("load").at("disturbed_frames").get<double>(); }
 
 CellTask timing_task(StudyRun& study, ShotRun& run) {
-    const nlohmann::json what = timed_work(study.config, study.manifest["variants"], study.maker["host"]);
+    const Config config = config_on(study.config, run.shot);
+    const nlohmann::json what = timed_work(config, study.manifest["variants"], study.maker["host"]);
     std::vector<unsigned> seeds;
-    for (const VariantConfig& variant : study.config.variants) seeds.push_back(variant.seeds.front());
+    for (const VariantConfig& variant : config.variants) seeds.push_back(variant.seeds.front());
     return {.hash = cell_hash(study, run, "times", what, seeds),
             .what = run.shot.name() + ": timing",
             .kind = "times",

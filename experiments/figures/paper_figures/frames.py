@@ -4,21 +4,21 @@ from matplotlib.ticker import MaxNLocator
 
 from paper_figures import style
 from paper_figures.lines import draw_lines
-from paper_figures.results import ResultsError, label
+from paper_figures.results import ResultsError, is_over_frames, label
 
 
 def _frame_number(row):
     try:
         return int(row["frame"])
     except ValueError as e:
-        raise ResultsError(f"summary.csv: 'frame' = \"{row['frame']}\" is neither a number nor all") from e
+        raise ResultsError(f"summary.csv: 'frame' = \"{row['frame']}\" is no number") from e
 
 
 def draw(results, chosen):
     rows = [
         r
         for r in results.all_errors
-        if r["frame"] != "all" and (r["target"], r["metric"], r["mask"]) == (chosen.target, chosen.metric, chosen.mask)
+        if not is_over_frames(r) and (r["target"], r["metric"], r["mask"]) == (chosen.target, chosen.metric, chosen.mask)
     ]
     shots = [s for s in results.shots() if len({r["frame"] for r in rows if r["shot"] == s}) > 1]
     if not shots:

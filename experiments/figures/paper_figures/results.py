@@ -35,6 +35,11 @@ def label(variant, point):
     return variant if point in ("", "default") else f"{variant} {point}"
 
 
+def is_over_frames(row):
+    """Whether it stands for all frames of its shot: such have no `frame`, in results of earlier versions "all"."""
+    return row["frame"] in ("", "all")
+
+
 def rows_that_speak(rows):
     """Of each shot those over its frames, or of its last one, as `ssrlab run` decided."""
     if rows and "speaks" not in rows[0]:
@@ -113,7 +118,7 @@ class Results:
         if len(frames) < 2:
             return []
         return list(
-            dict.fromkeys("mean over frames" if r["frame"] == "all" else f"frame {r['frame']} alone" for r in rows)
+            dict.fromkeys("mean over frames" if is_over_frames(r) else f"frame {r['frame']} alone" for r in rows)
         )
 
     def headline_metric(self):
