@@ -119,8 +119,8 @@ void finish_scene(Scene& scene) {
 }
 
 Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_path) {
-    const nlohmann::json json = read_json(file);
-    JsonObject object(json, file.string());
+    const JsonDocument document = read_json_document(file);
+    JsonObject object(document, file.string());
     Scene scene;
     if (object.has("gltf")) scene = load_gltf(find_file(object.text("gltf"), file, search_path, file.string()));
     if (object.has("also")) {

@@ -115,6 +115,8 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
     // No interval holds how they scatter from run to run.
     const PointSet not_repeatable = points_not_repeatable(manifest);
     for (MetricSummary& e : tables.errors)
+        if (e.frame == "all") e.frame = over_frames;  // as earlier versions wrote it
+    for (MetricSummary& e : tables.errors)
         if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
     const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
     if (has("splits.csv")) tables.splits = read_rows<SplitRow>(folder / "splits.csv");
@@ -129,14 +131,14 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
 json report_data(const ReportTables& tables, const PointSet& single_changes) {
     Texts code;
     std::vector<MetricSummary> errors, frames;
-    std::set<std::tuple<std::string, std::string, std::string, std::string>> over_frames;
+    std::set<std::tuple<std::string, std::string, std::string, std::string>> known_over_frames;
     const auto quantity_of = [](const MetricSummary& e) { return std::tuple(e.shot, e.target, e.metric, e.mask); };
     for (const MetricSummary& e : tables.errors)
-        if (e.frame == "all") over_frames.insert(quantity_of(e));
+        if (e.frame == over_frames) known_over_frames.insert(quantity_of(e));
     for (const MetricSummary& e : tables.errors) {
         if (e.speaks_for_shot)
             errors.push_back(e);
-        else if (over_frames.contains(quantity_of(e)) && !single_changes.contains({e.variant, e.point}))
+        else if (known_over_frames.contains(quantity_of(e)) && !single_changes.contains({e.variant, e.point}))
             frames.push_back(e);
     }
     json data = {{"errors", table<MetricSummary>(errors, code)},

@@ -11,7 +11,7 @@
 /// One row of results.csv; the columns are explained in experiments/RESULTS.md.
 struct ResultRow {
     std::string shot, scene, camera;
-    std::string frame;  ///< its number, or "all": over the frames of the shot
+    std::string frame;  ///< its number, or over_frames
     unsigned width = 0, height = 0;
     std::string variant, point;
     unsigned seed = 0;

@@ -15,17 +15,17 @@ unsigned frame_number(const ResultRow& row) { return unsigned(std::strtoul(row.f
 void mark_what_speaks(std::span<ResultRow> rows) {
     using Quantity = std::tuple<std::string, std::string, std::string, std::string>;
     const auto quantity_of = [](const ResultRow& r) { return Quantity{r.shot, r.target, r.metric, r.mask}; };
-    std::set<Quantity> over_frames;
+    std::set<Quantity> known_over_frames;
     std::map<std::string, unsigned> last;
     for (const ResultRow& r : rows) {
-        if (r.frame == "all")
-            over_frames.insert(quantity_of(r));
+        if (r.frame == over_frames)
+            known_over_frames.insert(quantity_of(r));
         else
             last[r.shot] = std::max(last[r.shot], frame_number(r));
     }
     for (ResultRow& r : rows)
         r.speaks_for_shot =
-            r.frame == "all" || (frame_number(r) == last[r.shot] && !over_frames.contains(quantity_of(r)));
+            r.frame == over_frames || (frame_number(r) == last[r.shot] && !known_over_frames.contains(quantity_of(r)));
 }
 
 StudyRows rows_of(const std::vector<Cell>& cells) {

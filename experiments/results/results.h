@@ -18,7 +18,7 @@ struct StudyRows {
 StudyRows rows_of(const std::vector<Cell>& cells);
 
 /// Decides which frames speak for a shot, for tables, effects, report and figures: of each quantity (target, metric,
-/// mask) the rows over its frames ("all") where a point has such, else those of its last frame.
+/// mask) the rows over its frames where a point has such, else those of its last frame.
 void mark_what_speaks(std::span<ResultRow> rows);
 
 /// Writes results.csv, splits.csv and times.csv, hits.csv if rays were judged, and costs.csv if costs were counted; the

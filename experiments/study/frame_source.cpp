@@ -17,23 +17,22 @@ class SceneSource final : public FrameSource {
 public:
     SceneSource(Device& device, const Shot& shot, const Config& config, bool keep_all)
         : shot_(shot),
-          config_(config),
           rasterizer_(device, shot.scene,
                       {.extent = shot.config.extent,
-                       .depth_format = config.depth_format,
-                       .normal_bits = config.normal_bits,
+                       .depth_format = shot.config.depth_format,
+                       .normal_bits = shot.config.normal_bits,
                        .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
                        .is_still = shot.facts.is_still(),
                        .keep_all = keep_all}) {}
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
         const GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,
-                                                                  .depth_direction = config_.depth_direction,
+                                                                  .depth_direction = shot_.config.depth_direction,
                                                                   .frame = step.frame,
                                                                   .seed = seed,
                                                                   .index = step.index,
                                                                   .previous_frame = step.previous_frame});
-        if (config_.direct_lit)
+        if (shot_.config.direct_lit)
             rasterizer_.light_directly(gbuffer);
         else
             rasterizer_.upload_lit(gbuffer, lit);
@@ -44,7 +43,6 @@ public:
 
 private:
     const Shot& shot_;
-    const Config& config_;
     Rasterizer rasterizer_;
 };
 

@@ -88,7 +88,7 @@ void enter_shot(Opening& opening) {
     const FrameStep& last = run.shot.steps.back();
     const FrameStore::Frame frame = run.store->frame(last, run.truth.lit(last));
     const HostGBuffer host =
-        download_gbuffer(run.source->graph(), frame.gbuffer, frame.camera, opening.config.depth_format);
+        download_gbuffer(run.source->graph(), frame.gbuffer, frame.camera, run.shot.config.depth_format);
     run.entry["needs"] = fact_entries(list_facts(pixel_facts(host)));
     if (run.truth.is_measured()) {
         const FlipExposures& flip = run.truth.pose(last).flip_exposures;
@@ -115,7 +115,7 @@ void open_scene(Opening& opening, const ShotConfig& config) {
     run.shot = load_shot(config, opening.settings.search_path);
     opening.settings.say(run.shot.scene.name + ", camera " + run.shot.camera.name);
     run.source = scene_source(opening.device, run.shot, opening.config, opening.settings.keep_all);
-    run.store = std::make_unique<FrameStore>(*run.source, opening.config.depth_format, max_stored_bytes);
+    run.store = std::make_unique<FrameStore>(*run.source, run.shot.config.depth_format, max_stored_bytes);
     if (!opening.config.has_reference)
         run.truth = truth_of_lit(run.shot, [](unsigned) { return HostImage(); });
     else
@@ -142,10 +142,10 @@ void open_capture(Opening& opening, const ShotConfig& config) {
     }
     const bool is_measured = !config.reference.empty();
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
-    const bool reads_own_lit = contents.has_lit && (!is_measured || opening.config.direct_lit);
+    const bool reads_own_lit = contents.has_lit && (!is_measured || config.direct_lit);
     if (reads_own_lit) run.entry["lit"] = "file";
     run.source = capture_source(opening.device, *run.capture, run.shot, reads_own_lit);
-    run.store = std::make_unique<FrameStore>(*run.source, opening.config.depth_format, max_stored_bytes);
+    run.store = std::make_unique<FrameStore>(*run.source, run.shot.config.depth_format, max_stored_bytes);
     if (is_measured)
         run.truth = shot_truth(run.shot, opening.config, *run.store, run.source->graph(),
                                [&](unsigned frame, ReferenceUse use) {

@@ -11,8 +11,8 @@ namespace {
 bool is_capture(const Shot& shot) { return !shot.config.gbuffer.empty(); }
 
 /// Whether anything of the frame is compared with the truth, or lit by it.
-bool needs_reference(const Shot& shot, const Config& config, const FrameStep& step) {
-    if (!config.direct_lit) return true;
+bool needs_reference(const Shot& shot, const FrameStep& step) {
+    if (!shot.config.direct_lit) return true;
     return step.is_measured || step.is_held || measures_difference(shot, step) || is_after_change(shot, step);
 }
 
@@ -70,7 +70,7 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     std::map<std::string, std::shared_ptr<const PoseTruth>> by_look;
     const bool has_several = shot.steps.size() > shot.config.warm_up + 1;
     for (const FrameStep& step : shot.steps) {
-        if (truth.poses.contains(step.frame) || !needs_reference(shot, config, step)) continue;
+        if (truth.poses.contains(step.frame) || !needs_reference(shot, step)) continue;
         std::shared_ptr<const PoseTruth>& pose = by_look[looks[step.frame]];
         const std::string& look = looks[step.frame];
         const ReferenceUse use{.is_of_last = look == looks[shot.config.frames.back()],
@@ -86,7 +86,7 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     for (const FrameStep& step : shot.steps) {
         if (!step.is_measured && !measures_difference(shot, step)) continue;
         const FrameStore::Frame frame = store.frame(step, truth.lit(step));
-        const HostGBuffer gbuffer = download_gbuffer(graph, frame.gbuffer, frame.camera, config.depth_format);
+        const HostGBuffer gbuffer = download_gbuffer(graph, frame.gbuffer, frame.camera, shot.config.depth_format);
         truth.frames.emplace(std::pair(step.frame, step.previous_frame),
                              frame_truth(truth.poses.at(step.frame), gbuffer, config));
     }

@@ -5,6 +5,7 @@
 #include "experiments/results/manifest.h"
 #include "experiments/results/source_code.h"
 #include "experiments/study/capture.h"
+#include "experiments/study/config/conditions.h"
 #include "experiments/study/config/shot.h"
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
@@ -59,12 +60,13 @@ public:
         const VariantConfig& v = config_.variants[variant];
         return name(sources, request, {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())});
     }
-    std::string of_times(const std::string& request) {
+    /// `runs`: by variant, whether it runs on the shot.
+    std::string of_times(const std::string& request, const std::vector<bool>& runs) {
         std::vector<std::string> sources = {"experiments/measuring/timing.cpp", "experiments/study/shot_run.cpp"};
         std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up)};
         for (size_t i = 0; i < points_.size(); ++i) {
             const VariantConfig& v = config_.variants[i];
-            if (!v.is_timed) continue;
+            if (!v.is_timed || !runs[i]) continue;
             sources.insert(sources.end(), points_[i].sources.begin(), points_[i].sources.end());
             what.insert(what.end(), {v.variant, v.point, points_[i].parameters, std::to_string(v.seeds.front())});
         }
@@ -88,8 +90,7 @@ private:
             hash.add(list.size());
             for (const std::string& text : list) hash.add(text);
         }
-        hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)),
-            hash.add(int(keep_all_)), hash.add(int(c.composite)), hash.add(c.normal_bits);
+        hash.add(int(keep_all_)), hash.add(int(c.composite));
         hash.add(c.hits ? int(c.hits->every) : 0), hash.add(c.hits ? int(c.hits->seeds) : 0);
         hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance);
         return hash.hex();
@@ -127,7 +128,9 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
     }
     for (const unsigned number : {shot.config.warm_up, shot.config.repeat, shot.config.change.value_or(0),
                                   unsigned(shot.config.measures_last_only), shot.config.measure_from,
-                                  unsigned(config.has_reference)})
+                                  unsigned(config.has_reference), unsigned(shot.config.direct_lit),
+                                  unsigned(shot.config.depth_format), unsigned(shot.config.depth_direction),
+                                  shot.config.normal_bits})
         hash.add(number);
     return hash.hex();
 }
@@ -169,21 +172,34 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
                                                           .shot = planned.name,
                                                           .units = units});
         };
-        add(CellKind::references, names.of_references(request), "references", double(of_shot.frames.size()));
+        std::vector<bool> runs;
+        for (const VariantConfig& variant : config.variants) {
+            const std::string why = why_skipped(variant, shot);
+            runs.push_back(why.empty());
+            if (!why.empty())
+                plan.skipped.push_back({{"shot", planned.name},
+                                        {"variant", variant.variant},
+                                        {"point", variant.point},
+                                        {"condition", why}});
+        }
+        add(CellKind::references, names.of_references(request), "references", double(shot.config.frames.size()));
         for (size_t i = 0; i < config.variants.size(); ++i) {
             const VariantConfig& variant = config.variants[i];
+            if (!runs[i]) continue;
             add(CellKind::renders, names.of_renders(request, i), variant.variant + " " + variant.point,
                 double(shot.steps.size() * variant.seeds.size()))
                 .variant = &variant;
         }
         for (size_t i = 0; i < config.variants.size() && config.counts_costs; ++i) {
             const VariantConfig& variant = config.variants[i];
+            if (!runs[i]) continue;
             add(CellKind::costs, names.of_costs(request, i), "costs of " + variant.variant + " " + variant.point,
                 double(shot.steps.size()))
                 .variant = &variant;
         }
-        if (config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed))
-            add(CellKind::times, names.of_times(request), "times", 1);
+        const Config on_shot = config_on(config, shot);
+        if (config.timing.frames > 0 && std::ranges::any_of(on_shot.variants, &VariantConfig::is_timed))
+            add(CellKind::times, names.of_times(request, runs), "times", 1);
     }
     return plan;
 }

@@ -34,6 +34,7 @@ struct PlannedShot {
 /// All cells of a study, in the order in which they are done.
 struct StudyPlan {
     std::vector<PlannedShot> shots;
+    std::vector<nlohmann::json> skipped;  ///< pairs of shot and point that have no cell: the manifest's entries
     size_t cell_count() const;
 };
 

@@ -38,6 +38,7 @@ def label(variant, point):
 
 
 def is_over_frames(row):
+    """Whether it stands for all frames of its shot: such have no `frame`, in results of earlier versions "all"."""
     return row["frame"] in OVER_FRAMES
 
 

@@ -30,7 +30,7 @@ std::string Shot::name() const {
     if (config.frames.size() != last - first + 1) name += ".n" + std::to_string(config.frames.size());
     if (config.warm_up > 0) name += ".w" + std::to_string(config.warm_up);
     if (config.repeat > 1) name += ".r" + std::to_string(config.repeat);
-    return name;
+    return name + config.name_suffix;
 }
 
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {

@@ -31,8 +31,8 @@ struct Shot {
     std::vector<FrameStep> steps;
 
     /// `<scene>.<camera>.<width>x<height>`, then, where they are not the default: `.f<frame>` or `.f<first>-<last>`
-    /// (and
-    /// `.n<count>` where some between are left out), `.w<warm-up>`, `.r<repetitions>`.
+    /// (and `.n<count>` where some between are left out), `.w<warm-up>`, `.r<repetitions>`, and what is not the study's
+    /// own of `.direct`, `.d16`, `.reversed`, `.octahedral_8` and the like.
     std::string name() const;
 };
 

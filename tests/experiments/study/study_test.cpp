@@ -5,18 +5,9 @@
 #include "groundtruth/reference_file.h"
 #include "tests/experiments/study/study_fixture.h"
 
-namespace {
-
-double value_of(const std::vector<ResultRow>& rows, const std::string& variant, const std::string& metric,
-                const std::string& mask) {
-    for (const ResultRow& r : rows)
-        if (r.variant == variant && r.metric == metric && r.mask == mask && r.target == "specular")
-            return r.value.value();
-    ADD_FAILURE() << "no row " << variant << " " << metric << " " << mask;
-    return 0;
-}
-
-}  // namespace
+#include <map>
+#include <set>
+#include <sstream>
 
 TEST_F(StudyTest, RepeatsItselfAndContinues) {
     const Config study = config(R"(["mirror_pillars", "floating_holes"])");
@@ -33,10 +24,44 @@ TEST_F(StudyTest, RepeatsItselfAndContinues) {
     EXPECT_TRUE(fs::exists(folder / "a/report.html"));
 }
 
-TEST_F(StudyTest, LinearTracingBeatsNothingOnMirrors) {
-    const auto rows = read_rows<ResultRow>(run(config(R"("mirror_pillars")"), "a") / "results.csv");
-    EXPECT_LT(value_of(rows, "mcguire_dda", "mse", "reflective"), 0.5 * value_of(rows, "none", "mse", "reflective"));
-    for (const ResultRow& r : rows) EXPECT_EQ(r.non_finite, 0u);
+/// Shots that differ in a setting, a point that runs on one of them only, labels; read by the example as its user
+/// would.
+TEST_F(StudyTest, RunsADesignThatTheExampleReads) {
+    write_text(folder / "study.json", R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54],
+            "lit": ["path_traced", "direct"], "label": "pillars {settings}", "group": "mirrors"}],
+        "reference": {"samples": 64}, "metrics": "mse", "targets": "specular", "timing": {"frames": 0},
+        "variants": [{"variant": "none", "baseline": true}, {"variant": "mcguire_dda", "label": "DDA, {dda.stride} px",
+            "sweep": {"dda.stride": [1, 8]}, "skip_if": {"dda.stride": 8, "shot.lit": "direct"}}]})");
+    const fs::path out = run(read_config(folder / "study.json"), "a");
+    std::set<std::string> pairs;
+    std::map<std::string, double> errors;
+    for (const ResultRow& r : read_rows<ResultRow>(out / "results.csv")) {
+        const std::string pair = r.shot.substr(r.shot.find("96x54")) + " " + r.point;
+        pairs.insert(pair);
+        EXPECT_EQ(r.non_finite, 0u);
+        if (r.mask == "reflective") errors[pair] = r.value.value();
+    }
+    EXPECT_EQ(pairs, (std::set<std::string>{"96x54 default", "96x54 dda.stride=1", "96x54 dda.stride=8",
+                                            "96x54.direct default", "96x54.direct dda.stride=1"}));
+    EXPECT_LT(errors["96x54 dda.stride=1"], 0.5 * errors["96x54 default"]) << "linear tracing beats nothing on mirrors";
+    EXPECT_NE(errors["96x54 dda.stride=1"], errors["96x54.direct dda.stride=1"]) << "the light that they read";
+    const nlohmann::json manifest = read_json(out / "manifest.json");
+    ASSERT_EQ(manifest["skipped"].size(), 1u);
+    EXPECT_EQ(manifest["skipped"][0]["condition"], R"(skip_if {"shot.lit":"direct"})");
+    EXPECT_EQ(manifest["shots"][1]["label"], "pillars direct");
+    EXPECT_EQ(manifest["shots"][1]["group"], "mirrors");
+    EXPECT_EQ(manifest["shots"][1]["lit"], "direct");
+    EXPECT_EQ(manifest["variants"][2]["label"], "DDA, 8 px");
+    // Debian's own Python, which has Debian's pandas.
+    const std::string script = std::string(SSRLAB_SOURCE_DIR) + "/experiments/examples/read_results.py ";
+    ASSERT_EQ(std::system(("/usr/bin/python3 -B " + script + out.string() + " > " + out.string() + "/best").c_str()),
+              0);
+    std::istringstream lines(read_text(out / "best"));
+    std::vector<std::string> points;
+    for (std::string line, shot, variant, point; std::getline(lines, line);)
+        if (std::istringstream(line) >> shot >> variant >> point) points.push_back(shot + " " + point);
+    ASSERT_EQ(points.size(), 3u) << "a head and two shots";
+    EXPECT_EQ(points[2], "mirror_pillars.main.96x54.direct dda.stride=1");
 }
 
 TEST_F(StudyTest, LeavingOutChangesNothing) {

@@ -32,6 +32,7 @@ function showExplorer() {
                 "Colours and shapes stand for",
                 [
                     ...(comparedPoints.length <= mostNumbered ? [["point", "points"]] : []), ["variant", "variants"],
+                    ...(pointGroups.length > 1 ? [["group", "groups"]] : []),
                     ...swept.map(name => [name, name])
                 ],
                 shownPoints.colourBy, changed("colourBy")),
