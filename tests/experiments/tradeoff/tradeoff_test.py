@@ -147,6 +147,13 @@ class Curves(unittest.TestCase):
         self.assertLess(low, np.quantile(alone[0], 0.025))  # as the least of four falls
         self.assertAlmostEqual(high, np.quantile(alone[0], 1 - 0.025 / 4), places=2)  # not as low as that
 
+    def test_where_the_measured_front_may_not_fit_another_point_counts(self):
+        made = [point("v:a", 1, 0, 10, 0.3), point("v:b", 2, 0, 10.5)]
+        curve = curves.Curve(made, uncertainty.ShotDraws(made), [0, 1])
+        error, low, high, share = curve.error_at(10.6)
+        self.assertEqual((error, share), (1, 1))
+        self.assertTrue(1.5 < high <= 2)  # between b and where a was drawn to be
+
     def test_upper_ends_are_left_out_where_draws_do_not_reach(self):
         made = [point("v:a", 2, 0.01, 10), point("v:b", 1, 0.2, 20)]
         curve = curves.Curve(made, uncertainty.ShotDraws(made), [0, 1])
