@@ -190,6 +190,8 @@ int parse_and_run(int argc, char** argv) {
                     "Of the baseline's error, for the time to reach them; default: 0.5 0.25 0.1")
         ->check(CLI::PositiveNumber)
         ->type_name("F");
+    tradeoff_command_.add_option("--leave-out", tradeoff.left_out, "Scenes or shots that nothing is said of")
+        ->type_name("SCENE");
     tradeoff_command_.add_option("--metric", tradeoff.metric, "Default: that of the study's primary error");
     tradeoff_command_.add_option("--mask", tradeoff.mask, "Default: likewise");
     tradeoff_command_.add_option("--target", tradeoff.target, "Default: likewise");

@@ -63,6 +63,7 @@ struct TradeoffOptions {
     std::filesystem::path results, out;
     std::string baseline, metric, mask, target, cost;  ///< empty: the study's own, and time
     std::vector<double> times, factors;                ///< empty: the script's
+    std::vector<std::string> left_out;                 ///< scenes or shots
 };
 int tradeoff_command(const TradeoffOptions& options);  ///< the exit code: 0, 2 or 3
 

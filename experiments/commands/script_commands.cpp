@@ -76,6 +76,8 @@ int tradeoff_command(const TradeoffOptions& options) {
         for (const double value : values) arguments.push_back(nlohmann::json(value).dump());
     };
     add_list("times", options.times), add_list("factors", options.factors);
+    if (!options.left_out.empty()) arguments.push_back("--leave-out");
+    arguments.insert(arguments.end(), options.left_out.begin(), options.left_out.end());
     return run_script("tradeoff/tradeoff.py", arguments);
 }
 

@@ -38,6 +38,7 @@ class Answers:
     def __init__(self, analysis):
         self.analysis, self.study = analysis, analysis.study
         self.unit = self.study.unit
+        self.shot_labels = {s.name: s.label for s in self.study.shots}
         self.base = self.study.label_of(analysis.baseline)
 
     def text(self):
@@ -260,7 +261,7 @@ class Answers:
             "",
         ]
         cells = [
-            (r["shot"], r["label"], number(r["cost"]), measured(r["error"], r["error_low"], r["error_high"]), measured(r["rung_error"], r["rung_low"], r["rung_high"]), measured(r.get("over_rung"), r.get("over_rung_low"), r.get("over_rung_high")))
+            (self.shot_labels[r["shot"]], r["label"], number(r["cost"]), measured(r["error"], r["error_low"], r["error_high"]), measured(r["rung_error"], r["rung_low"], r["rung_high"]), measured(r.get("over_rung"), r.get("over_rung_low"), r.get("over_rung_high")))
             for r in rows
         ]
         return lines + table(("shot", "least error", self.unit, "its error", f"`{RUNGS[0]}`", f"error / `{RUNGS[0]}`"), cells)
@@ -286,7 +287,7 @@ class Answers:
                 ends = f"{number(r.get('cost_from'))} to {number(r.get('cost_to'))}"
                 over = measured(r.get("floor_over_rung"), r.get("floor_over_rung_low"), r.get("floor_over_rung_high"))
                 fitted = (measured(r["floor"], r["floor_low"], r["floor_high"]), over, measured(r["b"], r["b_low"], r["b_high"]), number(r["misfit"]))
-                cells.append((axis, r["shot"], r["points"], ends, *fitted, r["status"]))
+                cells.append((axis, self.shot_labels[r["shot"]], r["points"], ends, *fitted, r["status"]))
         return lines + table(("axis", "shot", "points", self.unit, "floor", "floor / rung", "b", "misfit", "status"), cells)
 
     def _stages(self):
@@ -317,7 +318,7 @@ class Answers:
         cells = [
             (
                 f"{self.study.label_of((r['against_variant'], r['against_point']))}: {r['change']}",
-                r[first],
+                self.shot_labels[r["shot"]] if first == "shot" else r["scenes"],
                 measured(*(None if v is None else 100 * (v - 1) for v in (r["error_ratio"], r["error_low"], r["error_high"]))),
                 measured(r["cost"], r["cost_low"], r["cost_high"]),
                 r["verdict"],

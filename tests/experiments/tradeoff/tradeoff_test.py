@@ -147,6 +147,13 @@ class Curves(unittest.TestCase):
         self.assertLess(low, np.quantile(alone[0], 0.025))  # as the least of four falls
         self.assertAlmostEqual(high, np.quantile(alone[0], 1 - 0.025 / 4), places=2)  # not as low as that
 
+    def test_where_the_measured_front_may_not_fit_another_point_counts(self):
+        made = [point("v:a", 1, 0, 10, 0.3), point("v:b", 2, 0, 10.5)]
+        curve = curves.Curve(made, uncertainty.ShotDraws(made), [0, 1])
+        error, low, high, share = curve.error_at(10.6)
+        self.assertEqual((error, share), (1, 1))
+        self.assertTrue(1.5 < high <= 2)  # between b and where a was drawn to be
+
     def test_upper_ends_are_left_out_where_draws_do_not_reach(self):
         made = [point("v:a", 2, 0.01, 10), point("v:b", 1, 0.2, 20)]
         curve = curves.Curve(made, uncertainty.ShotDraws(made), [0, 1])
@@ -276,6 +283,7 @@ def write_study(folder):
     keys = {name: tuple(name.partition(":")[::2]) for name in PRESETS}
     keys = {name: (v, p or "default") for name, (v, p) in keys.items()}
     errors, times, counts, effects = [], [], [], []
+    errors += [{"shot": "moon", "variant": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "speaks": 1}]
     oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "speaks": 1, "seed": 0}
     errors += [oracle | {"shot": s, "value": 0.01, "low": 0.01, "high": 0.01, "ranked": 1} for s in shots]
     # Over the frames of `sky` there is next to no error, and no time.
@@ -332,7 +340,7 @@ class Folder(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = cls.temporary.name
         write_study(cls.folder)
-        asked = ["--times", "3", "4.1", "10", "--factors", "0.0625", "--baseline", "none:default"]
+        asked = ["--leave-out", "moon", "--times", "3", "4.1", "10", "--factors", "0.0625", "--baseline", "none:default"]
         cls.done = subprocess.run([SSRLAB, "tradeoff", cls.folder, *asked], capture_output=True, text=True)
         cls.out = os.path.join(cls.folder, "tradeoff")
 
@@ -356,6 +364,7 @@ class Folder(unittest.TestCase):
         (fit, *_) = read(self.out, "fits.csv")
         self.assertEqual((fit["parameter"], fit["points"], fit["floor_low"], fit["rung"]), ("rays", "4", "0", "on_screen"))
         self.assertEqual((at["floor", "v", 4.1]["fits"], at["floor", "v", 10]["fits"]), ("maybe", "surely"))  # 4.04 ms and 2 %
+        self.assertEqual({s for s, _ in front}, {"floor", "wall", "roof", "sky"})  # moon was left out
         self.assertEqual(front["floor", "oracle"]["verdict"], "asks the scene")
         self.assertEqual({r["shot"] for r in read(self.out, "limits.csv")}, {"floor", "wall", "roof"})
         (limit, *_) = read(self.out, "limits.csv")
@@ -388,7 +397,7 @@ class Folder(unittest.TestCase):
         self.assertIn("has no 'bytes'", run(self.folder, "--cost", "bytes")[1])
 
     def test_mistakes(self):
-        for options, said in ((["--baseline", "x"], "no point x"), (["--metric", "flip"], "no errors of specular flip"), (["--leave-out", "moon"], "'moon'")):
+        for options, said in ((["--baseline", "x"], "no point x"), (["--metric", "flip"], "no errors of specular flip"), (["--leave-out", "sun"], "'sun'")):
             code, found = run(self.folder, *options)
             self.assertEqual(code, 2)
             self.assertIn(said, found)
