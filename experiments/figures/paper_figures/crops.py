@@ -192,7 +192,7 @@ def draw(results, shot, chosen):
     marks = standings({k: e for k, e in of_shot.items() if k[0] != "none"}, chosen.metric in HIGHER_IS_BETTER, pairs)
     cell = 0.95 * _width(chosen) / min(_most_columns(chosen), len(shown) + 1)
     letters = style.letters(0.95 * cell)
-    titles = [_truth_title(results, shot, letters), *(_title(results, k, of_shot[k], chosen, marks, letters, cell) for k in shown)]
+    titles = [_truth_title(results, shot), *(_title(results, k, of_shot[k], chosen, marks, letters, cell) for k in shown)]
     grid = _Grid(chosen, truth, crops, titles)
     grid.begin(_below(results, shot, target, chosen, of_shot, look, crops))
     maximum = max(float(np.nanquantile(m, 0.99)) for m in maps.values()) or 1.0
@@ -224,14 +224,14 @@ def _percent(share):
     return (f"{100 * share:.2g} %" if share >= 0.0005 else "< 0.1 %").replace(" ", "\N{NO-BREAK SPACE}")
 
 
-def _truth_title(results, shot, letters):
+def _truth_title(results, shot):
     lines = ["truth"]
     samples = results.shot_entries.get(shot, {}).get("reference", {}).get("samples_median")
     if samples:
         lines.append(f"{samples:g} spp")
     noise = _reference_noise(results, shot)
     if noise:
-        lines.append(style.wrapped(f"noise {_percent(noise[0])}, p95 {_percent(noise[1])}", letters))
+        lines += [f"noise {_percent(noise[0])},", f"p95 {_percent(noise[1])}"]
     return "\n".join(lines)
 
 

@@ -138,6 +138,7 @@ def draw(results, chosen):
     notes = ["median times, mean errors; 95 % intervals"]
     if has_beaten:
         notes.append("pale: another is told to be faster and better")
+    notes += results.warnings_of_times(list(every))
     notes += [style.NOT_POSITIVE_NOTE.replace("\n", " ")] if has_nonpositive else []
     notes += [style.ONE_SEED_NOTE] if any(e.is_one_seed for places in every.values() for _, e in places.values()) else []
     style.draw_legend(figure, panels, groups)

@@ -77,5 +77,6 @@ def draw(results, chosen):
                 axes.set_ylabel("time of a frame (ms)" if what == "time" else f"{chosen.metric} of {chosen.target}")
     if len(families) > 1:
         style.draw_legend(figure, [a for row in grid for a in row], list(families))
-    style.note(figure, f"{chosen.mask} pixels; 95 % intervals" + ("" if len(families) > 1 else f"; {next(iter(families))}"))
+    notes = [f"{chosen.mask} pixels", "95 % intervals", *([] if len(families) > 1 else families)]
+    style.note(figure, "; ".join(notes + (results.warnings_of_times(shots) if "time" in shown else [])))
     return figure

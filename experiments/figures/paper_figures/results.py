@@ -215,6 +215,14 @@ class Results:
                 stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*values)
         return stages
 
+    def warnings_of_times(self, shots):
+        """What must be known before the times of these shots are believed: sentences without a dot."""
+        shares = [self._number(r, "disturbed_share", "time_summary.csv") or 0.0 for r in self.times if r["shot"] in shots and r["variant"]]
+        proofs = self.manifest.get("clock", {}).get("proofs", [])
+        proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof["shots"]}
+        found = [f"other programs disturbed up to {100 * max(shares):.0f} % of the timed frames"] if max(shares, default=0.0) > 0 else []
+        return found + (["the clock did not prove itself"] if proofs and not set(shots) <= proven else [])
+
     def exposure(self, shot):
         """The shot's exposure in EV."""
         return self.shot_entries.get(shot, {}).get("exposure_ev") or 0.0

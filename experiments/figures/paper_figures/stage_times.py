@@ -96,7 +96,7 @@ def draw(results, shot, chosen):
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
     axes.grid(axis="y", visible=False)
-    style.note(figure, "median time of a frame (ms) with its 95 % interval")
+    style.note(figure, "; ".join(["median time of a frame (ms) with its 95 % interval", *results.warnings_of_times([shot])]))
     axes.set_title(results.shot_label(shot))
     _draw_totals(figure, axes, list(ticks), [s for _, points, *_ in blocks for s in points.values()])
     return figure

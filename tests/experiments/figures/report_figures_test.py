@@ -325,7 +325,10 @@ def test_study(folder):
 
     shot = results.shots()[0]
     figures_of |= {name: draw(results, shot, chosen) for name, draw in SHOT_FIGURES.items()}
+    results.times = [t | {"disturbed_share": "0.25"} for t in results.times]
     figures_of["error_time"] = STUDY_FIGURES["error_time"](results.narrowed([shot]), chosen)
+    note = figures_of["error_time"]._supxlabel.get_text().replace("\n", " ")
+    check("other programs disturbed up to 25 % of the timed frames" in note, note)
     check(
         [name for name, figure in figures_of.items() if figure is None] == ["crops"],
         "without images there are no crops",
