@@ -86,6 +86,6 @@ def with_previous(camera, previous):
     }
 
 
-# An equirectangular camera has its forward direction (-z) in the middle of the image, and its right (x) a quarter to the
-# right. Ours has +X in the middle and +Z a quarter to the right; Blender's names of these are +X and -Y.
+# An equirectangular camera has its forward direction (-z) in the middle of the image, and its right (x) a quarter to
+# the right. Ours has +X in the middle and +Z a quarter to the right; Blender's names of these are +X and -Y.
 PANORAMA_CAMERA = np.array([[0.0, 0, -1, 0], [-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]])

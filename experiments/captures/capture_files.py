@@ -53,7 +53,8 @@ def write_exr(path, planes):
     header += _attribute("channels", "chlist", b"".join(n.encode() + b"\0" + float32 for n in names) + b"\0")
     header += _attribute("compression", "compression", b"\2")
     header += _attribute("dataWindow", "box2i", window) + _attribute("displayWindow", "box2i", window)
-    header += _attribute("lineOrder", "lineOrder", b"\0") + _attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
+    header += _attribute("lineOrder", "lineOrder", b"\0")
+    header += _attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
     header += _attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0))
     header += _attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0"
 

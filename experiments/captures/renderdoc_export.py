@@ -83,8 +83,9 @@ class Replay:
         return decoded(data, (about.width, about.height), texture_format(about.format))
 
     def variable(self, entry):
-        """A float variable of a shader's constant buffers, "camera.view" where it is a member, of shape (rows, columns)."""
-        action, stage = self.action(entry.get("event")), rd.ShaderStage.__members__[entry.get("stage", "vertex").title()]
+        """A float variable of a shader's constant buffers ("camera.view" of a member), of shape (rows, columns)."""
+        action = self.action(entry.get("event"))
+        stage = rd.ShaderStage.__members__[entry.get("stage", "vertex").title()]
         self.controller.SetFrameEvent(action.eventId, True)
         state = self.controller.GetPipelineState()
         shader = state.GetShaderReflection(stage)

@@ -34,8 +34,8 @@ def _regular(data, kind, width, count):
 
 
 def decoded(data, extent, texture_format):
-    """Texels as float of shape (height, width, channels), in the order RGBA. `texture_format`: (layout, kind, bytes of a channel,
-    channels), with the layouts "regular", "bgra", "r10g10b10a2", "r11g11b10", "d24s8" and "d32s8"."""
+    """Texels as float of shape (height, width, channels), in the order RGBA. `texture_format`: (layout, kind, bytes of a
+    channel, channels), with the layouts "regular", "bgra", "r10g10b10a2", "r11g11b10", "d24s8" and "d32s8"."""
     layout, kind, width, count = texture_format
     shape = (extent[1], extent[0], -1)
     if layout in ("regular", "bgra"):
@@ -91,8 +91,8 @@ DECODERS = {
 
 
 def layer_of(name, texels, entry, camera):
-    """One layer. `entry` of the mapping: "channels" (letters of RGBA; default: the first, as many as the layer has) and "decode"
-    (names of DECODERS, or numbers to multiply with)."""
+    """One layer. `entry` of the mapping: "channels" (letters of RGBA; default: the first, as many as the layer has) and
+    "decode" (names of DECODERS, or numbers to multiply with)."""
     where = f"layer '{name}'"
     steps = entry.get("decode", [])
     channels = entry.get("channels", "RGBA"[: 2 if "octahedral" in steps else len(CHANNELS[name])])
@@ -126,14 +126,15 @@ MATRIX_DECODERS = {
 
 
 def camera_value(name, values, entry):
-    """A number or a matrix of camera.json. `values`: of a shader's variable, of shape (rows, columns); `entry` of the mapping:
-    "component" (which of the numbers) or "decode" (names of MATRIX_DECODERS)."""
+    """A number or a matrix of camera.json. `values`: of a shader's variable, of shape (rows, columns); `entry` of the
+    mapping: "component" (which of the numbers) or "decode" (names of MATRIX_DECODERS)."""
     if "component" in entry:
         return float(values.ravel()[entry["component"]])
     if values.shape != (4, 4):
         raise CaptureError(f"camera: '{name}' is of shape {values.shape} and needs 4 x 4, or a 'component'")
     for step in entry.get("decode", []):
         if step not in MATRIX_DECODERS:
-            raise CaptureError(f"camera: '{name}': there is no decoder '{step}'; known are: {', '.join(MATRIX_DECODERS)}")
+            known = ", ".join(MATRIX_DECODERS)
+            raise CaptureError(f"camera: '{name}': there is no decoder '{step}'; known are: {known}")
         values = MATRIX_DECODERS[step](values)
     return values

@@ -20,8 +20,8 @@ from paper_figures.exr import read_exr_planes  # noqa: E402
 SCENES = (("moving_objects", "main"), ("disocclusion", "lateral"))  # and the camera
 SIZE = (192, 108)
 FRAMES = (3, 4)
-# Greatest difference of 98 % of the pixels: at edges both may draw other surfaces, and Blender blends the four numbers of a
-# rotation between keys.
+# Greatest difference of 98 % of the pixels: at edges both may draw other surfaces, and Blender blends the four
+# numbers of a rotation between keys.
 # Depths, positions and motion go through float32 in both; normals of balls are interpolated by other formulas.
 BOUNDS = {"depth": 2e-6, "normal": 2e-3, "geometric_normal": 1e-4, "base_color": 1e-6, "roughness": 1e-6,
           "metalness": 1e-6, "emission": 1e-6, "motion": 1e-6}  # fmt: skip

@@ -24,7 +24,7 @@ NEAR, FAR = 0.5, 40.0  # m
 
 
 def blender_camera(x, frame, height=2.0, yaw=0.0):
-    """At (x, -6, height) of Blender's world, looking along +y, 30 degrees down, turned by `yaw` (radians) to the left."""
+    """At (x, -6, height) of Blender's world, looking along +y, 30 degrees down, turned to the left by `yaw` (rad)."""
     angle = np.radians(60)
     rotation = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
     matrix = np.eye(4)
@@ -63,8 +63,8 @@ def passes_of_ground(x, x_before, height_before=2.0):
         "Normal": np.where(hit, (0.0, 0, 1), 0),
         "true_normal": np.where(hit, (0.0, 0, -2), 0),  # from behind, and not of unit length
         "Vector": np.concatenate([np.where(hit, motion, 0), np.zeros(hit.shape[:2] + (2,))], axis=-1),
-        "IndexMA": 3 * full, "base_color": full * (0.5, 0.25, 1.5), "emission": full * (0.0, 0, 0), "roughness": 0.3 * full,
-        "metallic": 0 * full, "specular": 0.25 * full,
+        "IndexMA": 3 * full, "base_color": full * (0.5, 0.25, 1.5), "emission": full * (0.0, 0, 0),
+        "roughness": 0.3 * full, "metallic": 0 * full, "specular": 0.25 * full,
     }  # fmt: skip
     return passes, hit[..., 0], distance[..., 0], camera, before[2]
 
@@ -106,7 +106,8 @@ class CapturesTest(unittest.TestCase):
         far_away = matrix[:3, 3] + 1e9 * np.array([-view_axis[0], view_axis[2], -view_axis[1]])
         pixels = in_pixels(far_away, matrix, projection) * (1, -1) + (0, SIZE[1])
         passes["Depth"][:] = 1e10
-        middle = layers_of(passes, camera, turned)["motion"][SIZE[1] // 2, SIZE[0] // 2 - 1 : SIZE[0] // 2 + 1].mean(axis=0)
+        motion = layers_of(passes, camera, turned)["motion"]
+        middle = motion[SIZE[1] // 2, SIZE[0] // 2 - 1 : SIZE[0] // 2 + 1].mean(axis=0)
         np.testing.assert_allclose(middle, 0.5 - pixels / SIZE, atol=1e-3)  # half a pixel's difference of perspective
         self.assertGreater(np.abs(middle).max(), 0.05)
         self.assertEqual(set(np.unique(layers["specular"])), {0.0, 0.5})
@@ -180,7 +181,8 @@ class CapturesTest(unittest.TestCase):
         # The view looks 30 degrees down: its axis that points up leans forward.
         up = layer("normal", (0, 1, 0), decode=["view_to_world"])
         np.testing.assert_allclose(up, (0, np.cos(np.radians(30)), -0.5), atol=1e-12)
-        self.assertAlmostEqual(layer("roughness", (0, 0, 0, 0.75), channels="A", decode=["one_minus", "square_root"])[0], 0.5)
+        roughness = layer("roughness", (0, 0, 0, 0.75), channels="A", decode=["one_minus", "square_root"])
+        self.assertAlmostEqual(roughness[0], 0.5)
         np.testing.assert_allclose(layer("motion", (4.8, 2.7), decode=["pixels_to_uv", "y_up", "negate"]), (-0.1, 0.1))
         np.testing.assert_allclose(layer("normal", (1, 2, 3), decode=["z_up"]), (1, 3, -2))
         with self.assertRaisesRegex(CaptureError, "layer 'roughness': the texture has no channel A, only RG"):

@@ -215,25 +215,25 @@ TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
     const auto ssrlab = [&](const std::string& arguments) {
         ASSERT_EQ(std::system((common + arguments + " > log 2>&1").c_str()), 0) << read_text(folder / "log");
     };
-    ssrlab("gbuffer disocclusion --camera lateral --size 96 54 --frames 3 5 --out capture");
-    for (const std::string frame : {"3", "4", "5"})
-        ssrlab("reference disocclusion --camera lateral --size 96 54 --samples 16 --frame " + frame + " --out truth_0" +
+    ssrlab("gbuffer disocclusion --camera lateral --size 64 36 --frames 3 4 --out capture");
+    for (const std::string frame : {"3", "4"})
+        ssrlab("reference disocclusion --camera lateral --size 64 36 --samples 16 --frame " + frame + " --out truth_0" +
                frame + ".exr");
     const auto study = [&](const std::string& name, const std::string& shot) {
         write_text(folder / (name + ".json"),
-                   R"({"shots": [{)" + shot + R"(, "warm_up": 2, "repeat": 2}], "reference": {"samples": 16},
+                   R"({"shots": [{)" + shot + R"(, "warm_up": 1, "repeat": 2}], "reference": {"samples": 16},
             "variants": [{"variant": "mcguire_dda"}, {"variant": "amd_sssr", "preset": "corrected"}],
             "seeds": 1, "timing": {"frames": 0}, "lit": "direct"})");
         return read_config(folder / (name + ".json"));
     };
     const Config of_capture = study("capture", R"("gbuffer": "capture", "reference": "truth_##.exr")"),
-                 of_scene = study(
-                     "scene",
-                     R"("scene": "disocclusion", "camera": "lateral", "resolution": [96, 54], "frames": [3, 4, 5])");
+                 of_scene =
+                     study("scene",
+                           R"("scene": "disocclusion", "camera": "lateral", "resolution": [64, 36], "frames": [3, 4])");
     const auto capture = read_rows<ResultRow>(run(of_capture, "a") / "results.csv"),
                scene = read_rows<ResultRow>(run(of_scene, "b") / "results.csv");
     ASSERT_EQ(capture.size(), scene.size());
-    ASSERT_GT(std::ranges::count(scene, "4", &ResultRow::frame), 0);
+    ASSERT_GT(std::ranges::count(scene, "3", &ResultRow::frame), 0);
     for (size_t i = 0; i < scene.size(); ++i)
         EXPECT_EQ(capture[i].value, scene[i].value)
             << scene[i].variant << " " << scene[i].frame << " " << scene[i].target << " " << scene[i].metric << " "
@@ -241,14 +241,15 @@ TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
 
     // Without a truth it is rendered all the same.
     Config alone = of_capture;
+    alone.variants.resize(1);  // whose shaders are soon compiled
     alone.shots.front().reference.clear();
     EXPECT_TRUE(read_rows<ResultRow>(run(alone, "alone") / "results.csv").empty());
     EXPECT_FALSE(read_json(folder / "alone/manifest.json")["images"].empty());
 
     // The truth of another scene may have the same size.
-    ASSERT_EQ(std::system((common + "reference fence --size 96 54 --samples 16 --out other.exr > log 2>&1").c_str()),
+    ASSERT_EQ(std::system((common + "reference fence --size 64 36 --samples 16 --out other.exr > log 2>&1").c_str()),
               0);
-    Config mismatched = of_capture;
+    Config mismatched = alone;
     mismatched.shots.front().reference = folder / "other.exr";
     EXPECT_THROW(run(mismatched, "c"), Error);
 }
