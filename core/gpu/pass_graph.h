@@ -151,7 +151,8 @@ public:
     double frame_milliseconds();
 
     /// From now on every pass counts what it does, or none does; images are the same bits either way, times are not.
-    /// Costs the compilation of a second pipeline for each shader.
+    /// Costs the compilation of a second pipeline for each shader. A compute pass fails with Error if the device counts
+    /// invocations itself, and others than its shader.
     void count_costs(bool is_counting);
     /// Of the stages since begin_frame(), in order; those of a stage that ran several times are added.
     std::vector<PassCost> costs() const;
