@@ -56,7 +56,10 @@ std::string fill_in(const std::string& text, const nlohmann::json& values, const
     std::string filled;
     for (size_t at = 0; at < text.size();) {
         const size_t open = text.find('{', at), close = text.find('}', open);
-        if (open == std::string::npos || close == std::string::npos) return filled + text.substr(at);
+        if (open == std::string::npos || close == std::string::npos) {
+            filled += text.substr(at);
+            break;
+        }
         const std::string name = text.substr(open + 1, close - open - 1);
         if (!values.contains(name)) {
             std::vector<std::string> known;
@@ -69,6 +72,7 @@ std::string fill_in(const std::string& text, const nlohmann::json& values, const
         filled += text.substr(at, open - at) + (value.is_number_float() ? digits : plain_text(value));
         at = close + 1;
     }
+    while (filled.ends_with(' ')) filled.pop_back();  // where the last value is empty
     return filled;
 }
 

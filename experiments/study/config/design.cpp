@@ -81,7 +81,11 @@ std::vector<json> axis_values(JsonObject& axes, const std::string& name, const P
         for (size_t i = 0; i < n; ++i) values.push_back(rounded(p, range.at(double(i) / double(n - 1))));
         values.erase(std::unique(values.begin(), values.end()), values.end());  // whole numbers that lie close
     }
-    for (const json& value : values) check_parameter(declared, name, value, at);
+    if (!axis.is_array()) {  // the others lie between
+        for (const json& end : {values.front(), values.back()}) check_parameter(declared, name, end, at);
+    } else {
+        for (const json& value : values) check_parameter(declared, name, value, at);
+    }
     return values;
 }
 

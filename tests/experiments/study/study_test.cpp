@@ -27,11 +27,11 @@ TEST_F(StudyTest, RepeatsItselfAndContinues) {
 /// Shots that differ in a setting, a point that runs on one of them only, labels; read by the example as its user
 /// would.
 TEST_F(StudyTest, RunsADesignThatTheExampleReads) {
-    write_text(folder / "study.json", R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54],
-            "lit": ["path_traced", "direct"], "label": "pillars {settings}", "group": "mirrors"}],
+    write_text(folder / "study.json", R"({"shots": [{"scene": "fence", "resolution": [96, 54],
+            "depth_format": ["d32f", "d16"], "label": "fence {settings}", "group": "mirrors"}],
         "reference": {"samples": 64}, "metrics": "mse", "targets": "specular", "timing": {"frames": 0},
         "variants": [{"variant": "none", "baseline": true}, {"variant": "mcguire_dda", "label": "DDA, {dda.stride} px",
-            "sweep": {"dda.stride": [1, 8]}, "skip_if": {"dda.stride": 8, "shot.lit": "direct"}}]})");
+            "sweep": {"dda.stride": [1, 8]}, "skip_if": {"dda.stride": 8, "shot.depth_format": "d16"}}]})");
     const fs::path out = run(read_config(folder / "study.json"), "a");
     std::set<std::string> pairs;
     std::map<std::string, double> errors;
@@ -42,15 +42,16 @@ TEST_F(StudyTest, RunsADesignThatTheExampleReads) {
         if (r.mask == "reflective") errors[pair] = r.value.value();
     }
     EXPECT_EQ(pairs, (std::set<std::string>{"96x54 default", "96x54 dda.stride=1", "96x54 dda.stride=8",
-                                            "96x54.direct default", "96x54.direct dda.stride=1"}));
+                                            "96x54.d16 default", "96x54.d16 dda.stride=1"}));
     EXPECT_LT(errors["96x54 dda.stride=1"], 0.5 * errors["96x54 default"]) << "linear tracing beats nothing on mirrors";
-    EXPECT_NE(errors["96x54 dda.stride=1"], errors["96x54.direct dda.stride=1"]) << "the light that they read";
+    EXPECT_NE(errors["96x54 dda.stride=1"], errors["96x54.d16 dda.stride=1"]) << "the depth that rays march through";
     const nlohmann::json manifest = read_json(out / "manifest.json");
     ASSERT_EQ(manifest["skipped"].size(), 1u);
-    EXPECT_EQ(manifest["skipped"][0]["condition"], R"(skip_if {"shot.lit":"direct"})");
-    EXPECT_EQ(manifest["shots"][1]["label"], "pillars direct");
+    EXPECT_EQ(manifest["skipped"][0]["condition"], R"(skip_if {"shot.depth_format":"d16"})");
+    EXPECT_EQ(manifest["shots"][0]["label"], "fence");
+    EXPECT_EQ(manifest["shots"][1]["label"], "fence d16");
     EXPECT_EQ(manifest["shots"][1]["group"], "mirrors");
-    EXPECT_EQ(manifest["shots"][1]["lit"], "direct");
+    EXPECT_EQ(manifest["shots"][1]["depth_format"], "d16");
     EXPECT_EQ(manifest["variants"][2]["label"], "DDA, 8 px");
     // Debian's own Python, which has Debian's pandas.
     const std::string script = std::string(SSRLAB_SOURCE_DIR) + "/experiments/examples/read_results.py ";
@@ -61,7 +62,7 @@ TEST_F(StudyTest, RunsADesignThatTheExampleReads) {
     for (std::string line, shot, variant, point; std::getline(lines, line);)
         if (std::istringstream(line) >> shot >> variant >> point) points.push_back(shot + " " + point);
     ASSERT_EQ(points.size(), 3u) << "a head and two shots";
-    EXPECT_EQ(points[2], "mirror_pillars.main.96x54.direct dda.stride=1");
+    EXPECT_EQ(points[2], "fence.main.96x54.d16 dda.stride=1");
 }
 
 TEST_F(StudyTest, LeavingOutChangesNothing) {
