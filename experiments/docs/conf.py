@@ -13,6 +13,7 @@ PAGES = {
         "experiments/findings/README": "Findings",
         "experiments/README": "Studies and their keys",
         "experiments/RESULTS": "A results folder",
+        "experiments/cluster/README": "Many machines",
         "scenes/README": "Scenes",
         "metrics/README": "Metrics",
         "groundtruth/README": "Ground truth",

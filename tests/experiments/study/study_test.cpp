@@ -5,6 +5,8 @@
 #include "groundtruth/reference_file.h"
 #include "tests/experiments/study/study_fixture.h"
 
+#include <thread>
+
 namespace {
 
 double value_of(const std::vector<ResultRow>& rows, const std::string& variant, const std::string& metric,
@@ -179,7 +181,8 @@ TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
     EXPECT_EQ(clock["proofs"][0]["checks"].size(), 3u);
     EXPECT_EQ(clock["proofs"][0]["shots"].size(), 1u);
     EXPECT_GT(clock["proofs"][0]["empty_submit_ms"].get<double>(), 0.0);
-    EXPECT_EQ(clock["load"].size(), 1u);
+    ASSERT_EQ(clock["load"].size(), 1u);
+    EXPECT_EQ(clock["load"][0]["host"]["cores"], std::thread::hardware_concurrency());
 }
 
 TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
