@@ -11,11 +11,67 @@ namespace {
 
 using nlohmann::json;
 
+/// Goes through a text in step with its parser, to tell where each token begins.
+class TokenPlaces {
+public:
+    TokenPlaces(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+    /// The next token's place; steps over it. The parser has read that far: what is there is valid.
+    JsonPlace next() {
+        skip_between_tokens();
+        const JsonPlace place{file_, line_, column_};
+        const char first = step();
+        if (first == '"') {
+            for (char c = step(); c != '"'; c = step())
+                if (c == '\\') step();
+        } else if (!is_one_of(first, "{}[]")) {
+            while (at_ < text_.size() && !is_one_of(text_[at_], "{}[],:/ \t\r\n")) step();
+        }
+        return place;
+    }
+
+private:
+    static bool is_one_of(char c, std::string_view set) { return set.find(c) != std::string_view::npos; }
+
+    char step() {
+        if (at_ == text_.size()) return '"';  // ends every token
+        const char c = text_[at_++];
+        ++column_;
+        if (c == '\n') ++line_, column_ = 1;
+        return c;
+    }
+
+    void skip_between_tokens() {
+        if (at_ == 0 && text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte order mark has no column
+        while (at_ < text_.size()) {
+            if (is_one_of(text_[at_], ",: \t\r\n"))
+                step();
+            else if (text_.substr(at_).starts_with("//"))
+                step_to("\n");
+            else if (text_.substr(at_).starts_with("/*"))
+                step_to("*/");
+            else
+                return;
+        }
+    }
+    void step_to(std::string_view end) {
+        const size_t found = text_.find(end, at_ + 2);
+        const size_t after = found == std::string_view::npos ? text_.size() : found + end.size();
+        while (at_ < after) step();
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    size_t at_ = 0, line_ = 1, column_ = 1;
+};
+
 /// Builds a document from the parser's events: left to itself the library lets the last of two equal keys win, and
 /// nests as deep as the file says.
 class DocumentBuilder final : public nlohmann::json_sax<json> {
 public:
-    DocumentBuilder(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+    /// `places`, if not null, gets those of all values.
+    DocumentBuilder(std::string_view text, const std::string& name, std::map<std::string, JsonPlace>* places = nullptr)
+        : text_(text), name_(name), places_(places), tokens_(text, name) {}
 
     json take() { return std::move(root_); }
 
@@ -35,6 +91,7 @@ public:
         keys_.back() = is_new ? key : "";
         if (!is_new) fail(name_, place(), ": the key '", shortened(key), "' comes twice in one object");
         member_ = &at->second;
+        if (places_) (*places_)[member_pointer(pointers_.back(), key)] = tokens_.next();
         return true;
     }
     bool parse_error(size_t position, const std::string& last_token, const json::exception& e) override {
@@ -54,19 +111,33 @@ public:
 private:
     template <class Value>
     bool add(Value&& value) {
-        *slot() = std::forward<Value>(value);
+        json* at = slot();
+        note_place();
+        *at = std::forward<Value>(value);
         return true;
     }
     bool open(json container) {
         if (open_.size() == max_json_depth) fail(name_, ": its JSON nests more than ", max_json_depth, " levels");
         json* at = slot();
+        pointers_.push_back(note_place());
         *at = std::move(container);
         open_.push_back(at), keys_.emplace_back();
         return true;
     }
     bool close() {
-        open_.pop_back(), keys_.pop_back();
+        open_.pop_back(), keys_.pop_back(), pointers_.pop_back();
+        if (places_) tokens_.next();
         return true;
+    }
+    /// Notes where the value begins whose slot() was made, and returns its pointer; only if places are asked for.
+    std::string note_place() {
+        if (!places_) return "";
+        const JsonPlace place = tokens_.next();
+        if (open_.empty()) return "";
+        if (open_.back()->is_object()) return member_pointer(pointers_.back(), keys_.back());  // its key is its place
+        const std::string pointer = pointers_.back() + "/" + std::to_string(open_.back()->size() - 1);
+        (*places_)[pointer] = place;
+        return pointer;
     }
     /// Where the next value goes. What is open stays in place: its parent grows only once it is closed.
     json* slot() {
@@ -88,10 +159,13 @@ private:
 
     std::string_view text_;
     const std::string& name_;
+    std::map<std::string, JsonPlace>* places_;
+    TokenPlaces tokens_;
     json root_;
-    std::vector<json*> open_;        ///< containers, outermost first
-    std::vector<std::string> keys_;  ///< the last key of each that is an object
-    json* member_ = nullptr;         ///< the value of the last key
+    std::vector<json*> open_;            ///< containers, outermost first
+    std::vector<std::string> keys_;      ///< the last key of each that is an object
+    std::vector<std::string> pointers_;  ///< to each of them; empty texts without places_
+    json* member_ = nullptr;             ///< the value of the last key
 };
 
 }  // namespace
@@ -106,10 +180,48 @@ json read_json(const std::filesystem::path& file) {
     return parse_json(read_text(file), file.string(), /*allows_comments=*/true);
 }
 
+JsonDocument read_json_document(const std::filesystem::path& file) {
+    const std::string text = read_text(file), name = file.string();
+    JsonDocument document;
+    DocumentBuilder builder(text, name, &document.places);
+    json::sax_parse(text, &builder, json::input_format_t::json, /*strict=*/true, /*ignore_comments=*/true);
+    document.value = builder.take();
+    return document;
+}
+
+std::string member_pointer(const std::string& pointer, const std::string& key) {
+    std::string escaped;
+    for (const char c : key) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    return pointer + "/" + escaped;
+}
+
 std::string shown(const json& value) { return shortened(value.dump()); }
 
-JsonObject::JsonObject(const nlohmann::json& object, std::string where) : object_(&object), where_(std::move(where)) {
-    if (!object.is_object()) fail(where_, " must be a JSON object, not ", shown(object));
+JsonObject::JsonObject(const nlohmann::json& object, std::string where) : object_(&object), file_(std::move(where)) {
+    if (!object.is_object()) fail(file_, " must be a JSON object, not ", shown(object));
+}
+
+JsonObject::JsonObject(const JsonDocument& document, std::string file) : JsonObject(document.value, std::move(file)) {
+    places_ = &document.places;
+}
+
+JsonObject::JsonObject(const nlohmann::json& object, const JsonObject& parent, const std::string& path,
+                       std::string pointer)
+    : object_(&object),
+      file_(parent.file_),
+      path_(parent.path_ + path),
+      places_(parent.places_),
+      pointer_(std::move(pointer)) {
+    if (!object.is_object()) fail(where(), " must be a JSON object, not ", shown(object));
+}
+
+std::string JsonObject::at_pointer(const std::string& pointer) const {
+    if (places_)
+        if (const auto found = places_->find(pointer); found != places_->end()) {
+            const JsonPlace& place = found->second;
+            return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + path_;
+        }
+    return file_ + path_;
 }
 
 bool JsonObject::has(const std::string& key) { return find(key); }
@@ -124,17 +236,17 @@ const nlohmann::json& JsonObject::need(const std::string& key) {
     const nlohmann::json* found = find(key);
     if (!found) {
         finish();  // a misspelt key explains a missing one best
-        fail(where_, " lacks the key '", key, "'");
+        fail(where(), " lacks the key '", key, "'");
     }
     return *found;
 }
 
 float JsonObject::number(const std::string& key, float min, float max) {
     const nlohmann::json& value = need(key);
-    if (!value.is_number()) fail(where_, ": '", key, "' must be a number, not ", shown(value));
+    if (!value.is_number()) fail(at(key), ": '", key, "' must be a number, not ", shown(value));
     const auto number = value.get<double>();
     if (!(float(number) >= min && float(number) <= max) || !std::isfinite(float(number)))
-        fail(where_, ": '", key, "' = ", shown(value), " is outside [", min, ", ", max, "]");
+        fail(at(key), ": '", key, "' = ", shown(value), " is outside [", min, ", ", max, "]");
     return float(number);
 }
 
@@ -144,9 +256,10 @@ float JsonObject::number(const std::string& key, float min, float max, float fal
 
 int JsonObject::integer(const std::string& key, int min, int max) {
     const nlohmann::json& value = need(key);
-    if (!value.is_number_integer()) fail(where_, ": '", key, "' must be a whole number, not ", shown(value));
+    if (!value.is_number_integer()) fail(at(key), ": '", key, "' must be a whole number, not ", shown(value));
     const auto number = value.get<long long>();
-    if (number < min || number > max) fail(where_, ": '", key, "' = ", shown(value), " is outside [", min, ", ", max, "]");
+    if (number < min || number > max)
+        fail(at(key), ": '", key, "' = ", shown(value), " is outside [", min, ", ", max, "]");
     return int(number);
 }
 
@@ -157,13 +270,13 @@ int JsonObject::integer(const std::string& key, int min, int max, int fallback) 
 bool JsonObject::boolean(const std::string& key, bool fallback) {
     const nlohmann::json* value = find(key);
     if (!value) return fallback;
-    if (!value->is_boolean()) fail(where_, ": '", key, "' must be true or false, not ", shown(*value));
+    if (!value->is_boolean()) fail(at(key), ": '", key, "' must be true or false, not ", shown(*value));
     return value->get<bool>();
 }
 
 std::string JsonObject::text(const std::string& key) {
     const nlohmann::json& value = need(key);
-    if (!value.is_string()) fail(where_, ": '", key, "' must be a text in quotes, not ", shown(value));
+    if (!value.is_string()) fail(at(key), ": '", key, "' must be a text in quotes, not ", shown(value));
     return value.get<std::string>();
 }
 
@@ -175,17 +288,19 @@ std::string JsonObject::choice(const std::string& key, const std::vector<std::st
                                const std::string& fallback) {
     const std::string value = text(key, fallback);
     if (std::ranges::find(choices, value) == choices.end())
-        fail(where_, ": '", key, "' = \"", shortened(value), "\" is not known", suggestion(value, choices));
+        fail(at(key), ": '", key, "' = \"", shortened(value), "\" is not known", suggestion(value, choices));
     return value;
 }
 
 glm::vec3 JsonObject::vector(const std::string& key) {
     const nlohmann::json& value = need(key);
-    const bool fits = value.is_array() && value.size() == 3 && std::ranges::all_of(value, [](const auto& v) { return v.is_number(); });
-    if (!fits) fail(where_, ": '", key, "' must be an array of three numbers, not ", shown(value));
+    const bool fits = value.is_array() && value.size() == 3 &&
+                      std::ranges::all_of(value, [](const auto& v) { return v.is_number(); });
+    if (!fits) fail(at(key), ": '", key, "' must be an array of three numbers, not ", shown(value));
     const glm::vec3 vector(value[0].get<float>(), value[1].get<float>(), value[2].get<float>());
     for (int i = 0; i < 3; ++i)
-        if (!std::isfinite(vector[i])) fail(where_, ": '", key, "' has the number ", shown(value[i]), ", which float32 cannot hold");
+        if (!std::isfinite(vector[i]))
+            fail(at(key), ": '", key, "' has the number ", shown(value[i]), ", which float32 cannot hold");
     return vector;
 }
 
@@ -197,16 +312,21 @@ std::vector<JsonObject> JsonObject::objects(const std::string& key) {
     const nlohmann::json* value = find(key);
     std::vector<JsonObject> list;
     if (!value) return list;
-    if (!value->is_array()) fail(where_, ": '", key, "' must be an array, not ", shown(*value));
-    for (size_t i = 0; i < value->size(); ++i)
-        list.emplace_back((*value)[i], where_ + ": " + key + "[" + std::to_string(i) + "]");
+    if (!value->is_array()) fail(at(key), ": '", key, "' must be an array, not ", shown(*value));
+    for (size_t i = 0; i < value->size(); ++i) {
+        const std::string index = std::to_string(i);
+        list.push_back(
+            {(*value)[i], *this, ": " + key + "[" + index + "]", member_pointer(pointer_, key) + "/" + index});
+    }
     return list;
 }
 
-JsonObject JsonObject::object(const std::string& key) { return {need(key), where_ + ": " + key}; }
+JsonObject JsonObject::object(const std::string& key) {
+    return {need(key), *this, ": " + key, member_pointer(pointer_, key)};
+}
 
 void JsonObject::finish() const {
     const std::vector<std::string> known(known_.begin(), known_.end());
     for (const auto& [key, value] : object_->items())
-        if (!known_.contains(key)) fail(where_, ": unknown key '", shortened(key), "'", suggestion(key, known));
+        if (!known_.contains(key)) fail(at(key), ": unknown key '", shortened(key), "'", suggestion(key, known));
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -19,14 +20,36 @@ nlohmann::json parse_json(std::string_view text, const std::string& name, bool a
 /// parse_json() of a file, which may have comments.
 nlohmann::json read_json(const std::filesystem::path& file);
 
+/// Where a value was written, line and column from 1: of a member of an object its key, of an element of an array its
+/// first character.
+struct JsonPlace {
+    std::string file;
+    size_t line = 0, column = 0;
+};
+
+/// A document that knows where its values were written, by JSON pointer (RFC 6901). The document itself has no place.
+struct JsonDocument {
+    nlohmann::json value;
+    std::map<std::string, JsonPlace> places;
+};
+
+/// read_json() that keeps the places.
+JsonDocument read_json_document(const std::filesystem::path& file);
+
+/// The pointer to a member of what `pointer` points to.
+std::string member_pointer(const std::string& pointer, const std::string& key);
+
 /// The value as messages show it: JSON, cut where it is long.
 std::string shown(const nlohmann::json& value);
 
-/// Reads the members of one JSON object and remembers which were asked for, so that a misspelt key is an error instead of
-/// a silent default. `where` begins each message, e.g. "scenes/fence/scene.json: cameras[0]".
+/// Reads the members of one JSON object and remembers which were asked for, so that a misspelt key is an error instead
+/// of a silent default. What begins each message is e.g. "scenes/fence/scene.json: cameras[0]", or with the places of a
+/// JsonDocument "scenes/fence/scene.json:12:7: cameras[0]".
 class JsonObject {
 public:
     JsonObject(const nlohmann::json& object, std::string where);
+    /// The document's root; `file` is named where a message has no place. The document must outlive it.
+    JsonObject(const JsonDocument& document, std::string file);
 
     bool has(const std::string& key);  ///< asking makes the key known
 
@@ -48,11 +71,12 @@ public:
     }
     glm::vec3 vector(const std::string& key);
     glm::vec3 vector(const std::string& key, glm::vec3 fallback);
-    const nlohmann::json& any(const std::string& key);           ///< required, of any type
-    std::vector<JsonObject> objects(const std::string& key);     ///< an array of objects; empty if absent
-    JsonObject object(const std::string& key);                   ///< required
+    const nlohmann::json& any(const std::string& key);        ///< required, of any type
+    std::vector<JsonObject> objects(const std::string& key);  ///< an array of objects; empty if absent
+    JsonObject object(const std::string& key);                ///< required
 
-    const std::string& where() const { return where_; }
+    std::string where() const { return at_pointer(pointer_); }  ///< of this object
+    std::string at(const std::string& key) const { return at_pointer(member_pointer(pointer_, key)); }  ///< of a member
 
     /// Fails on the first member that nobody asked for, with the nearest known key. Call it when all has been read.
     void finish() const;
@@ -61,7 +85,12 @@ private:
     const nlohmann::json* find(const std::string& key);
     const nlohmann::json& need(const std::string& key);
 
+    JsonObject(const nlohmann::json& object, const JsonObject& parent, const std::string& path, std::string pointer);
+    std::string at_pointer(const std::string& pointer) const;
+
     const nlohmann::json* object_;
-    std::string where_;
+    std::string file_, path_;  ///< path_: ": cameras[0]"
+    const std::map<std::string, JsonPlace>* places_ = nullptr;
+    std::string pointer_;
     std::set<std::string> known_;
 };

@@ -82,7 +82,7 @@ int parse_and_run(int argc, char** argv) {
     run_command_
         .add_option("--cells", run.cells,
                     "Do these cells alone, of a study that several processes or machines share: references, renders, "
-                    "times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
+                    "costs, times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
                     "kinds narrow each other. Tables are made by `ssrlab merge`")
         ->delimiter(',')
         ->type_name("TERM");
@@ -137,8 +137,9 @@ int parse_and_run(int argc, char** argv) {
         ->required()
         ->type_name("DIR");
     figures_command_
-        .add_option("crops", figures.crops,
-                    "Crops that the report's viewer collected; of other shots, those of the largest errors")
+        .add_option("choice", figures.choice,
+                    "Which figures, and how they look (experiments/README.md), or the crops that the report's viewer "
+                    "collected; default: all that there are results for")
         ->type_name("figures.json");
     figures_command_.add_option("--out", figures.out, "Default: figures in the results folder")->type_name("DIR");
     figures_command_.callback([&] { status = figures_command(figures); });
@@ -169,6 +170,32 @@ int parse_and_run(int argc, char** argv) {
         ->excludes(keep_option)
         ->excludes(fill_option);
     tables_command_.callback([&] { status = tables_command(tables); });
+
+    TradeoffOptions tradeoff;
+    CLI::App& tradeoff_command_ = *app.add_subcommand(
+        "tradeoff", "Answer error against run time: fronts, which technique at which time, what no time can buy");
+    tradeoff_command_.add_option("results", tradeoff.results, "A folder that `ssrlab run` filled")
+        ->required()
+        ->type_name("DIR");
+    tradeoff_command_.add_option("--out", tradeoff.out, "Default: tradeoff in the results folder")->type_name("DIR");
+    tradeoff_command_
+        .add_option("--baseline", tradeoff.baseline,
+                    "Errors are told as multiples of its; default: none, else the study's first baseline")
+        ->type_name("VARIANT:POINT");
+    tradeoff_command_.add_option("--times", tradeoff.times, "Default: 5 10 20 40; with --cost as much of that")
+        ->check(CLI::PositiveNumber)
+        ->type_name("MS");
+    tradeoff_command_
+        .add_option("--factors", tradeoff.factors,
+                    "Of the baseline's error, for the time to reach them; default: 0.5 0.25 0.1")
+        ->check(CLI::PositiveNumber)
+        ->type_name("F");
+    tradeoff_command_.add_option("--metric", tradeoff.metric, "Default: that of the study's primary error");
+    tradeoff_command_.add_option("--mask", tradeoff.mask, "Default: likewise");
+    tradeoff_command_.add_option("--target", tradeoff.target, "Default: likewise");
+    tradeoff_command_.add_option("--cost", tradeoff.cost, "A counted quantity of costs.csv in place of time")
+        ->type_name("QUANTITY");
+    tradeoff_command_.callback([&] { status = tradeoff_command(tradeoff); });
 
     SearchOptions search;
     CLI::App& search_command_ = *app.add_subcommand(
@@ -252,6 +279,11 @@ int parse_and_run(int argc, char** argv) {
     CLI::App& gbuffer_command_ =
         *app.add_subcommand("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
     add_shot(gbuffer_command_, gbuffer.shot);
+    gbuffer_command_
+        .add_option("--frames", gbuffer.frames, "First and last, both included: a capture of frames in a row")
+        ->expected(2)
+        ->type_name("A B")
+        ->excludes("--frame");
     gbuffer_command_.add_option("--out", gbuffer.out, "Folder; default: <scene>_gbuffer")->type_name("DIR");
     gbuffer_command_.add_option("--depth-format", gbuffer.depth_format)
         ->check(CLI::IsMember({"d32f", "d24", "d16"}))
@@ -259,6 +291,16 @@ int parse_and_run(int argc, char** argv) {
     gbuffer_command_.add_flag("--reversed-depth", gbuffer.is_reversed, "1 at the near plane, 0 at the far plane");
     add_device(gbuffer_command_, common), add_scene_path(gbuffer_command_, common);
     gbuffer_command_.callback([&] { gbuffer_command(gbuffer, common); });
+
+    CaptureCommandOptions capture;
+    CLI::App& capture_command_ =
+        *app.add_subcommand("capture", "Say what a capture of an engine's G-buffer holds, and what is wrong with it");
+    capture_command_
+        .add_option("folder", capture.folder,
+                    "With gbuffer.exr and camera.json, or with folders frame_<number> of them")
+        ->required()
+        ->type_name("DIR");
+    capture_command_.callback([&] { capture_command(capture); });
 
     NeedsOptions needs;
     CLI::App& needs_command_ = *app.add_subcommand(

@@ -5,11 +5,16 @@ build_packages=(
     g++ cmake ninja-build ccache pkg-config git ca-certificates
     libvulkan-dev mesa-vulkan-drivers glslang-dev spirv-tools
     libembree-dev libtbb-dev libopenexr-dev libpng-dev libglm-dev libtinygltf-dev
+    libboost-dev  # Sobol's sequence, for designs of studies
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil
+    python3-scipy  # distributions and intervals of `ssrlab tradeoff`
 )
-# What only the tests need: the validation layer, a browser for the report, and Snakemake for studies in parallel.
-test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake)
+# What only the tests need: the validation layer, a browser for the report, Snakemake for studies in parallel, and pandas for the
+# example that reads results.
+test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake python3-pandas)
+# What only tests/exporters.sh needs: Blender; RenderDoc, its Python module, and the header of its in-application API.
+exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)
 # What only experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.
 cluster_packages=(snakemake slurmctld slurmd slurm-client munge)
 # What only the website of the documents needs.

@@ -129,6 +129,7 @@ void write_camera(const std::filesystem::path& file, const CameraFile& f) {
         {"far", json_number(c.depth.y)},
         {"frame", c.frame.x},
         {"seed", c.frame.y},
+        {"exposure_ev", json_number(f.exposure_ev)},
         {"is_orthographic", c.frame.z == 1},
         {"jitter", json_vector({c.jitter.x, c.jitter.y})},
         {"previous_jitter", json_vector({c.jitter.z, c.jitter.w})},
@@ -171,6 +172,7 @@ CameraFile read_camera(const std::filesystem::path& file) {
 
     c.frame = {object.integer("frame", 0, max_integer, 0), 0, object.boolean("is_orthographic", false), 0};
     c.frame.y = object.integer("seed", 0, max_integer, 0);
+    result.exposure_ev = object.number("exposure_ev", -100, 100, 0);
     c.jitter = glm::vec4(pair(object, "jitter", {0, 0}), pair(object, "previous_jitter", {0, 0}));
     read_matrices(object, c);
     refuse_overflow(c, object.where());

@@ -7,6 +7,7 @@
 struct CameraFile {
     CameraData camera{};
     DepthFormat depth_format = DepthFormat::d32f;
+    float exposure_ev = 0;
 };
 
 void write_camera(const std::filesystem::path& file, const CameraFile& camera);

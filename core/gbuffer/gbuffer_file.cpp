@@ -2,8 +2,13 @@
 
 #include "core/error.h"
 #include "core/exr.h"
+#include "core/files.h"
 #include "core/gbuffer/camera_file.h"
+#include "core/gbuffer/gbuffer_checks.h"
+#include "core/json.h"
 #include "core/near_miss.h"
+#include "core/parameters.h"
+#include "core/scene/scene_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,11 +80,11 @@ void read_layer(const LayeredImage& file, const LayerMap& map, const std::string
     found.insert(map.name);
 }
 
-void fill_defaults(HostGBuffer& g, const std::set<std::string>& found, std::vector<std::string>& notes) {
+/// Fills what the file lacks; returns what is taken in its place, by layer.
+std::map<std::string, std::string> fill_defaults(HostGBuffer& g, const std::set<std::string>& found) {
+    std::map<std::string, std::string> absent;
     const auto missing = [&](const char* layer, const char* text) {
-        if (found.contains(layer)) return false;
-        notes.push_back(std::string("There is no layer '") + layer + "': " + text + ".");
-        return true;
+        return !found.contains(layer) && absent.emplace(layer, text).second;
     };
     const auto is_background = [&](size_t i) { return g.depth.values[i] == g.camera.depth.z; };
     const auto ensure = [&](HostImage& image, unsigned channels) {
@@ -101,6 +106,7 @@ void fill_defaults(HostGBuffer& g, const std::set<std::string>& found, std::vect
     if (missing("previous_depth", "depth is taken")) g.previous_depth = g.depth;
     if (missing("previous_normal", "normal is taken")) copy_channels(g.normal, 0, g.previous_normal, 0, 3);
     if (missing("previous_roughness", "roughness is taken")) copy_channels(g.normal, 3, g.previous_normal, 3, 1);
+    return absent;
 }
 
 void note_unused_layers(const LayeredImage& file, std::vector<std::string>& notes) {
@@ -108,24 +114,6 @@ void note_unused_layers(const LayeredImage& file, std::vector<std::string>& note
     for (const Layer& layer : file.layers)
         if (std::ranges::find(names, layer.name) == names.end())
             notes.push_back("The layer '" + layer.name + "' is not used" + suggestion(layer.name, names) + ".");
-}
-
-/// What renders without a word and yet cannot be right.
-void note_suspicious_values(const HostGBuffer& g, std::vector<std::string>& notes) {
-    size_t bad_depth = 0, bad_normal = 0, bad_roughness = 0;
-    for (size_t i = 0; i < g.depth.pixel_count(); ++i) {
-        const float depth = g.depth.values[i], *n = &g.normal.values[4 * i];
-        bad_depth += !(depth >= 0 && depth <= 1);
-        if (depth == g.camera.depth.z) continue;
-        bad_normal +=
-            !(std::abs(glm::length(glm::vec3(n[0], n[1], n[2])) - 1) < 0.02f);  // 8-bit normals are within 0.01
-        bad_roughness += !(n[3] >= 0 && n[3] <= 1);
-    }
-    if (bad_depth) notes.push_back(std::to_string(bad_depth) + " pixels have a depth outside [0, 1].");
-    if (bad_normal) notes.push_back(std::to_string(bad_normal) + " pixels have a normal that is not of unit length.");
-    if (bad_roughness) notes.push_back(std::to_string(bad_roughness) + " pixels have a roughness outside [0, 1].");
-    for (const auto& [layer, count] : count_non_finite(g))
-        notes.push_back(std::to_string(count) + " values of '" + layer + "' are not finite.");
 }
 
 }  // namespace
@@ -156,7 +144,7 @@ void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffe
     }
     file.attributes["ssrlab"] = "G-buffer; camera.json beside this file holds the camera";
     write_exr(folder / "gbuffer.exr", file);
-    write_camera(folder / "camera.json", {gbuffer.camera, gbuffer.depth_format});
+    write_camera(folder / "camera.json", {gbuffer.camera, gbuffer.depth_format, gbuffer.exposure_ev});
 }
 
 LoadedGBuffer load_gbuffer(const std::filesystem::path& folder) {
@@ -166,10 +154,40 @@ LoadedGBuffer load_gbuffer(const std::filesystem::path& folder) {
     LoadedGBuffer result;
     result.gbuffer.camera = camera.camera;
     result.gbuffer.depth_format = camera.depth_format;
+    result.gbuffer.exposure_ev = camera.exposure_ev;
     std::set<std::string> found;
     for (const LayerMap& map : layer_maps) read_layer(layers, map, file.string(), result.gbuffer, found);
-    fill_defaults(result.gbuffer, found, result.notes);
+    result.absent = fill_defaults(result.gbuffer, found);
     note_unused_layers(layers, result.notes);
-    note_suspicious_values(result.gbuffer, result.notes);
+    std::ranges::move(check_gbuffer(result.gbuffer), std::back_inserter(result.notes));
     return result;
+}
+
+void save_environment(const std::filesystem::path& folder, const Environment& environment) {
+    const auto vector = [](glm::vec3 v) {
+        return nlohmann::json{json_number(v.x), json_number(v.y), json_number(v.z)};
+    };
+    nlohmann::json entry;
+    switch (environment.type) {
+        case Environment::Type::constant:
+            entry["constant"] = vector(environment.color);
+            break;
+        case Environment::Type::gradient:
+            entry["gradient"] = {{"color", vector(environment.color)},
+                                 {"slope", vector(environment.slope)},
+                                 {"axis", vector(environment.axis)}};
+            break;
+        case Environment::Type::image:
+            write_exr(folder / "environment.exr", environment.latlong);
+            entry = {{"image", "environment.exr"}, {"rotation_deg", json_number(glm::degrees(environment.rotation))}};
+    }
+    write_text(folder / "environment.json", entry.dump(2) + "\n");
+}
+
+std::optional<Environment> load_environment(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "environment.json";
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) return {};
+    const nlohmann::json json = read_json(file);
+    return read_environment(JsonObject(json, file.string()), file, {});
 }

@@ -1,9 +1,11 @@
 #pragma once
 #include "core/host_image.h"
 #include "core/scene/camera.h"
+#include "core/scene/scene.h"
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 struct HostGBuffer {
     CameraData camera{};
     DepthFormat depth_format = DepthFormat::d32f;
+    float exposure_ev = 0;               ///< for display: radiance times 2^EV
     HostImage depth;                     ///< 1 channel
     HostImage geometric_normal;          ///< 4
     HostImage normal;                    ///< 4
@@ -56,15 +59,24 @@ std::map<std::string, size_t> count_non_finite(const HostGBuffer& gbuffer);
 /// "d16", "near" and "far" (m), "clip_from_view" and "view_from_world" (each four rows of four numbers; Vulkan clip
 /// space: y down, z in [0, 1]; without jitter). Optional: "frame" and "seed" (0), "is_orthographic" (false), "jitter"
 /// and "previous_jitter" (pixels, [0, 0]), "previous_clip_from_view" and "previous_view_from_world" (of the frame
-/// before; both or none), and what is derived from them: "view_from_clip", "world_from_view", "clip_from_world",
-/// "world_from_clip", "previous_clip_from_world", "previous_world_from_view", "previous_view_from_clip", which ssrlab
-/// writes so that its own files come back bit by bit.
+/// before; both or none), "exposure_ev" (0: FLIP and pictures show radiance times 2^EV), and what is derived from them:
+/// "view_from_clip", "world_from_view", "clip_from_world", "world_from_clip", "previous_clip_from_world",
+/// "previous_world_from_view", "previous_view_from_clip", which ssrlab writes so that its own files come back bit by
+/// bit.
 void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffer);
 
 struct LoadedGBuffer {
     HostGBuffer gbuffer;
-    std::vector<std::string> notes;  ///< defaults taken, layers not used, suspicious values: one sentence each
+    std::map<std::string, std::string>
+        absent;                      ///< what is taken in place of layers that the file lacks, by their names
+    std::vector<std::string> notes;  ///< layers not used, and check_gbuffer(): one sentence each
 };
 
 /// Fails with Error, naming file and layer, if something required is missing or malformed, or if extents differ.
 LoadedGBuffer load_gbuffer(const std::filesystem::path& folder);
+
+/// environment.json: a scene file's "environment" (scenes/README.md), an image beside it in environment.exr. Comes back
+/// bit by bit, but for the rotation of an image, which is in degrees.
+void save_environment(const std::filesystem::path& folder, const Environment& environment);
+/// None if the folder has no environment.json. Fails with Error if that is malformed.
+std::optional<Environment> load_environment(const std::filesystem::path& folder);

@@ -207,8 +207,10 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         vk::PhysicalDeviceVulkan13Features v13{
             .robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
         d.has_doubles = d.gpu.getFeatures().shaderFloat64;
+        d.has_statistics = d.gpu.getFeatures().pipelineStatisticsQuery;
         const vk::PhysicalDeviceFeatures v10{.robustBufferAccess = true,
                                              .independentBlend = true,
+                                             .pipelineStatisticsQuery = d.has_statistics,
                                              .fragmentStoresAndAtomics = true,
                                              .shaderStorageImageExtendedFormats = true,
                                              .shaderStorageImageWriteWithoutFormat = true,

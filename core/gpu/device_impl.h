@@ -27,6 +27,7 @@ struct Device::Impl {
     uint32_t queue_family = 0;
     float nanoseconds_per_tick = 1;  ///< of time stamps
     bool has_doubles = false;        ///< in shaders
+    bool has_statistics = false;     ///< counts invocations
     uint32_t timestamp_bits = 0;     ///< 0: the queue cannot write time stamps
     uint32_t largest_side = 0;       ///< of an image, pixels
     vk::raii::Device device{nullptr};

@@ -40,6 +40,7 @@ PassGraph::Impl::~Impl() {
 void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs) {
     impl_->flush();
     impl_->times.clear();
+    impl_->costs.clear();
     impl_->frame_milliseconds = 0;
     impl_->parity = 1 - impl_->parity;
     impl_->params = &params;

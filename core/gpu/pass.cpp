@@ -61,7 +61,7 @@ void PassGraph::Pass::run() {
 
 void PassGraph::Pass::run(glm::uvec2 extent) {
     const Shader& shader =
-        graph_.pipelines.shader(shader_, vertex_shader_, *graph_.params, includes_, graph_.precision_of(*this));
+        graph_.pipelines.shader(shader_, vertex_shader_, *graph_.params, includes_, graph_.changes_of(*this));
     const auto local = shader.interface.local_size;
     dispatch_groups({(extent.x + local[0] - 1) / local[0], (extent.y + local[1] - 1) / local[1], 1});
 }
@@ -115,8 +115,8 @@ void PassGraph::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& 
 }
 
 /// Says only what differs from the shader as it is, which is not made a second time then.
-ShaderPrecision PassGraph::Impl::precision_of(const Pass& pass) const {
-    ShaderPrecision result;
+ShaderChanges PassGraph::Impl::changes_of(const Pass& pass) const {
+    ShaderChanges result;
     if (precision.is_double && precision.is_double(pass.label_)) {
         if (!gpu.has_doubles) fail_machine("the Vulkan device '", gpu.info.name, "' has no doubles in shaders");
         result.is_double = true;
@@ -131,7 +131,7 @@ ShaderPrecision PassGraph::Impl::precision_of(const Pass& pass) const {
 
 void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments,
                           size_t arguments_offset) {
-    const ShaderPrecision changed = precision_of(pass);
+    ShaderChanges changed = changes_of(pass);
     const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, changed);
     check(pass, shader.interface);
     PipelineState state{.attachments = {},
@@ -151,9 +151,11 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         for (const Image& image : attachments) state.attachments.push_back(image.format);
     }
     check_limits(pass, shader, attachments);
+    changed.is_counted = is_counting;
+    if (is_counting) make_counters(pass);
     const Pipeline& pipeline =
         pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, pass.includes_, constants, state, changed);
-    execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
+    const auto record = [&](const vk::raii::CommandBuffer& commands) {
         commands.bindPipeline(pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics,
                               *pipeline.pipeline);
         if (pipeline.interface.push_size) {
@@ -171,9 +173,18 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
             commands.dispatchIndirect(*arguments->storage->buffer.buffer, arguments_offset);
         else
             commands.dispatch(groups->x, groups->y, groups->z);
+    };
+    execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
+        if (is_counting) begin_counting(commands);
+        record(commands);
+        if (is_counting && *device_counts) commands.endQuery(*device_counts, 0);
     });
     for (const Image& image : pass.writes_) image.storage->is_written = true;
     for (const Image* image : {&pass.depth_.image, &pass.stencil_.image})
         if (image->storage) image->storage->is_written = true;
+    if (is_counting)
+        finish_counting(pass,
+                        pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, changed).counters,
+                        attachments);
     if (observer) observer(pass.label_, pass.writes_);
 }

@@ -93,6 +93,7 @@ void PassGraph::clear(const Image& image, glm::vec4 value) {
         }
     });
     image.storage->is_written = true;
+    impl_->add_clear_cost(bytes_of(image));
 }
 
 void PassGraph::clear(const Buffer& buffer, uint32_t value) {
@@ -100,6 +101,7 @@ void PassGraph::clear(const Buffer& buffer, uint32_t value) {
     impl_->execute("clear", [&](const auto& commands) {
         commands.fillBuffer(*buffer.storage->buffer.buffer, 0, VK_WHOLE_SIZE, value);
     });
+    impl_->add_clear_cost(buffer.size);
 }
 
 void PassGraph::upload(const Image& image, const HostImage& pixels) {

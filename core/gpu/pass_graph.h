@@ -1,6 +1,7 @@
 #pragma once
 #include "core/gpu/image.h"
 #include "core/gpu/limits.h"
+#include "core/gpu/pass_cost.h"
 #include "core/gpu/precision.h"
 #include "core/host_image.h"
 #include "core/parameters.h"
@@ -148,6 +149,12 @@ public:
     std::vector<PassTime> times();
     /// From the first to the last command of the frame; the sum of stages on a CPU.
     double frame_milliseconds();
+
+    /// From now on every pass counts what it does, or none does; images are the same bits either way, times are not.
+    /// Costs the compilation of a second pipeline for each shader.
+    void count_costs(bool is_counting);
+    /// Of the stages since begin_frame(), in order; those of a stage that ran several times are added.
+    std::vector<PassCost> costs() const;
 
     Clock clock() const;
     glm::uvec2 extent() const;

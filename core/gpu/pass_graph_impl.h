@@ -8,7 +8,8 @@
 #include <optional>
 
 // The inside of PassGraph: pass_graph.cpp makes resources, frame.cpp submits and times, pass.cpp describes and runs
-// passes, binding.cpp finds what their shaders ask for, limits.cpp refuses what an API does not have.
+// passes, binding.cpp finds what their shaders ask for, limits.cpp refuses what an API does not have, pass_cost.cpp
+// says what counted shaders did.
 
 // The uniform buffer: the camera block, then the parameters at an offset that suits every device's alignment (256 at
 // most).
@@ -32,6 +33,10 @@ struct PassGraph::Impl {
     Constants constants;
     PassObserver observer;
     Precision precision;
+    bool is_counting = false;
+    std::vector<PassCost> costs;
+    Buffer shader_counts;                        ///< once something was counted
+    vk::raii::QueryPool device_counts{nullptr};  ///< the same, where the device counts invocations
 
     std::vector<PassTime> times;
     double frame_milliseconds = 0;
@@ -48,7 +53,15 @@ struct PassGraph::Impl {
     void flush();
     void add_time(const std::string& stage, double milliseconds);
 
-    ShaderPrecision precision_of(const Pass& pass) const;
+    void add_cost(const PassCost& cost);
+    void add_clear_cost(uint64_t bytes);
+    void make_counters(Pass& pass);
+    void begin_counting(const vk::raii::CommandBuffer& commands);
+    /// Of the pass that has just run; `targets`: its colour targets.
+    void finish_counting(Pass& pass, const std::vector<ShaderCounter>& counters, const std::vector<Image>& targets);
+    PassCost cost_of(const Pass& pass, const std::vector<ShaderCounter>& counters, const std::vector<Image>& targets);
+
+    ShaderChanges changes_of(const Pass& pass) const;
     const vk::raii::Sampler& sampler(const Sampling& sampling);
     void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
     void check(const Pass& pass, const ShaderInterface& interface);

@@ -114,21 +114,22 @@ std::string key_of(const ShaderIncludes& includes) {
     return key;
 }
 
-std::string key_of(const ShaderPrecision& precision) {
-    std::string key = precision.is_double ? "in double\n" : "";
-    for (const auto& [image, format] : precision.image_formats) key += image + ' ' + name_of(format) + '\n';
+std::string key_of(const ShaderChanges& changes) {
+    std::string key = changes.is_double ? "in double\n" : "";
+    if (changes.is_counted) key += "counted\n";
+    for (const auto& [image, format] : changes.image_formats) key += image + ' ' + name_of(format) + '\n';
     return key;
 }
 
 }  // namespace
 
 const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
-                                    const ShaderIncludes& includes, const ShaderPrecision& precision) {
+                                    const ShaderIncludes& includes, const ShaderChanges& changes) {
     const std::string prelude = shader_prelude(params);
     const auto [entry, is_new] =
-        shaders_.try_emplace(file + '\n' + vertex_file + '\n' + key_of(precision) + key_of(includes) + prelude);
+        shaders_.try_emplace(file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + prelude);
     if (is_new) try {
-            entry->second = compile(file, vertex_file, prelude, includes, ShaderLanguage::vulkan, precision);
+            entry->second = compile(file, vertex_file, prelude, includes, ShaderLanguage::vulkan, changes);
         } catch (...) {
             shaders_.erase(entry);
             throw;
@@ -146,14 +147,14 @@ void PipelineCache::require_webgl2(const Shader& shader, const std::string& file
 
 Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                                   const ShaderIncludes& includes, const Constants& constants,
-                                  const PipelineState& state, const ShaderPrecision& precision) {
-    const Shader& shader = this->shader(file, vertex_file, params, includes, precision);
+                                  const PipelineState& state, const ShaderChanges& changes) {
+    const Shader& shader = this->shader(file, vertex_file, params, includes, changes);
 
     // Only the constants that this shader uses take part in the key: a new value of another one costs it no new
     // pipeline.
     std::vector<uint32_t> values;
     std::vector<vk::SpecializationMapEntry> entries;
-    std::string key = file + '\n' + vertex_file + '\n' + key_of(precision) + key_of(includes) + params.glsl() + '\n' +
+    std::string key = file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + params.glsl() + '\n' +
                       std::to_string(int(state.stencil)) + ' ' + std::to_string(state.stencil_value);
     const auto specialize = [&](uint32_t id, const std::string& name, uint32_t initial) {
         if (!shader.interface.constants.contains(id)) return;

@@ -30,13 +30,13 @@ public:
     /// `params`: the variant's; their declarations are part of the shader, the values of constants part of the
     /// pipeline, the includes that the pass decides part of both. `constants` take the place of parameters' values.
     const Shader& shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
-                         const ShaderIncludes& includes, const ShaderPrecision& precision = {});
+                         const ShaderIncludes& includes, const ShaderChanges& changes = {});
     /// Fails with Error unless the fragment shader, which shader() gave for `file`, is valid as GLSL ES 3.00.
     void require_webgl2(const Shader& shader, const std::string& file, const ParameterSet& params,
                         const ShaderIncludes& includes);
     Pipeline& pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                        const ShaderIncludes& includes, const Constants& constants, const PipelineState& state,
-                       const ShaderPrecision& precision = {});
+                       const ShaderChanges& changes = {});
 
 private:
     Device::Impl& gpu_;

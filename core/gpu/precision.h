@@ -15,10 +15,11 @@ struct Precision {
     std::function<bool(const std::string& stage)> is_double;
 };
 
-/// What that makes of one shader.
-struct ShaderPrecision {
+/// What becomes of one shader before it is compiled.
+struct ShaderChanges {
     bool is_double = false;
     std::map<std::string, Format> image_formats;  ///< in place of those that it declares, by the images' names
+    bool is_counted = false;                      ///< see counted_shader.h
 };
 
 /// Formats of as many channels in 32 bits and in 16, of any that holds fractions; depth, stencil and whole numbers

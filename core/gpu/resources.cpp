@@ -117,6 +117,15 @@ std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes) {
     return storage;
 }
 
+uint64_t bytes_of(const Image& image) {
+    uint64_t texels = 0;
+    for (unsigned level = 0; level < image.mips; ++level) {
+        const Image mip = image.mip(level);
+        texels += uint64_t(mip.extent.x) * mip.extent.y;
+    }
+    return texels * texel_layout(image.format).bytes;
+}
+
 void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::byte> texels) {
     const DeviceBuffer staging(gpu, texels.size(), vk::BufferUsageFlagBits::eTransferSrc, true);
     std::memcpy(staging.data, texels.data(), texels.size());

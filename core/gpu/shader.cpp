@@ -82,10 +82,10 @@ std::string complete_source(const std::string& prelude, size_t index, const Shad
            expand_includes(read_shader(files[index].name), index, includes, files);
 }
 
-std::string with_precision(const std::string& source, const ShaderPrecision& precision) {
-    const std::string formatted =
-        precision.image_formats.empty() ? source : with_image_formats(source, precision.image_formats);
-    return precision.is_double ? in_double(formatted, read_shader("precision/double_functions.glsl")) : formatted;
+std::string with_changes(std::string source, const ShaderChanges& changes) {
+    if (!changes.image_formats.empty()) source = with_image_formats(source, changes.image_formats);
+    if (changes.is_double) source = in_double(source, read_shader("precision/double_functions.glsl"));
+    return changes.is_counted ? with_counters(source) : source;
 }
 
 std::string webgl2_fragment(const std::string& prelude, const ShaderIncludes& includes,
@@ -200,7 +200,7 @@ Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude
 }
 
 Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,
-               const ShaderIncludes& includes, ShaderLanguage language, const ShaderPrecision& precision) {
+               const ShaderIncludes& includes, ShaderLanguage language, const ShaderChanges& changes) {
     static const bool initialised = glslang::InitializeProcess();
     (void)initialised;
     const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
@@ -217,7 +217,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
     }
     sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment,
                          webgl2 ? webgl2_fragment(prelude, includes, files)
-                                : with_precision(complete_source(prelude, 1, includes, files), precision));
+                                : with_changes(complete_source(prelude, 1, includes, files), changes));
 
     Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
@@ -255,6 +255,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         optimizer.RegisterPass(
             spvtools::CreateEliminateDeadConstantPass());  // those of the prelude that this shader ignores
         optimizer.Run(spirv.data(), spirv.size(), &spirv);
+        if (changes.is_counted && !is_vertex) result.counters = count_in(spirv);
         find_constants(spirv, result.interface.constants);
     }
     return result;

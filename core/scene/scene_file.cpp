@@ -57,29 +57,6 @@ HostImage read_latlong(const fs::path& file, float scale) {
     return image;
 }
 
-Environment read_environment(JsonObject object, const fs::path& scene_file, const std::vector<fs::path>& search_path) {
-    Environment environment;
-    if (object.has("gradient")) {
-        JsonObject gradient = object.object("gradient");
-        environment.type = Environment::Type::gradient;
-        environment.color = checked_radiance(gradient.vector("color"), gradient.where() + ": 'color'");
-        environment.slope = checked_radiance(gradient.vector("slope"), gradient.where() + ": 'slope'");
-        if (gradient.has("axis")) environment.axis = read_direction(gradient, "axis");
-        gradient.finish();
-    } else if (object.has("image")) {
-        environment.type = Environment::Type::image;
-        environment.rotation = glm::radians(object.number("rotation_deg", -3600.0f, 3600.0f, 0.0f));
-        const float scale = object.number("scale", 0.0f, 1e9f, 1.0f);
-        environment.latlong =
-            read_latlong(find_file(object.text("image"), scene_file, search_path, object.where()), scale);
-    } else {
-        environment.color = read_color(object, "constant", glm::vec3(0.0f));
-        if (!object.has("constant")) fail(object.where(), " names no kind: give 'constant', 'gradient' or 'image'");
-    }
-    object.finish();
-    return environment;
-}
-
 PunctualLight read_light(JsonObject object) {
     PunctualLight light;
     const std::string type = object.text("type");
@@ -108,6 +85,29 @@ PunctualLight read_light(JsonObject object) {
 
 }  // namespace
 
+Environment read_environment(JsonObject object, const fs::path& scene_file, const std::vector<fs::path>& search_path) {
+    Environment environment;
+    if (object.has("gradient")) {
+        JsonObject gradient = object.object("gradient");
+        environment.type = Environment::Type::gradient;
+        environment.color = checked_radiance(gradient.vector("color"), gradient.where() + ": 'color'");
+        environment.slope = checked_radiance(gradient.vector("slope"), gradient.where() + ": 'slope'");
+        if (gradient.has("axis")) environment.axis = read_direction(gradient, "axis");
+        gradient.finish();
+    } else if (object.has("image")) {
+        environment.type = Environment::Type::image;
+        environment.rotation = glm::radians(object.number("rotation_deg", -3600.0f, 3600.0f, 0.0f));
+        const float scale = object.number("scale", 0.0f, 1e9f, 1.0f);
+        environment.latlong =
+            read_latlong(find_file(object.text("image"), scene_file, search_path, object.where()), scale);
+    } else {
+        environment.color = read_color(object, "constant", glm::vec3(0.0f));
+        if (!object.has("constant")) fail(object.where(), " names no kind: give 'constant', 'gradient' or 'image'");
+    }
+    object.finish();
+    return environment;
+}
+
 void finish_scene(Scene& scene) {
     for (SceneCamera& camera : scene.cameras)
         if (camera.far == 0.0f) camera.far = std::max(derive_planes(camera, scene).far, 2.0f * camera.near);
@@ -119,8 +119,8 @@ void finish_scene(Scene& scene) {
 }
 
 Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_path) {
-    const nlohmann::json json = read_json(file);
-    JsonObject object(json, file.string());
+    const JsonDocument document = read_json_document(file);
+    JsonObject object(document, file.string());
     Scene scene;
     if (object.has("gltf")) scene = load_gltf(find_file(object.text("gltf"), file, search_path, file.string()));
     if (object.has("also")) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/json.h"
 #include "core/scene/scene.h"
 
 #include <filesystem>
@@ -10,3 +11,7 @@ Scene load_scene_file(const std::filesystem::path& file, const std::vector<std::
 /// The last steps of loading: gives a far plane to the glTF's cameras that have none, refuses two cameras of one name,
 /// and makes the content hash.
 void finish_scene(Scene& scene);
+
+/// A scene file's "environment" (scenes/README.md). An image is looked for beside `file`, then in the search path.
+Environment read_environment(JsonObject object, const std::filesystem::path& file,
+                             const std::vector<std::filesystem::path>& search_path);

@@ -43,7 +43,7 @@ struct MergeOptions {
 int merge_command(const MergeOptions& options, const CommonOptions& common);  ///< 1 if cells are missing, else 0
 
 struct FiguresOptions {
-    std::filesystem::path results, out, crops;
+    std::filesystem::path results, out, choice;
 };
 int figures_command(const FiguresOptions& options);  ///< the exit code: 0, 2 or 3
 
@@ -58,6 +58,13 @@ struct TablesOptions {
     bool keeps = false, fills = false, checks = false;
 };
 int tables_command(const TablesOptions& options);  ///< the exit code: 0, 2 or 3
+
+struct TradeoffOptions {
+    std::filesystem::path results, out;
+    std::string baseline, metric, mask, target, cost;  ///< empty: the study's own, and time
+    std::vector<double> times, factors;                ///< empty: the script's
+};
+int tradeoff_command(const TradeoffOptions& options);  ///< the exit code: 0, 2 or 3
 
 struct SearchOptions {
     std::filesystem::path config, out;
@@ -83,11 +90,17 @@ void reference_command(const ReferenceCommandOptions& options, const CommonOptio
 
 struct GBufferCommandOptions {
     ShotOptions shot;
+    std::vector<unsigned> frames;  ///< first and last, each into a folder of its own; empty: shot.frame alone
     std::filesystem::path out;
     std::string depth_format = "d32f";
     bool is_reversed = false;
 };
 void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common);
+
+struct CaptureCommandOptions {
+    std::filesystem::path folder;
+};
+void capture_command(const CaptureCommandOptions& options);
 
 struct NeedsOptions {
     ShotOptions shot;

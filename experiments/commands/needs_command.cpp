@@ -20,7 +20,8 @@ Shot shot_of(const NeedsOptions& options, const CommonOptions& common) {
     return load_shot({.scene = options.shot.scene,
                       .camera = options.shot.camera,
                       .extent = {options.shot.size[0], options.shot.size[1]},
-                      .frames = frames},
+                      .frames = frames,
+                      .direct_lit = true},
                      scene_search_path(common.scene_path));
 }
 

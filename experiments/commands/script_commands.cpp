@@ -1,4 +1,4 @@
-// The commands that are Python scripts: figures, diff, tables, search.
+// The commands that are Python scripts: figures, diff, tables, tradeoff, search.
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/commands/child_process.h"
@@ -30,7 +30,7 @@ int figures_command(const FiguresOptions& options) {
     check_results(options.results);
     const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
     std::vector<std::string> arguments = {"--out=" + out.string()};
-    if (!options.crops.empty()) arguments.push_back("--crops=" + options.crops.string());
+    if (!options.choice.empty()) arguments.push_back("--choice=" + options.choice.string());
     arguments.insert(arguments.end(), {"--", options.results.string()});
     return run_script("figures/figures.py", arguments);
 }
@@ -61,6 +61,22 @@ int tables_command(const TablesOptions& options) {
     if (!options.out.empty()) arguments.push_back("--out=" + options.out.string());
     arguments.insert(arguments.end(), {"--", options.results.string()});
     return run_script("figures/tables.py", arguments);
+}
+
+int tradeoff_command(const TradeoffOptions& options) {
+    check_results(options.results);
+    std::vector<std::string> arguments = {options.results.string()};
+    const auto add = [&](const std::string& name, const std::string& value) {
+        if (!value.empty()) arguments.push_back("--" + name + "=" + value);
+    };
+    add("out", options.out.string()), add("baseline", options.baseline), add("metric", options.metric);
+    add("mask", options.mask), add("target", options.target), add("cost", options.cost);
+    const auto add_list = [&](const std::string& name, const std::vector<double>& values) {
+        if (!values.empty()) arguments.push_back("--" + name);
+        for (const double value : values) arguments.push_back(nlohmann::json(value).dump());
+    };
+    add_list("times", options.times), add_list("factors", options.factors);
+    return run_script("tradeoff/tradeoff.py", arguments);
 }
 
 int search_command(const SearchOptions& options, const std::vector<std::string>& run_options) {

@@ -1,10 +1,11 @@
-// The commands that render: run, gbuffer.
+// The commands of studies and of what they can be made from: run, gbuffer, capture.
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
+#include "experiments/study/capture.h"
 #include "experiments/study/config/shot.h"
 #include "experiments/study/run.h"
 #include "groundtruth/reference_cache.h"
@@ -51,25 +52,55 @@ int merge_command(const MergeOptions& options, const CommonOptions& common) {
 }
 
 void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common) {
+    const unsigned first = options.frames.empty() ? options.shot.frame : options.frames.front(),
+                   last = options.frames.empty() ? first : options.frames.back();
+    if (last < first) fail("--frames: ", first, " to ", last, " runs backwards");
     const ShotConfig config{.scene = options.shot.scene,
                             .camera = options.shot.camera,
                             .extent = {options.shot.size[0], options.shot.size[1]},
-                            .frames = {options.shot.frame}};
+                            .frames = {first}};
     const Shot shot = load_shot(config, scene_search_path(common.scene_path));
     for (const std::string& warning : shot.scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     const DepthFormat format = options.depth_format == "d16"   ? DepthFormat::d16
                                : options.depth_format == "d24" ? DepthFormat::d24
                                                                : DepthFormat::d32f;
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path(shot.scene.name + "_gbuffer") : options.out;
 
     Device device(common.device);
     Rasterizer rasterizer(device, shot.scene, {.extent = config.extent, .depth_format = format});
-    const GBuffer gbuffer = rasterizer.render(
-        shot.camera, {.extent = config.extent,
-                      .depth_direction = options.is_reversed ? DepthDirection::reversed : DepthDirection::standard,
-                      .frame = options.shot.frame});
-    rasterizer.light_directly(gbuffer);
-    const std::filesystem::path out =
-        options.out.empty() ? std::filesystem::path(shot.scene.name + "_gbuffer") : options.out;
-    save_gbuffer(out, download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), format));
-    std::printf("%s\n%s\n", (out / "gbuffer.exr").c_str(), (out / "camera.json").c_str());
+    for (unsigned frame = first; frame <= last; ++frame) {
+        const GBuffer gbuffer = rasterizer.render(
+            shot.camera, {.extent = config.extent,
+                          .depth_direction = options.is_reversed ? DepthDirection::reversed : DepthDirection::standard,
+                          .frame = frame});
+        rasterizer.light_directly(gbuffer);
+        char name[32];
+        std::snprintf(name, sizeof name, "frame_%04u", frame);
+        const std::filesystem::path folder = options.frames.empty() ? out : out / name;
+        HostGBuffer host = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), format);
+        host.exposure_ev = shot.camera.exposure_ev;
+        save_gbuffer(folder, host);
+        std::printf("%s\n%s\n", (folder / "gbuffer.exr").c_str(), (folder / "camera.json").c_str());
+    }
+    save_environment(out, shot.scene.environment);
+    std::printf("%s\n", (out / "environment.json").c_str());
+}
+
+void capture_command(const CaptureCommandOptions& options) {
+    Capture capture(options.folder);
+    const ShotConfig config{.frames = capture.frames(), .gbuffer = options.folder};
+    const Shot shot = capture_shot(config, capture);
+    const CaptureContents contents = inspect_capture(shot, capture);
+    std::printf("%s: %zu frame%s of %ux%u, %s lit colour, %s\n", shot.scene.name.c_str(), config.frames.size(),
+                config.frames.size() == 1 ? "" : "s", shot.config.extent.x, shot.config.extent.y,
+                contents.has_lit ? "with a" : "without a",
+                capture.environment() ? "with an environment" : "without an environment");
+    const unsigned last = config.frames.back();
+    const bool has_before = config.frames.size() > 1;
+    std::printf("frame %u:\n", last);
+    for (const SceneFact& fact : list_facts(
+             pixel_facts(capture.played(last, has_before ? std::optional(last - 1) : std::optional<unsigned>()))))
+        std::printf("  %-18s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
+    for (const std::string& note : contents.notes) std::printf("note: %s\n", note.c_str());
 }

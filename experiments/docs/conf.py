@@ -17,6 +17,7 @@ PAGES = {
         "scenes/README": "Scenes",
         "metrics/README": "Metrics",
         "groundtruth/README": "Ground truth",
+        "experiments/tradeoff/README": "Error against run time",
         "experiments/stability/README": "Stability and precision",
     },
     "Techniques": {

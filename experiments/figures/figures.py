@@ -1,16 +1,18 @@
-"""Paper figures from a results folder, as PDF, SVG and PNG. Of each shot: error against time, stage times, and crops with
-error maps. Of the study, where it has such results: error and bias by roughness, bias and variance, effects of changes,
-temporal metrics, the error of each frame, and depth fetches per ray against the resolution.
+"""Paper figures from a results folder, as PDF, SVG and PNG: those that figures.json asks for (experiments/README.md), else all
+that the study has results for. Of each shot: error against time, stage times, and crops with error maps. Of the study: error
+and bias by roughness, bias and variance, effects of changes, temporal metrics, the error of each frame, errors against the
+truth ladder, and depth fetches per ray against the resolution.
 
-usage: figures.py RESULTS [--out DIR] [--crops figures.json] [--target specular] [--metric mse] [--mask reflective]
+usage: figures.py RESULTS [--out DIR] [--choice figures.json] [--target specular] [--metric mse] [--mask reflective]
 
-It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv and the EXR images (experiments/RESULTS.md), and writes the same bytes
-whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
+It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv and the EXR images (experiments/RESULTS.md),
+and writes the same bytes whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
 """
 
 import argparse
 import os
 import sys
+from dataclasses import replace
 
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into its files
 
@@ -22,11 +24,16 @@ except ImportError as missing:
 
 from paper_figures import (
     bias_variance,
+    convergence,
     crops,
     effects,
     error_time,
     fetches,
     frames,
+    ladder,
+    maps,
+    request,
+    response,
     roughness,
     stage_times,
     style,
@@ -35,9 +42,14 @@ from paper_figures import (
 from paper_figures.crop_choice import read_crops
 from paper_figures.results import Results, ResultsError
 
-
-SHOT_FIGURES = {"error_time": error_time.draw, "stage_times": stage_times.draw, "crops": crops.draw}
+# Kind of figure to what draws it: of one shot at a time, or of all that are asked for.
+SHOT_FIGURES = {"stage_times": stage_times.draw, "crops": crops.draw}
 STUDY_FIGURES = {
+    "error_time": error_time.draw,
+    "ladder": ladder.draw,
+    "response": response.draw,
+    "map": maps.draw,
+    "convergence": convergence.draw,
     "roughness_error": roughness.draw_error,
     "roughness_bias": roughness.draw_bias,
     "bias_variance": bias_variance.draw,
@@ -45,57 +57,98 @@ STUDY_FIGURES = {
     "frames": frames.draw,
     "fetches": fetches.draw,
 }
-UNMEASURED_FIGURES = ("fetches",)  # of studies without a reference
+UNASKED_OF_SHOTS = ("error_time", "stage_times", "crops")  # without figures.json a file for each shot
+UNASKED = ("ladder", "roughness_error", "roughness_bias", "bias_variance", "temporal", "frames", "fetches", "effects")
+UNMEASURED = ("stage_times", "fetches")  # of studies without a reference, too
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description="Paper figures (PDF, SVG, PNG) from a results folder.")
     parser.add_argument("results", help="a folder that `ssrlab run` filled")
     parser.add_argument("--out", help="default: figures in the results folder")
-    parser.add_argument("--crops", metavar="figures.json", help="crops that the report's viewer collected; of other shots, those of the largest errors")
-    parser.add_argument("--target", default="specular", help="default: specular")
+    parser.add_argument("--choice", metavar="figures.json", help="which figures, and how they look; crops that the report's viewer collected")
+    parser.add_argument("--target", help="default: specular")
     parser.add_argument("--metric", help="default: what the study is made to compare (`primary`), else its first metric")
-    parser.add_argument("--mask", default="reflective", help="default: reflective")
+    parser.add_argument("--mask", help="default: reflective")
     return parser.parse_args()
+
+
+def for_each_shot(results, requests):
+    """Of UNASKED_OF_SHOTS one for each shot; the others as they are."""
+    single = [r for r in requests if r.kind in UNASKED_OF_SHOTS]
+    shots = (single[0].shots if single else None) or results.shots()
+    of_shots = [replace(r, name=f"{r.kind}_{shot}", shots=[shot]) for shot in shots for r in single]
+    return of_shots + [r for r in requests if r.kind not in UNASKED_OF_SHOTS]
+
+
+def drawn(results, chosen):
+    """(name, figure) of a request; several of one that makes a figure for each shot or baseline."""
+    view = results.narrowed(chosen.shots, chosen.points)
+    view.labels = chosen.labels
+    if chosen.kind == "effects":
+        for name, rows in effects.comparisons(view, chosen).items():
+            yield name.replace("effects", chosen.name, 1), effects.draw(view, chosen, rows)
+    elif chosen.kind in SHOT_FIGURES:
+        shots = view.shots()
+        for shot in shots:
+            name = chosen.name if len(shots) == 1 else f"{chosen.name}_{shot}"
+            yield name, SHOT_FIGURES[chosen.kind](view, shot, chosen)
+    else:
+        yield chosen.name, STUDY_FIGURES[chosen.kind](view, chosen)
+
+
+def make(results, requests, look, out):
+    """Draws and writes all; how many files."""
+    is_measured = bool(results.errors)
+    written = []
+    for chosen in requests:
+        if not is_measured and chosen.kind not in UNMEASURED:
+            if chosen.where:
+                raise ResultsError(f"{chosen.where}: the study measures no errors, and so has no figure of the kind {chosen.kind}")
+            continue
+        style.apply(look.font, chosen.width)
+        count = len(written)
+        for name, figure in drawn(results, chosen):
+            if figure is not None:
+                written += style.save(figure, out, name, look.formats)
+        if chosen.where and len(written) == count:
+            raise ResultsError(f"{chosen.where}: the results have nothing for a figure of the kind {chosen.kind}")
+    return len(written)
 
 
 def main():
     arguments = parse_arguments()
     matplotlib.use("Agg")
-    style.apply()
     try:
         results = Results(arguments.results)
-        arguments.crops = read_crops(arguments.crops, results) if arguments.crops else {}
-        is_measured = bool(results.errors) or not results.hits
-        if is_measured:
-            arguments.metric = arguments.metric or results.headline_metric()
-            errors = results.errors_of(arguments.target, arguments.metric, arguments.mask)
+        file = arguments.choice
+        content = request.read_json(file) if file else {}
+        texts = {key: getattr(arguments, key) or content.get(key) for key in request.TEXTS}
+        texts = {
+            "target": texts["target"] or "specular",
+            "metric": texts["metric"] or results.headline_metric(),
+            "mask": texts["mask"] or "reflective",
+        }
+        look = request.read_look(file, content)
+        requests = request.read_requests(file, content, results, texts, (*UNASKED_OF_SHOTS, *UNASKED))
+        collected = read_crops(file, content, results)
+        results.colors = request.read_colors(file, content, results)
+        if "figures" not in content:
+            requests = for_each_shot(results, requests)
+        for chosen in requests:
+            chosen.crops = collected
+        if results.errors:
+            results.errors_of(**texts)  # a mistake in what is asked for is said before anything is written
         out = arguments.out or os.path.join(arguments.results, "figures")
         os.makedirs(out, exist_ok=True)
-        drawings = [
-            (f"{name}_{shot}", draw, (results, shot, errors, arguments))
-            for shot in results.shots()
-            for name, draw in SHOT_FIGURES.items()
-        ]
-        drawings += [
-            (name, draw, (results, arguments)) for name, draw in STUDY_FIGURES.items() if is_measured or name in UNMEASURED_FIGURES
-        ]
-        drawings += [] if not is_measured else [
-            (name, effects.draw, (results, arguments, rows))
-            for name, rows in effects.comparisons(results, arguments).items()
-        ]
-        written = []
-        for name, draw, what in drawings:
-            figure = draw(*what)
-            if figure is not None:
-                written += style.save(figure, out, name)
+        count = make(results, requests, look, out)
     except ResultsError as mistake:
         print(f"error: {mistake}", file=sys.stderr)
         return 2
     except OSError as fault:
         print(f"error: cannot write the figures: {fault}", file=sys.stderr)
         return 3
-    print(f"{len(written)} files in {out}")
+    print(f"{count} files in {out}")
     return 0
 
 

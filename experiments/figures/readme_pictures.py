@@ -31,6 +31,7 @@ from matplotlib.colors import Normalize  # noqa: E402
 
 from paper_figures import crops, style  # noqa: E402
 from paper_figures.crop_choice import read_crops  # noqa: E402
+from paper_figures.request import Request, read_json
 from paper_figures.results import Results, ResultsError, label  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
 
@@ -78,7 +79,7 @@ def draw_error_time():
     cells = {name: {(c.row, c.column): c for c in tables[name][1]} for name in ("errors", "times")}
     rows = list(dict.fromkeys(row for row, _ in cells["errors"]))
     techniques = list(dict.fromkeys(row.split(",")[0] for row in rows if not row.startswith("none")))
-    figure, panels, legend = style.panels(len(SHOTS), height=5.0)
+    figure, panels = style.panels(len(SHOTS), height=5.0)
     for axes, scene in zip(panels, SHOTS):
         shot = next(column for _, column in cells["errors"] if column.startswith(scene + "."))
         none = cells["errors"][next(row for row in rows if row.startswith("none")), shot]
@@ -98,7 +99,7 @@ def draw_error_time():
         style.log_axis(axes.yaxis)
         axes.margins(0.12)
     panels[0].set_ylabel("MSE of the reflection")
-    style.draw_legend(legend, panels)
+    style.draw_legend(figure, panels)
     save(figure, OUT / "error_time.png", digest(SUMMARY))
 
 
@@ -146,10 +147,10 @@ def draw_report(folder):
 def draw_findings(folder):
     """A picture per shot of findings/figures.json, named after its scene."""
     results, chosen = Results(folder), FINDINGS / "figures.json"
-    options = argparse.Namespace(target="specular", metric="mse", mask="reflective", crops=read_crops(str(chosen), results))
-    errors = results.errors_of(options.target, options.metric, options.mask)
-    for shot in options.crops:
-        save(crops.draw(results, shot, errors, options), FINDINGS / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced=False)
+    collected = read_crops(str(chosen), read_json(str(chosen)), results)
+    options = Request("crops", "crops", "specular", "mse", "reflective", crops=collected)
+    for shot in collected:
+        save(crops.draw(results, shot, options), FINDINGS / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced=False)
 
 
 def main():

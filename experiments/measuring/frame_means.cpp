@@ -38,7 +38,7 @@ std::vector<ResultRow> FrameMeans::rows() const {
     std::vector<ResultRow> means;
     for (const auto& [key, sums] : sums_) {
         ResultRow r = sums.rows.front();
-        r.frame = "all";
+        r.frame = over_frames;
         for (const auto member : {&ResultRow::value, &ResultRow::uncorrected, &ResultRow::floor, &ResultRow::lit_noise,
                                   &ResultRow::lit_half_width})
             r.*member = mean_of_rows(sums.rows, member);

@@ -162,7 +162,6 @@ std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
 Config timed_config(const std::vector<VariantConfig>& points, unsigned frames) {
     Config config;
     config.variants = points;
-    config.direct_lit = true;
     config.has_reference = false;
     config.timing.frames = frames;
     return config;

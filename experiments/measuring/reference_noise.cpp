@@ -62,7 +62,7 @@ std::vector<ReferenceNoise> ReferenceNoiseMeans::means(const ReferenceNoise& sha
     std::vector<ReferenceNoise> all;
     for (const auto& [key, sum] : sums_) {
         const auto& [target, metric, mask, frame] = key;
-        if (frame != "all" && sums_.contains({target, metric, mask, "all"})) continue;
+        if (frame != over_frames && sums_.contains({target, metric, mask, over_frames})) continue;
         ReferenceNoise noise = shared;
         noise.frame = frame, noise.target = target, noise.metric = metric, noise.mask = mask;
         for (const double group : sum.groups) noise.sums.push_back(float(group / double(sum.count)));

@@ -27,11 +27,14 @@ std::vector<double> group_sums(const Plane& plane, const Mask& mask);
 /// references with halves, and metrics that are means of weighted squares, or roots of such: of their squares.
 Plane swapped_error(const Metric& metric, const MetricReference& reference, const HostImage& test);
 
+/// The `frame` of rows that stand for all frames of a shot: none, so that the column holds numbers alone.
+inline const std::string over_frames;
+
 /// Collects ReferenceNoise over the seeds of a point, and over the frames of its shot.
 class ReferenceNoiseMeans {
 public:
-    /// One result of one seed; `frame` as in ResultRow. Frames that stand for "all" of a shot are added under that
-    /// name: noises of poses that look different are independent and partly cancel, those of one pose do not.
+    /// One result of one seed; `frame` as in ResultRow. Frames of a shot that its mean is of are added as
+    /// over_frames: noises of poses that look different are independent and partly cancel, those of one pose do not.
     void add(const std::string& frame, const std::string& target, const MetricReference& reference,
              const HostImage& test, std::span<const Mask> masks);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 namespace {
 
@@ -30,6 +31,7 @@ std::string interval_text(const std::optional<double>& low, const std::optional<
 }
 
 std::string name_of(const AnswerPoint& p) {
+    if (!p.label.empty()) return p.label;
     return p.point == "default" || p.point.empty() ? p.variant : p.variant + " " + p.point;
 }
 
@@ -75,6 +77,16 @@ PointSet oracles(const json& manifest) {
         if (v.is_object() && v.value("asks_scene", false))
             points.insert({v.value("variant", ""), v.value("point", "")});
     return points;
+}
+
+using PointLabels = std::map<std::pair<std::string, std::string>, std::string>;
+
+PointLabels point_labels(const json& manifest) {
+    PointLabels labels;
+    for (const json& v : manifest.value("variants", json::array()))
+        if (v.is_object() && v.contains("label") && v["label"].is_string())
+            labels[{v.value("variant", ""), v.value("point", "")}] = v["label"];
+    return labels;
 }
 
 std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& shot, const Headline& headline) {
@@ -220,6 +232,7 @@ Headline headline_of(const json& manifest, std::span<const MetricSummary> errors
 std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& manifest) {
     const Headline headline = headline_of(manifest, tables.errors);
     const PointSet left_out = oracles(manifest);
+    PointLabels labels = point_labels(manifest);
     std::vector<std::string> shots;
     for (const MetricSummary& e : tables.errors)
         if (std::ranges::count(shots, e.shot) == 0) shots.push_back(e.shot);
@@ -233,7 +246,7 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
             if (!e.speaks_for_shot || e.shot != shot || e.mask != headline.mask || e.target != headline.target ||
                 !e.value || left_out.contains({e.variant, e.point}))
                 continue;
-            const AnswerPoint point{e.variant, e.point, *e.value, e.low, e.high};
+            const AnswerPoint point{e.variant, e.point, *e.value, e.low, e.high, labels[{e.variant, e.point}]};
             if (e.metric == headline.metric) {
                 const auto time = std::ranges::find_if(tables.times, [&](const TimeSummary& t) {
                     return t.shot == shot && t.variant == e.variant && t.point == e.point && t.stage == "total";

@@ -18,6 +18,7 @@ struct AnswerPoint {
     std::string variant, point;
     double value = 0;
     std::optional<double> low, high;  ///< 95 % interval
+    std::string label = "";           ///< how the study names it; "": by variant and point
 };
 
 /// What a study says of one shot at first sight: which technique, at which cost, and how certain that is. Points that

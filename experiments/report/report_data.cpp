@@ -1,5 +1,6 @@
 #include "experiments/report/report_data.h"
 
+#include "core/gpu/pass_cost.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 
@@ -81,6 +82,25 @@ json table(const Rows& rows, Texts& code) {
     return {{"columns", std::move(columns)}, {"texts", std::move(texts)}, {"rows", std::move(values)}};
 }
 
+/// As table(), with one row for each stage and a column for each quantity; one that a stage lacks is 0.
+json cost_table(const std::vector<CostRow>& costs, Texts& code) {
+    const json texts = {"shot", "variant", "point", "stage"};
+    json columns = texts, values = json::array();
+    for (const CostQuantity& quantity : cost_quantities) columns.push_back(quantity.name);
+    std::map<std::vector<size_t>, size_t> place;
+    for (const CostRow& row : costs) {
+        const std::vector<size_t> key = {code(row.shot), code(row.variant), code(row.point), code(row.stage)};
+        const auto [at, is_new] = place.try_emplace(key, values.size());
+        if (is_new) {
+            values.push_back(key);
+            for (size_t i = 0; i < cost_quantities.size(); ++i) values.back().push_back(0);
+        }
+        for (size_t i = 0; i < cost_quantities.size(); ++i)
+            if (row.quantity == cost_quantities[i].name) values[at->second][key.size() + i] = row.value;
+    }
+    return {{"columns", columns}, {"texts", texts}, {"rows", std::move(values)}};
+}
+
 }  // namespace
 
 ReportTables read_report_tables(const std::filesystem::path& folder, const json& manifest) {
@@ -88,16 +108,20 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
         .errors = summarise(read_rows<ResultRow>(folder / "results.csv"), points_without_seeds(manifest)),
         .splits = {},
         .hits = {},
+        .costs = {},
         .effects = {},
         .time_effects = {},
         .times = {}};
     // No interval holds how they scatter from run to run.
     const PointSet not_repeatable = points_not_repeatable(manifest);
     for (MetricSummary& e : tables.errors)
+        if (e.frame == "all") e.frame = over_frames;  // as earlier versions wrote it
+    for (MetricSummary& e : tables.errors)
         if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
     const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
     if (has("splits.csv")) tables.splits = read_rows<SplitRow>(folder / "splits.csv");
     if (has("hits.csv")) tables.hits = read_rows<HitRow>(folder / "hits.csv");
+    if (has("costs.csv")) tables.costs = read_rows<CostRow>(folder / "costs.csv");
     if (has("effects.csv")) tables.effects = read_rows<EffectRow>(folder / "effects.csv");
     if (has("time_effects.csv")) tables.time_effects = read_rows<TimeEffectRow>(folder / "time_effects.csv");
     if (has("times.csv")) tables.times = summarise(read_rows<TimeRow>(folder / "times.csv"));
@@ -107,20 +131,21 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
 json report_data(const ReportTables& tables, const PointSet& single_changes) {
     Texts code;
     std::vector<MetricSummary> errors, frames;
-    std::set<std::tuple<std::string, std::string, std::string, std::string>> over_frames;
+    std::set<std::tuple<std::string, std::string, std::string, std::string>> known_over_frames;
     const auto quantity_of = [](const MetricSummary& e) { return std::tuple(e.shot, e.target, e.metric, e.mask); };
     for (const MetricSummary& e : tables.errors)
-        if (e.frame == "all") over_frames.insert(quantity_of(e));
+        if (e.frame == over_frames) known_over_frames.insert(quantity_of(e));
     for (const MetricSummary& e : tables.errors) {
         if (e.speaks_for_shot)
             errors.push_back(e);
-        else if (over_frames.contains(quantity_of(e)) && !single_changes.contains({e.variant, e.point}))
+        else if (known_over_frames.contains(quantity_of(e)) && !single_changes.contains({e.variant, e.point}))
             frames.push_back(e);
     }
     json data = {{"errors", table<MetricSummary>(errors, code)},
                  {"frames", table<MetricSummary>(frames, code)},
                  {"splits", table<SplitRow>(tables.splits, code)},
                  {"hits", table<HitRow>(tables.hits, code)},
+                 {"costs", cost_table(tables.costs, code)},
                  {"effects", table<EffectRow>(tables.effects, code)},
                  {"time_effects", table<TimeEffectRow>(tables.time_effects, code)},
                  {"times", table<TimeSummary>(tables.times, code)},

@@ -11,6 +11,7 @@ struct ReportTables {
     std::vector<MetricSummary> errors;
     std::vector<SplitRow> splits;
     std::vector<HitRow> hits;
+    std::vector<CostRow> costs;
     std::vector<EffectRow> effects;
     std::vector<TimeEffectRow> time_effects;
     std::vector<TimeSummary> times;

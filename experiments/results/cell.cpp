@@ -52,6 +52,7 @@ void to_json(nlohmann::json& json, const Cell& cell) {
             {"reference_noise", cell.reference_noise},
             {"times", rows_json(cell.times)},
             {"hits", rows_json(cell.hits)},
+            {"costs", rows_json(cell.costs)},
             {"images", cell.images},
             {"timing", cell.timing},
             {"notes", cell.notes},
@@ -65,6 +66,7 @@ void from_json(const nlohmann::json& json, Cell& cell) {
     cell.splits = splits_from_json(json.at("splits"));
     cell.times = rows_from_json<TimeRow>(json.at("times"));
     cell.hits = rows_from_json<HitRow>(json.at("hits"));
+    cell.costs = rows_from_json<CostRow>(json.at("costs"));
     json.at("reference_noise").get_to(cell.reference_noise);
     cell.images = json.at("images"), cell.timing = json.at("timing");
     json.at("notes").get_to(cell.notes), json.at("truth").get_to(cell.truth);

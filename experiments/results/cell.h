@@ -11,7 +11,7 @@
 /// One row of results.csv; the columns are explained in experiments/RESULTS.md.
 struct ResultRow {
     std::string shot, scene, camera;
-    std::string frame;  ///< its number, or "all": over the frames of the shot
+    std::string frame;  ///< its number, or over_frames
     unsigned width = 0, height = 0;
     std::string variant, point;
     unsigned seed = 0;
@@ -107,6 +107,19 @@ struct HitRow {
     }
 };
 
+/// One row of costs.csv: what the passes of a stage do in the shot's last frame.
+struct CostRow {
+    std::string shot, variant, point, stage;
+    std::string quantity;  ///< a name of cost_quantities, core/gpu/pass_cost.h
+    size_t value = 0;
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &CostRow::shot}, Column{"variant", &CostRow::variant},
+                          Column{"point", &CostRow::point}, Column{"stage", &CostRow::stage},
+                          Column{"quantity", &CostRow::quantity}, Column{"value", &CostRow::value});
+    }
+};
+
 /// What a run makes of one shot and variant point with all its seeds, of the times of a shot, or of its references: the
 /// unit of work that is done once, kept, and never done again.
 struct Cell {
@@ -115,6 +128,7 @@ struct Cell {
     std::vector<ReferenceNoise> reference_noise;
     std::vector<TimeRow> times;
     std::vector<HitRow> hits;
+    std::vector<CostRow> costs;
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
     std::vector<std::string> notes;                   ///< sentences for the manifest: what could not be told, and why

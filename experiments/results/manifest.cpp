@@ -3,9 +3,11 @@
 #include "experiments/measuring/needs.h"
 #include "experiments/results/shot_facts.h"
 #include "experiments/study/config/comparisons.h"
+#include "experiments/study/config/read_shots.h"
 #include "variants/registry.h"
 
 #include <algorithm>
+#include <set>
 
 namespace {
 
@@ -21,6 +23,8 @@ nlohmann::json variant_entries(const Config& config) {
                            {"source", entry.source},
                            {"parameters", variant->params.values()},
                            {"depends_on_seed", variant->depends_on_seed()}});
+        if (!v.label.empty()) entries.back()["label"] = v.label;
+        if (!v.group.empty()) entries.back()["group"] = v.group;
         if (!v.swept.empty()) entries.back()["swept"] = v.swept;
         if (variant->asks_scene()) entries.back()["asks_scene"] = true;
         if (v.is_baseline) entries.back()["baseline"] = true;
@@ -74,7 +78,7 @@ nlohmann::json left_out_entries(const Shot& shot, const Config& config) {
 
 nlohmann::json study_entry(const Config& config) {
     nlohmann::json warnings = nlohmann::json::array();
-    if (config.direct_lit)
+    if (std::ranges::any_of(config.shots, &ShotConfig::direct_lit))
         warnings.push_back(
             "SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
     if (config.composite == CompositeFormula::additive_fresnel)
@@ -82,9 +86,12 @@ nlohmann::json study_entry(const Config& config) {
             "reflections were added to an image that holds the environment's already, as an engine's document prints "
             "it: "
             "where both are found, both count");
-    if (config.normal_bits > 0)
-        warnings.push_back("techniques and composite read normals of 2 x " + std::to_string(config.normal_bits) +
-                           " bits; the truth has its own");
+    std::set<unsigned> bits;
+    for (const ShotConfig& shot : config.shots) bits.insert(shot.normal_bits);
+    for (const unsigned count : bits)
+        if (count > 0)
+            warnings.push_back("techniques and composite read normals of 2 x " + std::to_string(count) +
+                               " bits; the truth has its own");
     return {{"study", {{"name", config.file.stem().string()}, {"config", shown_path(config.file)}}},
             {"title", config.title},
             {"config", config.source},
@@ -121,10 +128,12 @@ nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all)
                             {"measure", shot.config.measures_last_only ? "last" : "all"},
                             {"measure_from", std::max(shot.config.measure_from, shot.config.frames.front())},
                             {"exposure_ev", shot.camera.exposure_ev},
-                            {"lit", config.direct_lit ? "direct" : "path_traced"},
                             {"warnings", shot.scene.warnings},
                             {"needs", needs},
                             {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, config)}};
     if (shot.config.change) entry["change"] = *shot.config.change;
+    if (!shot.config.label.empty()) entry["label"] = shot.config.label;
+    if (!shot.config.group.empty()) entry["group"] = shot.config.group;
+    entry.update(shot_settings(shot.config));
     return entry;
 }

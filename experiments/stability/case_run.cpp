@@ -4,6 +4,7 @@
 #include "core/gbuffer/composite.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/study/config/config.h"
+#include "experiments/study/config/point_name.h"
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 

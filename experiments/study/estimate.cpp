@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<glm::uvec2, 2> calibration_extents = {glm::uvec2(64, 36), glm::uvec2(160, 90)};
 constexpr unsigned calibration_samples = 32;
-constexpr double clock_proof_seconds = 5;
+constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
 
 double seconds_of(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -181,6 +181,10 @@ std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config&
                 // Small images are written once, of the first seed, and what is measured of a seed once for its last frame.
                 const double seeds = double(cell.variant->seeds.size());
                 estimate.seconds = seeds * step.fixed + step.per_pixel * pixels * cell.units;
+            } else if (cell.kind == CellKind::costs) {
+                // Frames before the last are rendered as they are; counting takes several times a frame.
+                if (const auto frame = rates.per_frame.find(kind_of(*cell.variant)); frame != rates.per_frame.end())
+                    estimate.seconds = frame->second.at(pixels) * (cell.units + counting_factor) + compiling_seconds;
             } else {
                 // Two copies of each point, and one that leaves nothing out, take turns.
                 for (const VariantConfig& variant : config.variants)

@@ -1,6 +1,7 @@
 #include "experiments/study/frame_source.h"
 
 #include "core/error.h"
+#include "core/gbuffer/environment_images.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "variants/registry.h"
 
@@ -16,23 +17,22 @@ class SceneSource final : public FrameSource {
 public:
     SceneSource(Device& device, const Shot& shot, const Config& config, bool keep_all)
         : shot_(shot),
-          config_(config),
           rasterizer_(device, shot.scene,
                       {.extent = shot.config.extent,
-                       .depth_format = config.depth_format,
-                       .normal_bits = config.normal_bits,
+                       .depth_format = shot.config.depth_format,
+                       .normal_bits = shot.config.normal_bits,
                        .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
                        .is_still = shot.facts.is_still(),
                        .keep_all = keep_all}) {}
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
         const GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,
-                                                                  .depth_direction = config_.depth_direction,
+                                                                  .depth_direction = shot_.config.depth_direction,
                                                                   .frame = step.frame,
                                                                   .seed = seed,
                                                                   .index = step.index,
                                                                   .previous_frame = step.previous_frame});
-        if (config_.direct_lit)
+        if (shot_.config.direct_lit)
             rasterizer_.light_directly(gbuffer);
         else
             rasterizer_.upload_lit(gbuffer, lit);
@@ -43,40 +43,42 @@ public:
 
 private:
     const Shot& shot_;
-    const Config& config_;
     Rasterizer rasterizer_;
 };
 
-class FileSource final : public FrameSource {
+class CaptureSource final : public FrameSource {
 public:
-    FileSource(Device& device, HostGBuffer gbuffer)
-        : camera_(gbuffer.camera),
-          has_lit_(!gbuffer.lit.values.empty()),
-          graph_(device, gbuffer.extent()),
-          gbuffer_(upload_gbuffer(graph_, gbuffer)) {}
+    CaptureSource(Device& device, Capture& capture, const Shot& shot, bool reads_own_lit)
+        : capture_(capture), reads_own_lit_(reads_own_lit), graph_(device, shot.config.extent) {
+        if (capture.environment()) environment_.emplace(graph_, *capture.environment(), false);
+    }
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
-        // Whatever the file says: what was rendered before is known here.
-        camera_.frame.x = step.index, camera_.frame.y = seed, camera_.frame.w = step.previous_frame.has_value();
-        if (!has_lit_) {
+        HostGBuffer host = capture_.played(step.frame, step.previous_frame);
+        if (!reads_own_lit_) {
             if (lit.values.empty())
                 fail(
-                    "the G-buffer has no lit colour, and no reference provides one: give it the layer 'lit', or name a "
-                    "'reference'");
-            HostImage rgba(lit.extent, 4, 1.0f);
-            for (size_t i = 0; i < lit.pixel_count(); ++i) rgba.set_rgb(i, lit.rgb(i));
-            graph_.upload(gbuffer_.lit, rgba);
+                    capture_.folder_of(step.frame).string(),
+                    ": the G-buffer has no lit colour, and no reference provides one: give it the layer 'lit', or name "
+                    "a 'reference'");
+            host.lit = HostImage(lit.extent, 4, 1.0f);
+            for (size_t i = 0; i < lit.pixel_count(); ++i) host.lit.set_rgb(i, lit.rgb(i));
         }
-        return gbuffer_;
+        camera_ = host.camera;
+        camera_.frame.x = step.index, camera_.frame.y = seed;
+        GBuffer gbuffer = upload_gbuffer(graph_, host);
+        if (environment_) gbuffer.environment = &*environment_;
+        return gbuffer;
     }
     const CameraData& camera() const override { return camera_; }
     PassGraph& graph() override { return graph_; }
 
 private:
-    CameraData camera_;
-    bool has_lit_;
+    Capture& capture_;
+    bool reads_own_lit_;
+    CameraData camera_{};
     PassGraph graph_;
-    GBuffer gbuffer_;
+    std::optional<EnvironmentImages> environment_;
 };
 
 }  // namespace
@@ -84,8 +86,8 @@ private:
 std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all) {
     return std::make_unique<SceneSource>(device, shot, config, keep_all);
 }
-std::unique_ptr<FrameSource> file_source(Device& device, HostGBuffer gbuffer) {
-    return std::make_unique<FileSource>(device, std::move(gbuffer));
+std::unique_ptr<FrameSource> capture_source(Device& device, Capture& capture, const Shot& shot, bool reads_own_lit) {
+    return std::make_unique<CaptureSource>(device, capture, shot, reads_own_lit);
 }
 
 struct FrameStore::Stored {

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/rasterizer.h"
+#include "experiments/study/capture.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shot.h"
 
@@ -8,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-/// Where the G-buffers of a shot come from: a scene that is rasterised, or a file.
+/// Where the G-buffers of a shot come from: a scene that is rasterised, or files.
 class FrameSource {
 public:
     virtual ~FrameSource() = default;
@@ -20,11 +21,11 @@ public:
     virtual PassGraph& graph() = 0;
 };
 
-/// Rasterises shot.scene. With config.direct_lit its lit colour is rasterised direct light, and `lit` is not looked at.
+/// Rasterises shot.scene. With shot.config.direct_lit its lit colour is rasterised direct light, and `lit` is not looked at.
 std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all);
 
-/// The same G-buffer for every frame. `lit` is not looked at if the file has a lit colour.
-std::unique_ptr<FrameSource> file_source(Device& device, HostGBuffer gbuffer);
+/// The frames of a capture. With `reads_own_lit` their lit colour is the files', and `lit` is not looked at.
+std::unique_ptr<FrameSource> capture_source(Device& device, Capture& capture, const Shot& shot, bool reads_own_lit);
 
 /// The G-buffers of a shot, each rendered once: every technique, point and seed reads the same images, since no seed
 /// enters them. Frames that do not fit into the memory are rendered again whenever they are asked for.

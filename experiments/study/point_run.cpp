@@ -85,7 +85,7 @@ SeedRun start(PointRun& point, unsigned seed) {
 
 /// Whether the lit colour that variants read is that of the reference.
 bool reads_reference_light(const PointRun& point) {
-    return !point.config.direct_lit && point.truth.is_measured() &&
+    return !point.shot.config.direct_lit && point.truth.is_measured() &&
            std::ranges::all_of(point.truth.poses, [](const auto& pose) { return pose.second->lit_halves.has_value(); });
 }
 
@@ -130,7 +130,7 @@ void measure_in_passing(PointRun& point, SeedRun& run, const PoseTruth& truth, c
     run.frame_rows.insert(run.frame_rows.end(), frame.rows.begin(), frame.rows.end());
     if (point.shot.config.measures_last_only) return;
     run.means.add(frame);
-    point.noise.add("all", "specular", *truth.frame_reference, specular, masks);
+    point.noise.add(over_frames, "specular", *truth.frame_reference, specular, masks);
 }
 
 /// What one rendered frame adds to the results of its seed.
@@ -306,7 +306,7 @@ void measure_lit_noise(PointRun& point) {
 void add_temporal_rows(PointRun& point, const SeedRun& run, const std::vector<TemporalScore>& scores) {
     for (const TemporalScore& s : scores) {
         if (s.pixels + s.left_out == 0) continue;  // nothing of this scene lies under the mask
-        ResultRow r = point.row("all", run.seed);
+        ResultRow r = point.row(over_frames, run.seed);
         r.target = "specular", r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
         const auto if_finite = [](std::optional<double> v) { return v && std::isfinite(*v) ? v : std::nullopt; };
         r.value = if_finite(s.value), r.uncorrected = s.uncorrected ? if_finite(s.uncorrected) : r.value,

@@ -11,7 +11,7 @@ namespace {
 
 // First guesses of seconds per unit, for a small study; what is measured replaces them (workload.h).
 const std::map<CellKind, double> guessed_seconds = {
-    {CellKind::references, 20}, {CellKind::renders, 0.2}, {CellKind::times, 5}};
+    {CellKind::references, 20}, {CellKind::renders, 0.2}, {CellKind::costs, 0.2}, {CellKind::times, 5}};
 
 /// What a run before left, which may be of any version; null if it cannot be read.
 nlohmann::json read_manifest_before(const std::filesystem::path& file) {

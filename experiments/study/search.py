@@ -44,10 +44,8 @@ class Trial:
         return self.high < 1 - rules.get("least_gain", 0.01) and self.time <= rules.get("most_time", math.inf)
 
 
-def label_of(preset, values):
-    """How `ssrlab` names a swept point."""
-    words = [f"{k}={v if isinstance(v, str) else json.dumps(v)}" for k, v in sorted(values.items())]
-    return " ".join([preset] * bool(preset) + words)
+def label_of(values):
+    return " ".join(f"{k}={v if isinstance(v, str) else json.dumps(v)}" for k, v in sorted(values.items()))
 
 
 def start_of(config):
@@ -141,8 +139,8 @@ class Search:
     def read(self, name, results, points):
         wanted = {(self.rules.get("target", "specular"), m, self.rules.get("mask", "reflective")) for m in self.metrics()}
         trials = []
-        for values in points:
-            point = label_of(self.preset, values)
+        held, *names = (v["point"] for v in results.manifest["variants"])  # in the order in which study() names them
+        for values, point in zip(points, names, strict=True):
             rows = [
                 r
                 for r in results.effects
@@ -150,18 +148,18 @@ class Search:
             ]
             if not rows:
                 raise ResultsError(f"{results.folder}: effects.csv has nothing of '{point}': does the study measure {wanted}?")
-            trials.append(Trial(name, values, *geometric_mean(rows, point), self.time_of(results, point)))
+            trials.append(Trial(name, values, *geometric_mean(rows, point), self.time_of(results, point, held)))
         return trials
 
     def metrics(self):
         return self.rules.get("metrics", ["relmse"])
 
-    def time_of(self, results, point):
+    def time_of(self, results, point, held):
         logs = []
         for shot in results.shots():
             totals = {k[1]: stages["total"].value for k, stages in results.times_of(shot).items() if "total" in stages}
             if point in totals:
-                logs.append(math.log(totals[point] / totals[label_of(self.preset, {}) or "default"]))
+                logs.append(math.log(totals[point] / totals[held]))
         if not logs and "most_time" in self.rules:
             raise ResultsError(f"{results.folder}: '{point}' was not timed, but the search has 'most_time'")
         return self.time * math.exp(sum(logs) / len(logs)) if logs else self.time
@@ -169,14 +167,14 @@ class Search:
     def hold(self, trial):
         self.found |= trial.values
         self.time = trial.time
-        print(f"held: {label_of('', trial.values)}: error x{trial.ratio:.3f} [{trial.low:.3f}, {trial.high:.3f}], time x{trial.time:.2f}")
+        print(f"held: {label_of(trial.values)}: error x{trial.ratio:.3f} [{trial.low:.3f}, {trial.high:.3f}], time x{trial.time:.2f}")
 
     def write(self):
         with open(os.path.join(self.out, "search.csv"), "w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
             writer.writerow(["study", "point", "ratio", "low", "high", "time"])
             for t in self.trials:
-                writer.writerow([t.study, label_of("", t.values), t.ratio, t.low, t.high, t.time])
+                writer.writerow([t.study, label_of(t.values), t.ratio, t.low, t.high, t.time])
         with open(os.path.join(self.out, "found.json"), "w", encoding="utf-8") as stream:
             json.dump({"variant": self.variant["variant"], "preset": self.preset, "parameters": self.start | self.found}, stream, indent=1)
             stream.write("\n")

@@ -5,7 +5,6 @@
 #include "experiments/measuring/rung_errors.h"
 #include "experiments/results/result_images.h"
 #include "experiments/results/shot_facts.h"
-#include "experiments/study/capture.h"
 #include "groundtruth/reference_cache.h"
 
 #include <cstdio>
@@ -89,7 +88,7 @@ void enter_shot(Opening& opening) {
     const FrameStep& last = run.shot.steps.back();
     const FrameStore::Frame frame = run.store->frame(last, run.truth.lit(last));
     const HostGBuffer host =
-        download_gbuffer(run.source->graph(), frame.gbuffer, frame.camera, opening.config.depth_format);
+        download_gbuffer(run.source->graph(), frame.gbuffer, frame.camera, run.shot.config.depth_format);
     run.entry["needs"] = fact_entries(list_facts(pixel_facts(host)));
     if (run.truth.is_measured()) {
         const FlipExposures& flip = run.truth.pose(last).flip_exposures;
@@ -97,7 +96,7 @@ void enter_shot(Opening& opening) {
         if (needs_ladder(opening.config))
             run.entry["truth_ladder"] = rung_entries(run.truth.pose(last), run.truth.frame(last)->masks);
     } else {
-        run.entry["lit"] = opening.config.has_reference ? "file" : "direct";
+        if (!run.entry.contains("lit")) run.entry["lit"] = opening.config.has_reference ? "file" : "direct";
         run.entry["warnings"].push_back(
             opening.config.has_reference
                 ? "This G-buffer came without a reference: its results are rendered and timed, not measured."
@@ -116,9 +115,9 @@ void open_scene(Opening& opening, const ShotConfig& config) {
     run.shot = load_shot(config, opening.settings.search_path);
     opening.settings.say(run.shot.scene.name + ", camera " + run.shot.camera.name);
     run.source = scene_source(opening.device, run.shot, opening.config, opening.settings.keep_all);
-    run.store = std::make_unique<FrameStore>(*run.source, opening.config.depth_format, max_stored_bytes);
+    run.store = std::make_unique<FrameStore>(*run.source, run.shot.config.depth_format, max_stored_bytes);
     if (!opening.config.has_reference)
-        run.truth = truth_of_lit(run.shot, {});
+        run.truth = truth_of_lit(run.shot, [](unsigned) { return HostImage(); });
     else
         run.truth = shot_truth(run.shot, opening.config, *run.store, run.source->graph(),
                                [&](unsigned frame, ReferenceUse use) {
@@ -132,28 +131,33 @@ void open_scene(Opening& opening, const ShotConfig& config) {
 /// A capture: measured if it comes with a reference, else only rendered and timed.
 void open_capture(Opening& opening, const ShotConfig& config) {
     ShotRun& run = opening.run;
-    LoadedGBuffer loaded = load_gbuffer(config.gbuffer);
-    run.shot = gbuffer_shot(config, loaded.gbuffer);
+    run.capture = std::make_unique<Capture>(config.gbuffer);
+    run.shot = capture_shot(config, *run.capture);
     opening.settings.say(run.shot.scene.name + ", from files");
-    for (const std::string& note : loaded.notes) {
+    const CaptureContents contents = inspect_capture(run.shot, *run.capture);
+    run.shot.facts = contents.facts;
+    for (const std::string& note : contents.notes) {
         opening.settings.say("note: " + note);
         run.entry["warnings"].push_back(note);
     }
-    std::optional<Reference> reference;
-    if (!config.reference.empty())
-        reference = read_capture_reference(config.reference, loaded.gbuffer, needs_ladder(opening.config));
+    const bool is_measured = !config.reference.empty();
     // A reference brings the path-traced lit colour; `ssrlab gbuffer` saves unshadowed direct light.
-    if (reference && !opening.config.direct_lit) loaded.gbuffer.lit = {};
-    run.truth = truth_of_lit(
-        run.shot, loaded.gbuffer.lit.values.empty() ? HostImage{} : channels_of(loaded.gbuffer.lit, 0, 3));
-    run.source = file_source(opening.device, std::move(loaded.gbuffer));
-    run.store = std::make_unique<FrameStore>(*run.source, opening.config.depth_format, max_stored_bytes);
-    if (reference)
+    const bool reads_own_lit = contents.has_lit && (!is_measured || config.direct_lit);
+    if (reads_own_lit) run.entry["lit"] = "file";
+    run.source = capture_source(opening.device, *run.capture, run.shot, reads_own_lit);
+    run.store = std::make_unique<FrameStore>(*run.source, run.shot.config.depth_format, max_stored_bytes);
+    if (is_measured)
         run.truth = shot_truth(run.shot, opening.config, *run.store, run.source->graph(),
                                [&](unsigned frame, ReferenceUse use) {
-                                   note_reference(opening, *reference, frame, use);
-                                   return *reference;
+                                   Reference reference = read_capture_reference(
+                                       run.shot, *run.capture, frame, use.is_of_last && needs_ladder(opening.config));
+                                   note_reference(opening, reference, frame, use);
+                                   return reference;
                                });
+    else
+        run.truth = truth_of_lit(run.shot, [&](unsigned frame) {
+            return contents.has_lit ? channels_of(run.capture->load(frame).gbuffer.lit, 0, 3) : HostImage();
+        });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/gpu/device.h"
 #include "experiments/results/cell.h"
+#include "experiments/study/capture.h"
 #include "experiments/study/shot_truth.h"
 
 #include <filesystem>
@@ -22,6 +23,7 @@ struct ShotRunSettings {
 /// A shot on its way: everything that its cells are made from.
 struct ShotRun {
     Shot shot;
+    std::unique_ptr<Capture> capture;  ///< null of a scene
     std::unique_ptr<FrameSource> source;
     std::unique_ptr<FrameStore> store;
     ShotTruth truth;

@@ -11,14 +11,14 @@ namespace {
 bool is_capture(const Shot& shot) { return !shot.config.gbuffer.empty(); }
 
 /// Whether anything of the frame is compared with the truth, or lit by it.
-bool needs_reference(const Shot& shot, const Config& config, const FrameStep& step) {
-    if (!config.direct_lit) return true;
+bool needs_reference(const Shot& shot, const FrameStep& step) {
+    if (!shot.config.direct_lit) return true;
     return step.is_measured || step.is_held || measures_difference(shot, step) || is_after_change(shot, step);
 }
 
 /// Equal for poses that look alike.
 std::string look_of(const Shot& shot, unsigned frame, const ReferenceSettings& settings) {
-    if (is_capture(shot)) return "";
+    if (is_capture(shot)) return capture_reference_file(shot.config, frame).string();
     const ShotFrame now = shot_frame(shot, frame);
     return reference_stream(shot.scene, now.scene, now.camera, shot.config.extent, settings);
 }
@@ -70,7 +70,7 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     std::map<std::string, std::shared_ptr<const PoseTruth>> by_look;
     const bool has_several = shot.steps.size() > shot.config.warm_up + 1;
     for (const FrameStep& step : shot.steps) {
-        if (truth.poses.contains(step.frame) || !needs_reference(shot, config, step)) continue;
+        if (truth.poses.contains(step.frame) || !needs_reference(shot, step)) continue;
         std::shared_ptr<const PoseTruth>& pose = by_look[looks[step.frame]];
         const std::string& look = looks[step.frame];
         const ReferenceUse use{.is_of_last = look == looks[shot.config.frames.back()],
@@ -86,26 +86,27 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     for (const FrameStep& step : shot.steps) {
         if (!step.is_measured && !measures_difference(shot, step)) continue;
         const FrameStore::Frame frame = store.frame(step, truth.lit(step));
-        const HostGBuffer gbuffer = download_gbuffer(graph, frame.gbuffer, frame.camera, config.depth_format);
+        const HostGBuffer gbuffer = download_gbuffer(graph, frame.gbuffer, frame.camera, shot.config.depth_format);
         truth.frames.emplace(std::pair(step.frame, step.previous_frame),
                              frame_truth(truth.poses.at(step.frame), gbuffer, config));
     }
     return truth;
 }
 
-ShotTruth truth_of_lit(const Shot& shot, HostImage lit) {
+ShotTruth truth_of_lit(const Shot& shot, const std::function<HostImage(unsigned frame)>& lit) {
     ShotTruth truth;
-    PoseTruth pose{.diffuse = lit,
-                   .lit_halves = {},
-                   .direct = std::move(lit),
-                   .targets = {},
-                   .rungs = {},
-                   .view_depth = {},
-                   .normal = {},
-                   .material_id = {},
-                   .flip_exposures = {},
-                   .content_hash = "none"};
-    const auto shared = std::make_shared<PoseTruth>(std::move(pose));
-    for (const FrameStep& step : shot.steps) truth.poses[step.frame] = shared;
+    for (const unsigned frame : shot.config.frames) {
+        const HostImage of_frame = lit(frame);
+        truth.poses[frame] = std::make_shared<PoseTruth>(PoseTruth{.diffuse = of_frame,
+                                                                   .lit_halves = {},
+                                                                   .direct = of_frame,
+                                                                   .targets = {},
+                                                                   .rungs = {},
+                                                                   .view_depth = {},
+                                                                   .normal = {},
+                                                                   .material_id = {},
+                                                                   .flip_exposures = {},
+                                                                   .content_hash = "none"});
+    }
     return truth;
 }

@@ -29,10 +29,10 @@ struct ReferenceUse {
     bool is_of_last = false, is_of_measured = false;
 };
 
-/// What is to be measured in a shot. `obtain` gives the reference of a frame (of a capture, its own); it is called once
-/// per pose that looks different. Fails if the shot names a change after which the scene still moves.
+/// What is to be measured in a shot. `obtain` gives the reference of a frame; it is called once per pose that looks
+/// different (of a capture, per file). Fails if the shot names a change after which the scene still moves.
 ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
                      const std::function<Reference(unsigned frame, ReferenceUse use)>& obtain);
 
 /// Where there is no reference nothing is measured: the lit colour alone, for the frames of `shot`.
-ShotTruth truth_of_lit(const Shot& shot, HostImage lit);
+ShotTruth truth_of_lit(const Shot& shot, const std::function<HostImage(unsigned frame)>& lit);

@@ -1,7 +1,10 @@
+#include "core/error.h"
+#include "experiments/measuring/costs.h"
 #include "experiments/measuring/timing.h"
 #include "experiments/measuring/timing_lock.h"
 #include "experiments/results/host_info.h"
 #include "experiments/results/provenance.h"
+#include "experiments/study/config/conditions.h"
 #include "experiments/study/point_run.h"
 #include "experiments/study/rehearsal.h"
 #include "experiments/study/shot_run.h"
@@ -32,13 +35,14 @@ void say_result(StudyRun& study, const Cell& cell) {
         if (r.target == shown.target && r.metric == shown.metric && r.mask == shown.mask && r.value)
             values[r.frame].push_back(*r.value), non_finite = std::max(non_finite, size_t(r.non_finite));
     if (values.empty()) return;
-    const auto& [frame, seeds] = *values.rbegin();  // "all" comes after every number
+    const auto& [frame, seeds] = values.contains(over_frames) ? *values.find(over_frames) : *values.rbegin();
     double sum = 0;
     for (const double value : seeds) sum += value;
     char line[240];
-    std::snprintf(line, sizeof line, "  %-24s %-32s %s of %s pixels %.4g (frame %s, %zu seed%s)",
-                  cell.rows.front().variant.c_str(), cell.rows.front().point.c_str(), shown.metric.c_str(),
-                  shown.mask.c_str(), sum / double(seeds.size()), frame.c_str(), seeds.size(),
+    std::snprintf(line, sizeof line, "  %-56s %s of %s pixels %.4g (%s, %zu seed%s)",
+                  display_name(study.config, cell.rows.front().variant, cell.rows.front().point).c_str(),
+                  shown.metric.c_str(), shown.mask.c_str(), sum / double(seeds.size()),
+                  frame == over_frames ? "over all frames" : ("frame " + frame).c_str(), seeds.size(),
                   seeds.size() == 1 ? "" : "s");
     const std::string left_out =
         non_finite > 0 ? ", without " + std::to_string(non_finite) + " that are not finite" : "";
@@ -129,7 +133,8 @@ Cell timing_cell(StudyRun& study, ShotRun& run, const std::function<void(double)
     const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
     const ClockProof& clock = proven_clock(study);
     const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
-    const ShotTimes times = time_variants(*run.source, run.shot, study.config, lit, study.settings.keep_all, report);
+    const ShotTimes times = time_variants(*run.source, run.shot, config_on(study.config, run.shot), lit,
+                                          study.settings.keep_all, report);
     if (times.load.disturbed > 0)
         study.progress.say("warning: " + run.shot.name() + ": other programs disturbed " +
                            std::to_string(times.load.disturbed) + " of " + std::to_string(study.config.timing.frames) +
@@ -146,13 +151,31 @@ Cell renders_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, con
                       .spent = &study.spent});
 }
 
+Cell costs_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, const std::function<void(double)>& report) {
+    const auto lit = [&](const FrameStep& step) -> const HostImage& { return run.truth.lit(step); };
+    return {.costs = count_costs(study.device, run.shot, *run.store, lit, *planned.variant, study.settings.keep_all,
+                                 report)};
+}
+
+Cell make_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, const std::function<void(double)>& report) {
+    switch (planned.kind) {
+        case CellKind::references:
+            return references_cell(run);
+        case CellKind::renders:
+            return renders_cell(study, run, planned, report);
+        case CellKind::costs:
+            return costs_cell(study, run, planned, report);
+        case CellKind::times:
+            return timing_cell(study, run, report);
+    }
+    fail("no cell is made of kind ", int(planned.kind));
+}
+
 /// How a cell of an open shot is made.
 CellTask task_of(StudyRun& study, ShotRun& run, const PlannedCell& planned) {
     CellTask task{.planned = planned, .make = {}};
     const auto make = [&study, &run, &planned](const auto& report) {
-        Cell cell = planned.kind == CellKind::references ? references_cell(run)
-                    : planned.kind == CellKind::times    ? timing_cell(study, run, report)
-                                                         : renders_cell(study, run, planned, report);
+        Cell cell = make_cell(study, run, planned, report);
         cell.truth = run.truth.content_hash();
         return cell;
     };

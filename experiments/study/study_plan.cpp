@@ -5,6 +5,7 @@
 #include "experiments/results/manifest.h"
 #include "experiments/results/source_code.h"
 #include "experiments/study/capture.h"
+#include "experiments/study/config/conditions.h"
 #include "experiments/study/config/shot.h"
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
@@ -52,12 +53,20 @@ public:
         for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
         return name(sources, request, with_images(what));
     }
-    std::string of_times(const std::string& request) {
+    std::string of_costs(const std::string& request, size_t variant) {
+        const PointIdentity& point = points_[variant];
+        std::vector<std::string> sources = point.sources;
+        sources.push_back("experiments/measuring/costs.cpp"), sources.push_back("experiments/study/shot_run.cpp");
+        const VariantConfig& v = config_.variants[variant];
+        return name(sources, request, {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())});
+    }
+    /// `runs`: by variant, whether it runs on the shot.
+    std::string of_times(const std::string& request, const std::vector<bool>& runs) {
         std::vector<std::string> sources = {"experiments/measuring/timing.cpp", "experiments/study/shot_run.cpp"};
         std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up)};
         for (size_t i = 0; i < points_.size(); ++i) {
             const VariantConfig& v = config_.variants[i];
-            if (!v.is_timed) continue;
+            if (!v.is_timed || !runs[i]) continue;
             sources.insert(sources.end(), points_[i].sources.begin(), points_[i].sources.end());
             what.insert(what.end(), {v.variant, v.point, points_[i].parameters, std::to_string(v.seeds.front())});
         }
@@ -81,8 +90,7 @@ private:
             hash.add(list.size());
             for (const std::string& text : list) hash.add(text);
         }
-        hash.add(int(c.direct_lit)), hash.add(int(c.depth_format)), hash.add(int(c.depth_direction)),
-            hash.add(int(keep_all_)), hash.add(int(c.composite)), hash.add(c.normal_bits);
+        hash.add(int(keep_all_)), hash.add(int(c.composite));
         hash.add(c.hits ? int(c.hits->every) : 0), hash.add(c.hits ? int(c.hits->seeds) : 0);
         hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance);
         return hash.hex();
@@ -97,8 +105,11 @@ private:
 };
 
 Shot load(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
-    return config.gbuffer.empty() ? load_shot(config, search_path)
-                                  : gbuffer_shot(config, load_gbuffer(config.gbuffer).gbuffer);
+    if (config.gbuffer.empty()) return load_shot(config, search_path);
+    Capture capture(config.gbuffer);
+    Shot shot = capture_shot(config, capture);
+    shot.facts = inspect_capture(shot, capture).facts;
+    return shot;
 }
 
 /// What a shot shows and how it is played: all that its cells depend on, but for what is rendered.
@@ -109,15 +120,17 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
     hash.add(shot.scene.content_hash), hash.add(shot.name()), hash.add(shot.camera.exposure_ev);
     for (const unsigned frame : shot.config.frames) {
         hash.add(frame);
+        if (!shot.config.reference.empty()) hash.add(read_text(capture_reference_file(shot.config, frame)));
         if (!shot.config.gbuffer.empty()) continue;
         const ShotFrame now = shot_frame(shot, frame);
         settings.ladder = frame == shot.config.frames.back() && needs_ladder(config);
         hash.add(reference_key(reference_request(shot.scene, now.scene, now.camera, shot.config.extent, settings), settings));
     }
-    if (!shot.config.reference.empty()) hash.add(read_text(shot.config.reference));
     for (const unsigned number : {shot.config.warm_up, shot.config.repeat, shot.config.change.value_or(0),
                                   unsigned(shot.config.measures_last_only), shot.config.measure_from,
-                                  unsigned(config.has_reference)})
+                                  unsigned(config.has_reference), unsigned(shot.config.direct_lit),
+                                  unsigned(shot.config.depth_format), unsigned(shot.config.depth_direction),
+                                  shot.config.normal_bits})
         hash.add(number);
     return hash.hex();
 }
@@ -125,7 +138,7 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
 }  // namespace
 
 const std::vector<std::string>& cell_kind_names() {
-    static const std::vector<std::string> names = {"references", "renders", "times"};
+    static const std::vector<std::string> names = {"references", "renders", "costs", "times"};
     return names;
 }
 
@@ -150,7 +163,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
                  "another resolution");
         const std::string request = request_of(shot, config, keep_all);
         PlannedShot& planned = plan.shots.emplace_back();
-        planned.config = of_shot, planned.name = shot.name();
+        planned.config = shot.config, planned.name = shot.name();
         planned.entry = shot_entry(shot, config, keep_all);
         const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
             return planned.cells.emplace_back(PlannedCell{.kind = kind,
@@ -159,15 +172,34 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
                                                           .shot = planned.name,
                                                           .units = units});
         };
-        add(CellKind::references, names.of_references(request), "references", double(of_shot.frames.size()));
+        std::vector<bool> runs;
+        for (const VariantConfig& variant : config.variants) {
+            const std::string why = why_skipped(variant, shot);
+            runs.push_back(why.empty());
+            if (!why.empty())
+                plan.skipped.push_back({{"shot", planned.name},
+                                        {"variant", variant.variant},
+                                        {"point", variant.point},
+                                        {"condition", why}});
+        }
+        add(CellKind::references, names.of_references(request), "references", double(shot.config.frames.size()));
         for (size_t i = 0; i < config.variants.size(); ++i) {
             const VariantConfig& variant = config.variants[i];
+            if (!runs[i]) continue;
             add(CellKind::renders, names.of_renders(request, i), variant.variant + " " + variant.point,
                 double(shot.steps.size() * variant.seeds.size()))
                 .variant = &variant;
         }
-        if (config.timing.frames > 0 && std::ranges::any_of(config.variants, &VariantConfig::is_timed))
-            add(CellKind::times, names.of_times(request), "times", 1);
+        for (size_t i = 0; i < config.variants.size() && config.counts_costs; ++i) {
+            const VariantConfig& variant = config.variants[i];
+            if (!runs[i]) continue;
+            add(CellKind::costs, names.of_costs(request, i), "costs of " + variant.variant + " " + variant.point,
+                double(shot.steps.size()))
+                .variant = &variant;
+        }
+        const Config on_shot = config_on(config, shot);
+        if (config.timing.frames > 0 && std::ranges::any_of(on_shot.variants, &VariantConfig::is_timed))
+            add(CellKind::times, names.of_times(request, runs), "times", 1);
     }
     return plan;
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 /// What a cell holds. `references`: the truth of a shot and what is said of it; `renders`: a point with all its seeds;
-/// `times`: those of all points of a shot.
-enum class CellKind { references, renders, times };
+/// `costs`: what its passes do; `times`: those of all points of a shot.
+enum class CellKind { references, renders, costs, times };
 const std::vector<std::string>& cell_kind_names();  ///< in the order of CellKind
 const std::string& name_of(CellKind kind);
 
@@ -20,7 +20,7 @@ struct PlannedCell {
     std::string name;                        ///< as CellStore knows it
     std::string what;                        ///< "<shot>: <variant> <point>", "<shot>: references", "<shot>: times"
     std::string shot;                        ///< its name
-    const VariantConfig* variant = nullptr;  ///< of renders
+    const VariantConfig* variant = nullptr;  ///< of renders and costs
     double units = 1;                        ///< of its kind's work: references, frames x seeds, shots
 };
 
@@ -34,6 +34,7 @@ struct PlannedShot {
 /// All cells of a study, in the order in which they are done.
 struct StudyPlan {
     std::vector<PlannedShot> shots;
+    std::vector<nlohmann::json> skipped;  ///< pairs of shot and point that have no cell: the manifest's entries
     size_t cell_count() const;
 };
 
@@ -47,7 +48,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
 class CellSelection {
 public:
     /// Terms, each of which narrows what the ones before left, but terms of one kind add up:
-    /// `references`, `renders`, `times`; `shot=NAME` and `variant=NAME`, where * stands for any text; `shard=I/N`, the
+    /// `references`, `renders`, `costs`, `times`; `shot=NAME` and `variant=NAME`, where * stands for any text; `shard=I/N`, the
     /// I-th (from 1) of N parts, drawn by the cells' names; `cell=HASH`, the beginning of a name. None: all cells. Fails with Error
     /// on any other term.
     explicit CellSelection(const std::vector<std::string>& terms = {});

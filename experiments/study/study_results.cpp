@@ -7,6 +7,7 @@
 #include "experiments/results/manifest.h"
 #include "experiments/results/provenance.h"
 #include "experiments/results/results.h"
+#include "experiments/results/results_schema.h"
 #include "experiments/results/time_effects.h"
 #include "experiments/study/stale_files.h"
 
@@ -25,6 +26,7 @@ nlohmann::json manifest_of(const StudyRun& study, bool is_complete) {
             nlohmann::json& entry = manifest["shots"].emplace_back(shot.entry);
             complete_shot_entry(entry, references->second->shot);
         }
+    if (!study.plan.skipped.empty()) manifest["skipped"] = study.plan.skipped;
     for (const Cell& cell : study.finished) {
         for (const nlohmann::json& entry : cell.images) manifest["images"].push_back(entry);
         for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
@@ -92,6 +94,7 @@ std::vector<ShotAnswer> write_results(StudyRun& study, bool is_complete, const n
         write_text(file, manifest.dump(1) + "\n");
         const StudyRows rows = rows_of(study.finished);
         write_tables(study.settings.out, rows);
+        write_parameters(study.settings.out, study.config.variants);
         write_effects(study, manifest, rows);
     }
     std::vector<ShotAnswer> answers;

@@ -63,6 +63,7 @@ TEST_F(gbuffer_file, comes_back_bit_by_bit) {
         save_gbuffer(folder_, before);
         const LoadedGBuffer loaded = load_gbuffer(folder_);
         EXPECT_EQ(loaded.notes, std::vector<std::string>{});
+        EXPECT_TRUE(loaded.absent.empty());
         PassGraph graph(test_device(), loaded.gbuffer.extent());
         const GBuffer uploaded = upload_gbuffer(graph, loaded.gbuffer);
         expect_same_bits(download_gbuffer(graph, uploaded, loaded.gbuffer.camera, loaded.gbuffer.depth_format), before);
@@ -85,7 +86,8 @@ TEST_F(gbuffer_file, a_capture_of_another_engine_may_leave_out_the_optional) {
     write_text(folder_ / "camera.json", camera.dump());
 
     const LoadedGBuffer loaded = load_gbuffer(folder_);
-    EXPECT_EQ(loaded.notes.size(), 11u);  // ten layers and one that is not used
+    EXPECT_EQ(loaded.absent.size(), 10u);
+    EXPECT_EQ(loaded.notes.size(), 1u);  // one layer is not used
     EXPECT_TRUE(loaded.gbuffer.lit.values.empty());
     EXPECT_EQ(differing_bits(loaded.gbuffer.previous_normal, g.normal), 0u);
     for (size_t i = 0; i < g.depth.pixel_count(); ++i) {

@@ -1,7 +1,6 @@
 """Bias^2 and variance of each point: what all seeds get wrong alike, and what differs from seed to seed."""
 
 from paper_figures import style
-from paper_figures.results import label
 
 NAMES = {"bias_squared": "bias\N{SUPERSCRIPT TWO}, 95 % interval", "variance": "variance, 95 % interval"}
 
@@ -11,7 +10,7 @@ def draw(results, chosen):
         s
         for s in results.splits
         if (s["target"], s["mask"]) == (chosen.target, chosen.mask)
-        and (s["variant"], s["point"]) not in results.single_changes
+        and (s["variant"], s["point"]) not in results.hidden
     ]
     shots = list(dict.fromkeys(s["shot"] for s in rows))
     if not shots:
@@ -21,7 +20,7 @@ def draw(results, chosen):
         name: [results.measured(s, (name, f"{name}_low", f"{name}_high"), "splits.csv") for s in rows] for name in NAMES
     }
     limits = _limits([m for part in parts.values() for m in part])
-    figure, panels, legend = style.panels(len(shots), height=2.2 + 0.8 * len(points), sharex=True, sharey=True)
+    figure, panels = style.panels(len(shots), chosen, height=2.2 + 0.8 * len(points), sharex=True, sharey=True)
     for axes, shot in zip(panels, shots):
         axes.set_xscale("log")
         axes.set_xlim(limits)
@@ -29,14 +28,14 @@ def draw(results, chosen):
             for row, measured in zip(rows, part):
                 if row["shot"] == shot:
                     _draw_part(axes, points.index((row["variant"], row["point"])), index, name, measured, limits)
-        axes.set_title(style.shot_title(shot))
+        axes.set_title(style.panel_title(results.shot_label(shot), axes))
         axes.tick_params(labelbottom=True)
         axes.grid(axis="y", visible=False)
         axes.set_xlabel("part of the MSE (radiance\N{SUPERSCRIPT TWO})")
     seeds = {p: "/".join(sorted({s["seeds"] for s in rows if (s["variant"], s["point"]) == p})) for p in points}
-    panels[0].set_yticks(range(len(points)), [f"{label(*p)}\n({seeds[p]} seeds)" for p in points])
+    panels[0].set_yticks(range(len(points)), [f"{results.point_label(*p)}\n({seeds[p]} seed{'s' * (seeds[p] != '1')})" for p in points])
     panels[0].set_ylim(len(points) - 0.5, -0.5)
-    style.draw_legend(legend, panels)
+    style.draw_legend(figure, panels)
     return figure
 
 

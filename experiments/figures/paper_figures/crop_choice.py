@@ -1,21 +1,21 @@
-"""figures.json: the crops that the report's viewer collects (its page/viewer/crops.js writes the file)."""
+"""The crops of figures.json: those that the report's viewer collects (its page/viewer/crops.js writes the file)."""
 
 import json
 import math
 from dataclasses import dataclass
-from difflib import get_close_matches
 
+from paper_figures.request import refuse_unknown
 from paper_figures.results import ResultsError
 
 TONE_CURVES = ("none", "reinhard", "aces")
-MOST_POINTS = 7  # besides the truth: what fits into the width of a page
+AUTO = "auto"
 KEYS = ("shot", "frame", "target", "box", "exposure", "tone_curve", "points")
 
 
 @dataclass
 class Crop:
     box: tuple  # x, y, width, height in pixels, y from the top
-    exposure: float  # EV
+    exposure: float | str = AUTO  # EV, or chosen from the truth's pixels
     tone_curve: str = "none"
     where: str = ""  # file and place, for mistakes
 
@@ -35,12 +35,7 @@ class _Reader:
 
     def __init__(self, file, index, crop):
         self.where, self.crop = f"{file}: crops[{index}]", crop
-        if not isinstance(crop, dict):
-            raise ResultsError(f"{self.where} must be an object, not {json.dumps(crop)}")
-        for key in crop:
-            if key not in KEYS:
-                near = get_close_matches(key, KEYS, 1)
-                raise ResultsError(f"{self.where}: '{key}' is not known{f'; did you mean {near[0]!r}?' if near else ''}")
+        refuse_unknown(self.where, crop, KEYS)
 
     def fail(self, key, wanted):
         found = f"not {json.dumps(self.crop[key])}" if key in self.crop else "and is missing"
@@ -58,7 +53,7 @@ def _is_whole(value):
     return isinstance(value, int) and not isinstance(value, bool)
 
 
-def _is_box(value):
+def is_box(value):
     return (
         isinstance(value, list)
         and len(value) == 4
@@ -68,8 +63,8 @@ def _is_box(value):
     )
 
 
-def _is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+def is_exposure(value):
+    return value == AUTO or isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _are_points(value):
@@ -80,19 +75,11 @@ def _are_points(value):
     )
 
 
-def read_crops(file, results):
-    """{shot: ShotCrops}, in the file's order; whether boxes and points are the images' own is found when they are drawn."""
-    try:
-        with open(file, encoding="utf-8") as text:
-            content = json.load(text)
-    except OSError as e:
-        raise ResultsError(f"cannot read {file}: {e.strerror}") from e
-    except ValueError as e:
-        raise ResultsError(f"{file} is not valid JSON: {e}") from e
-    if not isinstance(content, dict) or not isinstance(content.get("crops"), list):
-        raise ResultsError(f"{file} must be an object with an array 'crops'")
+def read_crops(file, content, results):
+    """{shot: ShotCrops} of the `crops` of a file, in its order; whether boxes and points are the images' own is found when they are
+    drawn."""
     shots = {}
-    for index, crop in enumerate(content["crops"]):
+    for index, crop in enumerate(content.get("crops", [])):
         read = _Reader(file, index, crop)
         shot = read.value("shot", lambda v: v in results.shots(), f"one of {', '.join(results.shots())}")
         target = read.value("target", lambda v: isinstance(v, str), "a text", "image")
@@ -103,12 +90,10 @@ def read_crops(file, results):
                 read.fail(key, f"{json.dumps(first)} as in the first crop of {shot}: they share a figure")
         for p in read.value("points", _are_points, 'an array of {"variant", "point"}'):
             own.points.setdefault((p["variant"], p["point"]), read.where)
-        if len(own.points) > MOST_POINTS:
-            read.fail("points", f"no more than {MOST_POINTS} together with those of the other crops of {shot}")
         own.crops.append(
             Crop(
-                tuple(read.value("box", _is_box, "[x, y, width, height] in pixels")),
-                read.value("exposure", _is_number, "a number of EV", results.exposure(shot)),
+                tuple(read.value("box", is_box, "[x, y, width, height] in pixels")),
+                read.value("exposure", is_exposure, "a number of EV or \"auto\"", AUTO),
                 read.value("tone_curve", lambda v: v in TONE_CURVES, f"one of {', '.join(TONE_CURVES)}", "none"),
                 read.where,
             )

@@ -25,7 +25,7 @@ def _groups(results, rows):
     preset = _preset(rows[0]["against_point"])
     changes = {k: c for k, c in results.single_changes.items() if k in found and _preset(k[1]) == preset}
     singles = {k: f"{p} = {json.dumps(v)}" for k, (p, v) in changes.items()}
-    return singles | {k: label(*k) for k in found if k not in singles}
+    return singles | {k: results.point_label(*k) for k in found if k not in singles}
 
 
 def _rows(results, chosen):
@@ -54,40 +54,43 @@ def comparisons(results, chosen):
 
 def draw(results, chosen, rows):
     if rows[0]["against"] != "baseline":
-        groups = {key: label(*key) for key in dict.fromkeys((e["variant"], e["point"]) for e in rows)}
+        groups = {key: results.point_label(*key) for key in dict.fromkeys((e["variant"], e["point"]) for e in rows)}
         return _draw(results, chosen, rows, groups, f"{rows[0]['against']} and otherwise the same")
-    baseline = label(rows[0]["against_variant"], rows[0]["against_point"])
+    baseline = results.point_label(rows[0]["against_variant"], rows[0]["against_point"])
     return _draw(results, chosen, rows, _groups(results, rows), baseline)
 
 
-def _short(groups):
+def _short(groups, letters):
     """Long labels as the values of all swept parameters alone, and what these are in which order; "" if none is long."""
     if max(map(len, groups.values())) <= LONG_LABEL:
         return groups, ""
     values = {key: dict(t.split("=", 1) for t in key[1].split() if "=" in t) for key in groups}
     names = sorted({name for of_point in values.values() for name in of_point})
     short = {key: "  ".join(of.get(name, "–") for name in names) if of else groups[key] for key, of in values.items()}
-    legend = style.wrapped(f"rows: {', '.join(names)} (–: as in the variant's default)", style.PAGE_LETTERS)
+    legend = style.wrapped(f"rows: {', '.join(names)} (–: as in the variant's default)", letters)
     return short, legend + "\n"
 
 
 def _draw(results, chosen, rows, groups, against):
-    groups, legend = _short(groups)
+    width = style.width_of(chosen, 2)
+    letters = style.letters(width)
+    groups, legend = _short(groups, letters)
     below = legend + style.wrapped(
         f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
         f"95 % intervals; {_family(rows)}",
-        style.PAGE_LETTERS,
+        letters,
     )
-    titles = {s: style.shot_title(s) for s in results.shots() if any(e["shot"] == s for e in rows)}
-    columns = min(len(titles), 4)
+    shots = [s for s in results.shots() if any(e["shot"] == s for e in rows)]
+    columns = min(len(shots), max(int(width / 4.4), 1))
+    titles = {s: style.wrapped(results.shot_label(s), style.letters(0.75 * width / columns)) for s in shots}
     grid_rows = -(-len(titles) // columns)
     lines = grid_rows * (1 + max(t.count("\n") for t in titles.values())) + below.count("\n")
     figure, grid = plt.subplots(
         grid_rows,
         columns,
         figsize=(
-            style.DOUBLE_COLUMN,
-            (grid_rows * (1.5 + 0.38 * len(groups)) + lines * style.LINE_HEIGHT) * style.CENTIMETRE,
+            width * style.CENTIMETRE,
+            (grid_rows * (1.5 + 0.38 * len(groups)) + lines * 0.32) * style.scale() * style.CENTIMETRE,
         ),
         layout="constrained",
         sharex=True,
@@ -103,7 +106,7 @@ def _draw(results, chosen, rows, groups, against):
     grid[0, 0].set_yticks(range(len(groups)), list(groups.values()))
     grid[0, 0].set_ylim(len(groups) - 0.5, -0.5)
     _limit(grid[0, 0], results, rows)
-    figure.supxlabel(below, fontsize=7)
+    figure.supxlabel(below)
     return figure
 
 
@@ -135,7 +138,6 @@ def _draw_shot(results, axes, rows, keys):
                 transform=axes.get_yaxis_transform(),
                 ha="right" if is_right else "left",
                 va="center",
-                fontsize=7,
                 color=color,
             )
             continue
@@ -146,7 +148,7 @@ def _draw_shot(results, axes, rows, keys):
             xerr=ratio.whiskers(),
             fmt=mark,
             color=color,
-            markersize=3.4,
+            markersize=3.4 * style.scale(),
             markeredgewidth=0.8,
             markerfacecolor=color if is_significant else "white",
         )
@@ -167,4 +169,4 @@ def _limit(axes, results, rows):
     ]
     low, high = min(ratios + ends) / 1.05, max(ratios + ends) * 1.05
     axes.set_xlim(low, high)
-    style.log_axis(axes.xaxis, (1, 1.5, 2, 3, 5, 7) if high < 8 * low else (1, 2, 5) if high < 30 * low else (1, 3))
+    style.log_axis(axes.xaxis)

@@ -1,74 +1,172 @@
-"""Error against run time of one shot, both logarithmic, with intervals."""
+"""Error against run time, both logarithmic, with intervals: a panel per shot, with the front of those that no other beats."""
 
-import matplotlib.pyplot as plt
+import math
 
 from paper_figures import style
+from paper_figures.placed_labels import place_labels
 
 
-def _draw_points(axes, errors, times, shot):
-    """One series per variant; returns whether any value is at or below zero, which a logarithmic axis cannot show."""
-    variants = list(dict.fromkeys(v for s, v, _ in errors if s == shot))
-    has_nonpositive = False
-    for index, variant in enumerate(variants):
-        color, mark = style.COLORS[index % len(style.COLORS)], style.MARKS[index % len(style.MARKS)]
-        is_first = True
-        for (s, v, point), error in errors.items():
-            total = times.get((v, point), {}).get("total")
-            if s != shot or v != variant:
-                continue
-            if v == "none" and error.value > 0:
-                axes.axhline(error.value, color=color, linestyle="--", linewidth=0.8, label="none")
-                if error.low is not None and error.low > 0:
-                    axes.axhspan(error.low, error.high, color=color, alpha=0.15, linewidth=0)
-            if total is None or total.value <= 0 or v == "none":
-                continue
-            if error.value <= 0:
-                has_nonpositive = True
-                continue
-            axes.errorbar(
-                [total.value],
-                [error.value],
-                xerr=total.whiskers(),
-                yerr=error.whiskers(),
-                fmt=mark,
-                color=color,
-                markerfacecolor="white" if error.is_one_seed else color,
-                markeredgewidth=0.8 if error.is_one_seed else 0,
-                label=variant if is_first else None,
-            )
-            if point != "default":
-                axes.annotate(
-                    point, (total.value, error.value), (3, 3), textcoords="offset points", fontsize=7, color="#444444"
-                )
-            is_first = False
-    return has_nonpositive
+JUDGED = "tradeoff/front.csv"  # what `ssrlab tradeoff` says of the same errors and times
 
 
-def draw(results, shot, errors, chosen):
-    times = results.times_of(shot)
-    if not any("total" in stages for stages in times.values()):
-        return None
-    figure, axes = plt.subplots(figsize=(style.SINGLE_COLUMN, 0.75 * style.SINGLE_COLUMN), layout="constrained")
-    has_nonpositive = _draw_points(axes, errors, times, shot)
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="total time (ms), median with 95 % interval",
-        ylabel=f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels",
-        title=shot,
+def front(places):
+    """Of {key: (time, error)} those that no other is at most as slow and at most as wrong as, by time."""
+    ordered = sorted(places, key=lambda k: (places[k][0].value, places[k][1].value))
+    found, least = [], float("inf")
+    for key in ordered:
+        if places[key][1].value < least:
+            found.append(key)
+            least = places[key][1].value
+    return found
+
+
+def is_beaten(place, others):
+    """Whether some other is told to be both faster and better: intervals that do not meet."""
+    time, error = place
+    if None in (time.low, error.low):
+        return False
+    return any(
+        None not in (t.high, e.high) and t.high < time.low and e.high < error.low for t, e in others if (t, e) != place
     )
-    style.log_axis(axes.xaxis)
-    style.log_axis(axes.yaxis)
-    axes.margins(0.12)
-    notes = [
-        text
-        for is_needed, text in (
-            (has_nonpositive, style.NOT_POSITIVE_NOTE),
-            (any(e.is_one_seed for (s, _, _), e in errors.items() if s == shot), style.ONE_SEED_NOTE),
+
+
+def _judged(results, shot, places):
+    """(keys of the front by time, keys that are beaten): as `ssrlab tradeoff` judged them by intervals, where its file has these
+    very errors, else as front() and is_beaten() do. Techniques that ask the scene, as no engine can, take no part."""
+    rows = {(r["variant"], r["point"]): r for r in results.read_csv(JUDGED, is_optional=True) if r["shot"] == shot and r["unit"] == "ms"}
+    if rows and all(k in rows and rows[k]["error"] and math.isclose(float(rows[k]["error"]), e.value, rel_tol=1e-6) for k, (_, e) in places.items()):
+        line = [k for k in places if rows[k]["is_nominal_front"] == "1" and rows[k]["verdict"] in ("front", "undecided", "dominated")]
+        return sorted(line, key=lambda k: places[k][0].value), {k for k in places if rows[k]["verdict"] == "dominated"}
+    fair = {k: p for k, p in places.items() if not results.variants.get(k, {}).get("asks_scene")}
+    return front(fair), {k for k, p in places.items() if is_beaten(p, fair.values())}
+
+
+def _places(results, errors, shot):
+    """{(variant, point): (time, error)} of what was timed and measured, but `none`."""
+    times = results.times_of(shot)
+    totals = {key: stages["total"] for key, stages in times.items() if "total" in stages and stages["total"].value > 0}
+    return {(v, p): (totals[v, p], e) for (s, v, p), e in errors.items() if s == shot and (v, p) in totals and v != "none"}
+
+
+def _draw_none(axes, results, errors, shot):
+    """Returns its errors: no label may lie on the line."""
+    for (s, variant, point), error in errors.items():
+        if s == shot and variant == "none" and error.value > 0:
+            axes.axhline(error.value, color="#666666", linestyle="--", linewidth=0.8, label=results.point_label(variant, point))
+            if error.low is not None and error.low > 0:
+                axes.axhspan(error.low, error.high, color="#666666", alpha=0.15, linewidth=0)
+            return [error.value]
+    return []
+
+
+def _draw_points(axes, results, places, groups, beaten):
+    """Marks with whiskers; returns where the whiskers are."""
+    whiskers = []
+    for (variant, point), (time, error) in places.items():
+        group = results.point_group(variant, point)
+        color, mark = style.series(groups.index(group), results.colors.get((variant, point)))
+        is_hollow = error.is_one_seed
+        x, y = time.whiskers(), error.whiskers()
+        axes.errorbar(
+            [time.value],
+            [error.value],
+            xerr=x,
+            yerr=y,
+            fmt=mark,
+            color=color,
+            elinewidth=0.7,
+            markerfacecolor="white" if is_hollow else color,
+            markeredgewidth=0.8 if is_hollow else 0,
+            alpha=0.4 if (variant, point) in beaten else 1.0,
         )
-        if is_needed
-    ]
-    if notes:
-        axes.text(0.02, 0.02, "\n".join(notes), transform=axes.transAxes, fontsize=7)
-    axes.legend(loc="best")
+        axes.plot([], [], mark, color=color, label=group)
+        whiskers.append((time.value - x[0][0], error.value, time.value + x[1][0], error.value))
+        whiskers.append((time.value, error.value - y[0][0], time.value, error.value + y[1][0]))
+    return whiskers
+
+
+def _draw_front(axes, places, line):
+    """A staircase; returns its steps."""
+    corners = [(places[k][0].value, places[k][1].value) for k in line]
+    if len(corners) < 2:
+        return []
+    axes.plot(
+        *zip(*corners),
+        drawstyle="steps-post",
+        color="#999999",
+        linewidth=0.8,
+        zorder=1.5,
+        label="front",
+    )
+    pairs = list(zip(corners, corners[1:]))
+    return [(a[0], a[1], b[0], a[1]) for a, b in pairs] + [(b[0], a[1], b[0], b[1]) for a, b in pairs]
+
+
+def _own_text(results, key, groups):
+    """What stands beside a mark: its display name, else its point, where its colour does not name it already."""
+    label = results.own_label(*key)
+    if label:
+        return label if label not in groups else ""
+    return "" if key[1] in ("", "default") else key[1]
+
+
+def draw(results, chosen):
+    errors = results.errors_of(chosen.target, chosen.metric, chosen.mask)
+    every = {shot: _places(results, errors, shot) for shot in results.shots()}
+    every = {shot: places for shot, places in every.items() if places}
+    if not every:
+        return None
+    keys = list(dict.fromkeys(key for places in every.values() for key in places))
+    groups = list(dict.fromkeys(results.point_group(*k) for k in keys))
+    figure, panels = style.panels(len(every), chosen, height=6.4 if len(every) == 1 else 5.6)
+    has_nonpositive, has_beaten, whiskers = False, False, {}
+    for axes, (shot, places) in zip(panels, every.items()):
+        shown = {k: p for k, p in places.items() if p[1].value > 0}
+        has_nonpositive |= len(shown) < len(places)
+        of_none = _draw_none(axes, results, errors, shot)
+        line, beaten = _judged(results, shot, shown) if chosen.option("front", True) else ([], set())
+        has_beaten |= bool(beaten)
+        whiskers[shot] = _draw_points(axes, results, shown, groups, beaten) + _draw_front(axes, shown, line)
+        axes.set(xscale="log", yscale="log", xlabel="time of a frame (ms)")
+        axes.set_title(style.panel_title(results.shot_label(shot), axes))
+        style.log_axis(axes.xaxis)
+        style.log_axis(axes.yaxis)
+        axes.margins(0.16)
+        whiskers[shot] += [(axes.get_xlim()[0], value, axes.get_xlim()[1], value) for value in of_none]
+        every[shot] = shown
+    panels[0].set_ylabel(f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels")
+    notes = ["median times, mean errors; 95 % intervals"]
+    if has_beaten:
+        notes.append("pale: another is told to be faster and better")
+    notes += [style.NOT_POSITIVE_NOTE.replace("\n", " ")] if has_nonpositive else []
+    notes += [style.ONE_SEED_NOTE] if any(e.is_one_seed for places in every.values() for _, e in places.values()) else []
+    style.draw_legend(figure, panels, groups)
+    style.note(figure, "; ".join(notes))
+    _name(figure, results, panels, every, whiskers, keys, groups, notes)
     return figure
+
+
+def _name(figure, results, panels, every, whiskers, keys, groups, notes):
+    """Names beside all marks; where they do not all fit, numbers there, and what they mean below."""
+    texts = {key: _own_text(results, key, groups) for key in keys}
+    colors = {k: style.series(groups.index(results.point_group(*k)), results.colors.get(k))[0] for k in keys}
+    before = [len(axes.texts) for axes in panels]
+
+    def placed(text_of):
+        return all(
+            place_labels(
+                axes, [(t.value, e.value, text_of[k], style.darker(colors[k])) for k, (t, e) in places.items() if text_of[k]], whiskers[shot]
+            )
+            for axes, (shot, places) in zip(panels, every.items())
+        )
+
+    if placed(texts):
+        return
+    for axes, count in zip(panels, before):
+        for text in list(axes.texts)[count:]:
+            text.remove()
+    numbers = {key: str(1 + i) for i, key in enumerate(k for k in keys if texts[k])}
+    entries = (f"{n}: {results.point_label(*key)}" for key, n in numbers.items())
+    legend = style.listed(entries, figure.get_figwidth() / style.CENTIMETRE)
+    style.note(figure, legend + "\n" + "; ".join(notes))
+    placed({key: numbers.get(key, "") for key in keys})

@@ -19,9 +19,18 @@ class ExrError(Exception):
 
 def read_exr_rgb(path, layer=""):
     """The channels R, G, B, of `layer` if one is named, as float32 of shape (height, width, 3)."""
+    planes = read_exr_planes(path)
+    try:
+        return np.stack([planes[f"{layer}.{c}" if layer else c] for c in "RGB"], axis=-1)
+    except KeyError as e:
+        raise ExrError(f"{path} lacks the channel {e}") from e
+
+
+def read_exr_planes(path):
+    """All channels by name, each float32 of shape (height, width)."""
     try:
         with open(path, "rb") as file:
-            return _decode(file.read(), [f"{layer}.{c}" if layer else c for c in "RGB"])
+            return _decode(file.read())
     except OSError as e:
         raise ExrError(f"cannot read {path}: {e.strerror}") from e
     except (struct.error, zlib.error, KeyError, IndexError, ValueError) as e:
@@ -70,7 +79,7 @@ def _unpacked(block, size):
     return out.tobytes()
 
 
-def _decode(data, wanted):
+def _decode(data):
     attributes, at = _header(data)
     channels = _channels(attributes["channels"])
     rows_per_block = ROWS_PER_BLOCK[attributes["compression"][0]]
@@ -87,4 +96,4 @@ def _decode(data, wanted):
             for name, kind in channels:
                 planes[name][y] = np.frombuffer(raw, kind, width, position)
                 position += width * kind.itemsize
-    return np.stack([planes[channel] for channel in wanted], axis=-1)
+    return planes

@@ -6,7 +6,6 @@ import math
 import numpy
 
 from paper_figures import style
-from paper_figures.results import label
 
 LEAST_RESOLUTIONS = 3
 
@@ -41,7 +40,7 @@ def power_of(points):
     return slope, student * scatter / math.sqrt(float(numpy.sum((x - x.mean()) ** 2)))
 
 
-def draw(results, _chosen):
+def draw(results, chosen):
     scenes = {scene: lines for scene, lines in series(results).items() if lines}
     if not scenes:
         return None
@@ -49,10 +48,10 @@ def draw(results, _chosen):
     is_one_variant = len({variant for variant, _ in keys}) == 1
 
     def name_of(key):
-        return key[1] if is_one_variant else label(*key)
+        return results.own_label(*key) or (key[1] if is_one_variant else results.point_label(*key))
 
     names = [name_of(key) for key in keys]
-    figure, panels, legend = style.panels(len(scenes), most_columns=3, height=5.2)
+    figure, panels = style.panels(len(scenes), chosen, most_columns=3, height=5.2)
     for axes, (scene, lines) in zip(panels, scenes.items()):
         for key, points in lines.items():
             color, mark = style.series(names.index(name_of(key)))
@@ -64,7 +63,6 @@ def draw(results, _chosen):
                 f"{exponent:.2f} ± {half:.2f}",
                 (x[-1], y[-1]),
                 color=color,
-                fontsize=7,
                 xytext=(-2, -9 if is_below else 4),
                 textcoords="offset points",
                 ha="right",
@@ -76,8 +74,8 @@ def draw(results, _chosen):
         axes.set_xticks(rows, [str(r) for r in rows])
         axes.minorticks_off()
         axes.margins(y=0.12)
-        axes.set_title(f"{scene}: fetches ~ rows^p, p ± 95 %", fontsize=7)
+        axes.set_title(f"{scene}: fetches ~ rows^p, p ± 95 %")
         axes.set_xlabel("rows of pixels")
         axes.set_ylabel("depth fetches per ray")
-    style.draw_legend(legend, panels, names)
+    style.draw_legend(figure, panels, names)
     return figure

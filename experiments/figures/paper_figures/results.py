@@ -1,5 +1,6 @@
-"""A results folder as the figures need it."""
+"""A results folder as figures, tables and other evaluations need it."""
 
+import copy
 import csv
 import json
 import os
@@ -13,6 +14,7 @@ class ResultsError(Exception):
 
 
 ONE_SEED = "none: 1 seed"  # experiments/results/interval.h
+OVER_FRAMES = ("", "all")  # `frame` of a row that speaks for all measured frames of its shot
 
 
 @dataclass
@@ -35,6 +37,19 @@ def label(variant, point):
     return variant if point in ("", "default") else f"{variant} {point}"
 
 
+def is_over_frames(row):
+    """Whether it stands for all frames of its shot: such have no `frame`, in results of earlier versions "all"."""
+    return row["frame"] in OVER_FRAMES
+
+
+def frame_number(row, file="summary.csv"):
+    """Of a row that speaks for one frame."""
+    try:
+        return int(row["frame"])
+    except ValueError as e:
+        raise ResultsError(f"{file}: 'frame' = \"{row['frame']}\" is neither a number nor empty") from e
+
+
 def rows_that_speak(rows):
     """Of each shot those over its frames, or of its last one, as `ssrlab run` decided."""
     if rows and "speaks" not in rows[0]:
@@ -53,6 +68,60 @@ class Results:
         self.effects = self.read_csv("effects.csv", is_optional=True)
         self.hits = self.read_csv("hits.csv", is_optional=True)
         self.single_changes = self._single_changes()
+        self.hidden = set(self.single_changes)  # of figures of whole points: these have figures of their own
+        self.colors = {}  # (variant, point) to "#rrggbb", before those of the palette
+        self.labels = {}  # names of points and shots to what stands in their place, before the study's own labels
+        self.variants = {(v["variant"], v["point"]): v for v in self.manifest.get("variants", [])}
+        self.shot_entries = {s.get("shot"): s for s in self.manifest.get("shots", [])}
+
+    def own_label(self, variant, point):
+        """The display name that somebody gave a point; None without one."""
+        return self.labels.get(label(variant, point)) or self.variants.get((variant, point), {}).get("label")
+
+    def point_label(self, variant, point):
+        """How a point is called in tables and figures."""
+        return self.own_label(variant, point) or label(variant, point)
+
+    def point_group(self, variant, point):
+        """What a point is counted with: its group's display name, else its variant's."""
+        return self.variants.get((variant, point), {}).get("group") or self.labels.get(variant, variant)
+
+    def shot_label(self, shot):
+        return self.labels.get(shot) or self.shot_entries.get(shot, {}).get("label") or shot
+
+    def shot_group(self, shot):
+        """What a shot is counted with: its group's display name, else its scene."""
+        entry = self.shot_entries.get(shot, {})
+        return entry.get("group") or entry.get("scene") or shot
+
+    def parameters_of(self, variant, point):
+        """Name to value of all parameters of a point."""
+        return self.variants.get((variant, point), {}).get("parameters", {})
+
+    def narrowed(self, shots=None, points=None):
+        """The same results of these shots and (variant, point) alone, in this order; None: all, in the study's. Points that
+        are named are shown, single changes or not."""
+        view = copy.copy(self)
+
+        def kept(rows):
+            if points is not None:
+                place = {key: i for i, key in enumerate(points)}
+                rows = [r for r in rows if (r["variant"], r["point"]) in place]
+                rows.sort(key=lambda r: place[r["variant"], r["point"]])
+            if shots is not None:
+                place_of_shot = {shot: i for i, shot in enumerate(shots)}
+                rows = [r for r in rows if r["shot"] in place_of_shot]
+                rows.sort(key=lambda r: place_of_shot[r["shot"]])
+            return rows
+
+        for name in ("all_errors", "errors", "times", "splits", "effects", "hits"):
+            setattr(view, name, kept(getattr(self, name)))
+        if shots is not None:
+            view.shot_entries = {shot: self.shot_entries.get(shot, {}) for shot in shots}
+        if points is not None:
+            view.hidden = set()
+            view.single_changes = {}
+        return view
 
     def _read_manifest(self):
         file = os.path.join(self.folder, "manifest.json")
@@ -88,7 +157,7 @@ class Results:
     def points(self):
         """The compared (variant, point), in the order of the study; single changes have a figure of their own."""
         every = dict.fromkeys((r["variant"], r["point"]) for r in self.errors)
-        return [key for key in every if key not in self.single_changes]
+        return [key for key in every if key not in self.hidden]
 
     def measured(self, row, columns=("value", "low", "high"), name="summary.csv"):
         """None where the row has no value."""
@@ -103,17 +172,15 @@ class Results:
             raise ResultsError(f"{os.path.join(self.folder, name)}: '{column}' = \"{text}\" is not a number") from e
 
     def shots(self):
-        return list(dict.fromkeys(row["shot"] for row in self.errors))
+        """Those that were measured; of a study that measures no errors all."""
+        return list(dict.fromkeys(row["shot"] for row in self.errors)) or list(self.shot_entries)
 
     def frames_text(self, rows):
         """Which frames rows of one shot speak for, one text each; empty for a shot of one frame."""
-        frames = next(
-            (s.get("frames") or [] for s in self.manifest.get("shots", []) if s.get("shot") == rows[0]["shot"]), []
-        )
-        if len(frames) < 2:
+        if len(self.shot_entries.get(rows[0]["shot"], {}).get("frames") or []) < 2:
             return []
         return list(
-            dict.fromkeys("mean over frames" if r["frame"] == "all" else f"frame {r['frame']} alone" for r in rows)
+            dict.fromkeys("mean over frames" if is_over_frames(r) else f"frame {r['frame']} alone" for r in rows)
         )
 
     def headline_metric(self):
@@ -122,13 +189,14 @@ class Results:
         primary = self.manifest.get("primary", {}).get("metric", "mse")
         return primary if primary in found or not found else found[0]
 
-    def errors_of(self, target, metric, mask):
-        """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out, and so are single changes."""
+    def errors_of(self, target, metric, mask, with_hidden=False):
+        """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out, and so are single
+        changes, unless `with_hidden`."""
         rows = [
             r
             for r in self.errors
             if (r["target"], r["metric"], r["mask"]) == (target, metric, mask)
-            and (r["variant"], r["point"]) not in self.single_changes
+            and (with_hidden or (r["variant"], r["point"]) not in self.hidden)
         ]
         if not rows:
             found = sorted({f"{r['target']} {r['metric']} {r['mask']}" for r in self.errors})
@@ -149,7 +217,7 @@ class Results:
 
     def exposure(self, shot):
         """The shot's exposure in EV."""
-        return next((s.get("exposure_ev") or 0.0 for s in self.manifest.get("shots", []) if s.get("shot") == shot), 0.0)
+        return self.shot_entries.get(shot, {}).get("exposure_ev") or 0.0
 
     def _last_frame(self, shot):
         frames = [i.get("frame") or 0 for i in self.manifest.get("images", []) if i.get("shot") == shot]
@@ -166,7 +234,7 @@ class Results:
             and i.get("target") == target
             and (i.get("frame") or 0) == frame
             and i.get("kind") in ("result", "reference")
-            and ((i["variant"], i.get("point") or "") in keys if keys else (i["variant"], i.get("point") or "") not in self.single_changes)
+            and ((i["variant"], i.get("point") or "") in keys if keys else (i["variant"], i.get("point") or "") not in self.hidden)
         ]
         first = {}
         for entry in sorted(entries, key=lambda i: i.get("seed") or 0):

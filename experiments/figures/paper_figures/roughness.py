@@ -3,8 +3,7 @@
 import re
 
 from paper_figures import style
-from paper_figures.lines import draw_lines
-from paper_figures.results import label
+from paper_figures.lines import draw_points
 
 CLASS = re.compile(r"roughness_([0-9.e+-]+)_([0-9.e+-]+)$")
 
@@ -15,12 +14,12 @@ def _classes(rows):
     return sorted((m for m in masks if masks[m]), key=lambda m: float(masks[m][1]))
 
 
-def _draw(results, target, metric, is_log):
+def _draw(results, chosen, target, metric, is_log):
     rows = [r for r in results.errors if (r["target"], r["metric"]) == (target, metric) and CLASS.match(r["mask"])]
     shots = [s for s in results.shots() if any(r["shot"] == s for r in rows)]
     if not shots:
         return None
-    figure, panels, legend = style.panels(len(shots))
+    figure, panels = style.panels(len(shots), chosen)
     for axes, shot in zip(panels, shots):
         own = [r for r in rows if r["shot"] == shot]
         masks = _classes(own)
@@ -32,22 +31,22 @@ def _draw(results, target, metric, is_log):
             ]
             for key in results.points()
         }
-        draw_lines(axes, {k: p for k, p in lines.items() if p}, is_log, dodge=0.1)
+        draw_points(results, axes, lines, is_log, dodge=0.1)
         texts = ["\N{EN DASH}".join(CLASS.match(m).groups()) for m in masks]
         axes.set_xticks(range(len(masks)), texts, rotation=30, ha="right", rotation_mode="anchor")
         axes.set_xlim(-0.6, len(masks) - 0.4)
         axes.grid(axis="x", visible=False)
-        axes.set_title("\n".join([style.shot_title(shot), *results.frames_text(own)]))
+        axes.set_title("\n".join([style.panel_title(results.shot_label(shot), axes), *results.frames_text(own)]))
         axes.set_ylabel(f"{metric}, {target}" + ("" if is_log else " (radiance)"))
         axes.set_xlabel("perceptual roughness")
-    style.draw_legend(legend, panels, [label(*k) for k in results.points()])
+    style.draw_legend(figure, panels, [results.point_label(*k) for k in results.points()])
     return figure
 
 
 def draw_error(results, chosen):
-    return _draw(results, chosen.target, chosen.metric, True)
+    return _draw(results, chosen, chosen.target, chosen.metric, True)
 
 
 def draw_bias(results, chosen):
     targets = {r["target"] for r in results.errors}
-    return _draw(results, "incident" if "incident" in targets else chosen.target, "bias", False)
+    return _draw(results, chosen, "incident" if "incident" in targets else chosen.target, "bias", False)

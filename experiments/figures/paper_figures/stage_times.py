@@ -1,72 +1,149 @@
-"""Stacked bars: which stage of each variant point takes how long."""
+"""Stacked bars: which stage of each point takes how long. Techniques stand apart, each below the names of its own stages."""
 
 import matplotlib.pyplot as plt
+from matplotlib.transforms import blended_transform_factory
 
-from paper_figures import style
-from paper_figures.results import label
+from paper_figures import numbers, style
+
+MOST_STAGES = 7  # of a technique, named and coloured; the shortest others are added up, unless there is but one
+REST = "others"
+REST_COLOR = "#bbbbbb"
+# Okabe and Ito's colours, dark and light in turn; what has about the same lightness differs by its hatch, so that neighbours and
+# the names above them are told apart in grey print, too.
+LOOKS = (
+    ("#0072b2", ""),
+    ("#e69f00", ""),
+    ("#009e73", "////"),
+    ("#56b4e9", "...."),
+    ("#d55e00", ""),
+    ("#cc79a7", "\\\\\\\\"),
+    ("#666666", "xxxx"),
+    ("#f0e442", ""),
+)
+ROW, LINE = 0.42, 0.34  # cm of a bar and of a line of names, at the size of a page's text
 
 
-def draw(results, shot, errors, chosen):
-    times = {key: stages for key, stages in results.times_of(shot).items() if any(s != "total" for s in stages)}
-    if not times:
+def _short(stage):
+    """Without the folder, which the technique's name tells."""
+    return stage.rsplit("/", 1)[-1]
+
+
+def _named_stages(points):
+    """The stages of a technique that take longest, in the order in which they run."""
+    every = list(dict.fromkeys(s for stages in points.values() for s in stages if s != "total"))
+    longest = {s: max(stages[s].value for stages in points.values() if s in stages) for s in every}
+    if len(every) <= MOST_STAGES + 1:
+        return every, []
+    kept = sorted(every, key=longest.get, reverse=True)[:MOST_STAGES]
+    return [s for s in every if s in kept], [s for s in every if s not in kept]
+
+
+def _legend_lines(names, width):
+    """The names in lines that fit into `width` (cm): [[(name, x in cm)]]."""
+    lines, x = [[]], 0.0
+    for name in names:
+        needed = 0.42 + style.text_width(_short(name)) + 0.25
+        if lines[-1] and x + needed > width:
+            lines.append([])
+            x = 0.0
+        lines[-1].append((name, x))
+        x += needed
+    return lines
+
+
+def _grouped(results, shot):
+    """{variant: {point: {stage: Measured}}}"""
+    groups = {}
+    for key, stages in results.times_of(shot).items():
+        if key not in results.hidden and any(s != "total" for s in stages):
+            groups.setdefault(key[0], {})[key] = stages
+    return groups
+
+
+def draw(results, shot, chosen):
+    groups = _grouped(results, shot)
+    if not groups:
         return None
-    names = list(dict.fromkeys(s for stages in times.values() for s in stages if s != "total"))
-    height = (2.0 + 0.35 * len(names) + 0.6 * len(times)) * style.CENTIMETRE
-    figure, (legend_axes, axes) = plt.subplots(
-        2,
-        figsize=(style.SINGLE_COLUMN, height),
-        layout="constrained",
-        gridspec_kw={"height_ratios": [0.35 * len(names), 0.6 * len(times)]},
-    )
-    for row, stages in enumerate(times.values()):
-        start = 0.0
-        for name, time in ((n, stages[n]) for n in names if n in stages):
-            axes.barh(
-                row,
-                time.value,
-                left=start,
-                height=0.62,
-                color=style.series(names.index(name))[0],
-                hatch="" if names.index(name) < len(style.COLORS) else "/////",
-                edgecolor="white",
-                linewidth=0.4,
-                label=name,
-            )
-            start += time.value
-            axes.errorbar(
-                [start], [row + 0.12], xerr=time.whiskers(), fmt="none", ecolor="#ffffff", elinewidth=1.6, capsize=0
-            )
-            axes.errorbar(
-                [start],
-                [row + 0.12],
-                xerr=time.whiskers(),
-                fmt="none",
-                ecolor="#000000",
-                elinewidth=0.5,
-                capsize=1.2,
-                capthick=0.5,
-            )
-        if "total" in stages:
-            total = stages["total"]
-            axes.text(
-                max(start, total.high),
-                row,
-                f"  {style.number(total.value)} [{style.number(total.low)}, {style.number(total.high)}]",
-                va="center",
-                fontsize=7,
-            )
-    axes.set_yticks(range(len(times)), [label(*key) for key in times])
-    axes.invert_yaxis()
+    width = style.width_of(chosen, 1 if sum(map(len, groups.values())) <= 8 else 2)
+    scale = style.scale()
+    longest = style.letters(0.36 * width)
+    blocks = []
+    for variant, points in groups.items():
+        named, rest = _named_stages(points)
+        lines = _legend_lines([*named, *([REST] if rest else [])], width - 0.4) if len(named) > 1 else []
+        labels = {k: style.wrapped(results.own_label(*k) or (k[1] or "default"), longest) for k in points}
+        blocks.append((results.labels.get(variant, variant), points, named, rest, lines, labels))
+    rows = {id(b): [max(ROW * scale, LINE * scale * (t.count("\n") + 1)) for t in b[5].values()] for b in blocks}
+    height = sum(sum(rows[id(b)]) + LINE * scale * (1 + len(b[4])) + 0.15 for b in blocks)
+    figure, axes = plt.subplots(figsize=(width * style.CENTIMETRE, (height + 1.6 * scale) * style.CENTIMETRE), layout="constrained")
+    axes.set_ylim(height, 0)  # the unit is 1 cm
+    ticks, y = {}, 0.0
+    beside = blended_transform_factory(figure.transFigure, axes.transData)
+    for block in blocks:
+        name, points, named, rest, lines, labels = block
+        y += 0.15
+        _text(axes, beside, 0.2 / width, y + LINE * scale / 2, name, fontweight="bold")
+        y += LINE * scale
+        for line in lines:
+            for stage, x in line:
+                _draw_key(axes, beside, (0.3 + x) / width, y + LINE * scale / 2, stage, named, width, scale)
+            y += LINE * scale
+        for (key, stages), row in zip(points.items(), rows[id(block)]):
+            _draw_bar(axes, y + row / 2, 0.68 * ROW * scale, stages, named, rest)
+            ticks[y + row / 2] = labels[key]
+            y += row
+    axes.set_yticks(list(ticks), list(ticks.values()))
+    axes.tick_params(axis="y", length=0)
+    axes.spines["left"].set_visible(False)
     axes.grid(axis="y", visible=False)
-    axes.set(xlabel="median time (ms), 95 % intervals")
-    ends = [
-        max(sum(t.value for n, t in s.items() if n != "total"), s["total"].high if "total" in s else 0.0)
-        for s in times.values()
-    ]
-    axes.set_xlim(0, 2.0 * max(ends))  # room for the totals as text
-    handles, labels = axes.get_legend_handles_labels()
-    by_label = dict(zip(labels, handles))
-    legend_axes.axis("off")
-    legend_axes.set_title(shot)
-    legend_axes.legend(by_label.values(), by_label.keys(), loc="center")
+    style.note(figure, "median time of a frame (ms) with its 95 % interval")
+    axes.set_title(results.shot_label(shot))
+    _draw_totals(figure, axes, list(ticks), [s for _, points, *_ in blocks for s in points.values()])
     return figure
+
+
+def _text(axes, transform, x, y, text, **options):
+    axes.text(x, y, text, transform=transform, va="center", ha="left", **options).set_in_layout(False)
+
+
+def _look(stage, named):
+    if stage not in named:
+        return {"facecolor": REST_COLOR, "hatch": ""}
+    color, hatch = LOOKS[named.index(stage)]
+    return {"facecolor": color, "hatch": hatch}
+
+
+def _draw_key(axes, transform, x, y, stage, named, width, scale):
+    axes.add_patch(
+        plt.Rectangle((x, y - 0.1 * scale), 0.26 / width, 0.2 * scale, transform=transform, edgecolor="white", linewidth=0, clip_on=False, **_look(stage, named))
+    ).set_in_layout(False)
+    _text(axes, transform, x + 0.36 / width, y, _short(stage))
+
+
+def _draw_bar(axes, y, height, stages, named, rest):
+    parts = [(s, stages[s].value) for s in named if s in stages]
+    left_over = sum(stages[s].value for s in rest if s in stages)
+    start = 0.0
+    for stage, value in parts + ([(REST, left_over)] if left_over else []):
+        axes.barh(y, value, left=start, height=height, edgecolor="white", linewidth=0.3, **_look(stage, named))
+        start += value
+
+
+def _draw_totals(figure, axes, ys, every):
+    """The total with its interval right of each bar; the axis leaves room for the longest."""
+    ends, texts = [], []
+    for y, stages in zip(ys, every):
+        total = stages.get("total")
+        end = sum(t.value for s, t in stages.items() if s != "total")
+        if total is None:
+            ends.append(end)
+            texts.append("")
+            continue
+        axes.errorbar([total.value], [y], xerr=total.whiskers(), fmt="none", ecolor="#000000", elinewidth=0.6, capsize=1.5, capthick=0.6)
+        ends.append(max(end, total.high or total.value))
+        texts.append(numbers.with_interval(total))
+    figure.draw_without_rendering()
+    room = axes.get_window_extent().width / figure.dpi * 2.54
+    axes.set_xlim(0, max(e / (1 - min((style.text_width(t) + 0.3) / room, 0.8)) for e, t in zip(ends, texts)))
+    for y, end, text in zip(ys, ends, texts):
+        axes.annotate(text, (end, y), (3, 0), textcoords="offset points", va="center").set_in_layout(False)

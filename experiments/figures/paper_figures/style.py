@@ -6,12 +6,21 @@ import re
 
 import matplotlib
 import matplotlib.pyplot as plt
+from matplotlib.colors import to_rgb
+from matplotlib.textpath import TextPath
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+import numpy as np
 
 CENTIMETRE = 1 / 2.54
-SINGLE_COLUMN = 8.5 * CENTIMETRE
-DOUBLE_COLUMN = 17.8 * CENTIMETRE
-LEGEND_HEIGHT = 0.9  # cm
+WIDTHS = {"column": 8.5, "page": 17.6, "slide": 25.0}  # cm
+SINGLE_COLUMN = WIDTHS["column"] * CENTIMETRE
+DOUBLE_COLUMN = WIDTHS["page"] * CENTIMETRE
+TEXT = 7  # pt, but for slides and for serifs, whose small letters are smaller
+SLIDE_TEXT, SERIF_SCALE = 12, 8 / 7
+# Both come with Debian's matplotlib, as TrueType; STIX goes with Times.
+FONTS = {"sans": ["DejaVu Sans"], "serif": ["STIXGeneral", "DejaVu Serif"]}
+MATHS = {"sans": "dejavusans", "serif": "stix"}
+FORMATS = ("pdf", "svg", "png")
 
 # Okabe & Ito 2008, "Color Universal Design": told apart with all kinds of colour vision; every series has a mark of its own too.
 COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666"]
@@ -20,82 +29,179 @@ NOT_POSITIVE_NOTE = "errors not above 0 after noise\ncorrection are not shown"
 ONE_SEED_NOTE = "hollow: one seed, no interval"
 
 
-def apply():
+def apply(font="sans", width=None):
+    """The look from here on; `width` (cm): that of the figure, since a slide has larger letters and thicker lines."""
+    is_slide = width is not None and width >= WIDTHS["slide"]
+    size = (SLIDE_TEXT if is_slide else TEXT) * (SERIF_SCALE if font == "serif" else 1)
+    scale = size / TEXT
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(
         {
-            "font.family": "DejaVu Sans",
-            "font.size": 7,
-            "axes.titlesize": 7,
-            "legend.fontsize": 7,
-            "axes.linewidth": 0.6,
+            "font.family": FONTS[font],
+            "mathtext.fontset": MATHS[font],
+            "font.size": size,
+            "axes.titlesize": size,
+            "axes.labelsize": size,
+            "xtick.labelsize": size,
+            "ytick.labelsize": size,
+            "legend.fontsize": size,
+            "figure.titlesize": size,
+            "figure.labelsize": size,
+            "axes.linewidth": 0.6 * scale,
             "axes.spines.top": False,
             "axes.spines.right": False,
             "axes.grid": True,
             "grid.color": "#dddddd",
-            "grid.linewidth": 0.5,
+            "grid.linewidth": 0.5 * scale,
             "axes.axisbelow": True,
-            "lines.linewidth": 0.9,
-            "lines.markersize": 4,
-            "errorbar.capsize": 1.8,
+            "hatch.linewidth": 0.6 * scale,
+            "lines.linewidth": 0.9 * scale,
+            "lines.markersize": 4 * scale,
+            "errorbar.capsize": 1.8 * scale,
             "legend.frameon": False,
             "figure.dpi": 100,
             "savefig.dpi": 300,
-            "pdf.fonttype": 42,
+            "pdf.fonttype": 42,  # TrueType, embedded: publishers refuse matplotlib's own Type 3
+            "svg.fonttype": "path",  # looks the same where the font is not installed
             "svg.hashsalt": "ssrlab",
         }
     )
 
 
-def series(index):
-    """Colour and mark of the index-th series; beyond the colours, other marks."""
-    return COLORS[index % len(COLORS)], MARKS[(index + index // len(COLORS)) % len(MARKS)]
+def text_size():
+    return matplotlib.rcParams["font.size"]
 
 
-def panels(count, most_columns=3, height=4.6, **shared):
-    """A figure with `count` axes in rows (height of a row in cm) below room for a legend: of single-column width if one
-    axes stands alone, of double-column width otherwise. `shared`: sharex, sharey, as in pyplot.subplots."""
-    columns = min(count, most_columns)
-    rows = -(-count // columns)
-    width = SINGLE_COLUMN if count == 1 else DOUBLE_COLUMN
-    figure = plt.figure(figsize=(width, (height * rows + LEGEND_HEIGHT) * CENTIMETRE), layout="constrained")
-    legend_part, part = figure.subfigures(2, height_ratios=[LEGEND_HEIGHT, height * rows])
-    axes = part.subplots(rows, columns, squeeze=False, **shared)
+def scale():
+    """By how much lines, marks and letters are larger than on a page."""
+    return text_size() / TEXT
+
+
+def letters(centimetres):
+    """How many letters of the text fit into a width, about."""
+    width = 0.018 if matplotlib.rcParams["font.family"][0] == FONTS["serif"][0] else 0.0215  # cm for each pt of their size
+    return max(int(centimetres / (width * text_size())), 8)
+
+
+def series(index, color=None):
+    """Colour and mark of the index-th series; beyond the colours, other marks. `color`: in place of its own."""
+    return color or COLORS[index % len(COLORS)], MARKS[(index + index // len(COLORS)) % len(MARKS)]
+
+
+def darker(color):
+    """Of a mark's colour one that letters can be read in, on white."""
+    return tuple(0.55 * part for part in to_rgb(color))
+
+
+def width_of(chosen, count):
+    """cm: as asked for, else of a column for one panel and of a page for several."""
+    return getattr(chosen, "width", None) or WIDTHS["column" if count == 1 else "page"]
+
+
+def panels(count, chosen=None, most_columns=3, height=4.6, **shared):
+    """A figure with `count` axes in rows (height of a row in cm). `chosen`: its width and the height of a row, where they
+    are asked for. `shared`: sharex, sharey, as in pyplot.subplots."""
+    width = width_of(chosen, count)
+    most = min(count, most_columns, max(int(width / 5.0), 1))
+    rows = -(-count // most)
+    columns = -(-count // rows)
+    height = getattr(chosen, "height", None) or height * scale()
+    size = (width * CENTIMETRE, height * rows * CENTIMETRE)
+    figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False, **shared)
     for unused in axes.flat[count:]:
         unused.axis("off")
-    return figure, list(axes.flat[:count]), legend_part
+    return figure, list(axes.flat[:count])
 
 
-def draw_legend(part, panels, names=()):
-    """One legend for all panels, without repetitions, in the order of `names` (others last)."""
+def draw_legend(figure, panels, names=()):
+    """One legend above all panels, without repetitions, in the order of `names` (others last). The figure grows by it."""
     by_label = {text: handle for a in panels for handle, text in zip(*a.get_legend_handles_labels())}
-    order = list(names) + [text for text in by_label if text not in names]
-    texts = [text for text in order if text in by_label]
-    is_wide = part.figure.get_figwidth() > SINGLE_COLUMN
-    part.legend([by_label[t] for t in texts], texts, loc="center", ncols=min(len(texts), 5 if is_wide else 2))
+    texts = [text for text in dict.fromkeys(names) if text in by_label] + [text for text in by_label if text not in names]
+    if not texts:
+        return
+    longest = letters(figure.get_figwidth() / CENTIMETRE) - 6
+    for columns in range(min(len(texts), 6), 0, -1):
+        legend = figure.legend(
+            [by_label[t] for t in texts],
+            [wrapped(t, longest) for t in texts],
+            loc="upper center",
+            ncols=columns,
+            borderaxespad=0.2,
+            columnspacing=1.4,
+            handletextpad=0.5,
+        )
+        box = legend.get_window_extent(figure.canvas.get_renderer())
+        if box.width <= figure.bbox.width or columns == 1:
+            break
+        legend.remove()
+    _grow(figure, above=box.height / figure.dpi)
 
 
-PANEL_LETTERS = 22  # that fit over a panel, of which there may be four in a row
-LINE_HEIGHT = 0.32  # cm, of such a title
-PAGE_LETTERS = 118  # that fit below a figure of two columns, at 7 pt
+def _grow(figure, above=0.0, below=0.0):
+    """More room (inches) above or below the panels, whose own size stays."""
+    height = figure.get_figheight()
+    top = height * (1 - figure.get_layout_engine().get()["rect"][3]) + above
+    figure.set_figheight(height + above + below)
+    figure.set_layout_engine("constrained", rect=(0, 0, 1, 1 - top / (height + above + below)))
+
+
+def note(figure, text):
+    """A sentence below all panels, in place of one that stands there already. The figure grows by its lines."""
+    before = figure._supxlabel.get_text() if figure._supxlabel else ""
+    shown = "\n".join(wrapped(line, letters(figure.get_figwidth() / CENTIMETRE)) for line in text.split("\n"))
+    lines = (shown.count("\n") + 1 if shown else 0) - (before.count("\n") + 1 if before else 0)
+    figure.supxlabel(shown, linespacing=1.15)
+    _grow(figure, below=lines * 1.2 * text_size() / 72)
+
+
+def listed(entries, centimetres):
+    """Entries in lines that fit into a width, none broken."""
+    lines = [""]
+    for entry in entries:
+        added = f"{lines[-1]}; {entry}" if lines[-1] else entry
+        if lines[-1] and len(added) > letters(centimetres):
+            lines.append(entry)
+        else:
+            lines[-1] = added
+    return "\n".join(lines)
+
+
+def text_width(text):
+    """cm of a line of text."""
+    return TextPath((0, 0), text, size=text_size()).get_extents().width / 72 * 2.54 if text.strip() else 0.0
 
 
 def wrapped(text, longest):
-    """In lines of `longest` letters at most, broken before a dot and behind a space, '=' or '_'; what has none of these stays."""
+    """In lines of `longest` letters at most, broken before a dot within a name and behind a space, '=' or '_'; what has none
+    of these stays."""
     lines = [""]
-    for part in re.split(r"(?<=[ =_])|(?=\.)", text):
+    for part in re.split(r"(?<=[ =_])|(?=\.\S)(?!(?<=\d)\.\d)", text):
         if lines[-1] and len(lines[-1] + part.rstrip()) > longest:
             lines.append("")
         lines[-1] += part
     return "\n".join(line.rstrip() for line in lines)
 
 
-def shot_title(shot):
-    return wrapped(shot, PANEL_LETTERS)
+def panel_title(text, axes):
+    """In lines as long as the panel's share of its figure."""
+    columns = axes.get_subplotspec().get_gridspec().ncols
+    return wrapped(text, letters(0.8 * axes.figure.get_figwidth() / CENTIMETRE / columns))
 
 
-def log_axis(axis, subs=(1, 2, 5)):
-    axis.set_major_locator(LogLocator(subs=subs))
+class _LogTicks(LogLocator):
+    """As many ticks as have room: the fewer of a decade, the more decades the axis has."""
+
+    def tick_values(self, vmin, vmax):
+        decades = abs(np.log10(vmax / vmin)) if vmin > 0 else 9
+        room = self.axis.axes.get_window_extent().size[int(self.axis.axis_name == "y")] / self.axis.figure.dpi * 72
+        ticks = room / (text_size() * (2.2 if self.axis.axis_name == "y" else 3.6))
+        choices = ((1, 1.5, 2, 3, 5, 7), (1, 2, 5), (1, 3))
+        self.set_params(subs=next((subs for subs in choices if len(subs) * decades <= ticks), (1,)), numticks=max(int(ticks), 2))
+        return super().tick_values(vmin, vmax)
+
+
+def log_axis(axis):
+    axis.set_major_locator(_LogTicks())
     axis.set_major_formatter(FuncFormatter(lambda x, _: number(x)))
     axis.set_minor_formatter(NullFormatter())
 
@@ -116,7 +222,7 @@ def file_name(text, longest=150):
     return f"{name[: longest - 13]}-{digest}"
 
 
-def save(figure, folder, name):
+def save(figure, folder, name, formats=FORMATS):
     """Writes name.pdf, .svg and .png, each to a temporary name and renamed."""
     name = file_name(name)
     metadata = {
@@ -125,11 +231,11 @@ def save(figure, folder, name):
         "png": {"Software": None},
     }
     files = []
-    for kind, tags in metadata.items():
+    for kind in formats:
         file = os.path.join(folder, f"{name}.{kind}")
         temporary = f"{file}.partial-{os.getpid()}"
         try:
-            figure.savefig(temporary, format=kind, metadata=tags)
+            figure.savefig(temporary, format=kind, metadata=metadata[kind])
             os.replace(temporary, file)
         finally:
             if os.path.exists(temporary):

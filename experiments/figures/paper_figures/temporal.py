@@ -3,7 +3,6 @@
 from matplotlib.ticker import MaxNLocator
 
 from paper_figures import style
-from paper_figures.results import label
 
 METRICS = {
     "flicker_relative": "relative flicker",
@@ -23,13 +22,13 @@ def draw(results, chosen):
     if not metrics:
         return None
     most = max(len({r["shot"] for r in rows if r["metric"] == m}) for m in metrics)
-    figure, panels, legend = style.panels(
-        len(metrics), most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(results.points()))
+    figure, panels = style.panels(
+        len(metrics), chosen, most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(results.points()))
     )
     for axes, metric in zip(panels, metrics):
         _draw_metric(results, axes, [r for r in rows if r["metric"] == metric], metric)
-        axes.set_xlabel(f"{METRICS[metric]}, {chosen.mask}")
-    style.draw_legend(legend, panels, [label(*k) for k in results.points()])
+        axes.set_xlabel(style.panel_title(f"{METRICS[metric]}, {chosen.mask}", axes))
+    style.draw_legend(figure, panels, [results.point_label(*k) for k in results.points()])
     return figure
 
 
@@ -40,7 +39,7 @@ def _draw_metric(results, axes, rows, metric):
         index = points.index((r["variant"], r["point"]))
         y = shots.index(r["shot"]) + 0.7 * ((index + 0.5) / len(points) - 0.5)
         value = results.measured(r)
-        color, mark = style.series(index)
+        color, mark = style.series(index, results.colors.get((r["variant"], r["point"])))
         if value is None or (is_log and value.value <= 0):
             text = "cannot be told" if value is None else "0"
             axes.text(0.01, y, text, color=color, va="center", transform=axes.get_yaxis_transform())
@@ -53,7 +52,7 @@ def _draw_metric(results, axes, rows, metric):
             color=color,
             markerfacecolor="white" if value.is_one_seed else color,
             markeredgewidth=0.8 if value.is_one_seed else 0,
-            label=label(r["variant"], r["point"]),
+            label=results.point_label(r["variant"], r["point"]),
         )
     if is_log:
         axes.set_xscale("log")
@@ -62,6 +61,6 @@ def _draw_metric(results, axes, rows, metric):
     if not is_log:
         axes.set_xlim(left=-0.5, right=max(axes.get_xlim()[1], 1.0))
         axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
-    axes.set_yticks(range(len(shots)), [style.shot_title(s) for s in shots])
+    axes.set_yticks(range(len(shots)), [style.wrapped(results.shot_label(s), 22) for s in shots])
     axes.set_ylim(len(shots) - 0.5, -0.5)
     axes.grid(axis="y", visible=False)

@@ -6,9 +6,9 @@ import math
 import os
 
 from paper_figures.results import ResultsError
+from paper_figures.standing import HIGHER_IS_BETTER
 
 STUDENT = {3: 3.18245, 4: 2.77645, 5: 2.57058, 6: 2.44691, 7: 2.36462, 8: 2.30600, 9: 2.26216}  # t(0.975, degrees of freedom)
-HIGHER_IS_BETTER = ("ssim", "psnr")
 # Pairs of images, without names and in an order drawn anew, of which somebody said which is nearer to the truth
 # (experiments/figures/judge.py).
 PAIR = ("shot", "first", "first_point", "second", "second_point")

@@ -4,9 +4,10 @@ A table is an entry of the config's "tables" (experiments/README.md explains its
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from paper_figures.results import ResultsError, rows_that_speak
+from paper_figures.standing import HIGHER_IS_BETTER, ratios_of, standings
 from paper_tables import agreement, limits
 
 SOURCES = {  # name to (file, columns of value, low and high)
@@ -22,8 +23,14 @@ SOURCES = {  # name to (file, columns of value, low and high)
 }
 SHARES = ("hits",)  # may be 0: their mean over shots is the arithmetic one
 NOT_SHARES = ("fetches", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
-KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "labels"}
+KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "best", "labels"}
+COMPARED = ("results", "times", "limits")  # of these the cells of a row or column have a best, as far as their metric knows which way
+UNDIRECTED = ("bias", "energy_ratio")
 NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
+GROUPS = {  # what rows, columns and means are by, beside the columns of a file
+    "group": lambda results, row: results.point_group(row.get("variant"), row.get("point")),
+    "shot_group": lambda results, row: results.shot_group(row.get("shot")),
+}
 SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
 
 
@@ -50,6 +57,7 @@ class Cell:
     mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
     clock: str = None  # of times
     disturbed_share: float = None  # of the frames that a time is the median of, by other programs
+    standing: str = None  # in its row or column: "best", told from all others, or "tied"; paper_figures/standing.py
 
     def reasons(self):
         """Why there is no interval, where that is known."""
@@ -93,13 +101,18 @@ class Table:
         self.where = {k: v if isinstance(v, list) else [v] for k, v in entry.get("where", {}).items()}
         self.rows, self.columns = (v if isinstance(v, list) else [v] for v in (entry["rows"], entry["columns"]))
         self.over, self.sort, self.labels = entry.get("over"), entry.get("sort"), entry.get("labels", {})
+        self.best = entry.get("best")
+        if self.best not in (None, "row", "column"):
+            raise ResultsError(f"{where_from}: 'best' = \"{self.best}\", but must be row or column")
+        if self.best and self.of not in COMPARED:
+            raise ResultsError(f"{where_from}: table '{self.name}' has a 'best', which only numbers of {', '.join(COMPARED)} have, not those of {self.of}")
 
 
 class Selection:
     """The rows of a results folder that a table is made of, and how they are named in it."""
 
     def __init__(self, results, table):
-        self.table = table
+        self.table, self.results = table, results
         self.shots = results.manifest["shots"]
         proofs = results.manifest.get("clock", {}).get("proofs", [])
         self.proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof["shots"]}
@@ -126,9 +139,11 @@ class Selection:
         self.disturbed = {_timed(r): _number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
 
     def entry(self, row, key):
-        """What a row has under a key: a column of the file, else a parameter of its point."""
+        """What a row has under a key: a column of the file, the group of its point or shot, else a parameter of its point."""
         if key in row:
             return row[key]
+        if key in GROUPS:
+            return GROUPS[key](self.results, row)
         value = self.parameters.get((row.get("variant"), row.get("point")), {}).get(key)
         return value if value is None or isinstance(value, str) else json.dumps(value)
 
@@ -139,13 +154,19 @@ class Selection:
         return value not in left_out and (value in listed or len(left_out) == len(listed))
 
     def label(self, row, keys):
-        """How a row is named along an axis: parameters with their names, columns of the file by their values alone."""
+        """How a row is named along an axis: parameters with their names, columns of the file by their values alone, points and
+        shots that have a display name by that."""
+        own = self.results.own_label(row.get("variant"), row.get("point")) if "point" in keys else None
         words = []
         for key in keys:
             value = self.entry(row, key)
-            if value is None:
+            if value is None or own and key == "variant":
                 continue
-            text = value if key in row else f"{key} = {value}"
+            text = value if key in row or key in GROUPS else f"{key} = {value}"
+            if key == "point" and own:
+                text = own
+            elif key == "shot":
+                text = self.results.shot_label(value)
             words.append(self.table.labels.get(text, text))
         return ", ".join(word for word in words if word)
 
@@ -290,6 +311,42 @@ def _about(selection, filled):
     }
 
 
+def _mark_best(selection, cells, rows_of):
+    """Gives cells their standing among those of their column or row; of a mean over shots by its own interval. Numbers whose
+    interval does not hold all that is random (`ranked`) are told from none."""
+    table = selection.table
+    axis = "column" if table.best == "column" else "row"
+    for name in dict.fromkeys(getattr(c, axis) for c in cells):
+        own = [c for c in cells if getattr(c, axis) == name and c.value is not None]
+        rows = [row for c in own for row in rows_of[c.row, c.column]]
+        metrics = {row.get("metric", table.of) for row in rows}
+        if len(metrics) > 1 or metrics & set(UNDIRECTED):
+            raise ResultsError(f"table '{table.name}': {axis} '{name}' has no best: its cells are of {', '.join(sorted(metrics))}")
+        numbers, ratios = {}, {}
+        for c in own:
+            known = all(row.get("ranked", "1") == "1" for row in rows_of[c.row, c.column])
+            numbers[id(c)] = c if known else replace(c, low=None, high=None)
+        if table.over is None and table.of != "times":
+            ratios = _paired(selection, own, rows_of)
+        found = standings(numbers, bool(metrics & set(HIGHER_IS_BETTER)), ratios)
+        for c in own:
+            c.standing = found.get(id(c))
+
+
+def _paired(selection, cells, rows_of):
+    """{(id of a cell, id of another): Ends} of the paired comparisons that the study has of them."""
+    place = ("shot", "target", "metric", "mask")
+    of_point = {}
+    for c in cells:
+        row = rows_of[c.row, c.column][0]
+        of_point.setdefault(tuple(row[k] for k in place), {})[row["variant"], row["point"]] = id(c)
+    found = {}
+    for where, points in of_point.items():
+        effects = [e for e in selection.results.effects if tuple(e[k] for k in place) == where]
+        found |= {(points[a], points[b]): ends for (a, b), ends in ratios_of(effects).items() if a in points and b in points}
+    return found
+
+
 def cells_of(results, table):
     """(what is said of the table, all of its cells row by row)."""
     selection = Selection(results, table)
@@ -303,6 +360,8 @@ def cells_of(results, table):
         parts = [_cell(selection, row, name) for row in rows]
         filled += [row for row, part in zip(rows, parts) if part.value is not None]
         cells.append(parts[0] if table.over is None else _mean(table, parts))
+    if table.best:
+        _mark_best(selection, cells, groups)
     return _about(selection, filled), _sorted(cells, table.sort)
 
 

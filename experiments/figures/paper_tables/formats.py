@@ -2,8 +2,9 @@
 
 import csv
 import io
-import math
 
+from paper_figures import numbers
+from paper_figures.standing import BEST, TIED
 from paper_tables.cells import BOTH
 
 # What intervals hold (experiments/results/interval.h) that is less than the scatter over the seeds and the reference's noise, where
@@ -15,23 +16,6 @@ LESSER = {
 }
 DISTURBED = "\N{SECTION SIGN}"
 NO_VALUE = "\N{EN DASH}"
-
-
-def _decimals(cell):
-    """As many as tell two digits of the interval's half-width, else three of the value; never more than four of it."""
-    size = abs(cell.value)
-    if size == 0 or not math.isfinite(size):
-        return 2
-    most = 3 - math.floor(math.log10(size))
-    half = (cell.high - cell.low) / 2 if cell.low is not None and cell.high is not None else None
-    wanted = most - 1 if not half else 1 - math.floor(math.log10(half))
-    return max(min(wanted, most), 0)
-
-
-def _text(value, decimals):
-    if value != 0 and abs(value) < 1e-4:
-        return f"{value:.1e}"
-    return f"{value:.{decimals}f}"
 
 
 def _has_interval(cell):
@@ -63,12 +47,10 @@ def cell_text(table, cell):
     if cell.value is None:
         text = NO_VALUE
     else:
-        decimals = _decimals(cell)
-        text = _text(cell.value, decimals)
-        if _has_interval(cell):
-            text += f" [{_text(cell.low, decimals)}, {_text(cell.high, decimals)}]"
+        text = numbers.with_interval(cell)
         if _has_range(cell):
-            words.append(f"{_text(cell.least, decimals)} to {_text(cell.most, decimals)}")
+            places = numbers.decimals(cell.value, cell.low, cell.high)
+            words.append(f"{numbers.text(cell.least, places)} to {numbers.text(cell.most, places)}")
         if _is_part(table, cell):
             words.append(f"{cell.mean_of} of {table['over_count']}")
     if cell.clock and len(table["clocks"]) > 1:
@@ -100,8 +82,16 @@ def notes(table, cells):
         found.append(f"{DISTURBED}: other programs disturbed some of its frames, {100 * share:.0f} % at most")
     if any(c.is_significant for c in cells):
         found.append("bold: told from 1 by Holm's test at 0.05")
+    if any(c.standing == BEST for c in cells):
+        found.append("bold: the best, told from all others by their paired comparison or by intervals that do not meet")
+    if any(c.standing == TIED for c in cells):
+        found.append("italic: the best and what cannot be told from it")
     text = "; ".join(found)
     return text and text[0].upper() + text[1:] + "."
+
+
+def _is_bold(cell):
+    return cell.is_significant or cell.standing == BEST
 
 
 def _grid(cells):
@@ -118,7 +108,8 @@ def markdown(table, cells, made_from):
         if cell is None:
             return ""
         text = cell_text(table, cell)
-        return f"**{text}**" if cell.is_significant else text
+        mark = "**" if _is_bold(cell) else "*" if cell.standing == TIED else ""
+        return f"{mark}{text}{mark}"
 
     escaped = [c.replace("|", "\\|") for c in columns]
     lines = [f"{table['caption']}", "", "| | " + " | ".join(escaped) + " |", "|---" * (len(columns) + 1) + "|"]
@@ -145,7 +136,8 @@ def latex(table, cells, made_from):
         if cell is None:
             return ""
         value, _, rest = _latex_escaped(cell_text(table, cell)).partition(" ")
-        value = f"\\textbf{{{value}}}" if cell.is_significant else value
+        style = "textbf" if _is_bold(cell) else "textit" if cell.standing == TIED else None
+        value = f"\\{style}{{{value}}}" if style else value
         return f"{value} {{\\scriptsize {rest}}}" if rest else value
 
     head = " & ".join(_latex_escaped(c) for c in columns)
@@ -165,13 +157,13 @@ def latex(table, cells, made_from):
 
 
 def comma_separated(cells):
-    """The grid with a column for each value, low and high."""
+    """The grid with a column for each value, low and high, and for its standing where the table marks the best."""
     rows, columns, at = _grid(cells)
+    parts = ["value", "low", "high", *(["standing"] if any(c.standing for c in cells) else [])]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([""] + [name for c in columns for name in (c, f"{c} low", f"{c} high")])
+    writer.writerow([""] + [c if part == "value" else f"{c} {part}" for c in columns for part in parts])
     for row in rows:
-        found = [at.get((row, c)) for c in columns]
-        numbers = [(cell.value, cell.low, cell.high) if cell else ("", "", "") for cell in found]
-        writer.writerow([row] + ["" if n is None else n for three in numbers for n in three])
+        found = [getattr(at.get((row, c)), part, None) for c in columns for part in parts]
+        writer.writerow([row] + ["" if n is None else n for n in found])
     return out.getvalue()

@@ -89,6 +89,7 @@ def _cell(row):
         mean_of=int(row["mean_of"]) if row["mean_of"] else None,
         clock=row["clock"] or None,
         disturbed_share=number("disturbed_share"),
+        standing=row.get("standing") or None,
     )
 
 

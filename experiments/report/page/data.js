@@ -46,6 +46,7 @@ function readData() {
         frames: rows(raw.frames).map(error),  // those of each frame, where the ones above are over all of them
         splits: rows(raw.splits).map(split),
         hits: rows(raw.hits),
+        costs: rows(raw.costs),  // a row for each stage, with a column for each quantity
         effects: rows(raw.effects).map(effect),
         timeEffects: rows(raw.time_effects).map(timeEffect),
         times: rows(raw.times).map(time)

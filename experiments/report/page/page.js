@@ -22,7 +22,14 @@ function fill(element, attributes, children) {
 const at = id => document.getElementById(id);
 const unique = list => [...new Set(list)];
 const list = value => Array.isArray(value) ? value : [];
-const pointLabel = row => row.variant + (row.point && row.point !== "default" ? " · " + row.point : "");
+/// How the study names points and shots, where it does.
+const pointLabels =
+    new Map(list(report.manifest.variants).filter(v => v.label).map(v => [`${v.variant}|${v.point}`, v.label]));
+const shotLabels = new Map(list(report.manifest.shots).filter(s => s.label).map(s => [s.shot, s.label]));
+const ownLabel = row => pointLabels.get(`${row.variant}|${row.point}`);
+const pointLabel = row =>
+    ownLabel(row) ?? row.variant + (row.point && row.point !== "default" ? " · " + row.point : "");
+const shotLabel = shot => shotLabels.get(shot) ?? shot;
 
 /// Four significant digits; exponents only where the plain form is long.
 function number(x, digits = 4) {
@@ -144,7 +151,7 @@ const folded = (title, ...content) => h("details", {}, h("summary", {}, title), 
 
 /// Names of scenes may break after each word, in cells and heads alike.
 const breakable = name => name.split(/(?<=[_.])/).flatMap(part => [part, h("wbr")]);
-const shotName = shot => h("span", {class: "shot-name"}, breakable(shot));
+const shotName = shot => h("span", {class: "shot-name"}, breakable(shotLabel(shot)));
 
 const cell = (sort, ...content) => ({sort: sort === undefined ? null : sort, content: h("span", {}, ...content)});
 

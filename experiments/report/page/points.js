@@ -34,6 +34,10 @@ const shownPoints = {
 const parametersByPoint = new Map(list(report.manifest.variants).map(v => [pointKey(v), v.parameters ?? {}]));
 const parametersOf = row => parametersByPoint.get(pointKey(row)) ?? {};
 
+const groupsByPoint = new Map(list(report.manifest.variants).map(v => [pointKey(v), v.group ?? ""]));
+const groupOf = row => groupsByPoint.get(pointKey(row)) ?? "";
+const pointGroups = unique(allPoints.map(groupOf));
+
 /// Names of parameters in which points of one variant differ.
 const sweptParameters = (() => {
     const swept = new Map();
@@ -60,8 +64,11 @@ function parameterLines(row) {
 const pointText = row => [pointLabel(row), ...parameterLines(row)].join("\n");
 
 const mayShow = row => shownPoints.hasSingleChanges || !isSingleChange(row);
-const matchesFilter = row =>
-    shownPoints.filter.toLowerCase().split(/\s+/).every(word => pointLabel(row).toLowerCase().includes(word));
+/// By what is read, and by what results are keyed by.
+const matchesFilter = row => {
+    const names = `${pointLabel(row)} ${row.variant} ${row.point} ${groupOf(row)}`.toLowerCase();
+    return shownPoints.filter.toLowerCase().split(/\s+/).every(word => names.includes(word));
+};
 /// Rows of the points that the reader has not filtered out.
 const filteredRows = rows => rows.filter(r => mayShow(r) && matchesFilter(r));
 /// Those of them that no legend switched off: what charts draw.
@@ -90,6 +97,7 @@ function styleOf(row) {
     const by = shownPoints.colourBy;
     if (by === "point") return seriesStyle(places.get(pointKey(row)));
     if (by === "variant") return seriesStyle(variants.indexOf(row.variant));
+    if (by === "group") return seriesStyle(pointGroups.indexOf(groupOf(row)));
     return parameterStyle(by, parametersOf(row)[by]);
 }
 
@@ -98,9 +106,10 @@ function legendGroups(rows) {
     const points = [...new Map(rows.map(r => [pointKey(r), r])).values()], by = shownPoints.colourBy;
     const name = p => by === "point" ? `${pointNumber(p)} ${pointLabel(p)}` :
         by === "variant"      ? p.variant :
+        by === "group"        ? groupOf(p) || "no group" :
         by in parametersOf(p) ? `${by} = ${JSON.stringify(parametersOf(p)[by])}` :
                                 `without ${by}`;
-    const ordered = by === "point" || by === "variant" ?
+    const ordered = ["point", "variant", "group"].includes(by) ?
         points :
         [...points].sort((a, b) => compareCells(parametersOf(a)[by] ?? null, parametersOf(b)[by] ?? null, true));
     const groups = new Map();
@@ -154,7 +163,7 @@ const metricName = key => {
 function framesText(row) {
     const frames = list(manifestShots().find(s => s.shot === row.shot)?.frames);
     if (frames.length < 2) return "";
-    return row.frame === "all" ? "mean over frames" : `frame ${row.frame} alone`;
+    return row.frame === "" ? "mean over frames" : `frame ${row.frame} alone`;
 }
 const unitText = metric => {
     const unit = report.metrics[metric]?.unit;
@@ -168,7 +177,7 @@ const shortShot = (() => {
     const isShared = (part, i) => i > 0 && shots.every(s => parts(s)[i] === part);
     const short = new Map(shots.map(
         s => [s, areScenesUnique ? parts(s)[0] : parts(s).filter((part, i) => !isShared(part, i)).join(".")]));
-    return shot => short.get(shot) ?? shot;
+    return shot => shotLabels.get(shot) ?? short.get(shot) ?? shot;
 })();
 
 /// A folded part per shot, those of the first row open; `draw(shot)` gives its content when it is opened, and anew when
@@ -177,7 +186,9 @@ function shotParts(shots, draw) {
     const columns = Math.max(1, Math.floor(innerWidth / 1200));  // as the style sheet's .shots
     const parts = shots.map((shot, i) => {
         const body = h("div"),
-              part = h("details", {open: i < columns, "data-shot": shot, class: "shot"}, h("summary", {}, shot), body);
+              part =
+                  h("details", {open: i < columns, "data-shot": shot, class: "shot"}, h("summary", {}, shotLabel(shot)),
+                    body);
         let isDrawn = false;
         const update = () => {
             if (part.open && !isDrawn) body.replaceChildren(...draw(shot));

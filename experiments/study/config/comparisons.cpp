@@ -2,8 +2,10 @@
 
 #include "core/error.h"
 #include "core/json.h"
+#include "experiments/study/config/point_name.h"
 #include "variants/registry.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -19,6 +21,7 @@ nlohmann::json values_of(const VariantConfig& v, const nlohmann::json& changed =
 }  // namespace
 
 void find_against_points(std::vector<VariantConfig>& variants, const std::string& where) {
+    if (std::ranges::all_of(variants, [](const VariantConfig& v) { return v.against.is_null(); })) return;
     std::map<std::pair<std::string, nlohmann::json>, std::string>
         points;  // by variant and the values of all parameters
     for (const VariantConfig& v : variants) points.try_emplace({v.variant, values_of(v)}, v.point);
@@ -51,12 +54,14 @@ std::vector<PointComparison> comparisons_of(const std::vector<VariantConfig>& va
 
 std::vector<SingleChange> single_changes(const std::vector<VariantConfig>& variants) {
     std::vector<SingleChange> changes;
+    std::vector<std::pair<std::string, nlohmann::json>> baselines;  // variants and values
+    for (const VariantConfig& v : variants)
+        if (v.is_baseline) baselines.emplace_back(v.variant, values_of(v));
     for (const VariantConfig& v : variants) {
         if (v.is_baseline || v.swept.empty()) continue;  // a preset is compared as a whole
         const nlohmann::json own = values_of(v);
-        for (const VariantConfig& baseline : variants) {
-            if (!baseline.is_baseline || baseline.variant != v.variant) continue;
-            const nlohmann::json other = values_of(baseline);
+        for (const auto& [variant, other] : baselines) {
+            if (variant != v.variant) continue;
             std::vector<std::string> differing;
             for (const auto& [name, value] : own.items())
                 if (other.at(name) != value) differing.push_back(name);

@@ -26,26 +26,48 @@ struct ShotConfig {
     std::filesystem::path
         reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
 
+    bool direct_lit = false;  ///< SSR reads rasterised direct light in place of the path-traced lit colour
+    DepthFormat depth_format = DepthFormat::d32f;
+    DepthDirection depth_direction = DepthDirection::standard;
+    unsigned normal_bits = 0;  ///< RasterizerOptions::normal_bits
+    std::string name_suffix;   ///< of these four, those that are not the study's own: ".d16.reversed"
+
+    std::string label, group;  ///< how tables and figures show it, and what it belongs to; "": its name, nothing
+
+    /// But for label and group.
+    bool is_played_like(const ShotConfig& other) const {
+        ShotConfig named_alike = other;
+        named_alike.label = label, named_alike.group = group;
+        return *this == named_alike;
+    }
     bool operator==(const ShotConfig&) const = default;
 };
 
-/// A variant and one point of its parameter grid.
+/// More shots than anyone can run or look at.
+inline constexpr size_t most_shots = 10000;
+
+/// Where a point is left out: `only_if` and `skip_if` of its entry (conditions.h).
+struct PointCondition {
+    bool skips = false;    ///< skip_if: the point is left out where all tests hold; else where one does not
+    nlohmann::json tests;  ///< name to condition
+};
+
+/// A variant and one point of its parameters.
 struct VariantConfig {
     std::string variant;
     std::string preset;         ///< "": none
     nlohmann::json parameters;  ///< values that differ from the preset's or default ones
-    nlohmann::json swept;       ///< those of them that its `sweep` or `each` gave it; an empty object if it has neither
-    std::string point;          ///< its label in results: the preset and the swept values, or "default"
+    nlohmann::json swept;       ///< those of them that a design gave it (design.h); an empty object if it has none
+    std::string point;          ///< its name in results (point_name.h)
+    std::string label, group;   ///< how tables and figures show it, and what it belongs to; "": its name, nothing
     std::vector<unsigned> seeds;
     bool depends_on_seed = true;  ///< else one seed tells all, see Variant::depends_on_seed()
     bool is_baseline = false;     ///< all other points are compared with it, over the seeds that both have
     nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
     std::string against_point;  ///< of the same variant; "" for that point itself
     bool is_timed = true;
+    std::vector<PointCondition> conditions;  ///< on shots
 };
-
-/// Parameter values as points are named by them: {"estimator": "a", "taps": 4} is `estimator=a taps=4`.
-std::string label_of(const nlohmann::json& values);
 
 struct TimingConfig {
     unsigned frames = 15;  ///< measured per variant, after the warm-up; 0: no timing
@@ -75,13 +97,10 @@ struct Config {
     std::vector<VariantConfig> variants;
     ReferenceSettings reference;
     bool has_reference = true;  ///< else no error is measured: frames are timed and rays judged
-    bool direct_lit = false;    ///< SSR reads rasterised direct light in place of the path-traced lit colour
     CompositeFormula composite = CompositeFormula::split_sum;
-    DepthFormat depth_format = DepthFormat::d32f;
-    DepthDirection depth_direction = DepthDirection::standard;
-    unsigned normal_bits = 0;  ///< RasterizerOptions::normal_bits
     TimingConfig timing;
     std::optional<JudgedRays> hits;    ///< none: no ray is judged
+    bool counts_costs = false;         ///< what each stage does, see count_costs()
     bool keeps_all_images = false;     ///< of every measured frame; else of each shot's last
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;
@@ -92,8 +111,11 @@ struct Config {
     float reflective_max_roughness = 0.6f;     ///< the mask `reflective`: perceptual roughness at most this ...
     float reflective_min_reflectance = 0.02f;  ///< ... and F0 A + F90 B (largest channel) at least this
     bool is_search = false;                    ///< its only variant is where `ssrlab search` starts from
-    nlohmann::json source;                     ///< as read, for the manifest
+    nlohmann::json source;                     ///< as read, with what it `extends`, for the manifest
 };
+
+/// A point as people read it: its label, or else the variant and the point's name.
+std::string display_name(const Config& config, const std::string& variant, const std::string& point);
 
 /// What results can be compared with: `specular`, `image`, `incident`, and the rungs of the truth ladder
 /// (truth_ladder.h) that are means over the lobe like `incident`: `camera_radiance`, `on_screen`. The second rung is

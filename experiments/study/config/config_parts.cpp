@@ -13,12 +13,12 @@ void check_names(JsonObject& object, const std::string& key) {
     const nlohmann::json& names = object.any(key);
     const auto is_text = [](const nlohmann::json& name) { return name.is_string(); };
     if (is_text(names) || (names.is_array() && !names.empty() && std::ranges::all_of(names, is_text))) return;
-    fail(object.where(), ": '", key, "' must be a text or an array of texts, not ", shown(names));
+    fail(object.at(key), ": '", key, "' must be a text or an array of texts, not ", shown(names));
 }
 
 void check_object(JsonObject& object, const std::string& key) {
     if (object.has(key) && !object.any(key).is_object())
-        fail(object.where(), ": '", key, "' must be an object, not ", shown(object.any(key)));
+        fail(object.at(key), ": '", key, "' must be an object, not ", shown(object.any(key)));
 }
 
 }  // namespace
@@ -29,16 +29,18 @@ void check_tables(JsonObject& config) {
         const std::string name = table.text("name");
         const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
         if (name.empty() || !std::ranges::all_of(name, is_plain))
-            fail(table.where(), ": 'name' = \"", name, "\" names files: letters, digits and _ are allowed");
+            fail(table.at("name"), ": 'name' = \"", name, "\" names files: letters, digits and _ are allowed");
         if (!names.insert(name).second) fail(table.where(), ": two tables are called '", name, "'");
         table.text("caption");
         table.any("of");
-        table.choice("of", {"effects", "results", "splits", "times", "time_effects", "hits", "limits", "agreement", "eye"}, "");
+        table.choice(
+            "of", {"effects", "results", "splits", "times", "time_effects", "hits", "limits", "agreement", "eye"}, "");
         check_object(table, "where");
         check_names(table, "rows");
         check_names(table, "columns");
         table.text("over", "");
         table.text("sort", "");
+        table.choice("best", {"", "column", "row"}, "");
         check_object(table, "labels");
         table.finish();
     }
@@ -53,17 +55,17 @@ bool check_search(JsonObject& config, const std::vector<VariantConfig>& variants
     const VariantConfig& start = variants.front();
     const nlohmann::json& axes = search.any("axes");
     if (!axes.is_object() || axes.empty())
-        fail(search.where(), ": 'axes' must be an object of parameter names and their values, not ", shown(axes));
+        fail(search.at("axes"), ": 'axes' must be an object of parameter names and their values, not ", shown(axes));
     for (const auto& [name, values] : axes.items()) {
         if (!values.is_array() || values.empty())
-            fail(search.where(), ": axes: '", name, "' must be an array of values, not ", shown(values));
+            fail(search.at("axes"), ": axes: '", name, "' must be an array of values, not ", shown(values));
         for (const nlohmann::json& value : values) {
             nlohmann::json parameters = start.parameters;
             parameters[name] = value;
             try {
                 make_variant(start.variant, parameters, start.preset);
             } catch (const Error& mistake) {
-                fail(search.where(), ": axes: ", mistake.what());
+                fail(search.at("axes"), ": axes: ", mistake.what());
             }
         }
     }

@@ -1,12 +1,8 @@
 #include "experiments/study/config/shot.h"
 
-#include "core/files.h"
 #include "core/scene/load_scene.h"
-#include "experiments/study/capture.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 
 std::vector<FrameStep> timeline(const ShotConfig& config) {
     std::vector<FrameStep> steps;
@@ -34,7 +30,7 @@ std::string Shot::name() const {
     if (config.frames.size() != last - first + 1) name += ".n" + std::to_string(config.frames.size());
     if (config.warm_up > 0) name += ".w" + std::to_string(config.warm_up);
     if (config.repeat > 1) name += ".r" + std::to_string(config.repeat);
-    return name;
+    return name + config.name_suffix;
 }
 
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
@@ -45,35 +41,6 @@ Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path
               .steps = timeline(config)};
     shot.camera = shot.scene.camera(config.camera);
     shot.facts = derive_facts(shot.scene, shot.camera, config.frames);
-    return shot;
-}
-
-Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer) {
-    Shot shot{.config = config, .scene = {}, .camera = {.name = "gbuffer"}, .facts = {}, .steps = timeline(config)};
-    shot.config.extent = gbuffer.extent();
-    shot.scene.name = capture_name(config.gbuffer);
-    ContentHash hash;
-    for (const HostImage* image : {&gbuffer.depth, &gbuffer.geometric_normal, &gbuffer.normal, &gbuffer.base_color,
-                                   &gbuffer.emission, &gbuffer.motion, &gbuffer.material_id, &gbuffer.previous_depth,
-                                   &gbuffer.previous_normal, &gbuffer.lit, &gbuffer.fallback})
-        hash.add(std::as_bytes(std::span(image->values)));
-    hash.add(std::as_bytes(std::span(&gbuffer.camera, 1)));
-    shot.scene.content_hash = hash.hex();
-    SceneFacts& facts = shot.facts;
-    // Unknown, so that nothing is left out for lack of them.
-    facts.camera_moves = facts.objects_move = facts.has_environment = true;
-    facts.has_faulty_inputs = !count_non_finite(gbuffer).empty();
-    for (size_t i = 0; i < gbuffer.depth.values.size(); ++i) {
-        if (gbuffer.depth.values[i] == gbuffer.camera.depth.z) continue;
-        facts.has_geometry = true;
-        const glm::vec3 normal = gbuffer.normal.rgb(i);
-        facts.has_faulty_inputs |= std::abs(glm::dot(normal, normal) - 1.0f) > 0.002f;  // as repair_image.frag
-        const float roughness = gbuffer.normal.values[i * 4 + 3];
-        if (gbuffer.base_color.values[i * 4 + 3] <= 0.0f && gbuffer.emission.values[i * 4 + 3] <= 0.0f) continue;
-        facts.has_reflective = true;
-        facts.min_roughness = std::min(facts.min_roughness, roughness),
-        facts.max_roughness = std::max(facts.max_roughness, roughness);
-    }
     return shot;
 }
 

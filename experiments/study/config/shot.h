@@ -1,5 +1,4 @@
 #pragma once
-#include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
@@ -32,16 +31,13 @@ struct Shot {
     std::vector<FrameStep> steps;
 
     /// `<scene>.<camera>.<width>x<height>`, then, where they are not the default: `.f<frame>` or `.f<first>-<last>`
-    /// (and
-    /// `.n<count>` where some between are left out), `.w<warm-up>`, `.r<repetitions>`.
+    /// (and `.n<count>` where some between are left out), `.w<warm-up>`, `.r<repetitions>`, and what is not the study's
+    /// own of `.direct`, `.d16`, `.reversed`, `.octahedral_8` and the like.
     std::string name() const;
 };
 
 /// Fails with Error if the scene or the camera is unknown (with a near miss) or broken.
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path);
-
-/// A shot of a G-buffer from files: no scene, one frame; its facts are those of the images.
-Shot gbuffer_shot(const ShotConfig& config, const HostGBuffer& gbuffer);
 
 /// Scene and camera at one frame of a shot.
 struct ShotFrame {

@@ -107,11 +107,11 @@ def write_results(folder, tables=TABLES, ratios=RATIOS):
     write_rows(os.path.join(folder, "effects.csv"), effects)
     errors = [
         {"shot": shot, "frame": frame, "variant": "sssr", "point": point, "target": "specular", "metric": "mse", "mask": "all"}
-        | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1, "speaks": int(frame == "all")}
+        | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1, "speaks": int(frame == "")}
         for shot in SHOTS
-        for frame, point, value in (("3", "default", 5.0), ("all", "default", 0.0123), ("3", "taps=4", 0.002))
+        for frame, point, value in (("3", "default", 5.0), ("", "default", 0.0123), ("3", "taps=4", 0.002))
     ]
-    errors += [row | {"frame": "all", "value": 0.00234, "low": "", "high": "", "speaks": 1} for row in errors if row["point"] == "taps=4"]
+    errors += [row | {"frame": "", "value": 0.00234, "low": "", "high": "", "speaks": 1} for row in errors if row["point"] == "taps=4"]
     write_rows(os.path.join(folder, "summary.csv"), errors)
     split = {"shot": "floor", "frame": "3", "variant": "sssr", "target": "specular", "mask": "all", "seeds": 8, "mse": 3}
     split |= {"bias_squared": 2, "bias_squared_low": 1.5, "bias_squared_high": 2.5, "variance": 1}
@@ -171,6 +171,43 @@ def test_bold(folder):
     check(tables(folder).returncode == 0, "a shot left out")
     text = read(os.path.join(folder, "tables", "changes.md"))
     check("**0.500 [0.450, 0.556]** |" in text and "wall" not in text and "2.00" not in text, text)
+
+
+def test_best(folder):
+    """The best of a column is bold where the paired comparison or both intervals tell it; else all that may be it are alike."""
+    levels = TABLES[1] | {"best": "column"}
+    times = {"name": "times", "caption": "Times", "of": "times", "where": {"stage": "total"}, "rows": "point", "columns": "shot", "best": "column"}
+    write_results(folder, [levels, times])
+    check(tables(folder).returncode == 0, "a best")
+    lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
+    check(lines[4].startswith("| sssr, taps=4 | **0.00234** | **0.00234** |") and lines[5].startswith("| sssr, default | 0.0123 ["), lines[4:6])
+    check("bold: the best, told from all others" in lines[7] and "italic" not in lines[7], lines[7])
+    lines = read(os.path.join(folder, "tables", "times.md")).splitlines()
+    check(lines[5] == "| taps=4 | *2.00 [1.90, 2.10]* | *2.00 [1.90, 2.10]* |" and "italic: the best and what" in lines[7], lines[5:8])
+    unsure = {key: (*values[:1], "", "", "") for key, values in RATIOS.items()}  # taps=4 itself has no interval
+    write_results(folder, [levels], unsure)
+    check(tables(folder).returncode == 0, "no best")
+    grid = list(csv.reader(open(os.path.join(folder, "tables", "levels.csv"))))
+    check(grid[0][4] == "floor standing" and [row[4] for row in grid[1:]] == ["tied", "tied"], grid)
+    check(r"\textit{0.00234}" in read(os.path.join(folder, "tables", "levels.tex")), "LaTeX")
+
+
+def test_display_names(folder):
+    """Points and shots that have a display name are called by it, and can be told apart by the groups that they are in."""
+    write_results(folder)
+    by_group = {"name": "groups", "rows": ["group", "point"], "columns": "shot_group", "over": "shot"}
+    named = manifest([TABLES[1], TABLES[1] | by_group])
+    for shot in named["shots"]:
+        shot["group"] = "rooms"
+    named["variants"][0]["group"] = "faithful"
+    named["variants"][1]["label"], named["shots"][0]["label"] = "four | taps", "The floor"
+    write(os.path.join(folder, "manifest.json"), json.dumps(named))
+    check(tables(folder).returncode == 0, "display names")
+    lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
+    check(lines[2] == "| | The floor | wall |" and lines[4].startswith(r"| four \| taps | 0.00234 |"), lines[2:5])
+    check(lines[5].startswith("| sssr, default |"), lines[5])
+    lines = read(os.path.join(folder, "tables", "groups.md")).splitlines()
+    check(lines[2] == "| | rooms |" and [line.split(" | ")[0] for line in lines[4:6]] == [r"| sssr, four \| taps", "| faithful, default"], lines)
 
 
 def footer(folder, name):
@@ -405,6 +442,8 @@ def main():
         write_results(folder)
         test_numbers(folder)
         test_bold(folder)
+        test_best(folder)
+        test_display_names(folder)
         test_footers(folder)
         test_what_intervals_hold(folder)
         test_times(folder)

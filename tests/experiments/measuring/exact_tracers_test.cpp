@@ -175,6 +175,54 @@ TEST_F(ExactTracers, RecordingChangesNoBit) {
     }
 }
 
+/// Costs are counted by shaders that differ from those that run.
+TEST_F(ExactTracers, CountingChangesNoBitAndGivesTheSameTwice) {
+    Player player("passing_pillars", small);
+    const auto technique = [&] { return Probed(player, "amd_sssr", {}, "corrected"); };
+    Probed plain = technique(), counted = technique(), again = technique();
+    for (unsigned frame = 0; frame < 2; ++frame) {
+        player.play(frame);
+        for (Probed* probed : {&counted, &again}) probed->graph.count_costs(frame == 1);
+        const Reflections a = plain.render(5), b = counted.render(5);
+        again.render(5);
+        EXPECT_EQ(differing_bits(plain.graph.download(a.radiance), counted.graph.download(b.radiance)), 0u);
+    }
+    const std::vector<PassCost> costs = counted.graph.costs(), twice = again.graph.costs();
+    ASSERT_GT(costs.size(), 5u);
+    ASSERT_EQ(costs.size(), twice.size());
+    for (size_t i = 0; i < costs.size(); ++i)
+        for (const CostQuantity& quantity : cost_quantities)
+            EXPECT_EQ(costs[i].*quantity.member, twice[i].*quantity.member) << costs[i].stage << ' ' << quantity.name;
+}
+
+/// What the tracer itself says that it fetched, and what the pass reads besides, by its shader.
+TEST_F(ExactTracers, CountedFetchesAreThoseOfTheRecordedRays) {
+    Player player("fence", {160, 90});
+    Probed probed(player, "mcguire_dda", {{"tracer", "fixed_stride"}, {"fixed_stride.front_faces_only", false}});
+    probed.probe.is_recording = true;
+    probed.render();
+    size_t expected = 0;
+    for (const RayRecord& ray : probed.probe.recorded.at(0).rays)
+        if (ray.is_traced > 0) expected += ray.fetches + 3;  // depth, normal, geometric normal of where it starts
+    const size_t of_rays = expected;
+    const HostGBuffer g = player.host();
+    for (size_t i = 0; i < g.depth.pixel_count(); ++i) {
+        ++expected;  // depth
+        if (g.depth.values[i] == g.camera.depth.z) continue;
+        const bool has_diffuse_specular = g.emission.values[4 * i + 3] > 0;  // then nobody asks for the base colour's
+        expected += has_diffuse_specular ? 1 : 2;
+        if (has_diffuse_specular || g.base_color.values[4 * i + 3] > 0) ++expected;  // normal
+    }
+    EXPECT_GT(of_rays, expected / 2);
+    probed.probe.is_recording = false;
+    probed.graph.count_costs(true);
+    probed.render();
+    const std::vector<PassCost> costs = probed.graph.costs();
+    ASSERT_EQ(costs.at(0).stage, "mcguire_dda/trace");
+    EXPECT_EQ(costs[0].fetches, expected);
+    EXPECT_EQ(costs[0].invocations, 160u * 96) << "by 8 x 8 pixels";
+}
+
 TEST_F(ExactTracers, WhatIsRecordedIsWhatWasTraced) {
     Player player("fence", {160, 90});
     Probed probed(player, "mcguire_dda");

@@ -45,7 +45,7 @@ struct Needs : VariantTest {
     }
 
     static Shot shot(const std::string& scene, const std::string& camera, std::vector<unsigned> frames) {
-        return load_shot({.scene = scene, .camera = camera, .extent = {48, 27}, .frames = std::move(frames)}, scenes);
+        return load_shot({.scene = scene, .camera = camera, .extent = {48, 27}, .frames = std::move(frames), .direct_lit = true}, scenes);
     }
 };
 

@@ -66,6 +66,10 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
     EXPECT_EQ(a.front[1].variant, "quick");
     EXPECT_EQ(a.perceptual_sentence, "");
 
+    json labelled = manifest;
+    labelled["variants"].push_back({{"variant", "slow"}, {"point", "default"}, {"label", "Slow and steady"}});
+    EXPECT_TRUE(made.answer(labelled).sentence.starts_with("Slow and steady has the least error"));
+
     json doubtful = manifest;
     doubtful["clock"]["proofs"][0]["verdict"] = "failed";
     EXPECT_NE(made.answer(doubtful).sentence.find("its time (by a clock that did not prove itself) at 1.8x"),

@@ -30,7 +30,7 @@ def test_effects(page, folder, stepping_shot):
     shown = table_of(page, "#effect-table")[:-1]
     equal(
         [c[0][0].split("\n")[0] for c in shown],
-        ["float_histories = true", "round_up_tiles = true", "race = true", "sssr · mended", "sssr · lucky"],
+        ["float_histories = true", "round_up_tiles = true", "race = true", "sssr · mended", "One lucky seed"],
         "changes",
     )
     equal(shown[0][0][0].split("\n")[1], "keeps <b>32</b> bits & drifts less", "what the parameter means, as text")

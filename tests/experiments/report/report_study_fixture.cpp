@@ -91,7 +91,7 @@ struct RowMaker {
 
 void add_errors(const RowMaker& make) {
     const bool has_frames = make.shot.frames.size() > 1;
-    const std::string last = std::to_string(make.shot.frames.back()), speaking = has_frames ? "all" : last;
+    const std::string last = std::to_string(make.shot.frames.back()), speaking = has_frames ? over_frames : last;
     make.add(speaking, "specular", "mse", "mse", "reflective", make.error(0.01 * make.point.error));
     double factor = 1.0;
     for (const char* mask : {"reflective", "roughness_0_0.03", "roughness_0.03_0.3", "roughness_0.3_0.6"}) {
@@ -107,13 +107,13 @@ void add_errors(const RowMaker& make) {
 
 void add_temporal(const RowMaker& make) {
     const auto add = [&](const char* metric, const char* formula, std::optional<double> value) {
-        make.add("all", "specular", metric, formula, "reflective", value);
+        make.add(over_frames, "specular", metric, formula, "reflective", value);
     };
     if (make.shot.repeat > 1) add("flicker_relative", "temporal_variance_a", make.error(0.001));
     if (make.shot.frames.size() > 1) {
         add("frame_difference_relative", "frame_difference_a", make.error(0.4));
         if (make.shot.name != study_step_shot)
-            make.add("all", "specular", "relmse", "relmse_a", "disoccluded", make.error(5.0));
+            make.add(over_frames, "specular", "relmse", "relmse_a", "disoccluded", make.error(5.0));
     }
     if (make.shot.name != study_step_shot) return;
     const bool is_without_ghosts = make.point.variant == "none" || make.point.point == "first round_up_tiles=true";
@@ -150,6 +150,15 @@ void add_times(const StudyShot& shot, const StudyPoint& point, double slowness, 
         }
         cell.times.push_back({shot.name, "sssr", point.point, 0, "total", frame, total, "host_fence"});
     }
+}
+
+/// Of the two stages that read, the second one twice as much.
+void add_costs(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
+    for (const auto& [stage, fetches] :
+         {std::pair("sssr/stage_0", 1'000'000), {"sssr/stage_1", 2'000'000}, {"total", 3'000'000}})
+        for (const auto& [quantity, value] :
+             {std::pair("fetches", fetches), {"bytes_read", 4 * fetches}, {"bytes_written", fetches}})
+            cell.costs.push_back({shot.name, "sssr", point.point, stage, quantity, size_t(value)});
 }
 
 /// Two passes, one of which traced rough surfaces only; two masks. The moving shot has two frames.
@@ -260,6 +269,7 @@ json study_manifest(const std::vector<StudyShot>& shots) {
             const std::string name = p.point.substr(swept + 1, p.point.find('=') - swept - 1);
             manifest["variants"].back()["single_change"] = {{"parameter", name}, {"value", p.parameters[name]}};
         }
+        if (p.point == "lucky") manifest["variants"].back()["label"] = "One lucky seed";
         if (!p.not_repeatable.empty()) manifest["variants"].back()["not_repeatable"] = p.not_repeatable;
     }
     return manifest;
@@ -310,6 +320,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
             }
             add_split(shot, point, cell);
             if (point.point == "first" || point.point == "mended") add_hits(shot, point, cell);
+            if (point.point == "first" || point.point == "mended") add_costs(shot, point, cell);
             if (point.point == "first") add_times(shot, point, 1, cell);
             if (point.point == "mended") add_times(shot, point, 2, cell);
             cells.push_back(std::move(cell));

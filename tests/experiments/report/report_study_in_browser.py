@@ -31,7 +31,7 @@ def in_matrix(rows):
 def test_results(page, folder):
     choose_in(page, "results", "Metric", "relmse (relmse_a)")  # the only one with frames and a ladder
     rows = rows_of(folder, "summary.csv", target="specular", metric="relmse", mask="reflective")
-    speaking = [r for r in rows if r["frame"] in ("0", "all")]
+    speaking = [r for r in rows if r["frame"] in ("0", "")]
     page.execute_script("document.querySelector('#summary details').open = true")  # else its cells have no innerText
     shown = [c for c in table_of(page, "#summary") if c[1][0] != LADDER]
     compared = [r for r in speaking if not is_single_change(r)]
@@ -211,6 +211,13 @@ def test_stages(page):
     choose_in(page, "stages", "Bars show", "shares of each point's total")
     widths = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => +b.getAttribute('width'))", part)
     check(abs(sum(widths[:10]) - sum(widths[10:])) < 1, "bars of shares are equally long, whatever the times")
+    choose_in(page, "stages", "Bars show", "bytes")
+    bars = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => [b.getAttribute('fill'), b.getAttribute('width') / 1, +b.dataset.value])", part)
+    equal([bar[::2] for bar in bars[:2]], [[fills[0], 5], [fills[1], 10]], "stages by MB read and written, which look as by their times")
+    check(abs(bars[1][1] / bars[0][1] - 2) < 0.01, f"bars of costs are as long as they say: {bars}")
+    choose_in(page, "results", "Charts against", "bytes")
+    labels = [chart.text for chart in page.find_elements(By.CSS_SELECTOR, "#scatter figure, #answer-charts figure")]
+    check(labels and all("MB read and written" in label for label in labels), f"charts against bytes: {labels}")
 
 
 def test_temporal(page, folder):
@@ -234,7 +241,7 @@ def test_temporal(page, folder):
         for r in rows_of(
             folder, "summary.csv", shot=shot, point=point, target="specular", metric="relmse", mask="reflective"
         )
-        if r["frame"] != "all"
+        if r["frame"]
     ]
     frames.sort(key=lambda r: (r["shot"] != MOVING, int(r["frame"]), ["default", "first", "mended", "lucky"].index(r["point"])))
     equal(values(page, "#frame-charts .point"), [float(r["value"]) for r in frames], "errors of frames")

@@ -156,21 +156,21 @@ TEST(Effects, OfThePrimaryErrorAreOneFamilyAndAllOthersExploratory) {
 
 TEST(Effects, OfRowsOverFramesComeBeforeThoseOfOneFrame) {
     // Another ratio in each frame: 1/2 in frame 3, 1/4 in frame 11, 1/8 over all of them.
-    std::vector<std::pair<std::string, double>> frames = {{"3", 0.5}, {"11", 0.25}, {"all", 0.125}};
+    std::vector<std::pair<std::string, double>> frames = {{"3", 0.5}, {"11", 0.25}, {over_frames, 0.125}};
     for (const char* order : {"frames first", "all first"}) {
         std::vector<ResultRow> rows;
         for (const auto& [frame, share] : frames)
             for (unsigned seed = 0; seed < 2; ++seed) {
                 rows.push_back(row(frame, "base", seed, "mse", 1 + seed));
                 rows.push_back(row(frame, "better", seed, "mse", (1 + seed) * share));
-                if (frame == "all") continue;
+                if (frame == over_frames) continue;
                 rows.push_back(row(frame, "base", seed, "flip", 1 + seed));
                 rows.push_back(row(frame, "better", seed, "flip", (1 + seed) * share));
             }
         const std::vector<EffectRow> effects = effects_of(rows, two_points);
         ASSERT_EQ(effects.size(), 2u);
         for (const EffectRow& e : effects) {
-            EXPECT_EQ(e.frame, e.metric == "mse" ? "all" : "11") << order;
+            EXPECT_EQ(e.frame, e.metric == "mse" ? over_frames : "11") << order;
             EXPECT_DOUBLE_EQ(*e.ratio, e.metric == "mse" ? 0.125 : 0.25) << order;
         }
         std::ranges::reverse(frames);
@@ -316,7 +316,7 @@ TEST(Measure, AveragesOverFrames) {
     const std::vector<ResultRow> means = frames.rows();
     ASSERT_EQ(means.size(), 2u);
     for (const ResultRow& m : means) {
-        EXPECT_EQ(m.frame, "all");
+        EXPECT_EQ(m.frame, over_frames);
         if (m.metric == "bias") {
             EXPECT_FALSE(m.value) << "a frame without a value leaves the mean without one";
             continue;

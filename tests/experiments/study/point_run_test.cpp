@@ -18,7 +18,7 @@ TEST_F(StudyTest, AHeldPoseDoesNotFlickerAndHasOneReference) {
     for (const ResultRow& r : held) {
         if (r.metric == "flicker" || r.metric == "flicker_relative") {
             EXPECT_EQ(r.value, 0.0) << r.mask;
-            EXPECT_EQ(r.frame, "all");
+            EXPECT_EQ(r.frame, over_frames);
             ++flickers;
         }
         for (const ResultRow& o : once) {
@@ -48,12 +48,12 @@ TEST_F(StudyTest, EachFrameIsMeasuredAgainstItsOwnTruth) {
         ADD_FAILURE() << "no row of frame " << frame << ": " << metric << " " << mask;
         return 0.0;
     };
-    const auto mse = [&](const char* frame) { return value(three, frame, "mse", "reflective"); };
+    const auto mse = [&](const std::string& frame) { return value(three, frame, "mse", "reflective"); };
     EXPECT_EQ(mse("5"), value(one, "5", "mse", "reflective")) << "without a history it is the same alone and in a row";
     EXPECT_NE(mse("4"), mse("5"));
-    EXPECT_DOUBLE_EQ(mse("all"), (mse("4") + mse("5") + mse("6")) / 3);
+    EXPECT_DOUBLE_EQ(mse(over_frames), (mse("4") + mse("5") + mse("6")) / 3);
     value(three, "6", "flip", "all");
-    EXPECT_GT(value(three, "all", "frame_difference", "reflective"), 0.0);
+    EXPECT_GT(value(three, over_frames, "frame_difference", "reflective"), 0.0);
     for (const ResultRow& r : three) {
         if (r.metric == "flip") {
             EXPECT_EQ(r.frame, "6") << "only the last frame is measured in full";
@@ -94,7 +94,7 @@ TEST_F(StudyTest, AHistoryGhosts) {
         "metrics": "mse", "targets": "specular", "masks": "reflective", "seeds": 1, "timing": {"frames": 0}})");
     std::map<std::string, std::optional<double>> lengths;
     for (const ResultRow& r : read_rows<ResultRow>(run(read_config(folder / "step.json"), "step") / "results.csv"))
-        if (r.frame == "all") lengths[r.metric] = r.value;
+        if (r.frame == over_frames) lengths[r.metric] = r.value;
     for (const char* metric : {"ghost_length", "settling_length"}) {
         ASSERT_TRUE(lengths[metric]) << metric;
         EXPECT_GE(*lengths[metric], 2.0) << metric;
@@ -130,10 +130,14 @@ TEST_F(StudyTest, SeedsKnowNothingOfEachOther) {
 TEST_F(StudyTest, StoredFramesAreThoseThatAreRendered) {
     Device device;
     Config config;
-    config.direct_lit = true;
-    const Shot shot = load_shot(
-        {.scene = "moving_emitter", .camera = "", .extent = {64, 36}, .frames = {3, 5, 6}, .warm_up = 2, .repeat = 2},
-        {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    const Shot shot = load_shot({.scene = "moving_emitter",
+                                 .camera = "",
+                                 .extent = {64, 36},
+                                 .frames = {3, 5, 6},
+                                 .warm_up = 2,
+                                 .repeat = 2,
+                                 .direct_lit = true},
+                                {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     const std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
     FrameStore keeps(*source, DepthFormat::d32f, size_t(1) << 30), forgets(*source, DepthFormat::d32f, 0);
     for (const unsigned round : {0, 1})
@@ -160,9 +164,9 @@ TEST_F(StudyTest, StoredFramesAreThoseThatAreRendered) {
 TEST_F(StudyTest, NonFiniteInputsAreCountedOnce) {
     Device device;
     Config config;
-    config.direct_lit = true;
-    Shot shot = load_shot({.scene = "moving_emitter", .camera = "", .extent = {64, 36}, .frames = {3}, .repeat = 3},
-                          {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    Shot shot = load_shot(
+        {.scene = "moving_emitter", .camera = "", .extent = {64, 36}, .frames = {3}, .repeat = 3, .direct_lit = true},
+        {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     for (Material& material : shot.scene.materials) material.roughness = NAN;
     const std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
     FrameStore keeps(*source, DepthFormat::d32f, size_t(1) << 30), forgets(*source, DepthFormat::d32f, 0);

@@ -39,9 +39,10 @@ std::vector<Point> points_of(const VariantEntry& entry) {
 /// A small scene of all roughnesses, with a wall to be met, held for three frames so that histories count.
 struct SeedDependence : testing::Test {
     Device device;
-    Config config{.direct_lit = true};
-    Shot shot = load_shot({.scene = "roughness_gradient", .camera = "", .extent = {32, 18}, .repeat = 3},
-                          {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
+    Config config;
+    Shot shot =
+        load_shot({.scene = "roughness_gradient", .camera = "", .extent = {32, 18}, .repeat = 3, .direct_lit = true},
+                  {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
     FrameStore store{*source, DepthFormat::d32f, size_t(1) << 28};
 

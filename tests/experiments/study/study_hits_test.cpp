@@ -17,7 +17,7 @@ const std::string hits_study =
 }  // namespace
 
 TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
-    write_text(folder / "study.json", hits_study + R"(, "hits": {"seeds": 2}})");
+    write_text(folder / "study.json", hits_study + R"(, "hits": {"seeds": 2}, "costs": true})");
     const std::string command = "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() +
                                 "' '" SSRLAB_PROGRAM "' run study.json --out judged --replace > log 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0) << read_text(folder / "log");
@@ -49,6 +49,19 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
     for (const auto& [where, sum] : causes) EXPECT_NEAR(sum, 1, 1e-5) << where;
     EXPECT_EQ(seeds["frostbite_sssr"], 2u) << "of the point's three, as many as are asked for";
     EXPECT_EQ(seeds["mcguire_dda"], 1u) << "without chance one tells all";
+
+    // Counted of every point but the one that asks the scene; the technique without rays only clears.
+    std::map<std::string, std::map<std::string, size_t>> stages, totals;  // sums by point, quantity
+    for (const CostRow& r : read_rows<CostRow>(folder / "judged/costs.csv")) {
+        EXPECT_EQ(r.point.find("exact_scene"), std::string::npos);
+        (r.stage == "total" ? totals : stages)[r.variant][r.quantity] += r.value;
+    }
+    EXPECT_EQ(totals.size(), 3u);
+    EXPECT_EQ(stages, totals);
+    EXPECT_EQ(totals["none"]["invocations"], 0u);
+    EXPECT_EQ(totals["none"]["bytes_written"], 48u * 27 * (16 + 1)) << "radiance and confidence";
+    EXPECT_EQ(totals["mcguire_dda"]["invocations"], 2 * 48u * 32);
+    EXPECT_GT(totals["frostbite_sssr"]["fetches"], totals["mcguire_dda"]["fetches"]);
 
     size_t maps = 0;
     const nlohmann::json manifest = read_json(folder / "judged/manifest.json");

@@ -1,4 +1,10 @@
-// Charts of error against time, one per shot and metric.
+// Charts of error against time or a counted cost, one per shot and metric.
+
+/// What charts have along their x axis: "time", or a name of costKinds.
+const costAxis = {
+    kind: "time"
+};
+const costOf = row => costAxis.kind === "time" ? totalTime(row) : totalCost(row, costAxis.kind);
 
 /// Those that none other beats in both: a hint, by medians and means alone. Single seeds may stand anywhere by chance.
 function paretoFront(all) {
@@ -18,15 +24,19 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
     const rows = shown.length > 1 ? shown.filter(r => r !== none) : shown;
     if (!rows.length) return null;
     const {metric, target, mask} = rows[0], isLog = better(metric) === "lower";
-    const timed = rows.map(row => ({row, time: totalTime(row)})).filter(p => p.time?.value > 0),
-          hasTimes = timed.length > 0;
+    const timed = rows.map(row => ({row, time: costOf(row)})).filter(p => p.time?.value > 0),
+          hasTimes = timed.length > 0, cost = costKinds[costAxis.kind];
     const points = hasTimes ? timed : rows.map((row, i) => ({row, time: {value: i + 1, low: null, high: null}}));
     const y = errorAxis(isLog, points.map(p => p.row), metric + unitText(metric));
-    const x = hasTimes ? logAxis(timed.flatMap(p => [p.time.low, p.time.high]), "total time (ms), " + timedOn(shot)) :
+    const xLabel = cost ? `${cost.axis}, in the last frame` : "total time (ms), " + timedOn(shot);
+    const x = hasTimes ? logAxis(timed.flatMap(({time}) => [time.low ?? time.value, time.high ?? time.value]), xLabel) :
                          linearAxis([1, rows.length], "points, in the order of the study (no times)");
-    const mistakes =
-        row => [...mistakesOfError(row), ...(hasTimes ? mistakesOfTime(row) : [])].map(m => `\n! ${m.text}`).join("");
-    const timeText = time => hasTimes ? `\n${number(time.value)} ms ${interval(time)}, ${time.frames} frames` : "";
+    const mistakes = row => [...mistakesOfError(row), ...(hasTimes && !cost ? mistakesOfTime(row) : [])]
+                                .map(m => `\n! ${m.text}`)
+                                .join("");
+    const timeText = time => !hasTimes ? "" :
+        cost                           ? `\n${countText(time.value * 1e6)} ${cost.name}` :
+                                         `\n${number(time.value)} ms ${interval(time)}, ${time.frames} frames`;
     const marks = points.map(
         ({row, time}) => pointMark(row, {
             x: time.value,
@@ -44,13 +54,22 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
         limit ? level("limit of one frame", limit, y, {stroke: "var(--accent)", strokeDasharray: "1 3"}) : null
     ].filter(Boolean);
     const under = [
-        ...(hasTimes ? budgetLine(x) : []), ...(isLog && hasTimes ? [frontLine(paretoFront(timed))] : []),
+        ...(hasTimes && !cost ? budgetLine(x) : []), ...(isLog && hasTimes ? [frontLine(paretoFront(timed))] : []),
         ...levels.flatMap(l => levelLayers(l, x, y))
     ];
     const frames = framesText(rows[0]);
     const caption = [`${shortShot(shot)}: ${metric}`, target, mask, frames].filter(Boolean).join(", ");
-    const chart =
-        markChart({title: `${metric} against time, ${shot}`, caption, width, height, x, y, marks, under, levels});
+    const chart = markChart({
+        title: `${metric} against ${cost?.name ?? "time"}, ${shot}`,
+        caption,
+        width,
+        height,
+        x,
+        y,
+        marks,
+        under,
+        levels
+    });
     chart.dataset.shot = shot;
     return chart;
 }

@@ -32,9 +32,20 @@ function showExplorer() {
                 "Colours and shapes stand for",
                 [
                     ...(comparedPoints.length <= mostNumbered ? [["point", "points"]] : []), ["variant", "variants"],
+                    ...(pointGroups.length > 1 ? [["group", "groups"]] : []),
                     ...swept.map(name => [name, name])
                 ],
                 shownPoints.colourBy, changed("colourBy")),
+            ...(report.costs.length ?
+                    [select(
+                        "Charts against",
+                        [["time", "time"], ...Object.entries(costKinds).map(([k, {name}]) => [k, name])], costAxis.kind,
+                        value => {
+                            costAxis.kind = value;
+                            drawAnswerCharts();
+                            drawErrorTime();
+                        })] :
+                    []),
             ...(singleChangeKeys.size ?
                     [box(
                         `${singleChangeKeys.size} points that change one parameter of a baseline, too`,
@@ -62,10 +73,12 @@ function drawMatrix() {
 
 function drawErrorTime() {
     const rows = chosenRows(), others = otherRows();
-    const timed = rows.some(totalTime), isLog = better(choice.metric.split("|")[0]) === "lower";
+    const timed = rows.some(costOf), isLog = better(choice.metric.split("|")[0]) === "lower";
     at("error-time-note").textContent = [
-        timed ? "Total time of a technique's stages, medians over the frames; lines are 95 % intervals." :
-                "No times were measured.",
+        costAxis.kind !== "time" ?
+            "What all stages of a technique do in the last frame, counted: no times of a machine." :
+            timed ? "Total time of a technique's stages, medians over the frames; lines are 95 % intervals." :
+                    "No times were measured.",
         isLog && timed && "The grey steps join the points that none other beats in both, whatever the intervals say.",
         "Dashed: none. Dotted: the information limit of one frame (see Truth ladder), with its interval.",
         isLog && "An arrow marks a noise-corrected error that is not above 0.",

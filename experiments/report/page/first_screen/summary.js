@@ -114,7 +114,7 @@ function valueCell(row, isBest) {
 function summaryRow(row, rows, best, others, otherBest) {
     const ratio = againstNone(row, rows), time = totalTime(row), other = others.find(o => isSamePoint(o, row));
     return [
-        shotName(row.shot), row.variant, cell(row.point, row.point, " ", badges(mistakesOfError(row))),
+        shotName(row.shot), row.variant, cell(row.point, ownLabel(row) ?? row.point, " ", badges(mistakesOfError(row))),
         valueCell(row, best.has(row)), ...(others.length ? [other ? valueCell(other, otherBest.has(other)) : ""] : []),
         cell(row.floor, number(row.floor)),
         ...(rows.some(isLitNoisy) ? [cell(row.litNoise ?? null, number(row.litNoise))] : []),

@@ -1,4 +1,4 @@
-// Stage times: stacked bars per shot and the numbers.
+// Stage times and costs: stacked bars per shot and the numbers.
 
 /// Eight colours, each plain and in three textures, of start.js's page-wide <defs>.
 const textures = ["plain", "stripes", "dots", "checks"];
@@ -30,16 +30,18 @@ const stageChoice = {
 };
 
 function showStages() {
-    const shots = unique(report.times.map(t => t.shot));
+    const shots = unique([...report.times, ...report.costs].map(t => t.shot));
     if (!shots.length) {
         leaveOut("stages");
         return;
     }
-    const bars = select(
-        "Bars show", [["times", "times"], ["shares", "shares of each point's total"]], stageChoice.bars, value => {
-            stageChoice.bars = value;
-            pointsChanged();
-        });
+    const ofTimes = report.times.length ? [["times", "times"], ["shares", "shares of each point's total"]] : [],
+          ofCosts = report.costs.length ? Object.entries(costKinds).map(([kind, {name}]) => [kind, name]) : [];
+    if (!ofTimes.length) stageChoice.bars = "fetches";
+    const bars = select("Bars show", [...ofTimes, ...ofCosts], stageChoice.bars, value => {
+        stageChoice.bars = value;
+        pointsChanged();
+    });
     at("stage-shots").append(h("div", {class: "controls"}, bars), shotParts(shots, stagesOf));
 }
 
@@ -58,10 +60,12 @@ function stagesOf(shot) {
         [t.variant === "" ? "–" : pointLabel(t),
          t.stage === "total" ? h("b", {}, "total") : h("span", {}, swatch(t), t.stage), cell(t.value, number(t.value)),
          interval(t), String(t.frames), t.clock.replaceAll("_", " ")];
+    const barRows = stageChoice.bars in costKinds ? costRows(shot, stageChoice.bars) : own;
+    if (!times.length) return [stageBars(barRows), costTable(shot)];
     return [
-        stages.length ? stageBars(own) :
+        stages.length ? stageBars(barRows) :
                         h("p", {class: "note"}, "No variant of this shot has a stage: all were left out."),
-        savedNote(shot), floorNote(shot), formNote(own),
+        savedNote(shot), floorNote(shot), formNote(own), costTable(shot),
         h("details", {open: own.length <= longTable}, h("summary", {}, "All stages as numbers"),
           table(columns, sorted.map(row), {groupBy: 0})),
         ...(shared.length ?
@@ -72,7 +76,8 @@ function stagesOf(shot) {
 
 const lastPart = stage => stage.split("/").pop();
 /// What two stages of one technique end in.
-const ambiguousParts = new Set(unique(report.times.filter(t => t.stage !== "total").map(t => `${t.variant}|${t.stage}`))
+const stageRows = [...report.times, ...report.costs.map(c => ({...c, value: 0}))];  // looks go by times
+const ambiguousParts = new Set(unique(stageRows.filter(t => t.stage !== "total").map(t => `${t.variant}|${t.stage}`))
                                    .map(key => [key.split("|")[0], lastPart(key.split("|")[1])].join("|"))
                                    .filter((key, i, all) => all.indexOf(key) !== i)
                                    .map(key => key.split("|")[1]));
@@ -97,11 +102,12 @@ function stageLooks(times) {
     return looks;
 }
 
-const ownLooks = stageLooks(report.times);
+const ownLooks = stageLooks(stageRows);
 const lookOf = name => stageFill(ownLooks.get(name));
 
 function stageBars(own) {
-    const areShares = stageChoice.bars === "shares";
+    const areShares = stageChoice.bars === "shares", cost = costKinds[stageChoice.bars];
+    const valueText = t => cost ? `${countText(t.value * 1e6)} ${cost.name}` : `${number(t.value)} ms ${interval(t)}`;
     const rows = unique(own.map(pointLabel))
                      .map(label => {
                          const ofPoint = own.filter(t => pointLabel(t) === label),
@@ -114,20 +120,21 @@ function stageBars(own) {
                                  fill: lookOf(stageName(t.stage)),
                                  text: stageName(t.stage),
                                  data: {stage: t.stage, value: t.value},
-                                 tip: `${label}\n${t.stage}: ${number(t.value)} ms ${interval(t)}${
+                                 tip: `${label}\n${t.stage}: ${valueText(t)}${
                                      total?.value > 0 ? `\n${percent(t.value / total.value)} of the total` : ""}`
                              }));
-                         return {label, parts, total: areShares ? null : total};
+                         return {label, parts, total: areShares || cost ? null : total};
                      })
                      .filter(row => row.parts.length);
     const names = unique(rows.flatMap(row => row.parts.map(p => p.text)));
     const key = h(
         "p", {class: "stage-names"}, names.map(name => h("span", {class: "stage"}, textureSwatch(lookOf(name)), name)));
     const chart = stackedBars({
-        title: `Stage times, ${own[0].shot}`,
+        title: `Stage ${cost ? "costs" : "times"}, ${own[0].shot}`,
         rows,
         isShare: areShares,
         xLabel: areShares ? "share of the point's time (medians)" :
+            cost          ? `${cost.axis}, in the last frame` :
                             "median time (ms); the line is the 95 % interval of the total"
     });
     return h("div", {class: "bars"}, chart, h("div", {}, key));

@@ -5,7 +5,7 @@ const crops = {
     box: null,  // [x, y, width, height] in pixels, y from the top
     list: []    // as figures.json has them
 };
-const mostCropPoints = 7;  // besides the truth: what fits into the width of a page
+const mostCropPoints = 13;  // besides the truth: two rows of seven across a page
 
 function toggleCropMode() {
     crops.isOn = !crops.isOn;

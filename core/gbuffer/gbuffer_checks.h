@@ -1,0 +1,18 @@
+#pragma once
+#include "core/gbuffer/gbuffer_file.h"
+
+#include <string>
+#include <vector>
+
+/// Motion vectors of surfaces that stand still (and of the sky at infinity), from the depth and both cameras: uv now -
+/// uv before, y down, two channels. 0 where the point was behind the camera.
+HostImage camera_motion(const HostGBuffer& now, const CameraData& before);
+
+/// What renders without a word and yet cannot be right within one frame: values out of range, a camera whose matrices
+/// contradict its planes, normals that do not fit the depths. One sentence each; where another convention would fit
+/// (view space, +Z up, flipped), it is named.
+std::vector<std::string> check_gbuffer(const HostGBuffer& gbuffer);
+
+/// The same between two frames in a row: motion vectors in another convention (from now to before, y up, pixels, clip
+/// space), surfaces that are not where motion says, and a camera that jumps.
+std::vector<std::string> check_motion(const HostGBuffer& before, const HostGBuffer& now);

@@ -1,0 +1,28 @@
+"""Numbers with their intervals as text."""
+
+import math
+
+
+def decimals(value, low=None, high=None):
+    """As many as tell two digits of the interval's half-width, else three of the value; never more than four of it."""
+    size = abs(value)
+    if size == 0 or not math.isfinite(size):
+        return 2
+    most = 3 - math.floor(math.log10(size))
+    half = (high - low) / 2 if low is not None and high is not None else None
+    wanted = most - 1 if not half else 1 - math.floor(math.log10(half))
+    return max(min(wanted, most), 0)
+
+
+def text(value, places):
+    if value != 0 and abs(value) < 1e-4:
+        return f"{value:.1e}"
+    return f"{value:.{places}f}"
+
+
+def with_interval(measured, between=" "):
+    """0.710 [0.703, 0.717] of something with value, low and high; the value alone where there is no interval."""
+    places = decimals(measured.value, measured.low, measured.high)
+    if measured.low is None or measured.high is None:
+        return text(measured.value, places)
+    return f"{text(measured.value, places)}{between}[{text(measured.low, places)}, {text(measured.high, places)}]"

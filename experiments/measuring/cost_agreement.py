@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""How well counted costs tell times: a Markdown table of a results folder that has both.
+
+    cost_agreement.py RESULTS [--costs RESULTS]    costs.csv of another folder, of the same shots and points
+
+For each cost, over the shots: Kendall's rank correlation with the median times of the points, and of their stages; and of the pairs
+of points of a shot whose times differ by a factor of 1.5 or more, the share that the cost puts in the order of their times.
+"""
+import argparse
+import csv
+import itertools
+import os
+import statistics
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../figures"))
+
+from paper_tables.agreement import kendall_tau  # noqa: E402
+
+FACTOR = 1.5  # of times that are clearly apart
+COSTS = {
+    "invocations": ("invocations",),
+    "fetches": ("fetches",),
+    "texels": ("texels",),
+    "bytes read and written": ("bytes_read", "bytes_written"),
+    "unique bytes": ("unique_bytes",),
+    "operations": ("operations",),
+}
+
+
+def rows_of(folder, name):
+    try:
+        with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+    except OSError as error:
+        sys.exit(f"error: {error}")
+
+
+def medians(folder):
+    """{shot: {(variant, point, stage): milliseconds}} of the techniques."""
+    times = {}
+    for row in rows_of(folder, "times.csv"):
+        if row["variant"] not in ("", "none"):
+            key = (row["variant"], row["point"], row["stage"])
+            times.setdefault(row["shot"], {}).setdefault(key, []).append(float(row["milliseconds"]))
+    return {shot: {key: statistics.median(all_of) for key, all_of in own.items()} for shot, own in times.items()}
+
+
+def counts(folder):
+    """{shot: {(variant, point, stage): {quantity: value}}}"""
+    costs = {}
+    for row in rows_of(folder, "costs.csv"):
+        key = (row["variant"], row["point"], row["stage"])
+        costs.setdefault(row["shot"], {}).setdefault(key, {})[row["quantity"]] = int(row["value"])
+    return costs
+
+
+def agreement(times, costs, quantities):
+    """[tau of totals by shot], [tau of stages by shot], pairs that are clearly apart, how many of them are in order."""
+    of_totals, of_stages, pairs, right = [], [], 0, 0
+    for shot in sorted(set(times) & set(costs)):
+        both = {
+            key: (ms, sum(costs[shot][key][q] for q in quantities)) for key, ms in times[shot].items() if key in costs[shot]
+        }
+        totals = [pair for key, pair in both.items() if key[2] == "total"]
+        stages = [pair for key, pair in both.items() if key[2] != "total"]
+        of_totals.append(kendall_tau(*zip(*totals)))
+        of_stages.append(kendall_tau(*zip(*stages)))
+        for (ms, cost), (other_ms, other_cost) in itertools.combinations(totals, 2):
+            if max(ms, other_ms) >= FACTOR * min(ms, other_ms):
+                pairs += 1
+                right += (ms < other_ms) == (cost < other_cost) and cost != other_cost
+    return of_totals, of_stages, pairs, right
+
+
+def spread(values):
+    known = [v for v in values if v is not None]
+    return f"{statistics.mean(known):.2f} [{min(known):.2f}, {max(known):.2f}]" if known else "none"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results")
+    parser.add_argument("--costs")
+    arguments = parser.parse_args()
+    times, costs = medians(arguments.results), counts(arguments.costs or arguments.results)
+    if not set(times) & set(costs):
+        sys.exit("error: no shot has both times and costs")
+    print("| cost | totals | stages | clearly apart, in order |\n|---|---|---|---|")
+    for name, quantities in COSTS.items():
+        of_totals, of_stages, pairs, right = agreement(times, costs, quantities)
+        print(f"| {name} | {spread(of_totals)} | {spread(of_stages)} | {right} of {pairs} |")
+
+
+if __name__ == "__main__":
+    main()

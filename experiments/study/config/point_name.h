@@ -1,0 +1,10 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// Parameter values as points are named by them: {"estimator": "a", "taps": 4} is `estimator=a taps=4`.
+std::string label_of(const nlohmann::json& values);
+
+/// A point's name in results: the preset and the values that a design gave it, or "default". A name of more than 80
+/// characters keeps only the words that fit into 48 and ends in # and a hash of all: parameters.csv has every value.
+std::string point_name(const std::string& preset, const nlohmann::json& swept);

@@ -1,0 +1,329 @@
+"""answers.md: what the rows say, as sentences and tables."""
+
+from analysis import scenes
+from analysis.rows import RUNGS
+
+MOST_LISTED = 4
+
+
+def number(value):
+    """Three significant digits."""
+    if value is None:
+        return ""
+    if value == 0:
+        return "0"
+    text = f"{value:.3g}"
+    return text if "e" not in text or abs(value) < 1e-3 else f"{value:.0f}"
+
+
+def measured(value, low, high):
+    if value is None:
+        return ""
+    ends = f" [{number(low)}, {number(high) if high is not None else '...'}]" if low is not None else ""
+    return number(value) + ends
+
+
+def listed(names):
+    names = list(names)
+    shown = names[:MOST_LISTED] + ([f"{len(names) - MOST_LISTED} more"] if len(names) > MOST_LISTED else [])
+    return shown[0] if len(shown) == 1 else ", ".join(shown[:-1]) + " and " + shown[-1] if shown else ""
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(str(c).replace("|", "\\|") for c in row) + " |" for row in rows] + [""]
+
+
+class Answers:
+    def __init__(self, analysis):
+        self.analysis, self.study = analysis, analysis.study
+        self.unit = self.study.unit
+        self.base = self.study.label_of(analysis.baseline)
+
+    def text(self):
+        parts = [self._head(), self._at_costs(), self._whole(), self._shots(), self._floors(), self._stages()]
+        return "\n".join(line for part in parts for line in part).rstrip() + "\n"
+
+    def _head(self):
+        study, manifest = self.study, self.study.results.manifest
+        title = manifest.get("title") or manifest.get("study", {}).get("name", "")
+        lines = [f"# {title}: error against {'time' if self.unit == 'ms' else self.unit}", ""]
+        lines.append(
+            f"Error: {study.metric} of `{study.target}` over `{study.mask}` pixels, {len(study.shots)} shots of "
+            f"{len({s.scene for s in study.shots})} scenes; multiples are of the error of {self.base}. In brackets 95 % intervals."
+        )
+        machines = self.analysis.machines()
+        if not machines:
+            lines.append("Nothing was timed: errors alone are compared." if self.unit == "ms" else f"Nothing has {self.unit}.")
+        elif self.unit == "ms":
+            lines.append(
+                f"Times are medians of the sum of a technique's own stages. Taken on {'; '.join(machines)}."
+                + (" **Times of different machines or sizes are never compared below.**" if len(machines) > 1 else "")
+            )
+            lines += self._doubts()
+        else:
+            lines.append(f"`{self.unit}`: counted over a technique's own stages, without scatter; times may order techniques otherwise.")
+        without = [s.label for s in study.shots if s.divisor(self.analysis.baseline) is None]
+        if without:
+            lines.append(
+                f"Multiples leave out {', '.join(without)}: the error of {self.base} is not known, or too small to divide by."
+            )
+        if not manifest.get("is_complete", True):
+            lines.append("**The study is not complete: shots are missing.**")
+        return [*lines, ""]
+
+    def _doubts(self):
+        shots = [s for s in self.study.shots if self.analysis.curves[s.name]]
+        lines = []
+        floor = max((s.floor for s in shots), default=0)
+        if floor > 0:
+            lines.append(f"Two copies of one point differed by up to {100 * floor:.0f} %: times nearer than that are the same.")
+        unproven = [s.label for s in shots if not s.is_clock_proven]
+        if unproven:
+            lines.append(f"**The clock did not prove itself in {len(unproven)} of {len(shots)} shots** (manifest.json, `clock`).")
+        busy = [p.disturbed_share for s in shots for p in s.judged()]
+        if busy and max(busy) > 0:
+            lines.append(f"Other work disturbed {100 * sum(busy) / len(busy):.0f} % of the timed frames.")
+        return lines
+
+    def _at_costs(self):
+        lines = []
+        for machine in self.analysis.machines():
+            lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"On {machine}, over scenes.", ""]
+            lines += table((self.unit, "least error", f"error / {self.base}", "not told from it"), [self._short(machine, c) for c in self.analysis.costs])
+            for cost in self.analysis.costs:
+                lines += self._at_cost(machine, cost)
+        return lines
+
+    def _rows_at(self, machine, cost):
+        return [r for r in self.analysis.across if r.get("machine") == machine and r.get("cost") == cost]
+
+    def _short(self, machine, cost):
+        rows = self._rows_at(machine, cost)
+        first = next((r for r in rows if r["rank"] == 1), None)
+        if first is None or first["label"] == self.base:
+            return number(cost), "none that fits in all scenes", "", ""
+        near = [r["label"] for r in rows if r["rank"] and r is not first and not self._is_beaten(r)]
+        return number(cost), first["label"], measured(first["ratio"], first["low"], first["high"]), ", ".join(near)
+
+    @staticmethod
+    def _is_beaten(row):
+        return row["p_holm"] is not None and row["p_holm"] <= 0.05
+
+    def _at_cost(self, machine, cost):
+        rows = self._rows_at(machine, cost)
+        lines = [f"### {number(cost)} {self.unit}", ""]
+        if not rows:
+            return [*lines, "Nothing that was measured fits in any scene.", ""]
+        of_scenes = rows[0]["of_scenes"]
+        first = next((r for r in rows if r["rank"] == 1), None)
+        lines.append(self._first_sentence(first, rows, of_scenes))
+        partly = [r for r in rows if r["scenes"] < of_scenes]
+        if partly:
+            lines.append(
+                "Not ranked, since they do not fit everywhere: "
+                + "; ".join(f"{r['label']} ({r['scenes']} of {of_scenes} scenes, there {measured(r['ratio'], r['low'], r['high'])} of {self.base}'s error)" for r in partly)
+                + "."
+            )
+        absent = {v for c in self.analysis.curves.values() for v in c} - {r["variant"] for r in rows}
+        if absent:
+            lines.append(f"In no scene fit {listed(sorted(absent))}.")
+        cells = [
+            (
+                r["label"],
+                r["rank"] and f"{r['rank']} ({r['rank_low']} to {r['rank_high']})" or "",
+                measured(r["ratio"], r["low"], r["high"]),
+                measured(r["against_best"], r["against_best_low"], r["against_best_high"]),
+                number(r["p_holm"]),
+                r["wins"],
+                r["shared"],
+                f"{r['scenes_that_fit']} of {of_scenes}",
+            )
+            for r in rows
+        ]
+        head = ("technique", "rank (without any one scene)", f"error / {self.base}", "error / first's", "p (Holm)", "shots won", "shots shared", "surely fits in scenes")
+        return [*lines, "", *table(head, cells)]
+
+    def _first_sentence(self, first, rows, of_scenes):
+        if first is None or (first["ratio"] == 1 and first["label"] == self.base):
+            return f"No technique fits in all {of_scenes} scenes" + (f" with less error than {self.base}." if first else ".")
+        others = [r for r in rows if r["rank"] and r is not first]
+        beaten = [r for r in others if self._is_beaten(r)]
+        near = [r for r in others if r not in beaten]
+        text = f"**{first['label']}** has the least error, {measured(first['ratio'], first['low'], first['high'])} of that of {self.base} (geometric mean, {first['scenes']} scenes)"
+        if not others:
+            return text + "; nothing else fits in all of them."
+        if near:
+            text += f"; over these scenes it cannot be told from {listed(r['label'] for r in near)}"
+        if beaten:
+            text += f"; it errs less than {listed(r['label'] for r in beaten)} (Holm's test at 0.05)"
+        if first["scenes"] < scenes.LEAST_SCENES:
+            text += f"; {first['scenes']} scenes are too few for an interval"
+        return text + "."
+
+    def _whole(self):
+        rows = [r for r in self.analysis.across if r.get("cost") is None]
+        if not rows:
+            return []
+        lines = ["## Which errs least, whatever it takes", "", self._first_sentence(next((r for r in rows if r["rank"] == 1), None), rows, len({s.scene for s in self.study.shots})), ""]
+        cells = [
+            (
+                r["label"],
+                r["rank"] and f"{r['rank']} ({r['rank_low']} to {r['rank_high']})" or "",
+                measured(r["ratio"], r["low"], r["high"]),
+                measured(r["against_best"], r["against_best_low"], r["against_best_high"]),
+                number(r["p_holm"]),
+                r["wins"],
+                r["shared"],
+                r["scenes"],
+            )
+            for r in rows
+        ]
+        return lines + table(("point", "rank (without any one scene)", f"error / {self.base}", "error / first's", "p (Holm)", "shots won", "shots shared", "scenes"), cells)
+
+    def _shots(self):
+        lines = []
+        if self.analysis.machines():
+            lines = ["## Each shot", "", "A technique is its variant: all of its points make its front. Between two of them lies what logarithmic interpolation tells, where nothing was run.", ""]
+        for shot in self.study.shots:
+            if not self.analysis.curves[shot.name]:
+                continue
+            lines += [f"### {shot.label}", "", self._front_sentence(shot), ""]
+            lines += self._costs_table(shot) + self._errors_table(shot)
+        return lines
+
+    def _front_sentence(self, shot):
+        rows = sorted((r for r in self.analysis.front if r["shot"] == shot.name and r["cost"] is not None), key=lambda r: r["cost"])
+        at = lambda r: f"{r['label']} ({measured(r['cost'], r['cost_low'], r['cost_high'])} {self.unit}, {measured(r['error'], r['error_low'], r['error_high'])})"  # noqa: E731
+        sure = [r for r in rows if r["verdict"] == "front"]
+        maybe = [r for r in rows if r["verdict"] == "undecided"]
+        beaten = [r for r in rows if r["verdict"] == "dominated"]
+        text = f"Certainly on the front: {', '.join(at(r) for r in sure)}. " if sure else "No point is certainly on the front. "
+        if maybe:
+            text += f"Cannot be told: {', '.join(r['label'] for r in maybe)}. "
+        return text + f"{len(beaten)} points are dominated." if beaten else text.strip()
+
+    def _costs_table(self, shot):
+        rows = [r for r in self.analysis.error_at_cost if r["shot"] == shot.name]
+        by = {(r["variant"], r["cost"]): r for r in rows}
+        costs = self.analysis.costs
+        cells = []
+        for variant, curve in self._curves(shot):
+            ends = f"{number(curve.start)} to {number(curve.end)}"
+            cells.append((self.analysis.label(variant), ends, *(self._error_text(by[variant, c]) for c in costs)))
+        return table(("technique", f"measured at ({self.unit})", *(f"error at {number(c)} {self.unit}" for c in costs)), cells)
+
+    def _curves(self, shot):
+        """Those of more than the baseline alone."""
+        curves = self.analysis.curves[shot.name].items()
+        return [(v, c) for v, c in curves if [p.key for p in c.points] != [self.analysis.baseline]]
+
+    def _error_text(self, row):
+        if row.get("error") is None:
+            return f"below {number(row['start'])} nothing was measured" + (" (may fit)" if row["fits"] == "maybe" else "")
+        text = measured(row["error"], row["low"], row["high"])
+        return text + {"past end": f", reached at {number(row['end'])}"}.get(row["status"], "") + ("" if row["fits"] == "surely" else " (may not fit)")
+
+    def _errors_table(self, shot):
+        rows = [r for r in self.analysis.cost_to_error if r["shot"] == shot.name]
+        if not rows:
+            return []
+        by = {(r["variant"], r["factor"]): r for r in rows}
+        factors = self.analysis.factors
+        cells = [
+            (self.analysis.label(v), *(self._cost_text(by[v, f]) for f in factors)) for v, _ in self._curves(shot)
+        ]
+        of = {f: next(r["error"] for r in rows if r["factor"] == f) for f in factors}
+        return table(("technique", *(f"{self.unit} to {number(f)} of {self.base}'s error ({number(of[f])})" for f in factors)), cells)
+
+    def _cost_text(self, row):
+        if row["status"] == "not reached":
+            return f"not reached by {number(row['end'])}"
+        text = measured(row["cost"], row["low"], row["high"])
+        return f"at most {text}, its cheapest" if row["status"] == "before start" else text
+
+    def _floors(self):
+        if not self.analysis.fits and not self.analysis.limits:
+            return []
+        lines = [f"## What more {'time' if self.unit == 'ms' else self.unit} can never buy", ""]
+        return lines + self._limits() + self._fits()
+
+    def _limits(self):
+        rows = [r for r in self.analysis.limits if r["rung"] == RUNGS[0]]
+        if not rows:
+            return []
+        told = [r for r in rows if r.get("over_rung_high") is not None]
+        above = [r for r in told if r["over_rung_low"] > 1]
+        lines = [
+            f"`{RUNGS[0]}` is what one frame's image leaves to a technique that finds all that it shows, and sees the environment elsewhere; only what earlier frames showed, or luck, goes below it. "
+            + (f"The least error of all points is certainly above it in {len(above)} of the {len(told)} shots in which it is told from 0: there better techniques are possible." if told else ""),
+            "",
+        ]
+        cells = [
+            (r["shot"], r["label"], number(r["cost"]), measured(r["error"], r["error_low"], r["error_high"]), measured(r["rung_error"], r["rung_low"], r["rung_high"]), measured(r.get("over_rung"), r.get("over_rung_low"), r.get("over_rung_high")))
+            for r in rows
+        ]
+        return lines + table(("shot", "least error", self.unit, "its error", f"`{RUNGS[0]}`", f"error / `{RUNGS[0]}`"), cells)
+
+    def _fits(self):
+        rows = self.analysis.fits
+        if not rows:
+            return []
+        lines = ["error = floor + a cost^-b along each axis of quality: the floor is what is left however much is spent along that axis alone.", ""]
+        axes = {}
+        for r in rows:
+            axes.setdefault(f"{r['variant']} {r['fixed']}".strip() + f" along {r['parameter']}", []).append(r)
+        for axis, of_axis in axes.items():
+            floors = [r for r in of_axis if r["floor_low"]]
+            above = [r for r in floors if (r.get("floor_over_rung_low") or 0) > 1]
+            lines.append(
+                f"- {axis}: a floor above 0 is certain in {len(floors)} of {len(of_axis)} shots" + (f", one above `{above[0]['rung']}` in {len(above)}" if above else "") + "."
+            )
+        lines.append("")
+        cells = []
+        for axis, of_axis in axes.items():
+            for r in of_axis:
+                ends = f"{number(r.get('cost_from'))} to {number(r.get('cost_to'))}"
+                over = measured(r.get("floor_over_rung"), r.get("floor_over_rung_low"), r.get("floor_over_rung_high"))
+                fitted = (measured(r["floor"], r["floor_low"], r["floor_high"]), over, measured(r["b"], r["b_low"], r["b_high"]), number(r["misfit"]))
+                cells.append((axis, r["shot"], r["points"], ends, *fitted, r["status"]))
+        return lines + table(("axis", "shot", "points", self.unit, "floor", "floor / rung", "b", "misfit", "status"), cells)
+
+    def _stages(self):
+        rows = self.analysis.stages
+        if not rows:
+            return []
+        lines = ["## Which change buys what", ""]
+        lines.append(
+            "Points that differ in one parameter. A stage that is switched off *saves cost* at the price of error; the last column is what each percent of error costs."
+        )
+        lines.append("")
+        for machine in dict.fromkeys(r["machine"] for r in rows):
+            own = [r for r in rows if r["machine"] == machine]
+            pooled = [r for r in own if not r["shot"] and r["scenes"] >= scenes.LEAST_SCENES]
+            changes = {self._change_key(r) for r in pooled}
+            single = [r for r in own if r["shot"] and self._change_key(r) not in changes]
+            lines += [f"On {machine}{', over scenes: geometric mean of the ratios of errors, mean of the costs' if pooled else ''}:", ""]
+            lines += self._stage_table("scenes", pooled)
+            if single:
+                lines += [f"In each shot, since {scenes.LEAST_SCENES - 1} scenes or fewer are too few for an interval:", ""] + self._stage_table("shot", single)
+        return lines
+
+    @staticmethod
+    def _change_key(row):
+        return row["variant"], row["point"], row["against_variant"], row["against_point"]
+
+    def _stage_table(self, first, rows):
+        cells = [
+            (
+                f"{self.study.label_of((r['against_variant'], r['against_point']))}: {r['change']}",
+                r[first],
+                measured(*(None if v is None else 100 * (v - 1) for v in (r["error_ratio"], r["error_low"], r["error_high"]))),
+                measured(r["cost"], r["cost_low"], r["cost_high"]),
+                r["verdict"],
+                measured(r["cost_per_percent"], r["cost_per_percent_low"], r["cost_per_percent_high"]),
+            )
+            for r in sorted(rows, key=self._change_key)
+        ]
+        head = ("change", first, "% more error", f"{self.unit} more", "verdict", f"{self.unit} per % of error")
+        return table(head, cells) if cells else []

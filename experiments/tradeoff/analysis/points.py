@@ -1,0 +1,240 @@
+"""The points of a study, each with its error and its cost in every shot."""
+
+import math
+import os
+import sys
+from dataclasses import dataclass, field
+
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "figures"))
+
+from paper_figures.results import Results, ResultsError, label, rows_that_speak  # noqa: E402
+
+TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
+
+
+@dataclass
+class Point:
+    """A variant's point in one shot."""
+
+    variant: str
+    point: str
+    label: str
+    error: float
+    error_low: float  # None: no interval that could be compared
+    error_high: float
+    seeds: dict  # seed to error; one of a point that does not depend on it
+    is_ranked: bool  # the interval holds all that is random
+    asks_scene: bool = False
+    rounds: dict = field(default_factory=dict)  # frame to ms: all points took turns in it; none of a counted cost
+    cost: float = None  # median over the rounds, or counted; None: not timed
+    disturbed_share: float = 0.0
+    noise: float = 0.0  # what the reference's own noise scores as an error
+
+    @property
+    def key(self):
+        return self.variant, self.point
+
+    def why_not_judged(self):
+        """What keeps the point from being compared by error and cost; empty where nothing does."""
+        if self.asks_scene:
+            return "asks the scene"
+        if not self.is_ranked or self.error_low is None or self.error_high is None:
+            return "not ranked"
+        if self.cost is None or not self.cost > 0:
+            return "no cost"
+        return "" if self.error > 0 else "error not above 0"
+
+
+@dataclass
+class Shot:
+    name: str
+    label: str
+    scene: str
+    machine: str  # what costs must have in common to be compared
+    floor: float  # relative difference of costs below which nothing is said
+    is_clock_proven: bool
+    points: list
+    ladder: dict  # rung to (error, low, high)
+    error_effects: dict = field(default_factory=dict)  # (key, key of the other) to (ratio, low, high), both ways round
+    compared: list = field(default_factory=list)  # (key, key of the baseline) as the study asked for them
+
+    def judged(self):
+        return [p for p in self.points if not p.why_not_judged()]
+
+    def divisor(self, key):
+        """The error of a baseline; None where any error would be a huge multiple of it: it cannot be told from 0, is not twice
+        what the reference's noise scores, or is below a millionth of the shot's largest, as rounding leaves it."""
+        point = self.point_of(key)
+        if point is None or not point.error_low or point.error_low <= 0:
+            return None
+        least = max(2 * point.noise, 1e-6 * max(p.error for p in self.points))
+        return point.error if point.error > least else None
+
+    def point_of(self, key):
+        return next((p for p in self.points if p.key == key), None)
+
+
+def _number(text):
+    return float(text) if text else None
+
+
+def _machines(manifest):
+    """Shot to the processor and the device that its times were taken on."""
+    found = {}
+    for entry in manifest.get("provenance", []):
+        host, device = entry.get("host", {}), entry.get("device", {})
+        name = f"{host.get('name', '?')} ({host.get('cpu', '?')}, {host.get('cores', '?')} cores), {device.get('name', '?')}"
+        for cell in entry.get("cells", []):
+            shot, _, what = cell.get("what", "").rpartition(": ")
+            if what == "timing":
+                found[shot] = name
+    return found
+
+
+class Study:
+    """A results folder's shots, of one error (target, metric, mask), by time or by a counted quantity."""
+
+    def __init__(self, folder, target=None, metric=None, mask=None, cost=None, left_out=()):
+        self.results = Results(folder)
+        manifest = self.results.manifest
+        primary = manifest.get("primary", {})
+        self.target = target or primary.get("target", "specular")
+        self.metric = metric or primary.get("metric", "mse")
+        self.mask = mask or primary.get("mask", "reflective")
+        self.counted = cost
+        self.unit = cost or "ms"
+        self.variants = {(v["variant"], v["point"]): v for v in manifest.get("variants", [])}
+        self.times = self.results.read_csv("times.csv", is_optional=True)
+        self.shots = self._shots()
+        self._leave_out(left_out)
+        if not self.shots:
+            found = sorted({f"{r['target']} {r['metric']} {r['mask']}" for r in self.results.errors})
+            raise ResultsError(f"{folder} has no errors of {self.error_name()}; it has: {', '.join(found) or 'none'}")
+        self._add_costs()
+        self._add_effects()
+
+    def error_name(self):
+        return f"{self.target} {self.metric} {self.mask}"
+
+    def is_error(self, row):
+        return (row["target"], row["metric"], row["mask"]) == (self.target, self.metric, self.mask)
+
+    def label_of(self, key):
+        return getattr(self.results, "point_label", label)(*key)
+
+    def parameters_of(self, key):
+        return self.variants.get(key, {}).get("parameters", {})
+
+    def key_of(self, text):
+        """(variant, point) of VARIANT:POINT as users write it."""
+        variant, _, point = text.partition(":")
+        key = (variant, point or "default")
+        if key not in self.variants:
+            known = ", ".join(f"{v}:{p}" for v, p in self.variants)
+            raise ResultsError(f"the study has no point {text}; it has {known}")
+        return key
+
+    def baseline(self, text=None):
+        """The point that errors are told as multiples of: no screen-space reflections, unless another is asked for."""
+        if text:
+            return self.key_of(text)
+        without = [key for key in self.variants if key[0] == "none"]
+        return (without or [key for key, v in self.variants.items() if v.get("baseline")] or list(self.variants))[0]
+
+    def _shots(self):
+        entries = {s["shot"]: s for s in self.results.manifest.get("shots", [])}
+        seeds = {}
+        for row in rows_that_speak(self.results.read_csv("results.csv", is_optional=True)):
+            if self.is_error(row) and row["value"]:
+                seeds.setdefault((row["shot"], row["variant"], row["point"]), {})[row["seed"]] = float(row["value"])
+        shots = {}
+        for row in self.results.errors:
+            if not self.is_error(row) or not row["value"]:
+                continue
+            shot = shots.setdefault(row["shot"], self._shot(row["shot"], entries.get(row["shot"], {})))
+            if not row["frame"].isdigit():
+                shot.ladder = {}  # the ladder is of the last frame alone, and this speaks for all
+            key = (row["variant"], row["point"])
+            shot.points.append(
+                Point(
+                    *key,
+                    self.label_of(key),
+                    float(row["value"]),
+                    _number(row["low"]),
+                    _number(row["high"]),
+                    seeds.get((row["shot"], *key), {}),
+                    row["ranked"] == "1",
+                    bool(self.variants.get(key, {}).get("asks_scene")),
+                    noise=_number(row["floor"]) or 0.0,
+                )
+            )
+        return list(shots.values())
+
+    def _leave_out(self, names):
+        for name in names:
+            if not any(name in (s.name, s.scene) for s in self.shots):
+                raise ResultsError(f"the study has no shot or scene '{name}'; it has {', '.join(s.name for s in self.shots)}")
+        self.shots = [s for s in self.shots if s.name not in names and s.scene not in names]
+
+    def _shot(self, name, entry):
+        ladder = {
+            rung["rung"]: (rung["value"], rung.get("low"), rung.get("high"))
+            for rung in entry.get("truth_ladder", [])
+            if self.is_error(rung) and isinstance(rung.get("value"), (int, float))
+        }
+        clock = self.results.manifest.get("clock", {})
+        proofs = [p.get("verdict") == "passed" for p in clock.get("proofs", []) if name in p.get("shots", [])]
+        size = f"{entry.get('width', '?')}x{entry.get('height', '?')}"
+        shown = getattr(self.results, "shot_label", lambda shot: shot)(name)
+        scene = entry.get("scene") or name.split(".")[0]
+        floor = 0.0 if self.counted else clock.get("aa_floor") or 0.0
+        return Shot(name, shown, scene, size, floor, bool(self.counted) or any(proofs), [], ladder)
+
+    def _add_costs(self):
+        points = {(s.name, p.variant, p.point): p for s in self.shots for p in s.points}
+        if self.counted:
+            self._add_counts(points)
+            return
+        machines, clocks = _machines(self.results.manifest), {}
+        for row in self.times:
+            point = points.get((row["shot"], row["variant"], row["point"]))
+            if point is None or row["stage"] != TOTAL:
+                continue
+            # Several seeds may have been timed: each of their frames is a round of its own.
+            point.rounds[(int(row["seed"] or 0), int(row["frame"]))] = float(row["milliseconds"])
+            point.disturbed_share += row["disturbed"] == "1"
+            clocks[row["shot"]] = row["clock"]
+        for point in points.values():
+            if point.rounds:
+                ordered = sorted(point.rounds.values())
+                middle = len(ordered) // 2
+                point.cost = ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle])
+                point.disturbed_share /= len(ordered)
+        for shot in self.shots:
+            shot.machine = f"{machines.get(shot.name, 'machine not known')}, {clocks.get(shot.name, 'no clock')}, {shot.machine}"
+
+    def _add_counts(self, points):
+        rows = [r for r in self.results.read_csv("costs.csv", is_optional=True) if r["quantity"] == self.counted]
+        if not rows:
+            raise ResultsError(f"{os.path.join(self.results.folder, 'costs.csv')} has no '{self.counted}'")
+        sums, totals = {}, {}
+        for row in rows:
+            key = (row["shot"], row["variant"], row["point"])
+            if row["stage"] == TOTAL:
+                totals[key] = float(row["value"])
+            else:
+                sums[key] = sums.get(key, 0.0) + float(row["value"])
+        for key, value in (sums | totals).items():
+            if key in points:
+                points[key].cost = value
+
+    def _add_effects(self):
+        shots = {s.name: s for s in self.shots}
+        for row in self.results.effects:
+            if self.is_error(row) and row["shot"] in shots and row["ratio"] and row["low"] and row["high"]:
+                measured = tuple(float(row[c]) for c in ("ratio", "low", "high"))
+                pair = (row["variant"], row["point"]), (row["against_variant"], row["against_point"])
+                effects = shots[row["shot"]].error_effects
+                effects[pair] = measured
+                shots[row["shot"]].compared.append(pair)
+                effects.setdefault(pair[::-1], tuple(1 / v if v > 0 else math.inf for v in (measured[0], measured[2], measured[1])))

@@ -1,0 +1,128 @@
+"""What figures are made of, without results: names beside marks, the best, crops, exposures, texts.
+
+usage: figure_parts_test.py
+"""
+
+import os
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/figures"))
+os.environ["MPLBACKEND"] = "Agg"
+
+try:
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from matplotlib.text import Text
+except ImportError as missing:
+    sys.exit(f"figures need python3-matplotlib and python3-numpy (tests/run.sh installs them): {missing}")
+
+from paper_figures import crops, style  # noqa: E402
+from paper_figures.lines import draw_lines  # noqa: E402
+from paper_figures.placed_labels import place_labels  # noqa: E402
+from paper_figures.results import Measured  # noqa: E402
+from paper_figures.standing import Ends, standings  # noqa: E402
+
+
+def check(is_true, what):
+    if not is_true:
+        sys.exit(f"figure_parts_test: {what}")
+
+
+def test_crop_boxes():
+    error = np.zeros((40, 60))
+    error[20:24, 50:55] = 2.0
+    error[2:6, 3:6] = 1.0
+    first, second = crops.crop_boxes(error, 2)
+    check(
+        first[0] <= 50 and first[0] + first[2] >= 55 and first[1] <= 20 and first[1] + first[3] >= 24,
+        f"the worst place is not in {first}",
+    )
+    check(
+        second[0] <= 3 and second[0] + second[2] >= 6 and second[1] <= 2 and second[1] + second[3] >= 6,
+        f"the second worst is not in {second}",
+    )
+
+
+def test_file_names():
+    """Names of glTF cameras, which shots are called by, hold what no file name may, or are longer than one."""
+    check(style.file_name("crops_fence.low.160x90") == "crops_fence.low.160x90", "a name that needs no change")
+    check(style.file_name("crops_a/b c") == "crops_a-b-c", "letters that no file name has")
+    long = [style.file_name("c" * 300 + end) for end in "12"]
+    check(len(long[0]) == 150 and long[0] != long[1], f"long names: {long}")
+
+
+def test_wrapped():
+    """Titles stay within their panel: no line is longer than asked, and no letter is lost but spaces."""
+    for text, longest, expected in (
+        ("fence.main.160x90", 22, "fence.main.160x90"),
+        ("contact_hardening.main.320x184.w24", 22, "contact_hardening.main\n.320x184.w24"),
+        ("breakfast_room_glossy_floor.near.320x184", 22, "breakfast_room_glossy_\nfloor.near.320x184"),
+        ("amd_sssr repeatable misses=fallback", 22, "amd_sssr repeatable\nmisses=fallback"),
+        ("x" * 30 + " y", 22, "x" * 30 + "\ny"),
+    ):
+        check(style.wrapped(text, longest) == expected, f"{text} becomes {style.wrapped(text, longest)!r}")
+
+
+def test_values_not_above_zero():
+    """Lines of which a logarithmic axis leaves out values say so."""
+    lines = [(0, Measured(1.0, 0.9, 1.1)), (1, Measured(-0.1, -0.2, 0.0))]
+    for points, is_log, expected in ((2, True, [style.NOT_POSITIVE_NOTE]), (2, False, []), (1, True, [])):
+        figure, axes = plt.subplots()
+        draw_lines(axes, {"sssr": lines[:points]}, ["sssr"], is_log)
+        check([t.get_text() for t in axes.texts] == expected, f"{points} values, logarithmic: {is_log}")
+        plt.close(figure)
+
+
+def test_labels_do_not_overlap():
+    """Names of crowded points lie within their panel, on none of the others and on no mark; where there is no room there are none."""
+    style.apply()
+    random = np.random.default_rng(1)
+    for count, has_room in ((10, True), (60, False)):
+        figure, axes = plt.subplots(figsize=(3.3, 2.6), layout="constrained")
+        places = random.uniform(0.7, 1.0, (count, 2))  # in a corner, which no label may leave
+        axes.plot(*places.T, "o")
+        axes.set(xlim=(0, 1), ylim=(0, 1))
+        placed = place_labels(axes, [(x, y, f"point {i}", "black") for i, (x, y) in enumerate(places)])
+        check(placed == has_room and len(axes.texts) == count * has_room, f"{count} labels: {placed}, {len(axes.texts)} drawn")
+        figure.draw_without_rendering()
+        renderer = figure.canvas.get_renderer()
+        boxes = [Text.get_window_extent(t, renderer) for t in axes.texts]
+        marks = axes.transData.transform(places)
+        frame = axes.get_window_extent()
+        for i, box in enumerate(boxes):
+            check(not any(box.overlaps(other) for other in boxes[:i]), f"label {i} lies on another")
+            check(not any(box.contains(*mark) for mark in marks), f"label {i} lies on a mark")
+            check(box.x0 >= frame.x0 and box.x1 <= frame.x1 and box.y0 >= frame.y0 and box.y1 <= frame.y1, f"label {i} leaves the panel")
+        plt.close(figure)
+
+
+def test_best_only_where_certain():
+    separate = {"a": Ends(1.0, 0.9, 1.1), "b": Ends(1.3, 1.2, 1.4), "c": Ends(2.0, None, None)}
+    check(standings({k: separate[k] for k in "ab"}) == {"a": "best"}, "intervals that do not meet")
+    check(standings(separate) == {"a": "tied", "c": "tied"}, "one without an interval")
+    meeting = {"a": Ends(1.0, 0.9, 1.1), "b": Ends(1.05, 1.0, 1.2)}
+    check(standings(meeting) == {"a": "tied", "b": "tied"}, "intervals that meet")
+    paired = Ends(1.05, 1.01, 1.09)
+    check(standings(meeting, ratios={("b", "a"): paired}) == {"a": "best"}, "a paired comparison tells more")
+    check(standings(separate | {"b": Ends(1.3, 1.05, 1.4)}, True)["c"] == "tied", "more is better, by a number without interval")
+    check(standings({"a": separate["a"]}) == {}, "nothing to compare with")
+
+
+def test_exposure():
+    """The brightest percent begins just below white, whatever the few brightest pixels are."""
+    truth = np.full((10, 100, 3), 0.2, np.float32)
+    truth[:, 50:] = 3.0
+    truth[0, :3] = 1000.0
+    exposure = crops.auto_exposure(truth)
+    check(0.75 < 3.0 * 2**exposure <= 0.95, f"{exposure} EV")  # steps of a quarter EV below 0.95
+    check(crops.auto_exposure(np.zeros((4, 4, 3))) == 0.0, "a black image")
+
+
+test_crop_boxes()
+test_file_names()
+test_wrapped()
+test_values_not_above_zero()
+test_labels_do_not_overlap()
+test_best_only_where_certain()
+test_exposure()

@@ -1,0 +1,405 @@
+"""Error against run time: closed forms, and a made-up results folder from its tables to its answers.
+
+usage: tradeoff_test.py TRADEOFF_FOLDER SSRLAB
+"""
+
+import contextlib
+import csv
+import io
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+TRADEOFF, SSRLAB = sys.argv.pop(1), sys.argv.pop(1)
+sys.path.insert(0, TRADEOFF)
+
+import numpy as np  # noqa: E402
+from analysis import curves, dominance, fits, points, scenes, stages, uncertainty  # noqa: E402
+from tradeoff import FILES, main  # noqa: E402
+
+FRAMES = 15
+
+
+def point(name, error, half_width=0.0, cost=10.0, spread=0.0, seeds=None):
+    """`spread`: of the times, relative; all points are slow in the same frames."""
+    variant, _, rest = name.partition(":")
+    made = points.Point(variant, rest or "default", name, error, error - half_width, error + half_width, seeds or {"0": error}, True)
+    made.rounds = {(0, f): cost * (1 + spread * ((7 * f) % FRAMES - 7) / 7) for f in range(FRAMES)}
+    made.cost = cost
+    return made
+
+
+def shot(*of_points, floor=0.0, effects=None):
+    return points.Shot("s", "s", "scene", "machine", floor, True, list(of_points), {}, effects or {})
+
+
+def verdicts(a_shot):
+    """Variant to (verdict, undecided with), which do not depend on the order of the points."""
+    found = []
+    for of_points in (a_shot.points, a_shot.points[::-1]):
+        a_shot.points = of_points
+        found.append({key[0]: (verdict, sorted(p.variant for p in rivals)) for key, (verdict, _, rivals) in dominance.judge(a_shot).items()})
+    if found[0] != found[1]:
+        raise AssertionError(found)
+    return found[0]
+
+
+class Dominance(unittest.TestCase):
+    def test_certain_in_one_and_no_worse_in_the_other(self):
+        found = verdicts(shot(point("a", 1, 0.1, 10), point("b", 2, 0.1, 10), point("c", 1, 0.1, 20), point("d", 0.5, 0.1, 20)))
+        self.assertEqual({v: f[0] for v, f in found.items()}, {"a": "front", "b": "dominated", "c": "dominated", "d": "front"})
+
+    def test_overlapping_errors_cannot_be_told(self):
+        found = verdicts(shot(point("a", 1, 0.3, 10), point("b", 1.2, 0.3, 20)))
+        self.assertEqual(found, {"a": ("front", []), "b": ("undecided", ["a"])})
+
+    def test_seeds_that_agree_are_the_same_error(self):
+        seeds = {"0": 0.9, "1": 1.1}
+        found = verdicts(shot(point("a", 1, 0.3, 10, seeds=seeds), point("b", 1, 0.3, 20, seeds=dict(seeds))))
+        self.assertEqual(found["b"][0], "dominated")
+
+    def test_paired_effects_tell_more_than_two_intervals(self):
+        effects = {(("b", "default"), ("a", "default")): (1.2, 1.1, 1.3), (("a", "default"), ("b", "default")): (1 / 1.2, 1 / 1.3, 1 / 1.1)}
+        found = verdicts(shot(point("a", 1, 0.3, 10), point("b", 1.2, 0.3, 20), effects=effects))
+        self.assertEqual(found["b"][0], "dominated")
+
+    def test_costs_nearer_than_copies_differ_are_the_same(self):
+        slower = (point("a", 1, 0.1, 11), point("b", 2, 0.1, 10))
+        self.assertEqual(verdicts(shot(*slower))["b"][0], "front")
+        self.assertEqual(verdicts(shot(*slower, floor=0.2))["b"], ("undecided", ["a"]))
+        same_error = (point("a", 1, 0, 11), point("b", 1, 0, 10))
+        self.assertEqual(verdicts(shot(*same_error))["a"][0], "dominated")
+        self.assertEqual(verdicts(shot(*same_error, floor=0.2))["a"][0], "undecided")
+
+    def test_frames_that_are_slow_for_both_cancel(self):
+        # Each by itself scatters by 40 %, their ratio not at all.
+        found = verdicts(shot(point("a", 1, 0, 10, 0.4), point("b", 1, 0, 10.5, 0.4)))
+        self.assertEqual(found["b"][0], "dominated")
+
+    def test_the_nominal_front_has_no_point_that_is_beaten(self):
+        front = dominance.nominal_front([point("a", 2, 0, 1), point("b", 1, 0, 2), point("c", 1.5, 0, 3), point("d", 0.5, 0, 4)])
+        self.assertEqual({v for v, _ in front}, {"a", "b", "d"})
+
+
+class Medians(unittest.TestCase):
+    def test_interval_is_that_of_the_study(self):
+        # 15 independent signs count as if twice as scattered: ranks 7.5 -+ 1.96 sqrt(2 * 15) / 2, as time_effects_test.cpp has it.
+        values = [float(v) for v in (8, 1, 15, 4, 11, 2, 14, 6, 9, 3, 13, 5, 12, 7, 10)]
+        self.assertEqual(uncertainty.median_interval(values), (8, 3, 13))
+        slow_half = [float(v) for v in range(15)]
+        self.assertGreater(uncertainty.sign_factor(slow_half), 4)
+        self.assertEqual(uncertainty.median_interval(slow_half), (7, 0, 14))
+
+
+class Draws(unittest.TestCase):
+    def test_a_mean_is_drawn_from_students_t(self):
+        seeds = {"0": 0.98, "1": 1.01, "2": 0.99, "3": 1.02}
+        half = 3.18245 * np.std(list(seeds.values()), ddof=1) / 2  # t(0.975, 3)
+        draws = uncertainty.ShotDraws([point("a", 1, half, seeds=seeds)], 40000)
+        low, high = uncertainty.interval(draws.errors[0])
+        # 40000 draws tell the ends to 3 % of the half-width; the exponential moves them by half^2 / 2 = 2 %.
+        self.assertAlmostEqual(low, 1 - half, delta=0.06 * half)
+        self.assertAlmostEqual(high, 1 + half, delta=0.06 * half)
+
+    def test_what_is_beyond_the_seeds_is_kept(self):
+        low, high = uncertainty.interval(uncertainty.ShotDraws([point("a", 1, 0.04)], 40000).errors[0])
+        self.assertAlmostEqual(high - low, 0.08, delta=0.003)
+
+    def test_points_share_seeds_and_slow_frames(self):
+        seeds = {"0": 0.9, "1": 1.3, "2": 0.8, "3": 1.0}
+        draws = uncertainty.ShotDraws([point(n, 1, 0.4, 10, 0.3, seeds) for n in ("a:x", "a:y")], 500)
+        self.assertGreater(np.corrcoef(draws.errors)[0, 1], 0.99)
+        self.assertGreater(np.corrcoef(draws.costs)[0, 1], 0.99)
+
+
+class Curves(unittest.TestCase):
+    def setUp(self):
+        # error = 10 / cost, a straight line of slope -1; the fourth point is none of the front.
+        self.costs, self.errors = curves.column_of([1, 4, 16, 8]), curves.column_of([10, 2.5, 0.625, 5])
+
+    def test_interpolates_on_the_front(self):
+        for cost in (1, 2, 3, 8, 16):
+            self.assertAlmostEqual(curves.error_at(self.costs, self.errors, cost)[0], 10 / cost)
+            self.assertAlmostEqual(curves.cost_to(self.costs, self.errors, 10 / cost)[0], cost)
+
+    def test_never_beyond_it(self):
+        self.assertTrue(math.isnan(curves.error_at(self.costs, self.errors, 0.9)[0]))
+        self.assertEqual(curves.error_at(self.costs, self.errors, 100)[0], 0.625)  # it can be had, with time to spare
+        self.assertTrue(math.isnan(curves.cost_to(self.costs, self.errors, 0.6)[0]))
+        self.assertEqual(curves.cost_to(self.costs, self.errors, 20)[0], 1)
+
+
+    def test_a_front_chosen_by_chance_is_not_believed(self):
+        noise = ([-3, 1, 1, 1], [1, -3, 1, 1], [1, 1, -3, 1], [1, 1, 1, -3])
+        seeds = [{str(s): 1 + 0.05 * v for s, v in enumerate(values)} for values in noise]
+        half = 3.18245 * 0.1 / 2  # t(0.975, 3), deviation 0.1
+        near = [point(f"v:{i}", 1 + 1e-3 * i, half, 10 - i, seeds=of) for i, of in enumerate(seeds)]
+        curve = curves.Curve(near, uncertainty.ShotDraws(near, 20000), [0, 1, 2, 3])
+        error, low, high, share = curve.error_at(20)
+        self.assertEqual((error, share, curve.upper), (1, 1, 1 - 0.025 / 4))  # any of the four may be the least
+        alone = uncertainty.ShotDraws(near, 20000).errors
+        self.assertLess(low, np.quantile(alone[0], 0.025))  # as the least of four falls
+        self.assertAlmostEqual(high, np.quantile(alone[0], 1 - 0.025 / 4), places=2)  # not as low as that
+
+    def test_upper_ends_are_left_out_where_draws_do_not_reach(self):
+        made = [point("v:a", 2, 0.01, 10), point("v:b", 1, 0.2, 20)]
+        curve = curves.Curve(made, uncertainty.ShotDraws(made), [0, 1])
+        cost, low, high, share = curve.cost_to(1.05)
+        self.assertTrue(low < cost < 20 and 0.5 < share < 0.9)
+        self.assertIsNone(high)
+
+
+class Fits(unittest.TestCase):
+    costs = np.array([2.0, 4, 8, 16, 32, 64])
+
+    def fit(self, errors, deviation=0.01):
+        return fits.fit_law(self.costs, errors, [deviation] * 6, [0.001] * 6)
+
+    def test_finds_a_law(self):
+        fit = self.fit(0.2 + 3 * self.costs**-1.25)
+        self.assertEqual(fit.status, "fitted")
+        # The exponents' grid has steps of 1.8 %.
+        self.assertAlmostEqual(fit.floor, 0.2, delta=0.004)
+        self.assertAlmostEqual(fit.b, 1.25, delta=0.02)
+        self.assertAlmostEqual(fit.a, 3, delta=0.1)
+        self.assertTrue(0 < fit.floor_low < 0.2 < fit.floor_high < 0.25)
+        self.assertTrue(1 < fit.b_low < 1.25 < fit.b_high < 1.5)
+
+    def test_no_floor_is_told_from_0_where_there_is_none(self):
+        fit = self.fit(3 / self.costs)
+        self.assertEqual(fit.floor_low, 0)
+        self.assertAlmostEqual(fit.b, 1, delta=0.05)
+
+    def test_floors_are_not_below_0(self):
+        fit = self.fit(2 * self.costs**-0.5 - 0.1)
+        self.assertEqual((fit.floor, fit.floor_low), (0, 0))
+
+    def test_intervals_grow_with_noise_and_with_misfit(self):
+        law = 0.2 + 3 * self.costs**-1.25
+        narrow, wide = self.fit(law), self.fit(law, 0.05)
+        self.assertGreater(wide.floor_high - wide.floor_low, 3 * (narrow.floor_high - narrow.floor_low))
+        bent = self.fit(law * [1, 1.1, 1, 1.1, 1, 1.1], 0.001)
+        self.assertGreater(bent.misfit, 10)
+        self.assertGreater(bent.floor_high - bent.floor_low, 3 * (narrow.floor_high - narrow.floor_low))
+
+    def test_refuses_what_cannot_be_told(self):
+        self.assertIn("does not surely fall", self.fit(np.array([1, 1.01, 0.99, 1, 1.01, 0.99])).status)
+        self.assertIn("does not surely fall", self.fit(0.2 + 0.01 * self.costs).status)
+        step = self.fit(np.array([1, 0.2, 0.2, 0.2, 0.2, 0.2]))
+        self.assertIn("one step", step.status)
+        self.assertTrue(step.floor_low < 0.2 < step.floor_high)
+        self.assertIsNone(step.b_high)
+
+    def test_axes_differ_in_one_number_alone(self):
+        made = [point(f"v:rays={r} wide={w}", 1) for w, counts in ((1, (1, 2, 4)), (0, (1, 2, 4, 8))) for r in counts]
+        parameters = {p.key: dict(zip(("rays", "wide"), map(int, re.findall(r"=(\d)", p.point)))) | {"mode": "a"} for p in made}
+        made.append(point("v", 1))
+        parameters[made[-1].key] = {"rays": 16, "wide": 0, "mode": "a"}
+        (axis,) = fits.axes_of(made, parameters)
+        self.assertEqual((axis.parameter, axis.fixed), ("rays", "wide=0"))
+        self.assertEqual([parameters[p.key] for p in axis.points], [{"rays": r, "wide": 0, "mode": "a"} for r in (1, 2, 4, 8, 16)])
+
+
+class Scenes(unittest.TestCase):
+    def test_shots_of_a_scene_count_once(self):
+        logs = [("a", 0.0), ("a", 2.0), ("b", 1.0), ("c", 3.0), ("d", 3.0)]
+        ratio, low, high, count, shots = scenes.geometric_mean(logs)
+        self.assertEqual((count, shots), (4, 5))
+        self.assertAlmostEqual(math.log(ratio), 2)
+        # Standard error 1.1547 / 2; t(0.975, 2) = 4.30265: one degree fewer than of normal values.
+        self.assertAlmostEqual(math.log(high) - 2, 4.30265 * 1.1547005 / 2, places=4)
+        self.assertAlmostEqual(2 - math.log(low), 4.30265 * 1.1547005 / 2, places=4)
+        self.assertEqual(scenes.geometric_mean(logs[:4])[1:3], (None, None))
+
+    def test_holm(self):
+        for found, by_hand in zip(scenes.holm([0.01, None, 0.04, 0.03]), (0.03, None, 0.06, 0.06)):
+            self.assertEqual(found, by_hand) if by_hand is None else self.assertAlmostEqual(found, by_hand)
+
+    def test_ranks_without_any_one_scene(self):
+        table = {"a": {"s": 0.0, "t": 0.0, "u": 0.0}, "b": {"s": -3.0, "t": 1.0, "u": 1.0}, "c": {"s": 9.0, "t": 9.0, "u": 9.0}}
+        self.assertEqual(scenes.rank_stability(table), {"a": (2, 1, 2), "b": (1, 1, 2), "c": (3, 3, 3)})
+
+    def test_wins_are_certain_or_shared(self):
+        table = {m: {f"s{i}": (v, v * 0.9, v * 1.1) for i, v in enumerate(values)} for m, values in {"a": [1, 1, 1, 1], "b": [2, 2, 1.1, 3]}.items()}
+        less = lambda m, n, s: table[m][s][2] < table[n][s][1]  # noqa: E731
+        rows = scenes.Comparison(table, {f"s{i}": f"s{i}" for i in range(4)}, {f"s{i}": 4.0 for i in range(4)}, less).rows()
+        self.assertEqual([(r["method"], r["rank"], r["wins"], r["shared"]) for r in rows], [("a", 1, 3, 1), ("b", 2, 0, 1)])
+        self.assertAlmostEqual(rows[0]["ratio"], 0.25)
+        self.assertAlmostEqual(rows[1]["against_best"], (2 * 2 * 1.1 * 3) ** 0.25)
+
+    def test_what_lacks_shots_is_not_ranked(self):
+        table = {"a": {s: (2, 2, 2) for s in "stuv"}, "b": {s: (1, 1, 1) for s in "stu"}}
+        for lacking, ranks in ((0.1, {"a": 1, "b": None}), (0.25, {"a": 2, "b": 1})):
+            compared = scenes.Comparison(table, {s: s for s in "stuv"}, dict.fromkeys("stuv", 4.0), lambda m, n, s: True, lacking)
+            self.assertEqual({r["method"]: r["rank"] for r in compared.rows()}, ranks)
+
+
+class Stages(unittest.TestCase):
+    def change(self, error, costs, is_told=True):
+        return stages.Change("s", "s", "m", ("v", "a"), ("v", "b"), "x", error, costs, is_told)
+
+    def test_verdicts(self):
+        less, more, same = (0.5, 0.4, 0.6), (2, 1.8, 2.2), (1.1, 0.9, 1.3)
+        dearer, cheaper = (2.0, 1, 3), (-2.0, -3, -1)
+        told = {(less, dearer): "buys error", (more, cheaper): "saves cost", (less, cheaper): "better in both", (more, dearer): "worse in both"}
+        told |= {(same, dearer): "dearer, no error told", (same, cheaper): "cheaper, no error told"}
+        for (error, costs), verdict in told.items():
+            self.assertEqual(self.change(error, costs).verdict(), verdict)
+        self.assertEqual(self.change(less, dearer, False).verdict(), "less error, no cost told")
+        self.assertEqual(self.change(same, dearer, False).verdict(), "nothing told")
+
+    def test_one_parameter_alone(self):
+        self.assertEqual(stages.change_between({"a": True, "b": 1}, {"a": False, "b": 1}), "a: true -> false")
+        self.assertEqual(stages.change_between({"a": 1, "b": 1}, {"a": 2, "b": 2}), "")
+
+
+MACHINES = (("first", ("floor", "wall")), ("second", ("roof",)))
+PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "v:rays=4": (16.0, 0.5), "v:rays=8": (32.0, 0.25), "w": (6.0, 4.0)}
+
+
+def write_csv(folder, name, columns, rows):
+    with open(os.path.join(folder, name), "w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, columns, restval="")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def write_study(folder):
+    """Three shots, two on one machine; errors of `v` are 8 / ms."""
+    shots = [s for _, of_machine in MACHINES for s in of_machine]
+    keys = {name: tuple(name.partition(":")[::2]) for name in PRESETS}
+    keys = {name: (v, p or "default") for name, (v, p) in keys.items()}
+    errors, times, counts, effects = [], [], [], []
+    oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "speaks": 1, "seed": 0}
+    errors += [oracle | {"shot": s, "value": 0.01, "low": 0.01, "high": 0.01, "ranked": 1} for s in shots]
+    # Over the frames of `sky` there is next to no error, and no time.
+    nearly_none = {"shot": "sky", "variant": "none", "frame": "", "value": 0.0015, "low": 0.0014, "high": 0.0016, "ranked": 1, "floor": 0.001}
+    errors.append(oracle | nearly_none)
+    for number, a_shot in enumerate(shots):
+        for name, (ms, error) in PRESETS.items():
+            own = {"shot": a_shot, "variant": keys[name][0], "point": keys[name][1]}
+            row = own | {"frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": error * (number + 1), "speaks": 1}
+            errors.append(row | {"low": row["value"] * 0.99, "high": row["value"] * 1.01, "ranked": 1, "floor": 0.001, "seed": 0})
+            for frame in range(FRAMES):
+                times.append(own | {"seed": 0, "stage": "total", "frame": frame, "milliseconds": ms * (1 + 0.01 * (frame % 3)), "clock": "host_fence", "disturbed": 0})
+                times.append(own | {"stage": "v/march", "frame": frame, "milliseconds": 500, "clock": "host_fence"})
+                times.append(own | {"variant": "", "point": "", "stage": "gbuffer/draw", "frame": frame, "milliseconds": 1000, "clock": "host_fence"})
+            counts += [own | {"stage": stage, "quantity": "fetches", "value": 50 * ms} for stage in ("march", "shade")]
+        compared = {"shot": a_shot, "variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "target": "specular"}
+        effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51})
+    columns = ["shot", "frame", "variant", "point", "seed", "target", "metric", "mask", "value", "low", "high", "ranked", "speaks", "floor"]
+    write_csv(folder, "summary.csv", columns, errors)
+    write_csv(folder, "results.csv", columns, errors)
+    write_csv(folder, "times.csv", ["shot", "variant", "point", "seed", "stage", "frame", "milliseconds", "clock", "disturbed"], times)
+    write_csv(folder, "time_summary.csv", ["shot"], [])
+    write_csv(folder, "costs.csv", ["shot", "variant", "point", "stage", "quantity", "value"], counts)
+    write_csv(folder, "effects.csv", list(effects[0]), effects)
+    manifest = {
+        "title": "Made up",
+        "is_complete": True,
+        "primary": {"metric": "mse", "mask": "reflective", "target": "specular"},
+        "clock": {"aa_floor": 0.02, "proofs": [{"verdict": "passed", "shots": ["floor", "wall"]}]},
+        "provenance": [{"host": {"name": n, "cpu": "c", "cores": 2}, "device": {"name": "d"}, "cells": [{"what": f"{s}: timing"} for s in of]} for n, of in MACHINES],
+        "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in (*shots, "sky")],
+        "variants": [{"variant": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
+    }
+    manifest["variants"].append({"variant": "oracle", "point": "default", "asks_scene": True, "parameters": {}})
+    with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
+        json.dump(manifest, stream)
+
+
+def run(*arguments):
+    """The script, within this process: exit code and what it said of mistakes."""
+    said, sys.argv = io.StringIO(), ["tradeoff.py", *arguments]
+    with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+        return main(), said.getvalue()
+
+
+def read(folder, name):
+    with open(os.path.join(folder, name), newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+class Folder(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = cls.temporary.name
+        write_study(cls.folder)
+        asked = ["--times", "3", "4.1", "10", "--factors", "0.0625", "--baseline", "none:default"]
+        cls.done = subprocess.run([SSRLAB, "tradeoff", cls.folder, *asked], capture_output=True, text=True)
+        cls.out = os.path.join(cls.folder, "tradeoff")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_the_tables(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        front = {(r["shot"], r["label"]): r for r in read(self.out, "front.csv")}
+        self.assertEqual(front["floor", "w"]["verdict"], "dominated")
+        self.assertEqual((front["floor", "w"]["dominated_by"], front["floor", "v rays=8"]["is_nominal_front"]), ("v rays=1", "1"))
+        self.assertAlmostEqual(float(front["floor", "v rays=1"]["cost"]), 4.04)  # of `total` alone, in the middle of 4, 4.04, 4.08
+        at = {(r["shot"], r["variant"], float(r["cost"])): r for r in read(self.out, "error_at_cost.csv")}
+        self.assertAlmostEqual(float(at["wall", "v", 10]["error"]), 2 * 8.08 / 10, places=5)
+        self.assertEqual(at["wall", "v", 3]["status"], "before start")
+        self.assertEqual((at["wall", "v", 10]["point"], at["wall", "v", 3]["error"]), ("rays=2", ""))
+        to = {(r["shot"], r["variant"]): r for r in read(self.out, "cost_to_error.csv")}
+        self.assertAlmostEqual(float(to["roof", "v"]["cost"]), 16.16, places=3)
+        self.assertEqual((to["roof", "w"]["status"], to["roof", "w"]["cost"]), ("not reached", ""))
+        (fit, *_) = read(self.out, "fits.csv")
+        self.assertEqual((fit["parameter"], fit["points"], fit["floor_low"], fit["rung"]), ("rays", "4", "0", "on_screen"))
+        self.assertEqual((at["floor", "v", 4.1]["fits"], at["floor", "v", 10]["fits"]), ("maybe", "surely"))  # 4.04 ms and 2 %
+        self.assertEqual(front["floor", "oracle"]["verdict"], "asks the scene")
+        self.assertEqual({r["shot"] for r in read(self.out, "limits.csv")}, {"floor", "wall", "roof"})
+        (limit, *_) = read(self.out, "limits.csv")
+        self.assertEqual((limit["label"], float(limit["over_rung"])), ("v rays=8", 2.5))
+        change = next(r for r in read(self.out, "stages.csv") if r["shot"] == "floor")
+        self.assertEqual((change["change"], change["verdict"]), ("rays: 1 -> 2", "buys error"))
+        self.assertAlmostEqual(float(change["cost_per_percent"]), 4.04 / 100, places=4)  # 100 % more error without
+
+    def test_machines_are_never_mixed(self):
+        with open(os.path.join(self.out, "answers.md"), encoding="utf-8") as stream:
+            answers = stream.read()
+        self.assertIn("Times of different machines or sizes are never compared", answers)
+        # 0.8 of 8 in `floor` and as much in `wall`; nothing fits in 3 ms but `none`.
+        self.assertIn("| 3 | none that fits in all scenes |", answers)
+        self.assertIn("**v** has the least error, 0.101 of that of none (geometric mean, 2 scenes)", answers)
+        self.assertIn("2 scenes are too few for an interval", answers)
+        self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-51, -49] |", answers)
+        self.assertIn("Multiples leave out sky:", answers)
+        self.assertIn("The clock did not prove itself in 1 of 3 shots", answers)
+        rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
+        self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
+        self.assertEqual(len([r for r in read(self.out, "stages.csv") if not r["shot"]]), 2)
+
+    def test_counted_costs_take_the_place_of_times(self):
+        out = os.path.join(self.folder, "counted")
+        self.assertEqual(run(self.folder, "--cost", "fetches", "--times", "1000", "--out", out), (0, ""))
+        at = {(r["shot"], r["variant"]): r for r in read(out, "error_at_cost.csv")}
+        self.assertAlmostEqual(float(at["floor", "v"]["error"]), 0.8, places=6)
+        self.assertEqual({r["cost_low"] for r in read(out, "front.csv") if r["label"] == "w"}, {"600"})
+        self.assertIn("has no 'bytes'", run(self.folder, "--cost", "bytes")[1])
+
+    def test_mistakes(self):
+        for options, said in ((["--baseline", "x"], "no point x"), (["--metric", "flip"], "no errors of specular flip"), (["--leave-out", "moon"], "'moon'")):
+            code, found = run(self.folder, *options)
+            self.assertEqual(code, 2)
+            self.assertIn(said, found)
+
+    def test_the_readme_has_every_column(self):
+        with open(os.path.join(TRADEOFF, "README.md"), encoding="utf-8") as stream:
+            sections = re.split(r"^`(\w+\.csv)`", stream.read(), flags=re.M)
+        told = {name: set(re.findall(r"`(\w+)`", text)) for name, text in zip(sections[1::2], sections[2::2])}
+        for name, columns in FILES.items():
+            self.assertEqual(set(columns) - told[name], set(), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
