@@ -14,6 +14,7 @@ PAGES = {
         "experiments/README": "Studies and their keys",
         "experiments/RESULTS": "A results folder",
         "experiments/captures/README": "Captures of engines",
+        "experiments/cluster/README": "Many machines",
         "scenes/README": "Scenes",
         "metrics/README": "Metrics",
         "groundtruth/README": "Ground truth",

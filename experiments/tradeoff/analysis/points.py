@@ -86,7 +86,7 @@ def _machines(manifest):
         name = f"{host.get('name', '?')} ({host.get('cpu', '?')}, {host.get('cores', '?')} cores), {device.get('name', '?')}"
         for cell in entry.get("cells", []):
             shot, _, what = cell.get("what", "").rpartition(": ")
-            if what == "timing":
+            if what in ("times", "timing"):  # the latter in folders of earlier versions
                 found[shot] = name
     return found
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <thread>
 
 TEST_F(StudyTest, RepeatsItselfAndContinues) {
     const Config study = config(R"(["mirror_pillars", "floating_holes"])");
@@ -205,7 +206,8 @@ TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
     EXPECT_EQ(clock["proofs"][0]["checks"].size(), 3u);
     EXPECT_EQ(clock["proofs"][0]["shots"].size(), 1u);
     EXPECT_GT(clock["proofs"][0]["empty_submit_ms"].get<double>(), 0.0);
-    EXPECT_EQ(clock["load"].size(), 1u);
+    ASSERT_EQ(clock["load"].size(), 1u);
+    EXPECT_EQ(clock["load"][0]["host"]["cores"], std::thread::hardware_concurrency());
 }
 
 TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
