@@ -76,6 +76,8 @@ const std::map<std::string, Meaning>& meanings() {
         {"disturbed", {"", "whether that was above 0.05"}},
         {"disturbed_share", {"", "share of the frames that others disturbed"}},
         {"quantity", {"", "what became of the rays"}},
+        {"costs.quantity", {"", "what is counted of the stage's passes"}},
+        {"costs.value", {"", "how many; bytes of the quantities that are called so"}},
         {"rays", {"ray", "rays of one seed, on average; of the stage error pixels"}},
         {"against", {"", "baseline, or the value in which the point differs from what it is compared with"}},
         {"against_variant", {"", "variant of what the point is compared with"}},
@@ -164,7 +166,8 @@ nlohmann::json results_schema(const std::vector<VariantConfig>& variants) {
             {"resources",
              {table<ResultRow>("results"), table<SplitRow>("splits"), table<EffectRow>("effects"),
               table<TimeEffectRow>("time_effects"), table<TimeRow>("times"), table<MetricSummary>("summary"),
-              table<TimeSummary>("time_summary"), table<HitRow>("hits"), parameters_table(variants)}}};
+              table<TimeSummary>("time_summary"), table<HitRow>("hits"), table<CostRow>("costs"),
+              parameters_table(variants)}}};
 }
 
 void write_parameters(const std::filesystem::path& folder, const std::vector<VariantConfig>& variants) {

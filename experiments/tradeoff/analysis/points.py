@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "figures"))
 
-from paper_figures.results import Results, ResultsError, label, rows_that_speak  # noqa: E402
+from paper_figures.results import Results, ResultsError, rows_that_speak  # noqa: E402
 
 TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
 
@@ -120,7 +120,7 @@ class Study:
         return (row["target"], row["metric"], row["mask"]) == (self.target, self.metric, self.mask)
 
     def label_of(self, key):
-        return getattr(self.results, "point_label", label)(*key)
+        return self.results.point_label(*key)
 
     def parameters_of(self, key):
         return self.variants.get(key, {}).get("parameters", {})
@@ -185,7 +185,7 @@ class Study:
         clock = self.results.manifest.get("clock", {})
         proofs = [p.get("verdict") == "passed" for p in clock.get("proofs", []) if name in p.get("shots", [])]
         size = f"{entry.get('width', '?')}x{entry.get('height', '?')}"
-        shown = getattr(self.results, "shot_label", lambda shot: shot)(name)
+        shown = self.results.shot_label(name)
         scene = entry.get("scene") or name.split(".")[0]
         floor = 0.0 if self.counted else clock.get("aa_floor") or 0.0
         return Shot(name, shown, scene, size, floor, bool(self.counted) or any(proofs), [], ladder)
