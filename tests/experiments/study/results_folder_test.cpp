@@ -206,7 +206,7 @@ TEST(FileName, IsBoundedAndTellsTextsApart) {
 }
 
 TEST_F(StudyTest, SweepsOfManyParametersFitIntoFileNames) {
-    // Seven parameters, of which the label alone is longer than what file systems take.
+    // Seven parameters, whose names and values together are longer than what file systems take.
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "fence", "resolution": [32, 18]}], "reference": {"samples": 16},
         "timing": {"frames": 0}, "targets": ["specular"], "metrics": ["mse"],
@@ -216,7 +216,7 @@ TEST_F(StudyTest, SweepsOfManyParametersFitIntoFileNames) {
             "independent_noise_shifts": [true], "hierarchy.clip_ray_to_near_plane": [true]}}]})");
     const Config study = read_config(folder / "study.json");
     ASSERT_EQ(study.variants.size(), 1u);
-    ASSERT_GT(study.variants.front().point.size(), 150u);
+    EXPECT_LE(study.variants.front().point.size(), 48u);
     const nlohmann::json manifest = read_json(run(study, "a") / "manifest.json");
     for (const auto& image : manifest["images"])
         EXPECT_TRUE(fs::exists(folder / "a" / image["png"].get<std::string>())) << image["png"];
