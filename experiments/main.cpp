@@ -80,10 +80,11 @@ int parse_and_run(int argc, char** argv) {
     run_command_.add_flag("--times-here", run.takes_times_here,
                           "Take times on this machine in place of those that another took; else they are kept");
     run_command_
-        .add_option("--cells", run.cells,
-                    "Do these cells alone, of a study that several processes or machines share: references, renders, "
-                    "costs, times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
-                    "kinds narrow each other. Tables are made by `ssrlab merge`")
+        .add_option(
+            "--cells", run.cells,
+            "Do these cells alone, of a study that several processes or machines share: references, renders, "
+            "costs, times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
+            "kinds narrow each other. Tables are made by `ssrlab merge`")
         ->delimiter(',')
         ->type_name("TERM");
     add_device(run_command_, common), add_scene_path(run_command_, common), add_cache(run_command_, common);
@@ -108,8 +109,7 @@ int parse_and_run(int argc, char** argv) {
     CLI::App& merge_command_ = *app.add_subcommand(
         "merge", "Make one results folder of those that processes filled with parts of a study (`ssrlab run --cells`)");
     merge_command_.add_option("config", merge.config, "The study")->required()->type_name("CONFIG.json");
-    merge_command_
-        .add_option("results", merge.folders, "Folders of its parts; default: the one that --out names")
+    merge_command_.add_option("results", merge.folders, "Folders of its parts; default: the one that --out names")
         ->check(CLI::ExistingDirectory)
         ->type_name("DIR...");
     merge_command_.add_option("--out", merge.out, "Results folder; default: results/<name of the config>")
@@ -146,7 +146,8 @@ int parse_and_run(int argc, char** argv) {
 
     DiffOptions diff;
     CLI::App& diff_command_ = *app.add_subcommand(
-        "diff", "Say which numbers changed beyond their intervals between two results folders (exit code 1 if any did)");
+        "diff",
+        "Say which numbers changed beyond their intervals between two results folders (exit code 1 if any did)");
     diff_command_.add_option("old", diff.before, "A folder that `ssrlab run` filled")->required()->type_name("OLD");
     diff_command_.add_option("new", diff.after, "Another, of the same shots and points")->required()->type_name("NEW");
     diff_command_.add_flag("--times", diff.judges_times, "Changed times count, too");

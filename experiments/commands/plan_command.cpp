@@ -57,8 +57,8 @@ void print_kinds(const std::vector<PlannedWork>& work) {
 
 void print_list(const std::vector<PlannedWork>& work) {
     for (const auto& [cell, is_done, estimate] : work)
-        std::printf("%s  %-10s %s  %s\n", cell->name.c_str(), name_of(cell->kind).c_str(),
-                    is_done ? "done " : "to do", cell->what.c_str());
+        std::printf("%s  %-10s %s  %s\n", cell->name.c_str(), name_of(cell->kind).c_str(), is_done ? "done " : "to do",
+                    cell->what.c_str());
 }
 
 /// A design that would fill the machine's memory, or the rest of the year.
@@ -71,7 +71,8 @@ void refuse_absurd(const std::vector<PlannedWork>& work) {
         if (w.estimate.memory_mib > memory) memory = w.estimate.memory_mib, largest = w.cell->what;
     }
     if (seconds > most_days * 86400)
-        fail("this would take about ", std::llround(seconds / 86400), " days here; sweep fewer values, or take fewer seeds, shots or samples");
+        fail("this would take about ", std::llround(seconds / 86400),
+             " days here; sweep fewer values, or take fewer seeds, shots or samples");
     const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)) / 1048576;
     if (memory > machine)
         fail(largest, " would need about ", std::llround(memory), " MiB of memory, and this machine has ",
@@ -85,8 +86,9 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
     const CellSelection selection(options.cells);
     const size_t cells = config.shots.size() * (config.variants.size() + 2);
     if (cells > most_cells)
-        fail(options.config.string(), ": ", config.shots.size(), " shots x ", config.variants.size(), " points are ", cells,
-             " cells; at most ", most_cells, " are planned: sweep fewer values, or draw from them (`random`, `sobol`)");
+        fail(options.config.string(), ": ", config.shots.size(), " shots x ", config.variants.size(), " points are ",
+             cells, " cells; at most ", most_cells,
+             " are planned: sweep fewer values, or draw from them (`random`, `sobol`)");
     const RunSettings settings{
         .out = options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out,
         .device = common.device,
@@ -112,8 +114,9 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
     if (!is_estimated) return;
     double memory = 0;
     for (const PlannedWork& w : work) memory = std::max(memory, w.is_done ? 0 : w.estimate.memory_mib);
-    std::printf("\nOn this machine and %s while nothing else runs; at most about %lld MiB of memory. Measured on small "
-                "images; references at their limit of samples, those in the cache are found.\n",
-                device.info().name.c_str(), std::llround(memory));
+    std::printf(
+        "\nOn this machine and %s while nothing else runs; at most about %lld MiB of memory. Measured on small "
+        "images; references at their limit of samples, those in the cache are found.\n",
+        device.info().name.c_str(), std::llround(memory));
     refuse_absurd(work);
 }

@@ -10,8 +10,8 @@
 
 namespace {
 
-/// Runs a script of experiments/: 0 done, 1 if the script may say no, 2 a mistake of the user, else a fault of the machine
-/// (3).
+/// Runs a script of experiments/: 0 done, 1 if the script may say no, 2 a mistake of the user, else a fault of the
+/// machine (3).
 int run_script(const std::string& name, const std::vector<std::string>& arguments, bool may_say_no = false) {
     std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/" + name};
     command.insert(command.end(), arguments.begin(), arguments.end());

@@ -132,8 +132,8 @@ struct Cell {
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
     std::vector<std::string> notes;                   ///< sentences for the manifest: what could not be told, and why
-    std::string truth;     ///< ShotTruth::content_hash() of what its numbers were measured against
-    nlohmann::json shot;   ///< what the manifest says of the shot once its references are there; null in other cells
+    std::string truth;    ///< ShotTruth::content_hash() of what its numbers were measured against
+    nlohmann::json shot;  ///< what the manifest says of the shot once its references are there; null in other cells
     nlohmann::json provenance;  ///< what made it, where and when, see experiments/results/provenance.h
     std::string name;           ///< as CellStore knows it
 };

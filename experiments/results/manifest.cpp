@@ -114,8 +114,8 @@ void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered) 
 }
 
 nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all) {
-    const nlohmann::json needs = shot.config.gbuffer.empty() ? fact_entries(list_facts(shot.scene, shot.facts))
-                                                             : nlohmann::json::array();
+    const nlohmann::json needs =
+        shot.config.gbuffer.empty() ? fact_entries(list_facts(shot.scene, shot.facts)) : nlohmann::json::array();
     nlohmann::json entry = {{"shot", shot.name()},
                             {"scene", shot.scene.name},
                             {"camera", shot.camera.name},

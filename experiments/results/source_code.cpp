@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 5> source_folders = {"core", "experiments", "groundtruth", "metrics", "variants"};
+constexpr std::array<std::string_view, 5> source_folders = {"core", "experiments", "groundtruth", "metrics",
+                                                            "variants"};
 constexpr std::array<std::string_view, 7> source_endings = {".cpp", ".h", ".comp", ".frag", ".vert", ".glsl", ".png"};
 
 /// What reads a config, and nothing of what a cell is made by.
@@ -51,7 +52,8 @@ std::vector<SourceFile> read_sources(const fs::path& root) {
             ContentHash hash;
             hash.add(text);
             const bool has_includes = inside.extension() != ".png";
-            sources.push_back({inside.string(), hash.hex(), has_includes ? includes_of(text) : std::vector<std::string>{}});
+            sources.push_back(
+                {inside.string(), hash.hex(), has_includes ? includes_of(text) : std::vector<std::string>{}});
         }
     std::ranges::sort(sources, {}, &SourceFile::path);
     return sources;

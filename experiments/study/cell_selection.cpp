@@ -45,11 +45,13 @@ CellSelection::CellSelection(const std::vector<std::string>& terms) {
     };
     for (const std::string& term : terms) {
         if (const auto kind = std::ranges::find(cell_kind_names(), term); kind != cell_kind_names().end()) {
-            add("kind", [of = CellKind(kind - cell_kind_names().begin())](const PlannedCell& c) { return c.kind == of; });
+            add("kind",
+                [of = CellKind(kind - cell_kind_names().begin())](const PlannedCell& c) { return c.kind == of; });
             continue;
         }
         const size_t equals = term.find('=');
-        const std::string key = term.substr(0, equals), value = equals == std::string::npos ? "" : term.substr(equals + 1);
+        const std::string key = term.substr(0, equals),
+                          value = equals == std::string::npos ? "" : term.substr(equals + 1);
         if (key == "shot")
             add(key, [value](const PlannedCell& c) { return matches(value, c.shot); });
         else if (key == "variant")

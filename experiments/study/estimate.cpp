@@ -42,8 +42,8 @@ Line line_through(const std::array<double, 2>& seconds) {
 
 /// What was measured on small images.
 struct Rates {
-    Line opening;                                      ///< a shot: its scene, its first frame, what is measured of the truth
-    double per_sample = 0;                             ///< seconds per pixel and sample of a reference
+    Line opening;           ///< a shot: its scene, its first frame, what is measured of the truth
+    double per_sample = 0;  ///< seconds per pixel and sample of a reference
     std::map<std::string, Line> per_step, per_frame;  ///< by kind_of(): a frame of a seed, measured; a frame, timed
 };
 
@@ -113,11 +113,9 @@ private:
     void measure_steps(ShotRun& run, size_t size, std::map<std::string, std::array<double, 2>>& seconds) {
         for (const VariantConfig& variant : config_.variants) {
             const auto play = [&] {
-                run_point(device_, run.shot, run.truth, *run.store, config_, variant,
-                          {.out = folder_,
-                           .image_suffix = "plan",
-                           .keep_all = settings_.keep_all,
-                           .report = [](double) {}});
+                run_point(
+                    device_, run.shot, run.truth, *run.store, config_, variant,
+                    {.out = folder_, .image_suffix = "plan", .keep_all = settings_.keep_all, .report = [](double) {}});
             };
             if (size == 0) play();  // compiles
             seconds[kind_of(variant)][size] = seconds_of(play);
@@ -147,14 +145,13 @@ private:
     fs::path folder_;
 };
 
-/// What the process holds that does the cell: device, scene, G-buffers and a truth; a seed's images and what is measured of them.
-/// Read off `peak_memory_mib` of studies of 96x54 to 1920x1080 (manifest.json's `run`).
+/// What the process holds that does the cell: device, scene, G-buffers and a truth; a seed's images and what is
+/// measured of them. Read off `peak_memory_mib` of studies of 96x54 to 1920x1080 (manifest.json's `run`).
 double memory_of(const ShotConfig& shot, size_t timed_copies) {
     constexpr double base_mib = 300, truth_bytes = 1500, seed_bytes = 600, gbuffer_bytes = 250, copy_bytes = 250;
     const double pixels = pixels_of(shot.extent);
     const double kept_mib = std::min(pixels * double(shot.frames.size()) * gbuffer_bytes / 1048576, 1024.0);
-    return base_mib + kept_mib +
-           pixels * (truth_bytes + seed_bytes + copy_bytes * double(timed_copies)) / 1048576;
+    return base_mib + kept_mib + pixels * (truth_bytes + seed_bytes + copy_bytes * double(timed_copies)) / 1048576;
 }
 
 }  // namespace
@@ -163,8 +160,8 @@ std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config&
                                                    const RunSettings& settings) {
     Calibration calibration(device, config, settings);
     const Rates rates = calibration.measure(config.shots.front());
-    const unsigned samples = config.reference.max_samples > 0 ? config.reference.max_samples
-                                                              : ReferenceSettings::default_samples;
+    const unsigned samples =
+        config.reference.max_samples > 0 ? config.reference.max_samples : ReferenceSettings::default_samples;
     std::map<std::string, CellEstimate> estimates;
     for (const PlannedShot& shot : plan.shots) {
         const double pixels = pixels_of(shot.config.extent);
@@ -173,12 +170,15 @@ std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config&
             size_t copies = 0;
             if (cell.kind == CellKind::references) {
                 const double ladder = needs_ladder(config) ? 2 : 1;
-                double traced = config.has_reference && shot.config.gbuffer.empty() ? rates.per_sample * samples * pixels * ladder : 0;
+                double traced = config.has_reference && shot.config.gbuffer.empty()
+                                    ? rates.per_sample * samples * pixels * ladder
+                                    : 0;
                 if (config.reference.max_seconds > 0) traced = std::min(traced, config.reference.max_seconds);
                 estimate.seconds = rates.opening.at(pixels) + traced * cell.units;
             } else if (cell.kind == CellKind::renders) {
                 const Line& step = rates.per_step.at(kind_of(*cell.variant));
-                // Small images are written once, of the first seed, and what is measured of a seed once for its last frame.
+                // Small images are written once, of the first seed, and what is measured of a seed once for its last
+                // frame.
                 const double seeds = double(cell.variant->seeds.size());
                 estimate.seconds = seeds * step.fixed + step.per_pixel * pixels * cell.units;
             } else if (cell.kind == CellKind::costs) {

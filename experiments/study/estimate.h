@@ -13,7 +13,7 @@ struct CellEstimate {
 };
 
 /// By the names of cells. Calibrated by rendering small images of the study's first shot with one point of each
-/// technique and preset: a few seconds, and longer where a study has many presets. What cannot be known before, as how many samples a reference needs
-/// to reach an error, is taken at its limit.
+/// technique and preset: a few seconds, and longer where a study has many presets. What cannot be known before, as how
+/// many samples a reference needs to reach an error, is taken at its limit.
 std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config& config, const StudyPlan& plan,
                                                    const RunSettings& settings);

@@ -21,7 +21,8 @@ public:
     virtual PassGraph& graph() = 0;
 };
 
-/// Rasterises shot.scene. With shot.config.direct_lit its lit colour is rasterised direct light, and `lit` is not looked at.
+/// Rasterises shot.scene. With shot.config.direct_lit its lit colour is rasterised direct light, and `lit` is not
+/// looked at.
 std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all);
 
 /// The frames of a capture. With `reads_own_lit` their lit colour is the files', and `lit` is not looked at.

@@ -28,7 +28,8 @@ std::optional<FoundCell> find_cell(const PlannedCell& planned, const std::vector
                      folder.string(), " (cell ", planned.name, ", ", planned.what,
                      "): references differ between processors and libraries. Run them once, with `--cells references`, "
                      "and let all other processes use that --cache");
-            if (!best || disturbed_frames(cell->timing) < disturbed_frames(best->cell.timing)) best = {std::move(*cell), folder};
+            if (!best || disturbed_frames(cell->timing) < disturbed_frames(best->cell.timing))
+                best = {std::move(*cell), folder};
         }
     return best;
 }
@@ -95,8 +96,8 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
              "; were they made by this version of ssrlab, on a device like ", device.info().name, "?");
     write_results(study, missing.empty(), {});
     say(std::to_string(study.finished.size()) + " cells merged, " + std::to_string(missing.size()) + " missing");
-    for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i)
-        say("  missing: " + missing[i]);
-    if (!missing.empty()) say("`ssrlab run " + config.file.string() + " --out " + settings.out.string() + "` does them");
+    for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);
+    if (!missing.empty())
+        say("`ssrlab run " + config.file.string() + " --out " + settings.out.string() + "` does them");
     return missing.size();
 }

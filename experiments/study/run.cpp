@@ -83,8 +83,8 @@ private:
     StudyRun& study_;
     const CellSelection& selection_;
     nlohmann::json before_;
-    std::chrono::steady_clock::time_point written_ = {};   ///< when results were last written ...
-    std::chrono::steady_clock::duration took_ = {};  ///< ... and how long that took
+    std::chrono::steady_clock::time_point written_ = {};  ///< when results were last written ...
+    std::chrono::steady_clock::duration took_ = {};       ///< ... and how long that took
 };
 
 }  // namespace

@@ -44,7 +44,8 @@ Reference obtain_reference(const Opening& opening, unsigned frame, ReferenceUse 
         opening.settings.report(fraction, shot.name() + ": reference of frame " + std::to_string(frame) + ", " + rate);
     };
     run.notice = [&](const std::string& text) { opening.settings.say("note: " + text); };
-    return cached_reference(shot.scene, now.scene, now.camera, shot.config.extent, settings, opening.settings.cache, run);
+    return cached_reference(shot.scene, now.scene, now.camera, shot.config.extent, settings, opening.settings.cache,
+                            run);
 }
 
 /// Keeps for the manifest what is worth knowing of a reference, and writes its images if they are kept.
@@ -57,8 +58,8 @@ void note_reference(Opening& opening, const Reference& reference, unsigned frame
     run.entry["references"].push_back(std::move(entry));
     if (use.is_of_last) run.entry["reference"] = run.entry["references"].back();
     if (use.is_of_last || (opening.config.keeps_all_images && use.is_of_measured))
-        opening.reference_images[frame] = save_reference_images(opening.settings.out, run.shot.name(), frame, reference,
-                                                                run.shot.camera.exposure_ev);
+        opening.reference_images[frame] =
+            save_reference_images(opening.settings.out, run.shot.name(), frame, reference, run.shot.camera.exposure_ev);
 }
 
 /// Lists the images of the references, and writes those of the surfaces, of each frame whose results are kept. Frames
@@ -67,8 +68,7 @@ void enter_truth_images(Opening& opening) {
     ShotRun& run = opening.run;
     for (const FrameStep& step : run.shot.steps) {
         const FrameTruth* truth = run.truth.frame(step);
-        const bool is_kept =
-            &step == &run.shot.steps.back() || (opening.config.keeps_all_images && step.is_measured);
+        const bool is_kept = &step == &run.shot.steps.back() || (opening.config.keeps_all_images && step.is_measured);
         if (!truth || !is_kept) continue;
         for (const auto& [frame, images] : opening.reference_images) {
             if (run.truth.poses.at(frame) != truth->pose) continue;
@@ -77,8 +77,7 @@ void enter_truth_images(Opening& opening) {
                 run.images.push_back(std::move(image));
             }
         }
-        run.images.push_back(
-            save_roughness_image(opening.settings.out, run.shot.name(), step.frame, truth->roughness));
+        run.images.push_back(save_roughness_image(opening.settings.out, run.shot.name(), step.frame, truth->roughness));
     }
 }
 

@@ -16,7 +16,7 @@ struct ShotRunSettings {
     std::filesystem::path cache;                     ///< of references
     std::vector<std::filesystem::path> search_path;  ///< of scenes
     bool keep_all = false;
-    std::function<void(const std::string&)> say;                              ///< gets sentences for the user
+    std::function<void(const std::string&)> say;                        ///< gets sentences for the user
     std::function<void(double share, const std::string& what)> report;  ///< of references that are rendered
 };
 

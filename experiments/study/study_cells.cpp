@@ -63,13 +63,14 @@ std::string why_timed_again(const StudyRun& study, const Cell& cell) {
 /// Times are kept whatever machine took them, which nobody is to overlook.
 void say_whose_times(const StudyRun& study, const PlannedCell& planned, const Cell& cell) {
     if (planned.kind == CellKind::times && is_of_another_machine(study, cell))
-        study.progress.say("note: " + planned.what + " are those of " + cell.provenance["host"]["name"].get<std::string>() +
-                           " (" + cell.provenance["host"]["cpu"].get<std::string>() +
-                           "); --times-here takes them on this machine");
+        study.progress.say(
+            "note: " + planned.what + " are those of " + cell.provenance["host"]["name"].get<std::string>() + " (" +
+            cell.provenance["host"]["cpu"].get<std::string>() + "); --times-here takes them on this machine");
 }
 
 /// The cell if it was done before, of this truth (of any, if none is given).
-std::optional<Cell> load_cell(const StudyRun& study, const PlannedCell& planned, const std::optional<std::string>& truth) {
+std::optional<Cell> load_cell(const StudyRun& study, const PlannedCell& planned,
+                              const std::optional<std::string>& truth) {
     std::optional<Cell> cell = study.cells.load(planned.name);
     if (cell && truth && cell->truth != *truth) return {};
     return cell;
@@ -77,7 +78,8 @@ std::optional<Cell> load_cell(const StudyRun& study, const PlannedCell& planned,
 
 /// Loads the cell if it was done before, else does it and keeps it. Nothing if another process is at it, unless
 /// `waits`.
-std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, const std::optional<std::string>& truth, bool waits) {
+std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, const std::optional<std::string>& truth,
+                            bool waits) {
     const PlannedCell& planned = task.planned;
     // References were rendered when the shot was opened.
     study.work.start(name_of(planned.kind), planned.kind == CellKind::references ? 0 : planned.units);
@@ -133,8 +135,8 @@ Cell timing_cell(StudyRun& study, ShotRun& run, const std::function<void(double)
     const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
     const ClockProof& clock = proven_clock(study);
     const auto lit = [&](unsigned frame) -> const HostImage& { return run.truth.lit({.frame = frame}); };
-    const ShotTimes times = time_variants(*run.source, run.shot, config_on(study.config, run.shot), lit,
-                                          study.settings.keep_all, report);
+    const ShotTimes times =
+        time_variants(*run.source, run.shot, config_on(study.config, run.shot), lit, study.settings.keep_all, report);
     if (times.load.disturbed > 0)
         study.progress.say("warning: " + run.shot.name() + ": other programs disturbed " +
                            std::to_string(times.load.disturbed) + " of " + std::to_string(study.config.timing.frames) +
@@ -142,7 +144,8 @@ Cell timing_cell(StudyRun& study, ShotRun& run, const std::function<void(double)
     return Cell{.times = times.rows, .timing = timing_entry(times, run.shot.name(), clock)};
 }
 
-Cell renders_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, const std::function<void(double)>& report) {
+Cell renders_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned,
+                  const std::function<void(double)>& report) {
     return run_point(study.device, run.shot, run.truth, *run.store, study.config, *planned.variant,
                      {.out = study.settings.out,
                       .image_suffix = planned.name.substr(0, 8),

@@ -19,7 +19,7 @@ namespace {
 
 /// A point as cells are named by it.
 struct PointIdentity {
-    std::string parameters;              ///< all values
+    std::string parameters;            ///< all values
     std::vector<std::string> sources;  ///< the folders of its technique and of the tracers that it has chosen
 };
 
@@ -100,7 +100,7 @@ private:
     std::string device_;
     bool keep_all_;
     SourceCode code_;
-    std::vector<PointIdentity> points_;                         ///< as Config::variants
+    std::vector<PointIdentity> points_;                       ///< as Config::variants
     std::map<std::vector<std::string>, std::string> hashes_;  ///< of sources
 };
 
@@ -124,13 +124,14 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
         if (!shot.config.gbuffer.empty()) continue;
         const ShotFrame now = shot_frame(shot, frame);
         settings.ladder = frame == shot.config.frames.back() && needs_ladder(config);
-        hash.add(reference_key(reference_request(shot.scene, now.scene, now.camera, shot.config.extent, settings), settings));
+        hash.add(reference_key(reference_request(shot.scene, now.scene, now.camera, shot.config.extent, settings),
+                               settings));
     }
-    for (const unsigned number : {shot.config.warm_up, shot.config.repeat, shot.config.change.value_or(0),
-                                  unsigned(shot.config.measures_last_only), shot.config.measure_from,
-                                  unsigned(config.has_reference), unsigned(shot.config.direct_lit),
-                                  unsigned(shot.config.depth_format), unsigned(shot.config.depth_direction),
-                                  shot.config.normal_bits})
+    for (const unsigned number :
+         {shot.config.warm_up, shot.config.repeat, shot.config.change.value_or(0),
+          unsigned(shot.config.measures_last_only), shot.config.measure_from, unsigned(config.has_reference),
+          unsigned(shot.config.direct_lit), unsigned(shot.config.depth_format), unsigned(shot.config.depth_direction),
+          shot.config.normal_bits})
         hash.add(number);
     return hash.hex();
 }

@@ -27,7 +27,7 @@ struct PlannedCell {
 struct PlannedShot {
     ShotConfig config;
     std::string name;
-    nlohmann::json entry;  ///< of the manifest, as far as it is known before anything is rendered
+    nlohmann::json entry;            ///< of the manifest, as far as it is known before anything is rendered
     std::vector<PlannedCell> cells;  ///< the references first, the times last
 };
 
@@ -38,8 +38,8 @@ struct StudyPlan {
     size_t cell_count() const;
 };
 
-/// Loads each shot once. Fails with Error where a scene or camera is unknown, or where two shots could not be told apart
-/// in the results. `config` must outlive the plan. `sources`: of ssrlab, on which cells' names depend.
+/// Loads each shot once. Fails with Error where a scene or camera is unknown, or where two shots could not be told
+/// apart in the results. `config` must outlive the plan. `sources`: of ssrlab, on which cells' names depend.
 StudyPlan plan_study(const Config& config, const DeviceInfo& device,
                      const std::vector<std::filesystem::path>& search_path, bool keep_all,
                      std::vector<SourceFile> sources = present_sources());
@@ -48,9 +48,9 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
 class CellSelection {
 public:
     /// Terms, each of which narrows what the ones before left, but terms of one kind add up:
-    /// `references`, `renders`, `costs`, `times`; `shot=NAME` and `variant=NAME`, where * stands for any text; `shard=I/N`, the
-    /// I-th (from 1) of N parts, drawn by the cells' names; `cell=HASH`, the beginning of a name. None: all cells. Fails with Error
-    /// on any other term.
+    /// `references`, `renders`, `costs`, `times`; `shot=NAME` and `variant=NAME`, where * stands for any text;
+    /// `shard=I/N`, the I-th (from 1) of N parts, drawn by the cells' names; `cell=HASH`, the beginning of a name.
+    /// None: all cells. Fails with Error on any other term.
     explicit CellSelection(const std::vector<std::string>& terms = {});
 
     bool is_all() const { return tests_.empty(); }

@@ -219,7 +219,7 @@ class Results:
         """What must be known before the times of these shots are believed: sentences without a dot."""
         shares = [self._number(r, "disturbed_share", "time_summary.csv") or 0.0 for r in self.times if r["shot"] in shots and r["variant"]]
         proofs = self.manifest.get("clock", {}).get("proofs", [])
-        proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof["shots"]}
+        proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof.get("shots", [])}
         found = [f"other programs disturbed up to {100 * max(shares):.0f} % of the timed frames"] if max(shares, default=0.0) > 0 else []
         return found + (["the clock did not prove itself"] if proofs and not set(shots) <= proven else [])
 

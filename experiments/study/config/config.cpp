@@ -43,15 +43,6 @@ std::string display_name(const Config& config, const std::string& variant, const
     return point == "default" ? variant : variant + " " + point;
 }
 
-const std::vector<std::string>& target_names() {
-    static const std::vector<std::string> names = {"specular", "image", "incident", "camera_radiance", "on_screen"};
-    return names;
-}
-
-bool is_ladder_rung(const std::string& target) { return target == "camera_radiance" || target == "on_screen"; }
-
-bool needs_ladder(const Config& config) { return std::ranges::any_of(config.targets, is_ladder_rung); }
-
 Config read_config(const std::filesystem::path& file) {
     Config config;
     config.file = file;

@@ -1,8 +1,10 @@
 #pragma once
 #include "core/gbuffer/composite.h"
 #include "core/scene/camera.h"
+#include "experiments/study/config/targets.h"
 #include "groundtruth/reference.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
@@ -117,13 +119,8 @@ struct Config {
 /// A point as people read it: its label, or else the variant and the point's name.
 std::string display_name(const Config& config, const std::string& variant, const std::string& point);
 
-/// What results can be compared with: `specular`, `image`, `incident`, and the rungs of the truth ladder
-/// (truth_ladder.h) that are means over the lobe like `incident`: `camera_radiance`, `on_screen`. The second rung is
-/// `incident` itself.
-const std::vector<std::string>& target_names();
-bool is_ladder_rung(const std::string& target);
 /// Whether the reference of each shot's last frame must have a truth ladder.
-bool needs_ladder(const Config& config);
+inline bool needs_ladder(const Config& config) { return std::ranges::any_of(config.targets, is_ladder_rung); }
 
 /// Reads and checks a config; its keys are in experiments/README.md. Every mistake is an Error that names file and key.
 /// Scenes are only looked up later; variants, parameters, metrics and masks are checked here, before any work starts.

@@ -131,9 +131,13 @@ nlohmann::json config_schema(const std::string& variant) {
                            {"depth_format", list_of({"d32f", "d24", "d16"})},
                            {"depth_direction", list_of({"standard", "reversed"})},
                            {"normal_encoding", list_of({"float", "octahedral_16", "octahedral_8"})}};
-    const json timeline = {{"measure_from", integer(0, 100000)}, {"warm_up", integer(0, 100000)},
-                           {"repeat", integer(1, 100000)},       {"change", integer(1, 100000)},
-                           {"measure", {{"enum", {"all", "last"}}}}, {"label", text}, {"group", text}};
+    const json timeline = {{"measure_from", integer(0, 100000)},
+                           {"warm_up", integer(0, 100000)},
+                           {"repeat", integer(1, 100000)},
+                           {"change", integer(1, 100000)},
+                           {"measure", {{"enum", {"all", "last"}}}},
+                           {"label", text},
+                           {"group", text}};
     json shot_members = {{"scene", one_or_more(text)},
                          {"camera", one_or_more(text)},
                          {"resolution", extents},

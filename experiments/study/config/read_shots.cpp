@@ -158,12 +158,13 @@ void read_names(JsonObject& entry, std::vector<ShotConfig>& shots) {
     }
 }
 
-/// G-buffers from files; their paths are relative to the config's folder. Their format is the files' own, its light may be the study's.
+/// G-buffers from files; their paths are relative to the config's folder. Their format is the files' own, its light may
+/// be the study's.
 std::vector<ShotConfig> read_capture(JsonObject& shot, JsonObject& study, const std::filesystem::path& folder) {
     ShotConfig config{.gbuffer = folder / shot.text("gbuffer")};
     if (shot.has("reference")) config.reference = folder / shot.text("reference");
-    config.frames = shot.has("frames") ? read_frames(shot.any("frames"), shot.at("frames"))
-                                       : Capture(config.gbuffer).frames();
+    config.frames =
+        shot.has("frames") ? read_frames(shot.any("frames"), shot.at("frames")) : Capture(config.gbuffer).frames();
     read_timeline(shot, config);
     std::vector<ShotConfig> shots = {config};
     for_each_choice([&](const auto& choice) { shots = with_choice(shots, shot, study, choice); });

@@ -109,6 +109,7 @@ TEST_F(Designs, AConfigIsPatchedByWhatExtendsIt) {
 }
 
 TEST_F(Designs, PathsOfCapturesAreThoseOfTheFileThatNamesThem) {
+    write_text(folder / "base/frame/gbuffer.exr", "looked at later");
     read(R"({"shots": [{"gbuffer": "frame", "reference": "../truth.exr"}], "variants": [{"variant": "none"}]})",
          "base/base.json");
     const ShotConfig shot = read(R"({"extends": "base/base.json"})").shots.at(0);

@@ -129,9 +129,8 @@ TEST_F(StudyTest, PartsMakeTheWhole) {
                           .cells = cells});
     };
     const auto merge = [&](const std::vector<fs::path>& parts, const std::string& out) {
-        return merge_study(study,
-                           {.out = folder / out, .device = "", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}},
-                           parts);
+        return merge_study(
+            study, {.out = folder / out, .device = "", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}}, parts);
     };
     run_part("a", {"references"});
     run_part("b", {"renders", "shot=fence.*"});
