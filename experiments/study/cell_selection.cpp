@@ -70,6 +70,10 @@ CellSelection::CellSelection(const std::vector<std::string>& terms) {
     }
 }
 
+bool CellSelection::is_shard() const {
+    return std::ranges::any_of(tests_, [](const auto& tests) { return tests.first == "shard"; });
+}
+
 bool CellSelection::holds(const PlannedCell& cell) const {
     return std::ranges::all_of(tests_, [&](const auto& tests) {
         return std::ranges::any_of(tests.second, [&](const Test& test) { return test(cell); });

@@ -46,7 +46,9 @@ void plan_work(StudyRun& study, const CellSelection& selection) {
             ++selected;
             study.work.plan(name_of(cell.kind), cell.units, guessed_seconds.at(cell.kind));
         }
-    if (selected == 0)
+    if (selected == 0 && selection.is_shard())
+        study.progress.say("note: this part of the study has no cell");
+    else if (selected == 0)
         fail("--cells selects none of the ", study.plan.cell_count(), " cells of this study; `ssrlab plan ",
              study.config.file.string(), " --list` names them");
 }

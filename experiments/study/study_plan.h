@@ -54,6 +54,7 @@ public:
     explicit CellSelection(const std::vector<std::string>& terms = {});
 
     bool is_all() const { return tests_.empty(); }
+    bool is_shard() const;  ///< one of several parts, which may come out empty
     bool holds(const PlannedCell& cell) const;
 
 private:

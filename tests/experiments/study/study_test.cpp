@@ -153,6 +153,7 @@ TEST_F(StudyTest, PartsMakeTheWhole) {
     other.source["title"] = "another";
     EXPECT_THROW(merge_study(other, {.out = folder / "x", .device = ""}, {folder / "a"}), Error);
     EXPECT_THROW(run_part("d", {"shot=nowhere"}), Error) << "a selection of nothing is a mistake";
+    EXPECT_NO_THROW(run_part("d", {"shot=nowhere", "shard=1/2"})) << "but for a part of several";
 }
 
 TEST_F(StudyTest, WhatWasMeasuredAgainstAnotherTruthIsNotUsed) {
