@@ -80,10 +80,11 @@ int parse_and_run(int argc, char** argv) {
     run_command_.add_flag("--times-here", run.takes_times_here,
                           "Take times on this machine in place of those that another took; else they are kept");
     run_command_
-        .add_option("--cells", run.cells,
-                    "Do these cells alone, of a study that several processes or machines share: references, renders, "
-                    "costs, times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
-                    "kinds narrow each other. Tables are made by `ssrlab merge`")
+        .add_option(
+            "--cells", run.cells,
+            "Do these cells alone, of a study that several processes or machines share: references, renders, "
+            "costs, times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
+            "kinds narrow each other. Tables are made by `ssrlab merge`")
         ->delimiter(',')
         ->type_name("TERM");
     add_device(run_command_, common), add_scene_path(run_command_, common), add_cache(run_command_, common);
@@ -108,8 +109,7 @@ int parse_and_run(int argc, char** argv) {
     CLI::App& merge_command_ = *app.add_subcommand(
         "merge", "Make one results folder of those that processes filled with parts of a study (`ssrlab run --cells`)");
     merge_command_.add_option("config", merge.config, "The study")->required()->type_name("CONFIG.json");
-    merge_command_
-        .add_option("results", merge.folders, "Folders of its parts; default: the one that --out names")
+    merge_command_.add_option("results", merge.folders, "Folders of its parts; default: the one that --out names")
         ->check(CLI::ExistingDirectory)
         ->type_name("DIR...");
     merge_command_.add_option("--out", merge.out, "Results folder; default: results/<name of the config>")
@@ -146,7 +146,8 @@ int parse_and_run(int argc, char** argv) {
 
     DiffOptions diff;
     CLI::App& diff_command_ = *app.add_subcommand(
-        "diff", "Say which numbers changed beyond their intervals between two results folders (exit code 1 if any did)");
+        "diff",
+        "Say which numbers changed beyond their intervals between two results folders (exit code 1 if any did)");
     diff_command_.add_option("old", diff.before, "A folder that `ssrlab run` filled")->required()->type_name("OLD");
     diff_command_.add_option("new", diff.after, "Another, of the same shots and points")->required()->type_name("NEW");
     diff_command_.add_flag("--times", diff.judges_times, "Changed times count, too");
@@ -199,21 +200,21 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("QUANTITY");
     tradeoff_command_.callback([&] { status = tradeoff_command(tradeoff); });
 
-    SearchOptions search;
-    CLI::App& search_command_ = *app.add_subcommand(
-        "search", "Search a variant's parameters for the least error; every step is a study of its own");
-    search_command_.add_option("config", search.config, "A study with \"search\" (experiments/README.md)")
+    TuneOptions tune;
+    CLI::App& tune_command_ = *app.add_subcommand(
+        "tune", "Search a technique's parameters for the front of error against time, and judge them on other scenes");
+    tune_command_.add_option("config", tune.config, "A study with \"tune\" (experiments/README.md)")
         ->required()
         ->type_name("CONFIG.json");
-    search_command_.add_option("--out", search.out, "Default: results/<name of the config>")->type_name("DIR");
-    add_device(search_command_, common), add_scene_path(search_command_, common), add_cache(search_command_, common);
-    search_command_.callback([&] {
+    tune_command_.add_option("--out", tune.out, "Default: results/<name of the config>")->type_name("DIR");
+    add_device(tune_command_, common), add_scene_path(tune_command_, common), add_cache(tune_command_, common);
+    tune_command_.callback([&] {
         std::vector<std::string> options;
         if (!common.device.empty()) options.push_back("--device=" + common.device);
         if (!common.cache.empty()) options.push_back("--cache=" + common.cache.string());
         for (const std::filesystem::path& folder : common.scene_path)
             options.push_back("--scene-path=" + folder.string());
-        status = search_command(search, options);
+        status = tune_command(tune, options);
     });
 
     CompareCommandOptions compare;
