@@ -97,15 +97,14 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
                           {"point", v.point},
                           {"label", v.label},
                           {"baseline", v.is_baseline}});
-    const json asked = {{"study", config.source},
-                        {"tune", config.source["tune"]},
-                        {"points", points},
-                        {"primary",
-                         {{"metric", config.primary.metric},
-                          {"mask", config.primary.mask},
-                          {"target", config.primary.target}}},
-                        {"parameters", config_schema(config.variants.front().variant)["properties"]},
-                        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
+    const json asked = {
+        {"study", config.source},
+        {"tune", config.source["tune"]},
+        {"points", points},
+        {"primary",
+         {{"metric", config.primary.metric}, {"mask", config.primary.mask}, {"target", config.primary.target}}},
+        {"parameters", config_schema(config.variants.front().variant)["properties"]},
+        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
     std::filesystem::create_directories(out);
     write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
     std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",

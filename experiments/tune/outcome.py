@@ -8,6 +8,7 @@ import os
 from analysis import scenes
 from paper_figures import style
 from paper_figures.numbers import with_interval
+from paper_figures.placed_labels import place_labels
 from paper_figures.results import Measured
 
 
@@ -174,13 +175,18 @@ class Outcome:
                 x, y = place(point)
                 bars = [[max(y - error.low, 0)], [max(error.high - y, 0)]]
                 axes.errorbar(x, y, yerr=bars, fmt=mark, color=color, label=name if index == 0 else None, zorder=3)
+        axes.set_xscale("log"), axes.set_yscale("log")
+        slowest = max(place(p)[0] for p in self.points.values())
         front = [place(p) for p in self.race.front()]
+        front.append((max(slowest, front[-1][0]), front[-1][1]))  # more time buys nothing
         axes.step(*zip(*front), where="post", color="#444444", label="front", zorder=1)
-        labels = {name: name for name in self.tuning.names} | {name: f"within {times(b)}" for name, b in self.found.items()}
-        for name, label in labels.items():
-            axes.annotate(label, place(self.points[name]), xytext=(4, 4), textcoords="offset points", fontsize=style.text_size())
         axes.set_xlabel(f"{self.time_word()} / {self.time_word()} of {self.tuning.baseline}")
         axes.set_ylabel(f"error / error of {self.tuning.baseline}")
         style.log_axis(axes.xaxis), style.log_axis(axes.yaxis)
         style.draw_legend(figure, [axes])
+        labels = {name: (name, style.COLORS[0]) for name in self.tuning.names}
+        labels |= {name: (f"within {times(budgets)}", style.COLORS[1]) for name, budgets in self.found.items()}
+        covered = [(x0, y0, x1, y0) for (x0, y0), (x1, _) in zip(front, front[1:])] + [(x1, y0, x1, y1) for (_, y0), (x1, y1) in zip(front, front[1:])]
+        covered += [2 * place(p) for p in self.tuning.tried]
+        place_labels(axes, [(*place(self.points[name]), text, style.darker(color)) for name, (text, color) in labels.items()], covered)
         style.save(figure, self.tuning.out, "search")

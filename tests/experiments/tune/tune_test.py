@@ -60,7 +60,7 @@ class FakeSsrlab:
         return types.SimpleNamespace(returncode=0)
 
     def write(self, study, out):
-        points, results, costs, effects, seen = [], [], [], [], set()
+        points, results, costs, effects, times, time_effects, seen = [], [], [], [], [], [], set()
         for entry in study["variants"]:
             swept = {k: v[0] for k, v in entry["sweep"].items()}
             name = " ".join(f"{k}={v}" for k, v in sorted(swept.items())) or "default"
@@ -68,7 +68,7 @@ class FakeSsrlab:
             seen.add(name)
             points.append({"variant": "sssr", "point": name, "label": entry["label"], "parameters": DEFAULTS | entry["parameters"] | swept})
         for shot in (s["scene"] for s in study["shots"]):
-            base = truth(points[0]["parameters"], shot)[0]
+            base, base_operations = truth(points[0]["parameters"], shot)
             for p in points:
                 key = {"shot": shot, "variant": "sssr", "point": p["point"]}
                 error, operations = truth(p["parameters"], shot)
@@ -81,12 +81,18 @@ class FakeSsrlab:
                     results.append(key | row | {"low": value * 0.999, "high": value * 1.001})
                 if study["costs"]:
                     costs.append(key | {"stage": "total", "quantity": "operations", "value": round(operations)})
+                if study["timing"]["frames"]:  # of a machine whose speed changes from study to study
+                    assert points[0]["parameters"] == DEFAULTS, "times are ratios of the same frames"
+                    speed = 1e-3 * (1 + zlib.crc32(out.encode()) % 100 / 100)
+                    times.append(key | {"stage": "total", "median_ms": operations * speed})
+                    ratio = {"against": "baseline", "stage": "total", "ratio": operations / base_operations}
+                    time_effects += [key | ratio] if p is not points[0] else []
                 row = {"against": "baseline", "target": "specular", "metric": "mse", "mask": "all", "ratio": error / base}
                 effects.append(key | row | {"low": error / base * 0.99, "high": error / base * 1.01})
         shots = [{"shot": s["scene"], "scene": s["scene"], "references": [{"hash": s["scene"]}]} for s in study["shots"]]
         with open(os.path.join(out, "manifest.json"), "w", encoding="utf-8") as stream:
             json.dump({"variants": points, "shots": shots}, stream)
-        for name, rows in (("results", results), ("costs", costs), ("effects", effects), ("summary", []), ("time_summary", [])):
+        for name, rows in (("results", results), ("costs", costs), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
             with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
                 writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "speaks"])
                 writer.writeheader()
@@ -104,7 +110,7 @@ def search(folder, fake, rules=None):
     points = [{"variant": "sssr", "preset": "", "parameters": s, "swept": s, "point": n, "label": "", "baseline": b} for n, s, b in given]
     rules = {"axes": AXES, "time": "operations", "budgets": [1, 2], "most_runs": 1000, "batch": 8,
              "judge": {"shots": [{"scene": [f"unseen {i}" for i in range(4)]}], "seeds": 2}} | (rules or {})  # fmt: skip
-    asked = {"study": {"title": "made up", "shots": [{"scene": SHOTS}], "seeds": 4}, "tune": rules, "points": points, "primary": {"metric": "mse", "target": "specular", "mask": "all"}, "parameters": DECLARED, "folder": folder}
+    asked = {"study": {"title": "made up", "shots": [{"scene": SHOTS}], "seeds": 4, "timing": {"frames": 15}}, "tune": rules, "points": points, "primary": {"metric": "mse", "target": "specular", "mask": "all"}, "parameters": DECLARED, "folder": folder}
     file = os.path.join(folder, "asked.json")
     with open(file, "w", encoding="utf-8") as stream:
         json.dump(asked, stream)
@@ -164,12 +170,24 @@ def test_interruption(folder):
     for name, interruptions in (("whole", []), ("parts", [1, 9])):
         os.makedirs(os.path.join(folder, name))
         for call in interruptions:
-            code, said = search(os.path.join(folder, name), FakeSsrlab(fails_at=call), {"most_runs": 400})
+            code, said = search(os.path.join(folder, name), FakeSsrlab(fails_at=call), {"most_runs": 240})
             check(code == 3, f"a failed study ends the search: {code} {said}")
-        code, said = search(os.path.join(folder, name), FakeSsrlab(), {"most_runs": 400})
+        code, said = search(os.path.join(folder, name), FakeSsrlab(), {"most_runs": 240})
         check(code == 0, said)
         ends.append([read(os.path.join(folder, name), file) for file in ("tune.csv", "presets.json", "tuned.md")])
     check(ends[0] == ends[1], "a search that was interrupted ends otherwise")
+
+
+def test_clock(folder):
+    """With a clock the search is the same, since only ratios to the baseline count: the machine's speed does not."""
+    times = []
+    for time in ("milliseconds", "operations"):
+        os.makedirs(os.path.join(folder, time))
+        fake = FakeSsrlab()
+        code, said = search(os.path.join(folder, time), fake, {"time": time, "most_runs": 100})
+        check(code == 0, said)
+        times.append([(r["point"], round(float(r["time"]), 6)) for r in read(os.path.join(folder, time), "tune.csv") if int(r["batch"]) < 2])
+    check(times[0] == times[1] and len(times[0]) > 3, f"{times[0]} differ from {times[1]}")
 
 
 def simulated(rng, name, log_error, time, scatter):
@@ -235,6 +253,8 @@ def main():
         test_search(folder)
     with tempfile.TemporaryDirectory() as folder:
         test_interruption(folder)
+    with tempfile.TemporaryDirectory() as folder:
+        test_clock(folder)
 
 
 if __name__ == "__main__":
