@@ -200,21 +200,21 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("QUANTITY");
     tradeoff_command_.callback([&] { status = tradeoff_command(tradeoff); });
 
-    SearchOptions search;
-    CLI::App& search_command_ = *app.add_subcommand(
-        "search", "Search a variant's parameters for the least error; every step is a study of its own");
-    search_command_.add_option("config", search.config, "A study with \"search\" (experiments/README.md)")
+    TuneOptions tune;
+    CLI::App& tune_command_ = *app.add_subcommand(
+        "tune", "Search a technique's parameters for the front of error against time, and judge them on other scenes");
+    tune_command_.add_option("config", tune.config, "A study with \"tune\" (experiments/README.md)")
         ->required()
         ->type_name("CONFIG.json");
-    search_command_.add_option("--out", search.out, "Default: results/<name of the config>")->type_name("DIR");
-    add_device(search_command_, common), add_scene_path(search_command_, common), add_cache(search_command_, common);
-    search_command_.callback([&] {
+    tune_command_.add_option("--out", tune.out, "Default: results/<name of the config>")->type_name("DIR");
+    add_device(tune_command_, common), add_scene_path(tune_command_, common), add_cache(tune_command_, common);
+    tune_command_.callback([&] {
         std::vector<std::string> options;
         if (!common.device.empty()) options.push_back("--device=" + common.device);
         if (!common.cache.empty()) options.push_back("--cache=" + common.cache.string());
         for (const std::filesystem::path& folder : common.scene_path)
             options.push_back("--scene-path=" + folder.string());
-        status = search_command(search, options);
+        status = tune_command(tune, options);
     });
 
     CompareCommandOptions compare;

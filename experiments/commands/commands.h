@@ -67,11 +67,11 @@ struct TradeoffOptions {
 };
 int tradeoff_command(const TradeoffOptions& options);  ///< the exit code: 0, 2 or 3
 
-struct SearchOptions {
+struct TuneOptions {
     std::filesystem::path config, out;
 };
 /// `run_options`: as the command line of `ssrlab run` takes them, for every study of the search. Returns the exit code.
-int search_command(const SearchOptions& options, const std::vector<std::string>& run_options);
+int tune_command(const TuneOptions& options, const std::vector<std::string>& run_options);
 
 struct CompareCommandOptions {
     std::filesystem::path reference, test, map;

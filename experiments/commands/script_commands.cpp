@@ -1,9 +1,10 @@
-// The commands that are Python scripts: figures, diff, tables, tradeoff, search.
+// The commands that are Python scripts: figures, diff, tables, tradeoff, tune.
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/commands/child_process.h"
 #include "experiments/commands/commands.h"
 #include "experiments/study/config/config.h"
+#include "experiments/study/config/config_schema.h"
 #include "metrics/estimators.h"
 
 #include <nlohmann/json.hpp>
@@ -81,15 +82,33 @@ int tradeoff_command(const TradeoffOptions& options) {
     return run_script("tradeoff/tradeoff.py", arguments);
 }
 
-int search_command(const SearchOptions& options, const std::vector<std::string>& run_options) {
+int tune_command(const TuneOptions& options, const std::vector<std::string>& run_options) {
+    using nlohmann::json;
     const Config config = read_config(options.config);
-    if (!config.is_search) fail(options.config.string(), ": has no 'search'; `ssrlab run` runs a study");
+    if (!config.is_tuned) fail(options.config.string(), ": has no 'tune'; `ssrlab run` runs a study");
     const std::filesystem::path out =
         options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out;
+    json points = json::array();
+    for (const VariantConfig& v : config.variants)
+        points.push_back({{"variant", v.variant},
+                          {"preset", v.preset},
+                          {"parameters", v.parameters},
+                          {"swept", v.swept},
+                          {"point", v.point},
+                          {"label", v.label},
+                          {"baseline", v.is_baseline}});
+    const json asked = {
+        {"study", config.source},
+        {"tune", config.source["tune"]},
+        {"points", points},
+        {"primary",
+         {{"metric", config.primary.metric}, {"mask", config.primary.mask}, {"target", config.primary.target}}},
+        {"parameters", config_schema(config.variants.front().variant)["properties"]},
+        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
     std::filesystem::create_directories(out);
-    write_text(out / "search.json", config.source.dump(1) + "\n");  // without comments, which Python does not read
-    std::vector<std::string> arguments = {"--out=" + out.string(), (out / "search.json").string(), "--",
+    write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
+    std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",
                                           std::filesystem::read_symlink("/proc/self/exe").string()};
     arguments.insert(arguments.end(), run_options.begin(), run_options.end());
-    return run_script("study/search.py", arguments);
+    return run_script("tune/tune.py", arguments);
 }

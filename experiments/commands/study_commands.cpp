@@ -16,7 +16,7 @@ namespace {
 
 Config config_of_study(const std::filesystem::path& file) {
     Config config = read_config(file);
-    if (config.is_search) fail(file.string(), ": has a 'search': `ssrlab search` runs it");
+    if (config.is_tuned) fail(file.string(), ": has a 'tune': `ssrlab tune` runs it");
     return config;
 }
 

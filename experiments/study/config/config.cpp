@@ -104,7 +104,7 @@ Config read_config(const std::filesystem::path& file) {
     config.reflective_min_reflectance =
         object.number("reflective_min_reflectance", 0.0f, 1.0f, config.reflective_min_reflectance);
     check_tables(object);
-    config.is_search = check_search(object, config.variants);
+    check_tune(object, config);
     object.finish();
 
     if (config.shots.empty()) fail(file.string(), ": 'shots' is missing or empty: name at least one scene");

@@ -112,7 +112,7 @@ struct Config {
     std::vector<std::string> frame_masks;      ///< of each of those frames; their mean has all masks
     float reflective_max_roughness = 0.6f;     ///< the mask `reflective`: perceptual roughness at most this ...
     float reflective_min_reflectance = 0.02f;  ///< ... and F0 A + F90 B (largest channel) at least this
-    bool is_search = false;                    ///< its only variant is where `ssrlab search` starts from
+    bool is_tuned = false;                     ///< has a 'tune': for `ssrlab tune`, not `run`
     nlohmann::json source;                     ///< as read, with what it `extends`, for the manifest
 };
 

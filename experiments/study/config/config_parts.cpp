@@ -1,6 +1,12 @@
 #include "experiments/study/config/config_parts.h"
 
 #include "core/error.h"
+#include "core/gpu/pass_cost.h"
+#include "core/near_miss.h"
+#include "experiments/study/config/conditions.h"
+#include "experiments/study/config/config_values.h"
+#include "experiments/study/config/design.h"
+#include "experiments/study/config/read_shots.h"
 #include "metrics/metric.h"
 #include "variants/registry.h"
 
@@ -19,6 +25,59 @@ void check_names(JsonObject& object, const std::string& key) {
 void check_object(JsonObject& object, const std::string& key) {
     if (object.has(key) && !object.any(key).is_object())
         fail(object.at(key), ": '", key, "' must be an object, not ", shown(object.any(key)));
+}
+
+/// One variant, points that run everywhere with the study's seeds, one of them the baseline.
+void check_tuned_points(JsonObject& object, JsonObject& tune, Config& config) {
+    std::vector<VariantConfig>& points = config.variants;
+    for (JsonObject& entry : object.objects("variants"))
+        for (const char* key : {"seeds", "only_if", "skip_if", "timing", "against"})
+            if (entry.has(key)) fail(entry.at(key), ": '", key, "' is not for points of a study with 'tune'");
+    std::vector<std::string> names;
+    for (const VariantConfig& point : points) {
+        if (point.variant != points.front().variant)
+            fail(object.at("variants"), ": 'tune' searches one variant, but here are '", points.front().variant,
+                 "' and '", point.variant, "'");
+        names.push_back(point.point);
+        if (point.depends_on_seed && point.seeds.size() < 2)
+            fail(object.at(object.has("seeds") ? "seeds" : "variants"), ": '", point.point,
+                 "' draws random numbers: a single seed tells no interval; name two seeds or more");
+    }
+    const auto baselines = std::ranges::count_if(points, &VariantConfig::is_baseline);
+    if (baselines > 1) fail(object.at("variants"), ": ", baselines, " points are baselines; 'tune' needs one");
+    if (baselines == 0) points.front().is_baseline = true;
+    tune.choice("start", names, names.front());
+}
+
+/// Axes are arrays of values, {"lin": [from, to]} or {"log": [from, to]}; or an object of `values`, `lin` or `log` with
+/// `only_if` and `skip_if`, conditions on parameters.
+void check_axes(JsonObject axes, const nlohmann::json& written, const ParameterSet& declared) {
+    if (written.empty()) fail(axes.where(), ": is empty; name parameters and what to try");
+    for (const auto& [name, axis] : written.items()) {
+        nlohmann::json plain = axis;
+        if (axis.is_object()) {
+            JsonObject object = axes.object(name);
+            for (const PointCondition& condition : read_conditions(object, declared))
+                for (const auto& [what, test] : condition.tests.items())
+                    if (what.starts_with("shot."))
+                        fail(object.where(), ": '", what, "': an axis depends on parameters, not on shots");
+            plain.erase("only_if"), plain.erase("skip_if");
+            if (plain.size() == 1 && plain.contains("values")) plain = nlohmann::json(plain["values"]);
+        }
+        if (!plain.is_array() && !plain.is_object())
+            fail(axes.at(name), ": '", name,
+                 "' must be an array of values, {\"lin\": [from, to]} or {\"log\": ", "[from, to]}, not ", shown(axis));
+        check_sample_axis(plain, declared, name, axes.at(name));
+    }
+}
+
+void check_budgets(JsonObject& tune) {
+    if (!tune.has("budgets")) return;
+    const nlohmann::json& budgets = tune.any("budgets");
+    const auto is_positive = [](const nlohmann::json& b) { return b.is_number() && b.get<double>() > 0; };
+    if (!budgets.is_array() || budgets.empty() || !std::ranges::all_of(budgets, is_positive))
+        fail(tune.at("budgets"), ": 'budgets' must be an array of multiples of the baseline's time, not ",
+             shown(budgets));
 }
 
 }  // namespace
@@ -46,35 +105,35 @@ void check_tables(JsonObject& config) {
     }
 }
 
-bool check_search(JsonObject& config, const std::vector<VariantConfig>& variants) {
-    if (!config.has("search")) return false;
-    JsonObject search = config.object("search");
-    if (variants.size() != 1)
-        fail(search.where(), ": a search needs exactly one point to start from, but 'variants' makes ",
-             variants.size());
-    const VariantConfig& start = variants.front();
-    const nlohmann::json& axes = search.any("axes");
-    if (!axes.is_object() || axes.empty())
-        fail(search.at("axes"), ": 'axes' must be an object of parameter names and their values, not ", shown(axes));
-    for (const auto& [name, values] : axes.items()) {
-        if (!values.is_array() || values.empty())
-            fail(search.at("axes"), ": axes: '", name, "' must be an array of values, not ", shown(values));
-        for (const nlohmann::json& value : values) {
-            nlohmann::json parameters = start.parameters;
-            parameters[name] = value;
-            try {
-                make_variant(start.variant, parameters, start.preset);
-            } catch (const Error& mistake) {
-                fail(search.at("axes"), ": axes: ", mistake.what());
-            }
-        }
+void check_tune(JsonObject& object, Config& config) {
+    if (!object.has("tune")) return;
+    JsonObject tune = object.object("tune");
+    config.is_tuned = true;
+    if (config.variants.empty()) return;  // of which read_config() complains
+    check_tuned_points(object, tune, config);
+    check_axes(tune.object("axes"), tune.any("axes"), make_variant(config.variants.front().variant)->params);
+    const std::string time = tune.text("time", "milliseconds");
+    const bool has_clock = time == "milliseconds";
+    std::vector<std::string> counted;
+    for (const CostQuantity& quantity : cost_quantities) counted.push_back(quantity.name);
+    if (!has_clock && std::ranges::find(counted, time) == counted.end())
+        fail(tune.at("time"), ": 'time' = \"", time, "\" is neither \"milliseconds\" nor a count",
+             suggestion(time, counted));
+    if (has_clock && config.timing.frames == 0)
+        fail(tune.where(), ": needs 'timing' of 15 frames or more, or a counted 'time', such as \"operations\"");
+    known_names(tune, "metrics", config.metrics, {});
+    tune.choice("target", config.targets, config.targets.front());
+    tune.choice("mask", config.masks, config.masks.front());
+    check_budgets(tune);
+    tune.integer("most_runs", 1, 1 << 30, 1000);
+    tune.number("most_minutes", 0.0f, 1e7f, 1e7f);
+    tune.integer("batch", 1, 256, 8);
+    tune.integer("seed", 0, 1 << 30, 0);
+    if (tune.has("judge")) {
+        JsonObject judge = tune.object("judge");
+        if (read_shots(judge, config.file.parent_path()).empty()) fail(judge.where(), ": names no shots to judge on");
+        read_seeds(judge);
+        judge.finish();
     }
-    if (search.has("metrics")) check_names(search, "metrics");
-    search.text("target", "");
-    search.text("mask", "");
-    search.integer("rounds", 1, 100, 8);
-    search.number("most_time", 1.0f, 1e6f, 1e6f);
-    search.number("least_gain", 0.0f, 1.0f, 0.01f);
-    search.finish();
-    return true;
+    tune.finish();
 }

@@ -1,5 +1,6 @@
 #include "experiments/study/config/config_schema.h"
 
+#include "core/gpu/pass_cost.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/design.h"
 #include "metrics/masks.h"
@@ -97,14 +98,24 @@ json table_schema() {
         {"name", "caption", "of", "rows", "columns"});
 }
 
-json search_schema() {
-    return object({{"axes", {{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}}},
+json tune_schema(const json& shots) {
+    const json values = {{"type", "array"}, {"minItems", 1}}, conditions = {{"type", "object"}};
+    json axis = object({{"values", values}, {"only_if", conditions}, {"skip_if", conditions}});
+    for (const char* kind : {"lin", "log"}) axis["properties"][kind] = range(0)["anyOf"][0]["properties"]["lin"];
+    std::vector<std::string> times = {"milliseconds"};
+    for (const CostQuantity& quantity : cost_quantities) times.push_back(quantity.name);
+    return object({{"axes", {{"type", "object"}, {"additionalProperties", any_of({values, axis})}}},
+                   {"start", {{"type", "string"}}},
+                   {"judge", object({{"shots", shots}, {"seeds", counts(100000)}}, {"shots"})},
                    {"metrics", list_of(metric_names())},
                    {"target", {{"enum", target_names()}}},
                    {"mask", {{"type", "string"}}},
-                   {"rounds", integer(1, 100)},
-                   {"most_time", number(1, 1e6)},
-                   {"least_gain", number(0, 1)}},
+                   {"time", {{"enum", times}}},
+                   {"budgets", array_of({{"type", "number"}, {"exclusiveMinimum", 0}})},
+                   {"most_runs", integer(1, 1 << 30)},
+                   {"most_minutes", number(0, 1e7)},
+                   {"batch", integer(1, 256)},
+                   {"seed", integer(0, 1 << 30)}},
                   {"axes"});
 }
 
@@ -145,6 +156,7 @@ nlohmann::json config_schema(const std::string& variant) {
          capture_members = {{"gbuffer", text}, {"reference", text}, {"frames", playing}};
     for (json* members : {&shot_members, &capture_members}) members->update(timeline), members->update(settings);
     const json shot = object(shot_members, {"scene"}), capture = object(capture_members, {"gbuffer"});
+    const json shots = array_of({{"anyOf", {shot, capture}}});
     json samples = integer(16, 1 << 24);
     samples["description"] = "per pixel, at most; without it " + std::to_string(ReferenceSettings::default_samples) +
                              ", or no limit if seconds or target_relative_error is set";
@@ -156,7 +168,7 @@ nlohmann::json config_schema(const std::string& variant) {
     json members = {{"$schema", text},
                     {"extends", text},
                     {"title", text},
-                    {"shots", {{"type", "array"}, {"items", {{"anyOf", {shot, capture}}}}, {"minItems", 1}}},
+                    {"shots", shots},
                     {"variants", {{"type", "array"}, {"items", {{"anyOf", variants}}}, {"minItems", 1}}},
                     {"seeds", counts(100000)},
                     {"reference", {{"anyOf", {reference, {{"const", "none"}}}}}},
@@ -175,7 +187,7 @@ nlohmann::json config_schema(const std::string& variant) {
                     {"reflective_max_roughness", number(0, 1)},
                     {"reflective_min_reflectance", number(0, 1)},
                     {"tables", {{"type", "array"}, {"items", table_schema()}}},
-                    {"search", search_schema()}};
+                    {"tune", tune_schema(shots)}};
     members.update(settings);
     json schema = object(members);
     schema["anyOf"] = {{{"required", {"shots", "variants"}}}, {{"required", {"extends"}}}};

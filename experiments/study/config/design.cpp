@@ -148,6 +148,20 @@ json sampled_value(const json& axis, const Parameter& p, const std::optional<Ran
     return int64_t(std::min(std::floor(Range{low, high + 1, range->is_log}.at(u)), high));
 }
 
+/// The range of a sample's axis, whose ends the parameter may have; none of one that lists values.
+std::optional<Range> read_sample_axis(const json& axis, const ParameterSet& declared, const std::string& name,
+                                      const std::string& at) {
+    const std::string where = at + ": '" + name + "'";
+    const Parameter& p = find_parameter(declared, name, at);
+    std::optional<Range> range;
+    if (axis.is_array() && axis.empty()) fail(where, " has no values");
+    if (!axis.is_array()) range = read_range(axis, p, where, 0);
+    const std::vector<json> extremes =
+        range ? std::vector{rounded(p, range->from), rounded(p, range->to)} : axis.get<std::vector<json>>();
+    for (const json& value : extremes) check_parameter(declared, name, value, at);
+    return range;
+}
+
 std::vector<json> sampled(JsonObject design, const std::string& kind, const ParameterSet& declared) {
     const auto count = size_t(design.integer("count", 1, int(most_points)));
     const auto seed = uint32_t(design.integer("seed", 0, 1 << 30, 0));
@@ -162,14 +176,8 @@ std::vector<json> sampled(JsonObject design, const std::string& kind, const Para
     std::vector<json> points(count, json::object());
     size_t dimension = 0;
     for (const auto& [name, axis] : axes.items()) {
-        const std::string at = object.at(name), where = at + ": '" + name + "'";
-        const Parameter& p = find_parameter(declared, name, at);
-        std::optional<Range> range;
-        if (axis.is_array() && axis.empty()) fail(where, " has no values");
-        if (!axis.is_array()) range = read_range(axis, p, where, 0);
-        const std::vector<json> extremes =
-            range ? std::vector{rounded(p, range->from), rounded(p, range->to)} : axis.get<std::vector<json>>();
-        for (const json& value : extremes) check_parameter(declared, name, value, at);
+        const std::optional<Range> range = read_sample_axis(axis, declared, name, object.at(name));
+        const Parameter& p = find_parameter(declared, name, object.at(name));
         for (size_t i = 0; i < count; ++i) points[i][name] = sampled_value(axis, p, range, samples[i][dimension]);
         ++dimension;
     }
@@ -199,6 +207,10 @@ std::vector<json> read_design(JsonObject& entry, const ParameterSet& declared) {
     const Axes axes = read_axes(object, names, declared);
     if (design == "sweep") return all_combinations(axes, entry.at(design));
     return design == "zip" ? zipped(axes, entry.at(design)) : single_values(axes, declared);
+}
+
+void check_sample_axis(const json& axis, const ParameterSet& declared, const std::string& name, const std::string& at) {
+    read_sample_axis(axis, declared, name, at);
 }
 
 void check_parameter(const ParameterSet& declared, const std::string& name, const json& value,

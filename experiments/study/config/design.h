@@ -13,6 +13,11 @@ inline constexpr size_t most_points = 100000;
 /// no design. Points of the latter three that are equal count once. Every mistake is an Error that names place and key.
 std::vector<nlohmann::json> read_design(JsonObject& entry, const ParameterSet& declared);
 
+/// Fails unless `axis` is what an axis of a sample may be: an array of values that the parameter may have, or
+/// {"lin": [from, to]} or {"log": [from, to]} of such; `at` begins the message.
+void check_sample_axis(const nlohmann::json& axis, const ParameterSet& declared, const std::string& name,
+                       const std::string& at);
+
 /// Fails unless `name` is a declared parameter and may have the value; `where` begins the message.
 void check_parameter(const ParameterSet& declared, const std::string& name, const nlohmann::json& value,
                      const std::string& where);

@@ -332,6 +332,48 @@ TEST_F(Designs, LabelsAreFilledInAndTellPointsApart) {
                   "study.json:3:28: variants[0]: 'label' names {dda.strid}");
 }
 
+/// What `ssrlab tune` would stumble over hours later is refused while the config is read.
+TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
+    const auto study = [](const std::string& tune, const std::string& variant = R"({"variant": "mcguire_dda"})",
+                          const std::string& more = "") {
+        return R"({"shots": [{"scene": "fence"}], "metrics": ["mse"], )" + more + "\n\"variants\": [" + variant +
+               "],\n\"tune\": {" + tune + "}}";
+    };
+    const std::string axes =
+        R"("axes": {"dda.stride": {"log": [1, 16]}, "max_roughness": [0.1, 0.6],
+           "dda.refine": {"values": [false, true], "only_if": {"dda.stride": {"above": 1}}}})";
+    const std::string judged =
+        axes + R"(, "judge": {"shots": [{"scene": "grazing"}]}, "metrics": "mse", "budgets": [1])";
+    const Config config = read(study(judged + R"(, "time": "operations", "start": "default")"));
+    EXPECT_TRUE(config.is_tuned);
+    EXPECT_TRUE(config.variants.front().is_baseline);
+
+    const auto refuses = [&](const std::string& text, const std::string& why) {
+        const std::string mistake = mistake_in(text);
+        EXPECT_TRUE(mistake.starts_with("study.json:")) << mistake;
+        EXPECT_NE(mistake.find(why), std::string::npos) << mistake << "\nin place of " << why;
+    };
+    refuses(study(R"("axes": {"dda.strid": [1, 2]})"), "dda.stride");
+    refuses(study(R"("axes": {"dda.stride": [1, 65]})"), "65");
+    refuses(study(R"("axes": {"dda.stride": {"log": [0, 8]}})"), "'log' needs ends above 0");
+    refuses(study(R"("axes": {"dda.stride": {"lin": [1, 8, 3]}})"), "must be [from, to]");
+    refuses(study(R"("axes": {"dda.refine": {"values": [true], "only_if": {"dda.strid": 1}}})"), "dda.stride");
+    refuses(study(R"("axes": {"dda.refine": {"values": [true], "only_if": {"shot.scene": "fence"}}})"), "not on shots");
+    refuses(study(R"("axes": {"dda.refine": {"value": [true]}})"), "study.json:3:");
+    refuses(study(R"("axes": {})"), "is empty");
+    refuses(study(axes + R"(, "budget": [1])"), "budgets");
+    refuses(study(axes + R"(, "budgets": [0])"), "'budgets' must be");
+    refuses(study(axes + R"(, "time": "operation")"), "operations");
+    refuses(study(axes + R"(, "metrics": "flip")"), "flip");
+    refuses(study(axes + R"(, "start": "best")"), "best");
+    refuses(study(axes + R"(, "judge": {"shots": []})"), "names no shots");
+    refuses(study(axes, R"({"variant": "mcguire_dda"})", R"("timing": {"frames": 0},)"), "counted 'time'");
+    refuses(study(axes, R"({"variant": "mcguire_dda"}, {"variant": "none"})"), "searches one variant");
+    refuses(study(axes, R"({"variant": "mcguire_dda", "timing": false})"), "'timing' is not for points");
+    refuses(study(R"("axes": {"misses": ["weight"]})", R"({"variant": "amd_sssr"})", R"("seeds": 1,)"),
+            "a single seed tells no interval");
+}
+
 TEST(PointNames, StayShort) {
     EXPECT_EQ(point_name("", json::object()), "default");
     EXPECT_EQ(point_name("best", {{"a", 1}, {"b", "x"}}), "best a=1 b=x");

@@ -1,0 +1,192 @@
+"""What a search leaves in its folder: tune.csv, presets.json, tuned.md, and the figure search.pdf, .svg and .png."""
+
+import csv
+import json
+import math
+import os
+
+from analysis import scenes
+from paper_figures import style
+from paper_figures.numbers import with_interval
+from paper_figures.placed_labels import place_labels
+from paper_figures.results import Measured
+
+
+def ratio_of(difference):
+    """A difference of logarithms as a ratio with its 95 % interval."""
+    half = difference.half_width()
+    return Measured(*(math.exp(difference.mean + s * half) for s in (0, -1, 1)))
+
+
+def times(budgets):
+    return ", ".join(f"{b:g}x" for b in budgets)
+
+
+class Outcome:
+    def __init__(self, tuning, judged):
+        self.tuning, self.race, self.studies = tuning, tuning.race, tuning.studies
+        self.results, self.found = judged
+        self.points = {**tuning.points, **{p.name: p for p in tuning.tried}}
+        self.unit = "ms" if self.studies.has_clock else self.studies.cost
+
+    def write(self):
+        self.write_csv()
+        self.write_presets()
+        self.write_page()
+        self.draw()
+        complete = sum(not p.stopped for p in self.tuning.tried)
+        print(
+            f"{len(self.tuning.tried)} points tried, {complete} of them in full: {self.tuning.runs()} runs in place of "
+            f"{self.tuning.runs_of_a_point() * len(self.points)}; {os.path.join(self.tuning.out, 'tuned.md')}"
+        )
+
+    def log_time(self, point):
+        return point.estimate[1] if point.estimate else self.race.log_time(point)
+
+    def write_csv(self):
+        axes = [axis.name for axis in self.tuning.space.axes]
+        with open(self.file("tune.csv"), "w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(["point", "batch", "stopped", "shots", "runs", "ratio", "low", "high", "time", *axes])
+            for point in self.points.values():
+                error = ratio_of(self.race.error(point))
+                row = [point.name, point.batch, point.stopped, len(point.shots()), point.runs(), error.value, error.low, error.high]
+                values = [point.values.get(name, "") if point.values else point.parameters[name] for name in axes]
+                writer.writerow(row + [math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
+
+    def file(self, name):
+        return os.path.join(self.tuning.out, name)
+
+    def changes(self, point):
+        """The parameters that differ from the technique's defaults."""
+        return {k: v for k, v in point.parameters.items() if v != self.tuning.declared[k].get("default")}
+
+    def unseen(self, name):
+        """(ratio of errors to the baseline's over the judging scenes, their number, ratio of times); None where nothing was judged."""
+        if self.results is None or name == self.tuning.baseline:
+            return None
+        logs = [(shot["scene"], math.log(row.value)) for shot, rows in self.unseen_rows(name) for row in rows.values() if row]
+        if not logs:
+            return None
+        value, low, high, count, _ = scenes.geometric_mean(logs)
+        taken = [math.log(ratio) for ratio, _ in self.studies.times_of(self.results, self.point_of(name)).values()]
+        return Measured(value, low, high), count, math.exp(sum(taken) / len(taken)) if taken else None
+
+    def point_of(self, name):
+        return next(v["point"] for v in self.results.manifest["variants"] if v.get("label") == name)
+
+    def unseen_rows(self, name):
+        """(shot, {metric: ratio to the baseline with its interval, or None}) of each judging shot."""
+        point = self.point_of(name)
+        chosen = [
+            r
+            for r in self.results.effects
+            if r["point"] == point and r["against"] == "baseline" and (r["target"], r["mask"]) == (self.studies.target, self.studies.mask)
+        ]
+        for shot in self.results.manifest["shots"]:
+            rows = {r["metric"]: r for r in chosen if r["shot"] == shot["shot"]}
+            yield shot, {m: self.results.measured(rows[m], ("ratio", "low", "high"), "effects.csv") if m in rows else None for m in self.studies.metrics}
+
+    def write_presets(self):
+        presets = []
+        for name, budgets in self.found.items():
+            point = self.points[name]
+            searched, judged = ratio_of(self.race.error(point)), self.unseen(name)
+            text = f"the least error found within {times(budgets)} the {self.time_word()} of `{self.tuning.baseline}`: {with_interval(searched)} of its error"
+            text += f" in {math.exp(self.race.log_time(point)):.2f} of its {self.time_word()} on the scenes of the search"
+            if judged:
+                text += f", {with_interval(judged[0])} on {judged[1]} others"
+            preset = {"variant": self.tuning.start_entry["variant"], "name": "tuned_" + "_".join(f"{b:g}x" for b in budgets).replace(".", "_")}
+            presets.append(preset | {"description": text, "parameters": self.changes(point)})
+        with open(self.file("presets.json"), "w", encoding="utf-8") as stream:
+            json.dump(presets, stream, indent=2)
+            stream.write("\n")
+
+    def time_word(self):
+        return "time" if self.studies.has_clock else self.studies.cost
+
+    def write_page(self):
+        tuning = self.tuning
+        error = f"{' and '.join(self.studies.metrics)} ({self.studies.target}, {self.studies.mask})"
+        lines = [
+            f"# Tuned: {tuning.start_entry['variant']}",
+            "",
+            f"Error: {error}, as a multiple of that of `{tuning.baseline}`, geometric mean over scenes; {self.time_word()}: likewise "
+            f"(that of `{tuning.baseline}`: {tuning.baseline_cost:.4g} {self.unit}). In brackets 95 % intervals: of the scenes of the search by "
+            "the seeds and the reference's noise, for these scenes as they are; of unseen ones by how they differ among each other, none below "
+            f"{scenes.LEAST_SCENES} scenes.",
+            "",
+            f"{len(tuning.tried)} points were tried, {sum(not p.stopped for p in tuning.tried)} of them in full, in {tuning.runs()} runs of one seed in one "
+            f"shot ({tuning.runs_of_a_point() * len(self.points)} without stopping any). The least of many measured errors looks smaller than it is; "
+            "that on unseen scenes does not.",
+            "",
+            "## Found",
+            "",
+            f"| within | point | error, searched | {self.time_word()} | error, unseen | {self.time_word()}, unseen |",
+            "|---|---|---|---|---|---|",
+        ]
+        for budget in tuning.budgets:
+            name = next((n for n, budgets in self.found.items() if budget in budgets), None)
+            lines.append(f"| {budget:g}x | " + (" | ".join(self.cells(name)) if name else "no point is so fast | | | |") + " |")
+        lines += ["", "## Beside", "", f"| point | error, searched | {self.time_word()} | error, unseen | {self.time_word()}, unseen |", "|---|---|---|---|---|"]
+        lines += [f"| {' | '.join(self.cells(name))} |" for name in tuning.names]
+        lines += ["", "## The front", "", f"| {self.time_word()} | error | point | differs from `{tuning.start}` in |", "|---|---|---|---|"]
+        for point in self.race.front():
+            differs = ", ".join(f"{k} = {json.dumps(v)}" for k, v in point.values.items() if tuning.space.start[k] != v)
+            lines.append(f"| {math.exp(self.race.log_time(point)):.3f} | {with_interval(ratio_of(self.race.error(point)))} | {point.name} | {differs} |")
+        lines += self.unseen_lines()
+        with open(self.file("tuned.md"), "w", encoding="utf-8") as stream:
+            stream.write("\n".join(lines) + "\n")
+
+    def cells(self, name):
+        point, judged = self.points[name], self.unseen(name)
+        cells = [name, with_interval(ratio_of(self.race.error(point))), f"{math.exp(self.race.log_time(point)):.3f}"]
+        if name == self.tuning.baseline:
+            return [name, "1", "1", "1", "1"]
+        return cells + ([with_interval(judged[0]), "" if judged[2] is None else f"{judged[2]:.3f}"] if judged else ["", ""])
+
+    def unseen_lines(self):
+        if self.results is None:
+            return ["", 'No scenes were named to judge on (`"judge"`).']
+        names = [n for n in dict.fromkeys([*self.tuning.names, *self.found]) if n != self.tuning.baseline]
+        lines = ["", "## Unseen scenes", "", f"| shot | metric | {' | '.join(names)} |", "|---|---|" + "---|" * len(names)]
+        of_points = {name: dict((shot["shot"], rows) for shot, rows in self.unseen_rows(name)) for name in names}
+        for shot in (s["shot"] for s in self.results.manifest["shots"]):
+            for metric in self.studies.metrics:
+                found = [of_points[name][shot][metric] for name in names]
+                lines.append(f"| {self.results.shot_label(shot)} | {metric} | {' | '.join(with_interval(m) if m else '' for m in found)} |")
+        return lines
+
+    def draw(self):
+        style.apply()
+        figure, (axes,) = style.panels(1, height=6.5)
+        place = lambda p: (math.exp(self.log_time(p)), math.exp((p.estimate or (self.race.error(p).mean,))[0]))  # noqa: E731
+        stopped = [place(p) for p in self.tuning.tried if p.stopped]
+        complete = [p for p in self.tuning.tried if not p.stopped]
+        if stopped:
+            axes.plot(*zip(*stopped), "x", color="#999999", markersize=3, label="stopped", zorder=2)
+        for name, points, mark, color in (
+            ("tried in full", [p for p in complete if p.name not in self.found], "o", style.COLORS[5]),
+            ("named in the config", [self.points[n] for n in self.tuning.names], "s", style.COLORS[0]),
+            ("found", [self.points[n] for n in self.found], "D", style.COLORS[1]),
+        ):
+            for index, point in enumerate(points):
+                error = ratio_of(self.race.error(point))
+                x, y = place(point)
+                bars = [[max(y - error.low, 0)], [max(error.high - y, 0)]]
+                axes.errorbar(x, y, yerr=bars, fmt=mark, color=color, label=name if index == 0 else None, zorder=3)
+        axes.set_xscale("log"), axes.set_yscale("log")
+        slowest = max(place(p)[0] for p in self.points.values())
+        front = [place(p) for p in self.race.front()]
+        front.append((max(slowest, front[-1][0]), front[-1][1]))  # more time buys nothing
+        axes.step(*zip(*front), where="post", color="#444444", label="front", zorder=1)
+        axes.set_xlabel(f"{self.time_word()} / {self.time_word()} of {self.tuning.baseline}")
+        axes.set_ylabel(f"error / error of {self.tuning.baseline}")
+        style.log_axis(axes.xaxis), style.log_axis(axes.yaxis)
+        style.draw_legend(figure, [axes])
+        labels = {name: (name, style.COLORS[0]) for name in self.tuning.names}
+        labels |= {name: (f"within {times(budgets)}", style.COLORS[1]) for name, budgets in self.found.items()}
+        covered = [(x0, y0, x1, y0) for (x0, y0), (x1, _) in zip(front, front[1:])] + [(x1, y0, x1, y1) for (_, y0), (x1, y1) in zip(front, front[1:])]
+        covered += [2 * place(p) for p in self.tuning.tried]
+        place_labels(axes, [(*place(self.points[name]), text, style.darker(color)) for name, (text, color) in labels.items()], covered)
+        style.save(figure, self.tuning.out, "search")

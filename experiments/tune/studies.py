@@ -1,0 +1,167 @@
+"""The studies that a search consists of: each a config that is written, run by `ssrlab run`, and read."""
+
+import itertools
+import json
+import os
+import subprocess
+import time
+
+from paper_figures.results import Results, ResultsError
+from race import NORMAL
+
+DEFAULT_SEEDS = 8  # experiments/study/config/config.h
+NOT_OF_STUDIES = ("tune", "tables", "variants", "shots", "seeds", "timing", "costs", "$schema")
+
+
+class StudyFailed(Exception):
+    """`ssrlab run` ended with an exit code other than 0."""
+
+    def __init__(self, code, log):
+        with open(log, encoding="utf-8") as stream:
+            said = stream.read().splitlines()[-3:]
+        super().__init__("\n".join([f"a study failed; {log} ends with", *said]))
+        self.code = code
+
+
+def single_shots(entries):
+    """Entries of `shots`, those that list scenes, cameras, settings, sizes or frames taken apart."""
+    found = []
+    for entry in entries:
+        names = ("scene", "camera", "lit", "depth_format", "depth_direction", "normal_encoding")
+        lists = {k: entry[k] for k in names if isinstance(entry.get(k), list)}
+        if isinstance(entry.get("resolution", [0])[0], list):
+            lists["resolution"] = entry["resolution"]
+        if isinstance(entry.get("frames"), list) and not isinstance(entry["frames"][0], int):
+            lists["frames"] = entry["frames"]
+        found += [entry | dict(zip(lists, values)) for values in itertools.product(*lists.values())]
+    return found
+
+
+class Studies:
+    """Those of one search in its folder, and what of their tables counts."""
+
+    def __init__(self, asked, out, command, baseline):
+        """`asked`: what `ssrlab tune` read of the config (experiments/commands/script_commands.cpp). `baseline`: the name
+        of the point that all are compared with."""
+        self.rules = asked["tune"]
+        self.common = {k: v for k, v in asked["study"].items() if k not in NOT_OF_STUDIES}
+        self.timing = asked["study"].get("timing", {})
+        seeds = asked["study"].get("seeds", DEFAULT_SEEDS)
+        self.seeds = seeds if isinstance(seeds, list) else list(range(seeds))
+        self.shots = self._placed(single_shots(asked["study"]["shots"]), asked["folder"])
+        judge = self.rules.get("judge", {})
+        self.judged_shots = self._placed(single_shots(judge.get("shots", [])), asked["folder"])
+        judge_seeds = judge.get("seeds", self.seeds)
+        self.judge_seeds = judge_seeds if isinstance(judge_seeds, list) else list(range(judge_seeds))
+        self.metrics = self.rules.get("metrics", asked["primary"]["metric"])
+        self.metrics = [self.metrics] if isinstance(self.metrics, str) else self.metrics
+        self.target, self.mask = (self.rules.get(key, asked["primary"][key]) for key in ("target", "mask"))
+        self.cost = self.rules.get("time", "milliseconds")
+        self.has_clock = self.cost == "milliseconds"
+        self.out, self.command, self.baseline = out, command, baseline
+        self.references = {}  # shot to the hashes of its references: errors are paired against the same pixels alone
+        self.minutes_file = os.path.join(out, "minutes.json")
+        self.minutes = {}  # study to what its run took
+        self.counts_of_baseline = {}  # shot to what was counted
+
+    @staticmethod
+    def _placed(shots, folder):
+        """Paths of captures are relative to the config, and the studies lie elsewhere."""
+        for shot in shots:
+            if "gbuffer" in shot:
+                shot.update({k: os.path.join(folder, shot[k]) for k in ("gbuffer", "reference") if k in shot})
+        return shots
+
+    def run(self, name, variants, shots, seeds, is_timed=True):
+        """Runs a study and reads it; `name`: its folder within that of the search."""
+        folder = os.path.join(self.out, name)
+        os.makedirs(os.path.dirname(folder), exist_ok=True)
+        study = self.common | {"variants": variants, "shots": shots, "seeds": seeds}
+        study["timing"] = self.timing if is_timed and self.has_clock else {"frames": 0}
+        study["costs"] = is_timed and not self.has_clock
+        with open(folder + ".json", "w", encoding="utf-8") as stream:  # beside the folder: study.json in it is ssrlab's own
+            json.dump(study, stream, indent=1)
+        begin = time.monotonic()
+        with open(folder + ".log", "a", encoding="utf-8") as log:
+            command = [self.command[0], "run", folder + ".json", "--out", folder, *self.command[1:]]
+            code = subprocess.run(command, stdout=log, stderr=log).returncode
+        self._keep_minutes(name, (time.monotonic() - begin) / 60)
+        if code != 0:
+            raise StudyFailed(code, folder + ".log")
+        results = Results(folder)
+        self._check_references(results)
+        return results
+
+    def _keep_minutes(self, name, minutes):
+        """What a study took is kept where it was run first: one that is run again is only read."""
+        kept = {}
+        if os.path.exists(self.minutes_file):
+            with open(self.minutes_file, encoding="utf-8") as stream:
+                kept = json.load(stream)
+        self.minutes[name] = kept.setdefault(name, minutes)
+        with open(self.minutes_file + ".new", "w", encoding="utf-8") as stream:
+            json.dump(kept, stream, indent=1)
+        os.replace(self.minutes_file + ".new", self.minutes_file)
+
+    def minutes_so_far(self):
+        return sum(self.minutes.values())
+
+    def _check_references(self, results):
+        for shot in results.manifest["shots"]:
+            hashes = [r["hash"] for r in shot.get("references", [])]
+            if self.references.setdefault(shot["shot"], hashes) != hashes:
+                raise ResultsError(f"{results.folder}: the references of {shot['shot']} are not those of the search so far; was its cache emptied?")
+
+    def read_into(self, point, results):
+        """Adds to a search's point what a study tells of it, under the label that is its name."""
+        entry = next((v for v in results.manifest["variants"] if v.get("label") == point.name), None)
+        if entry is None:
+            raise ResultsError(f"{results.folder}: no point has the label '{point.name}'")
+        point.parameters = entry["parameters"]
+        rows = [r for r in self._rows(results) if r["point"] == entry["point"]]
+        if not rows:
+            wanted = ", ".join(f"{self.target} {m} {self.mask}" for m in self.metrics)
+            raise ResultsError(f"{results.folder}: results.csv has nothing of '{entry['point']}': does the study measure {wanted}?")
+        for row in rows:
+            point.errors.setdefault((row["shot"], row["metric"]), {})[int(row["seed"])] = self._error(row)
+        for shot, (ratio, _) in self.times_of(results, entry["point"]).items():
+            point.times[shot] = ratio
+
+    def _rows(self, results):
+        if not hasattr(results, "speaking"):
+            wanted = {(self.target, m, self.mask) for m in self.metrics}
+            every = results.read_csv("results.csv")
+            results.speaking = [r for r in every if r["speaks"] == "1" and (r["target"], r["metric"], r["mask"]) in wanted]
+        return results.speaking
+
+    @staticmethod
+    def _error(row):
+        if not row["value"]:
+            raise ResultsError(f"results.csv: {row['metric']} of '{row['point']}' in {row['shot']} has no value")
+        noise = (float(row["high"]) - float(row["low"])) / 2 / NORMAL if row["low"] and row["high"] else 0.0
+        return float(row["value"]), noise
+
+    def times_of(self, results, point):
+        """Shot to (time over the baseline's, the baseline's) of what a study timed, or counted."""
+        base = next((v["point"] for v in results.manifest["variants"] if v.get("label") == self.baseline), None)
+        return self._clock_ratios(results, point, base) if self.has_clock else self._counted_ratios(results, point, base)
+
+    @staticmethod
+    def _clock_ratios(results, point, base):
+        """Of the same frames, since machines change their speed."""
+        total = [r for r in results.times if r["variant"] and r["point"] == base and r["stage"] == "total"]
+        own = {r["shot"]: float(r["median_ms"]) for r in total}
+        if point == base:
+            return {shot: (1.0, ms) for shot, ms in own.items()}
+        rows = results.read_csv("time_effects.csv", is_optional=True)
+        chosen = [r for r in rows if r["point"] == point and r["against"] == "baseline" and r["stage"] == "total"]
+        return {r["shot"]: (float(r["ratio"]), own[r["shot"]]) for r in chosen}
+
+    def _counted_ratios(self, results, point, base):
+        """Counts of the baseline hold wherever they were taken; a point that does nothing counts as doing 1."""
+        counts = {}
+        for row in results.read_csv("costs.csv", is_optional=True):
+            if row["stage"] == "total" and row["quantity"] == self.cost:
+                counts.setdefault(row["point"], {})[row["shot"]] = max(float(row["value"]), 1.0)
+        self.counts_of_baseline.update(counts.get(base, {}))
+        return {shot: (value / self.counts_of_baseline[shot], self.counts_of_baseline[shot]) for shot, value in counts.get(point, {}).items()}

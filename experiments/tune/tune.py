@@ -1,0 +1,235 @@
+"""Searches a technique's parameters for the front of error against time, and judges what it found on other scenes.
+
+usage: tune.py ASKED --out DIR -- SSRLAB [options of `ssrlab run`]
+
+ASKED is what `ssrlab tune` read of a study with "tune" (experiments/README.md). The optimiser proposes batches of points (space.py);
+each runs with half of the seeds on one shot, on two, four and so on to all, then with all seeds, and is stopped as soon as it is certainly
+worse than a point of the front that takes no more time (race.py). Every step is a study in DIR/search, every evaluation a cell of it
+(studies.py). A search that was stopped asks the optimiser the same again and reads the finished cells, so that it ends as if it
+had not been. What it leaves in DIR: outcome.py."""
+
+import argparse
+import json
+import math
+import os
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "../figures"), os.path.join(HERE, "../tradeoff")]
+try:
+    import optuna  # noqa: F401
+except ImportError as missing:
+    sys.exit(f"error: {missing}: install python3-optuna")
+from outcome import Outcome  # noqa: E402  (found by the path above)
+from paper_figures.results import ResultsError  # noqa: E402
+from race import Point, Race  # noqa: E402
+from space import Proposals, Space  # noqa: E402
+from studies import Studies, StudyFailed  # noqa: E402
+
+SAME_TIME = {True: 1.05, False: 1.0}  # with a clock, whose noise it is about; with counts, which are exact
+BEYOND = 1.25  # a point that takes so much longer than the largest budget in the first shot is not run in others
+FUTILE = 5  # batches without a point that was not tried before, after which the space counts as searched
+
+
+def doubling(most):
+    """1, 2, 4 and so on to `most`."""
+    steps = [1]
+    while steps[-1] < most:
+        steps.append(min(2 * steps[-1], most))
+    return steps
+
+
+class Tuning:
+    def __init__(self, asked, out, command):
+        self.rules, self.given = asked["tune"], asked["points"]
+        self.names = [p["label"] or p["point"] for p in self.given]
+        self.baseline = self.names[next(i for i, p in enumerate(self.given) if p["baseline"])]
+        start = next(i for i, p in enumerate(self.given) if p["point"] == self.rules.get("start", p["point"]) and (p["baseline"] or "start" in self.rules))
+        self.start_entry, self.start = self.given[start], self.names[start]
+        self.declared = asked["parameters"]
+        self.studies = Studies(asked, out, command, self.baseline)
+        self.out = out
+        self.most_runs, self.most_minutes = self.rules.get("most_runs", 1000), self.rules.get("most_minutes", math.inf)
+        self.budgets = self.rules.get("budgets", [0.5, 1, 2])
+        self.tried = []  # Points, in order
+        self.known = {}  # values as text to the Point that has them
+
+    def run(self):
+        self.begin()
+        batch, futile = 0, 0
+        while self.runs() + self.runs_of_a_point() <= self.most_runs and self.studies.minutes_so_far() < self.most_minutes and futile < FUTILE:
+            batch += 1
+            futile = 0 if self.do_batch(batch) else futile + 1
+        Outcome(self, self.judge()).write()
+
+    def begin(self):
+        """The points that the config names, in full: the first to compare with."""
+        seeds = self.studies.seeds
+        self.few, self.rest = seeds[: max(2, len(seeds) // 2)], seeds[max(2, len(seeds) // 2) :]
+        entries = [self.given_entry(i) for i in range(len(self.given))]
+        print(f"start: {', '.join(self.names)} in {len(self.studies.shots)} shots, which need references", flush=True)
+        results = self.studies.run("search/start", entries, self.studies.shots, seeds)
+        self.points = {name: Point(name, {}) for name in self.names}
+        for name in [self.baseline, *self.names]:
+            self.studies.read_into(self.points[name], results)
+        self.steps = doubling(len(self.studies.shots))
+        self.race = Race(self.points[self.baseline], SAME_TIME[self.studies.has_clock], len(self.steps))
+        self.baseline_cost = self.cost_of_baseline(results)
+        for name in self.names:
+            if name != self.baseline:
+                self.race.add(self.points[name])
+        self.space = Space(self.rules["axes"], self.declared, self.points[self.start].parameters)
+        self.proposals = Proposals(self.space, self.rules.get("seed", 0))
+        for name in dict.fromkeys([self.start, *self.names]):
+            self.proposals.begin_with(self.points[name].parameters)
+
+    def cost_of_baseline(self, results):
+        """Geometric mean over shots."""
+        base = next(v["point"] for v in results.manifest["variants"] if v.get("label") == self.baseline)
+        costs = [cost for _, cost in self.studies.times_of(results, base).values()]
+        if not costs:
+            raise ResultsError(f"{results.folder}: '{self.baseline}' was not {'timed' if self.studies.has_clock else 'counted'}")
+        return math.exp(sum(math.log(c) for c in costs) / len(costs))
+
+    def given_entry(self, index):
+        """A point of the config, as an entry of `variants`."""
+        point = self.given[index]
+        entry = {"variant": point["variant"], "label": self.names[index], "baseline": point["baseline"]}
+        return entry | self.made_of(point, point["swept"])
+
+    def trial_entry(self, name, values):
+        return {"variant": self.start_entry["variant"], "label": name} | self.made_of(self.start_entry, values)
+
+    @staticmethod
+    def made_of(point, swept):
+        """Preset and parameters; those that are swept name the point."""
+        preset = {"preset": point["preset"]} if point["preset"] else {}
+        return preset | {"parameters": point["parameters"], "sweep": {k: [v] for k, v in swept.items()}}
+
+    def runs_of_a_point(self):
+        """In full: as many as the points so far took at most."""
+        return max(p.runs() for p in [*self.points.values(), *self.tried])
+
+    def runs(self):
+        return sum(p.runs() for p in [*self.points.values(), *self.tried])
+
+    def do_batch(self, number):
+        """Whether it had a point that is new."""
+        most = int((self.most_runs - self.runs()) // self.runs_of_a_point())
+        proposed = self.proposals.ask(min(self.rules.get("batch", 8), most))
+        fresh = []
+        for _, values in proposed:
+            key = json.dumps(values, sort_keys=True)
+            if key not in self.known and self.space.is_start(values):
+                self.known[key] = self.points[self.start]
+            elif key not in self.known:
+                self.known[key] = Point(f"trial {len(self.tried) + 1}", values, batch=number)
+                self.tried.append(self.known[key])
+                fresh.append(self.known[key])
+        if fresh:
+            self.evaluate(number, fresh)
+        for trial, values in proposed:
+            point = self.known[json.dumps(values, sort_keys=True)]
+            error, time = point.estimate or (self.race.error(point).mean, self.race.log_time(point))
+            self.proposals.tell(trial, error, time, math.log(max(self.budgets)))
+        self.say(number, fresh)
+        return bool(fresh)
+
+    def evaluate(self, number, points):
+        studies = self.studies
+        folder = f"search/batch_{number:03}"
+        left, seen = points, 0
+        for count in self.steps:
+            self.measure(f"{folder}_shots_{count}", left, studies.shots[seen:count], self.few)
+            left, seen = self.those_left(left, f"{count} of {self.steps[-1]} shots"), count
+        chancy = [p for p in left if any(len(seeds) > 1 for seeds in p.errors.values())]
+        if self.rest:
+            self.measure(f"{folder}_seeds", chancy, studies.shots, self.rest, is_timed=False)
+        for point in left:
+            self.race.add(point)
+
+    def measure(self, name, points, shots, seeds, is_timed=True):
+        if not points:
+            return
+        entries = [self.trial_entry(p.name, p.values) for p in points]
+        if is_timed and self.studies.has_clock:  # which is compared within the same frames
+            entries.insert(0, self.given_entry(self.names.index(self.baseline)))
+        results = self.studies.run(name, entries, shots, seeds, is_timed)
+        for point in points:
+            self.studies.read_into(point, results)
+
+    def those_left(self, points, stage):
+        """Stops those that are certainly worse or take too long."""
+        left = []
+        for point in points:
+            beaten = self.race.beaten_by(point)
+            time = self.race.log_time(point)
+            if beaten:
+                rival, difference = beaten
+                point.stopped = f"after {stage}: worse than {rival.name}"
+                point.estimate = (self.race.mean_log(rival) + difference, time)
+            elif time > math.log(max(self.budgets) * BEYOND):
+                point.stopped = f"after {stage}: takes too long"
+                point.estimate = (self.race.error(point).mean, time)
+            else:
+                left.append(point)
+        return left
+
+    def best_within(self, budget):
+        """The complete point of least error, by what was measured; None if all take longer."""
+        slack = math.log(budget * self.race.same_time)
+        fitting = [p for p in self.race.complete if self.race.log_time(p) <= slack]
+        return min(fitting, key=self.race.mean_log, default=None)
+
+    def judge(self):
+        """(results, {name: budgets that it is best within}) of what was found beside what the config names, on other scenes; no results if
+        the config has none."""
+        found = {}
+        for budget in self.budgets:
+            best = self.best_within(budget)
+            if best:
+                found.setdefault(best.name, []).append(budget)
+        if not self.studies.judged_shots:
+            return None, found
+        by_name = {p.name: p for p in self.tried}
+        entries = [self.given_entry(i) for i in range(len(self.given))]
+        entries += [self.trial_entry(name, by_name[name].values) for name in found if name in by_name]
+        return self.studies.run("judged", entries, self.studies.judged_shots, self.studies.judge_seeds), found
+
+    def say(self, number, fresh):
+        runs, minutes = self.runs(), self.studies.minutes_so_far()
+        begun = self.studies.minutes["search/start"]
+        share = max(runs / self.most_runs, minutes / self.most_minutes)
+        first_share = sum(p.runs() for p in self.points.values()) / self.most_runs
+        left = (minutes - begun) * (1 - share) / max(share - first_share, 1e-9)
+        best = self.best_within(max(self.budgets))
+        least = f"; least error x{math.exp(self.race.mean_log(best)):.3f} in x{math.exp(self.race.log_time(best)):.2f}" if best else ""
+        stopped = sum(bool(p.stopped) for p in fresh)
+        print(
+            f"batch {number}: {len(fresh)} new points, {stopped} stopped early; {runs} of {self.most_runs} runs, "
+            f"{minutes:.1f} min, about {left:.0f} min left{least}",
+            flush=True,
+        )
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Search a technique's parameters for the front of error against time.")
+    parser.add_argument("asked", help="what `ssrlab tune` read of the config")
+    parser.add_argument("--out", required=True, help="folder of the studies and of what is found")
+    parser.add_argument("command", nargs="+", help="ssrlab, and options of `ssrlab run`")
+    arguments = parser.parse_args()
+    try:
+        with open(arguments.asked, encoding="utf-8") as stream:
+            asked = json.load(stream)
+        Tuning(asked, arguments.out, arguments.command).run()
+    except ResultsError as mistake:
+        print(f"error: {mistake}", file=sys.stderr)
+        return 2
+    except StudyFailed as failed:
+        print(f"error: {failed}", file=sys.stderr)
+        return failed.code
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

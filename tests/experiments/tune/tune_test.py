@@ -1,0 +1,261 @@
+"""`ssrlab tune` among made-up techniques whose front is known, through a stand-in for `ssrlab run`.
+
+usage: tune_test.py TUNE.PY"""
+
+import contextlib
+import csv
+import importlib.util
+import io
+import json
+import math
+import os
+import random
+import sys
+import tempfile
+import types
+import zlib
+
+SCRIPT = sys.argv[1]
+spec = importlib.util.spec_from_file_location("tune", SCRIPT)
+tune = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(tune)
+import race  # noqa: E402  (beside tune.py)
+import studies  # noqa: E402
+
+RAYS = {"default": 1, "type": "integer"}
+DECLARED = {"rays": RAYS, "blur": {"default": 1.0, "type": "number"}, "march": {"default": "linear", "enum": ["linear", "tree"], "type": "string"},
+            "step": {"default": 4.0, "type": "number"}, "clamp": {"default": True, "type": "boolean"}}  # fmt: skip
+DEFAULTS = {name: p["default"] for name, p in DECLARED.items()}
+AXES = {"rays": [1, 2, 4], "blur": {"log": [0.25, 4.0]}, "march": ["linear", "tree"], "clamp": [True, False],
+        "step": {"lin": [1.0, 8.0], "only_if": {"march": "linear"}}}  # fmt: skip
+SHOTS = ["floor", "wall", "pipe", "hall"]
+NOISE = 0.02  # relative, of one seed
+
+
+def truth(p, shot):
+    """(error, operations): least with a blur of 2, `tree` and no clamp; rays buy error for time, and so do steps of `linear`."""
+    of_scene = 1 + 0.1 * math.sin(zlib.crc32(f"{shot} {p['march']} {p['clamp']}".encode()))
+    error = (1 + 0.5 * math.log2(p["blur"] / 2) ** 2) * p["rays"] ** -0.5 * (1.3 if p["clamp"] else 1.0) * of_scene
+    if p["march"] == "linear":
+        return error * (1.2 + 0.1 * p["step"]), 1000 * p["rays"] * (1 + 2 / p["step"])
+    return error, 2000 * p["rays"]
+
+
+class FakeSsrlab:
+    """Writes what a search reads of a finished study; keeps what it has done, as cells are kept."""
+
+    def __init__(self, fails_at=None):
+        self.runs, self.calls, self.fails_at = 0, [], fails_at
+
+    def __call__(self, command, **_):
+        file, out = command[2], command[command.index("--out") + 1]
+        with open(file, encoding="utf-8") as stream:
+            study = json.load(stream)
+        assert "tune" not in study and "tables" not in study, "a step is a study of its own"
+        self.calls.append(os.path.basename(out))
+        if len(self.calls) == self.fails_at:
+            return types.SimpleNamespace(returncode=3)
+        os.makedirs(out, exist_ok=True)
+        self.write(study, out)
+        return types.SimpleNamespace(returncode=0)
+
+    def write(self, study, out):
+        points, results, costs, effects, times, time_effects, seen = [], [], [], [], [], [], set()
+        for entry in study["variants"]:
+            swept = {k: v[0] for k, v in entry["sweep"].items()}
+            name = " ".join(f"{k}={v}" for k, v in sorted(swept.items())) or "default"
+            assert name not in seen, f"{name} comes twice"
+            seen.add(name)
+            points.append({"variant": "sssr", "point": name, "label": entry["label"], "parameters": DEFAULTS | entry["parameters"] | swept})
+        for shot in (s["scene"] for s in study["shots"]):
+            base, base_operations = truth(points[0]["parameters"], shot)
+            for p in points:
+                key = {"shot": shot, "variant": "sssr", "point": p["point"]}
+                error, operations = truth(p["parameters"], shot)
+                self.runs += len(study["seeds"])
+                for seed in study["seeds"]:
+                    chance = random.Random(f"{shot} {p['parameters']} {seed}").gauss(0, NOISE)
+                    common = random.Random(f"{shot} {seed}").gauss(0, 2 * NOISE)
+                    value = error * math.exp(chance + common)
+                    row = {"target": "specular", "metric": "mse", "mask": "all", "seed": seed, "speaks": 1, "value": value}
+                    results.append(key | row | {"low": value * 0.999, "high": value * 1.001})
+                if study["costs"]:
+                    costs.append(key | {"stage": "total", "quantity": "operations", "value": round(operations)})
+                if study["timing"]["frames"]:  # of a machine whose speed changes from study to study
+                    assert points[0]["parameters"] == DEFAULTS, "times are ratios of the same frames"
+                    speed = 1e-3 * (1 + zlib.crc32(out.encode()) % 100 / 100)
+                    times.append(key | {"stage": "total", "median_ms": operations * speed})
+                    ratio = {"against": "baseline", "stage": "total", "ratio": operations / base_operations}
+                    time_effects += [key | ratio] if p is not points[0] else []
+                row = {"against": "baseline", "target": "specular", "metric": "mse", "mask": "all", "ratio": error / base}
+                effects.append(key | row | {"low": error / base * 0.99, "high": error / base * 1.01})
+        shots = [{"shot": s["scene"], "scene": s["scene"], "references": [{"hash": s["scene"]}]} for s in study["shots"]]
+        with open(os.path.join(out, "manifest.json"), "w", encoding="utf-8") as stream:
+            json.dump({"variants": points, "shots": shots}, stream)
+        for name, rows in (("results", results), ("costs", costs), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
+            with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
+                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "speaks"])
+                writer.writeheader()
+                writer.writerows(rows)
+
+
+def check(is_true, what):
+    if not is_true:
+        sys.exit(f"tune_test: {what}")
+
+
+def search(folder, fake, rules=None):
+    """Exit code, what was said."""
+    given = [("default", {}, True), ("rays=2", {"rays": 2}, False)]
+    points = [{"variant": "sssr", "preset": "", "parameters": s, "swept": s, "point": n, "label": "", "baseline": b} for n, s, b in given]
+    rules = {"axes": AXES, "time": "operations", "budgets": [1, 2], "most_runs": 1000, "batch": 8,
+             "judge": {"shots": [{"scene": [f"unseen {i}" for i in range(4)]}], "seeds": 2}} | (rules or {})  # fmt: skip
+    asked = {"study": {"title": "made up", "shots": [{"scene": SHOTS}], "seeds": 4, "timing": {"frames": 15}}, "tune": rules, "points": points, "primary": {"metric": "mse", "target": "specular", "mask": "all"}, "parameters": DECLARED, "folder": folder}
+    file = os.path.join(folder, "asked.json")
+    with open(file, "w", encoding="utf-8") as stream:
+        json.dump(asked, stream)
+    said = io.StringIO()
+    studies.subprocess = types.SimpleNamespace(run=fake)
+    sys.argv = ["tune.py", file, "--out", os.path.join(folder, "out"), "ssrlab"]
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        code = tune.main()
+    return code, said.getvalue()
+
+
+def read(folder, name):
+    with open(os.path.join(folder, "out", name), encoding="utf-8") as stream:
+        return list(csv.DictReader(stream)) if name.endswith(".csv") else stream.read()
+
+
+def test_search(folder):
+    """It finds what is best within each budget, with fewer runs than it would take without stopping any, and judges it on the unseen
+    scenes."""
+    fake = FakeSsrlab()
+    code, said = search(folder, fake)
+    check(code == 0, said)
+    rows = read(folder, "tune.csv")
+    tried = [r for r in rows if r["batch"] != "0"]
+    full = 16 * len(rows)
+    spent = sum(int(r["runs"]) for r in rows)
+    judged = 4 * 2 * (2 + len(json.loads(read(folder, "presets.json"))))
+    check(spent + judged == fake.runs, f"{spent} runs are told and {judged} judge, but there were {fake.runs}")
+    check(1000 - 16 < spent <= 1000, f"{spent} runs of a budget of 1000")
+    check(spent < 0.6 * full, f"stopping saved little: {spent} runs of {full}")
+    values = {json.dumps({k: r[k] for k in AXES}) for r in tried}
+    check(len(values) == len(tried), "a point was tried twice")
+    check(all((r["step"] == "") == (r["march"] == "tree") for r in tried), "steps count with the march `linear` alone")
+    start = truth(DEFAULTS, SHOTS[0])[1]
+    presets = {p["name"]: p for p in json.loads(read(folder, "presets.json"))}
+    for budget, least in ((1, 1.0), (2, 1.0)):
+        own = next(p for name, p in presets.items() if f"{budget}x" in name)["parameters"]
+        found = DEFAULTS | own
+        check(all(DEFAULTS[k] != v for k, v in own.items()), f"{own} names defaults")
+        ratio = sum(truth(found, s)[0] / truth(DEFAULTS, s)[0] for s in SHOTS) / len(SHOTS)
+        # The least of all points within the budget, by a fine grid.
+        grid = [DEFAULTS | {"rays": r, "blur": 2.0, "march": m, "clamp": c, "step": t} for r in (1, 2, 4) for m in ("tree", "linear")
+                for c in (True, False) for t in (1.0, 4.0, 8.0)]  # fmt: skip
+        fitting = [p for p in grid if truth(p, "")[1] <= budget * start]
+        best = min(sum(truth(p, s)[0] / truth(DEFAULTS, s)[0] for s in SHOTS) / len(SHOTS) for p in fitting)
+        check(truth(found, "")[1] <= budget * start, f"{budget}x: {found} takes longer")
+        check(ratio < 1.1 * best, f"{budget}x: {found} has {ratio:.3f}, the least is {best:.3f}")
+    page = read(folder, "tuned.md")
+    check("unseen 3" in page and "| 2x |" in page, page)
+    check(all(os.path.getsize(os.path.join(folder, "out", f"search.{kind}")) > 5000 for kind in ("pdf", "png")), "the figure is empty")
+
+
+def test_interruption(folder):
+    """A search that was stopped goes on and ends as one that was not."""
+    tune.Outcome.draw = lambda self: None
+    ends = []
+    for name, interruptions in (("whole", []), ("parts", [1, 9])):
+        os.makedirs(os.path.join(folder, name))
+        for call in interruptions:
+            code, said = search(os.path.join(folder, name), FakeSsrlab(fails_at=call), {"most_runs": 240})
+            check(code == 3, f"a failed study ends the search: {code} {said}")
+        code, said = search(os.path.join(folder, name), FakeSsrlab(), {"most_runs": 240})
+        check(code == 0, said)
+        ends.append([read(os.path.join(folder, name), file) for file in ("tune.csv", "presets.json", "tuned.md")])
+    check(ends[0] == ends[1], "a search that was interrupted ends otherwise")
+
+
+def test_clock(folder):
+    """With a clock the search is the same, since only ratios to the baseline count: the machine's speed does not."""
+    times = []
+    for time in ("milliseconds", "operations"):
+        os.makedirs(os.path.join(folder, time))
+        fake = FakeSsrlab()
+        code, said = search(os.path.join(folder, time), fake, {"time": time, "most_runs": 100})
+        check(code == 0, said)
+        times.append([(r["point"], round(float(r["time"]), 6)) for r in read(os.path.join(folder, time), "tune.csv") if int(r["batch"]) < 2])
+    check(times[0] == times[1] and len(times[0]) > 3, f"{times[0]} differ from {times[1]}")
+
+
+def simulated(rng, name, log_error, time, scatter):
+    """A point whose scenes scatter about the mean of exp(log_error)."""
+    shots = [rng.gauss(0, scatter) for _ in range(4)]
+    shots = [s - sum(shots) / 4 + log_error for s in shots]
+    errors = {
+        (f"s{i}", "mse"): {seed: (math.exp(level + rng.gauss(0, 0.05)), 0.0) for seed in range(4)} for i, level in enumerate(shots)
+    }
+    return race.Point(name, {}, errors, {f"s{i}": time for i in range(4)})
+
+
+def part(point, shots, seeds):
+    """What of it was measured at a look."""
+    errors = {key: {s: v for s, v in found.items() if s in seeds} for key, found in point.errors.items() if key[0] in shots}
+    return race.Point(point.name, {}, errors, {shot: point.times[shot] for shot in shots})
+
+
+def test_race():
+    """Points that are as good as the front are stopped in RISK of all cases at most, at all looks together; those that are far worse almost always,
+    and after the first scene most of the time."""
+    rng = random.Random(1)
+    lost, kept, early, trials = 0, 0, 0, 150
+    for _ in range(trials):
+        runners = race.Race(simulated(rng, "base", 0.0, 1.0, 0.0), 1.0, 3)
+        for i in range(8):
+            runners.add(simulated(rng, f"p{i}", rng.uniform(-0.3, 0.5), rng.uniform(0.8, 1.2), 0.1))
+        front = runners.front()
+        rival = front[-1]
+        level = runners.error(rival).mean
+        for is_good in (True, False):
+            shift = 0.0 if is_good else 0.8
+            truly = simulated(rng, "new", level + shift, rival.times["s0"], 0.1)
+            looks = [bool(runners.beaten_by(part(truly, [f"s{i}" for i in range(count)], (0, 1)))) for count in (1, 2, 4)]
+            first, stopped = looks[0], any(looks)
+            if is_good:
+                lost += stopped
+            else:
+                kept += not stopped
+                early += first
+    # Of 150 trials of probability RISK, 18 or more succeed in one case of 1500.
+    check(lost / trials < 0.12, f"{lost} of {trials} points as good as the front were stopped")
+    check(kept / trials < 0.02, f"{kept} of {trials} points with 2.2 times the error ran in full")
+    check(early / trials > 0.5, f"only {early} of {trials} points with 2.2 times the error were stopped after one scene")
+
+
+def test_times_protect():
+    """A point that takes less time than all that err less is not stopped; nor is any on the first scene, while none tells how scenes
+    differ."""
+    rng = random.Random(2)
+    runners = race.Race(simulated(rng, "base", 0.0, 1.0, 0.0), 1.05, 3)
+    bad = simulated(rng, "bad", 1.0, 1.04, 0.0)
+    check(runners.beaten_by(bad) is not None, "all scenes are seen")
+    check(runners.beaten_by(part(bad, ["s0"], (0, 1))) is None, "one point tells nothing of how scenes differ")
+    check(runners.beaten_by(simulated(rng, "fast", 1.0, 0.9, 0.0)) is None, "it is the fastest")
+    check(runners.beaten_by(simulated(rng, "alike", 1.0, 0.97, 0.0)) is not None, "its time cannot be told from the rival's")
+
+
+def main():
+    test_race()
+    test_times_protect()
+    with tempfile.TemporaryDirectory() as folder:
+        test_search(folder)
+    with tempfile.TemporaryDirectory() as folder:
+        test_interruption(folder)
+    with tempfile.TemporaryDirectory() as folder:
+        test_clock(folder)
+
+
+if __name__ == "__main__":
+    main()
