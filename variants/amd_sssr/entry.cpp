@@ -58,7 +58,8 @@ VariantEntry amd_sssr_entry() {
               "original's is left as it is",
               amd_corrected},
              {"best",
-              "the least error that experiments/configs/search_amd_sssr.json found, from `corrected` on: rougher "
+              "the least error that a search found (search_amd_sssr.json of commit 5cf9fef), from `corrected` on: "
+              "rougher "
               "surfaces traced, contact hits and thicker surfaces accepted, narrower filters, history clipped closer",
               changed(amd_corrected, {{"hierarchy.max_traversal_intersections", 4096},
                                       {"roughness_threshold_alpha", 0.4},

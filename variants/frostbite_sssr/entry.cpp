@@ -25,7 +25,8 @@ VariantEntry frostbite_sssr_entry() {
               "pixel in place of reuse",
               {{"min_rays", 4}, {"max_rays", 4}, {"taps", "1"}}},
              {"best",
-              "the least error that experiments/configs/search_frostbite.json found: one ray per pixel from 0.7 of the "
+              "the least error that a search found (search_frostbite.json of commit 5cf9fef): one ray per pixel from "
+              "0.7 of the "
               "lobe of visible normals; hits that the previous frame did not show see the environment",
               {{"half_resolution", false},
                {"lobe", "visible_normals"},
