@@ -142,7 +142,7 @@ class Outcome:
         point, judged = self.points[name], self.unseen(name)
         cells = [name, with_interval(ratio_of(self.race.error(point))), f"{math.exp(self.race.log_time(point)):.3f}"]
         if name == self.tuning.baseline:
-            return [name, "1", "1", "1", "1"]
+            return [name, "1", "1"] + (["1", "1"] if self.results else ["", ""])
         return cells + ([with_interval(judged[0]), "" if judged[2] is None else f"{judged[2]:.3f}"] if judged else ["", ""])
 
     def unseen_lines(self):

@@ -136,6 +136,8 @@ class Race:
                 self.usual[shot] = statistics.median(self.scatters[shot])
 
     def difference(self, a, b):
+        if a is b:
+            return Difference(0.0, 0.0, PRIOR)
         shots = [s for s in a.shots() if s in b.shots()]
         means, squares, degrees = [], 0.0, PRIOR
         for shot in shots:

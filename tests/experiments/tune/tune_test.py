@@ -190,12 +190,19 @@ def test_clock(folder):
     check(times[0] == times[1] and len(times[0]) > 3, f"{times[0]} differ from {times[1]}")
 
 
+def test_small_space(folder):
+    """Where there is nothing else to try, nothing is tried again, and the search ends."""
+    code, said = search(folder, FakeSsrlab(), {"axes": {"rays": [1, 2, 4]}})
+    tried = [r["rays"] for r in read(folder, "tune.csv") if r["batch"] != "0"]
+    check(code == 0 and sorted(tried) == ["2", "4"], f"{tried} were tried beside the start, {said}")
+
+
 def simulated(rng, name, log_error, time, scatter):
     """A point whose scenes scatter about the mean of exp(log_error)."""
     shots = [rng.gauss(0, scatter) for _ in range(4)]
     shots = [s - sum(shots) / 4 + log_error for s in shots]
     errors = {
-        (f"s{i}", "mse"): {seed: (math.exp(level + rng.gauss(0, 0.05)), 0.0) for seed in range(4)} for i, level in enumerate(shots)
+        (f"s{i}", "mse"): {seed: (math.exp(level + rng.gauss(0, 0.01)), 0.0) for seed in range(4)} for i, level in enumerate(shots)
     }
     return race.Point(name, {}, errors, {f"s{i}": time for i in range(4)})
 
@@ -255,6 +262,8 @@ def main():
         test_interruption(folder)
     with tempfile.TemporaryDirectory() as folder:
         test_clock(folder)
+    with tempfile.TemporaryDirectory() as folder:
+        test_small_space(folder)
 
 
 if __name__ == "__main__":
