@@ -1,3 +1,4 @@
+// The command line. Over 400 lines: the options of all commands, so that one place says what each takes.
 #include "core/error.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"

@@ -12,7 +12,7 @@ study=$(realpath "${1:-experiments/cluster/slurm_test.json}")
 [ "$(id -u)" -eq 0 ] || die "slurmd needs root"
 install_packages "${cluster_packages[@]}"
 
-work=$(mktemp -d /tmp/ssrlab-slurm.XXXXXX)
+work=$(mktemp -dt ssrlab-slurm.XXXXXX)
 export SLURM_CONF=$work/slurm.conf SSRLAB_TIMING_LOCK=$work/timing.lock
 own_processes=()
 clean_up() {

@@ -1,6 +1,5 @@
 #include "core/error.h"
 #include "experiments/measuring/timing.h"
-#include "experiments/results/provenance.h"
 #include "experiments/study/folder_owner.h"
 #include "experiments/study/run.h"
 #include "experiments/study/study_results.h"
@@ -61,17 +60,10 @@ void take_over(const FoundCell& found, const fs::path& out) {
 }  // namespace
 
 size_t merge_study(const Config& config, const RunSettings& settings, const std::vector<fs::path>& folders) {
-    Device device(settings.device);
-    Progress progress(1.0);
-    const auto say = [&](const std::string& text) { progress.say(text); };
     for (const fs::path& folder : folders) check_owner(folder, config, settings.keep_all);
-    StudyRun study{.config = config,
-                   .settings = settings,
-                   .device = device,
-                   .cells = CellStore(settings.out, say),
-                   .progress = progress,
-                   .maker = maker_of_cells(device)};
-    study.plan = plan_study(config, device.info(), settings.search_path, settings.keep_all);
+    StudyRun study(config, settings);
+    const auto say = [&](const std::string& text) { study.progress.say(text); };
+    study.plan = plan_study(config, study.device.info(), settings.search_path, settings.keep_all);
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
     std::vector<std::string> missing;
     for (const PlannedShot& shot : study.plan.shots) {
@@ -93,7 +85,7 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
     if (study.finished.empty())
         fail("none of the ", study.plan.cell_count(), " cells of this study is in ", folders.front().string(),
              folders.size() > 1 ? " or the folders beside it" : "",
-             "; were they made by this version of ssrlab, on a device like ", device.info().name, "?");
+             "; were they made by this version of ssrlab, on a device like ", study.device.info().name, "?");
     write_results(study, missing.empty(), {});
     say(std::to_string(study.finished.size()) + " cells merged, " + std::to_string(missing.size()) + " missing");
     for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);

@@ -3,7 +3,6 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "experiments/results/manifest.h"
-#include "experiments/results/provenance.h"
 #include "experiments/study/folder_owner.h"
 #include "experiments/study/study_results.h"
 
@@ -93,17 +92,10 @@ private:
 
 void run_study(const Config& config, const RunSettings& settings) {
     const CellSelection selection(settings.cells);
-    Device device(settings.device);
-    Progress progress(1.0);
-    const auto say = [&](const std::string& text) { progress.say(text); };
-    StudyRun study{.config = config,
-                   .settings = settings,
-                   .device = device,
-                   .cells = CellStore(settings.out, say),
-                   .progress = progress,
-                   .maker = maker_of_cells(device)};
+    StudyRun study(config, settings);
+    const auto say = [&](const std::string& text) { study.progress.say(text); };
     const SpentTime::Span span(study.spent, "else");
-    for (const auto& warning : study_entry(config)["warnings"]) progress.say("warning: " + warning.get<std::string>());
+    for (const auto& warning : study_entry(config)["warnings"]) say("warning: " + warning.get<std::string>());
     plan_work(study, selection);
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
     Runner(study, selection).run();

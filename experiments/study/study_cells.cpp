@@ -61,7 +61,7 @@ std::string why_timed_again(const StudyRun& study, const Cell& cell) {
 }
 
 /// Times are kept whatever machine took them, which nobody is to overlook.
-void say_whose_times(const StudyRun& study, const PlannedCell& planned, const Cell& cell) {
+void say_whose_times(StudyRun& study, const PlannedCell& planned, const Cell& cell) {
     if (planned.kind == CellKind::times && is_of_another_machine(study, cell))
         study.progress.say(
             "note: " + planned.what + " are those of " + cell.provenance["host"]["name"].get<std::string>() + " (" +

@@ -59,7 +59,7 @@ nlohmann::json run_entry(const StudyRun& study) {
 }
 
 /// Lists what earlier versions of the study left in the folder, or removes it.
-void handle_stale_files(const StudyRun& study, nlohmann::json& manifest, const nlohmann::json& before) {
+void handle_stale_files(StudyRun& study, nlohmann::json& manifest, const nlohmann::json& before) {
     std::set<std::string> used;
     for (const Cell& cell : study.finished) used.insert(cell.name);
     const std::filesystem::path& out = study.settings.out;

@@ -2,26 +2,34 @@
 #include "core/gpu/clock.h"
 #include "core/gpu/device.h"
 #include "experiments/measuring/workload.h"
+#include "experiments/results/provenance.h"
 #include "experiments/study/cell_store.h"
 #include "experiments/study/progress.h"
 #include "experiments/study/run.h"
 #include "experiments/study/spent_time.h"
 #include "experiments/study/study_plan.h"
 
-/// A study on its way: all that it needs.
+/// A study on its way: all that it needs. `config` and `settings` must outlive it.
 struct StudyRun {
+    StudyRun(const Config& config, const RunSettings& settings)
+        : config(config),
+          settings(settings),
+          device(settings.device),
+          cells(settings.out, [this](const std::string& text) { progress.say(text); }),
+          maker(maker_of_cells(device)) {}
+
     const Config& config;
     const RunSettings& settings;
-    Device& device;
+    Progress progress{1.0};
+    Device device;
     CellStore cells;
-    Progress& progress;
     nlohmann::json maker;  ///< of cells, see provenance.h
-    StudyPlan plan = {};
-    Workload work = {};
-    SpentTime spent = {};
-    std::optional<ClockProof> clock = {};  ///< made when first needed
-    std::vector<Cell> finished = {};       ///< in the order of the plan
-    size_t made = 0;                       ///< cells that were not found done
+    StudyPlan plan;
+    Workload work;
+    SpentTime spent;
+    std::optional<ClockProof> clock;  ///< made when first needed
+    std::vector<Cell> finished;       ///< in the order of the plan
+    size_t made = 0;                  ///< cells that were not found done
     bool is_rehearsed = false;
 
     void report(double share, const std::string& what) {

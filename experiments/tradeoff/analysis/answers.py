@@ -129,6 +129,11 @@ class Answers:
         absent = {v for c in self.analysis.curves.values() for v in c} - {r["variant"] for r in rows}
         if absent:
             lines.append(f"In no scene fit {listed(sorted(absent))}.")
+        fits = [f"{r['scenes_that_fit']} of {of_scenes}" for r in rows]
+        return [*lines, "", *self._ranking("technique", rows, "surely fits in scenes", fits)]
+
+    def _ranking(self, what, rows, last, of_last):
+        """Rows of across.csv as a table; `last`: the head of its last column, `of_last`: what stands there."""
         cells = [
             (
                 r["label"],
@@ -138,12 +143,12 @@ class Answers:
                 number(r["p_holm"]),
                 r["wins"],
                 r["shared"],
-                f"{r['scenes_that_fit']} of {of_scenes}",
+                own,
             )
-            for r in rows
+            for r, own in zip(rows, of_last)
         ]
-        head = ("technique", "rank (without any one scene)", f"error / {self.base}", "error / first's", "p (Holm)", "shots won", "shots shared", "surely fits in scenes")
-        return [*lines, "", *table(head, cells)]
+        head = (what, "rank (without any one scene)", f"error / {self.base}", "error / first's", "p (Holm)", "shots won", "shots shared", last)
+        return table(head, cells)
 
     def _first_sentence(self, first, rows, of_scenes):
         if first is None or (first["ratio"] == 1 and first["label"] == self.base):
@@ -167,20 +172,7 @@ class Answers:
         if not rows:
             return []
         lines = ["## Which errs least, whatever it takes", "", self._first_sentence(next((r for r in rows if r["rank"] == 1), None), rows, len({s.scene for s in self.study.shots})), ""]
-        cells = [
-            (
-                r["label"],
-                r["rank"] and f"{r['rank']} ({r['rank_low']} to {r['rank_high']})" or "",
-                measured(r["ratio"], r["low"], r["high"]),
-                measured(r["against_best"], r["against_best_low"], r["against_best_high"]),
-                number(r["p_holm"]),
-                r["wins"],
-                r["shared"],
-                r["scenes"],
-            )
-            for r in rows
-        ]
-        return lines + table(("point", "rank (without any one scene)", f"error / {self.base}", "error / first's", "p (Holm)", "shots won", "shots shared", "scenes"), cells)
+        return lines + self._ranking("point", rows, "scenes", [r["scenes"] for r in rows])
 
     def _shots(self):
         lines = []
