@@ -3,8 +3,8 @@
 #include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
-#include "experiments/study/cell_store.h"
-#include "experiments/study/estimate.h"
+#include "experiments/study/folder/cell_store.h"
+#include "experiments/study/plan/estimate.h"
 #include "experiments/study/progress.h"
 
 #include <unistd.h>

@@ -2,7 +2,7 @@
 #include "experiments/results/cell.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shot.h"
-#include "experiments/study/frame_source.h"
+#include "experiments/study/shots/frame_source.h"
 
 #include <functional>
 

@@ -141,18 +141,20 @@ std::vector<TimedCopy> make_copies(const Config& config, PassGraph& like, bool k
         if (!variant.is_timed) continue;
         std::vector<LeftOut> left_out;
         for (const auto purpose : {recorded, twin}) {
+            if (purpose == twin && !config.timing.has_copies) continue;
             TimedCopy& copy = copies.emplace_back(variant, purpose, like);
             if (!keep_all) left_out = copy.variant->leave_out(facts);
         }
-        if (!left_out.empty()) copies.emplace_back(variant, complete, like).kept_parts = left_out;
+        if (!left_out.empty() && config.timing.has_copies)
+            copies.emplace_back(variant, complete, like).kept_parts = left_out;
     }
     return copies;
 }
 
-/// The copy that gives the rows of the same point as a complete one.
-const TimedCopy& recorded_like(const TimedCopy& complete, const std::vector<TimedCopy>& copies) {
+/// The copy that gives the rows of the same point as another one.
+const TimedCopy& recorded_like(const TimedCopy& other, const std::vector<TimedCopy>& copies) {
     return *std::ranges::find_if(copies, [&](const TimedCopy& copy) {
-        return copy.purpose == TimedCopy::Purpose::recorded && &copy.config == &complete.config;
+        return copy.purpose == TimedCopy::Purpose::recorded && &copy.config == &other.config;
     });
 }
 
@@ -189,13 +191,12 @@ std::vector<Saving> savings_of(const std::vector<TimedCopy>& copies, const std::
 
 std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
     std::vector<AaPair> pairs;
-    for (const TimedCopy& copy : copies) {
-        const double median = copy.median_total(rounds);
-        if (copy.purpose == TimedCopy::Purpose::recorded)
-            pairs.push_back({.variant = copy.config.variant, .point = copy.config.point, .first_ms = median});
-        else if (copy.purpose == TimedCopy::Purpose::twin)
-            pairs.back().second_ms = median;
-    }
+    for (const TimedCopy& copy : copies)
+        if (copy.purpose == TimedCopy::Purpose::twin)
+            pairs.push_back({.variant = copy.config.variant,
+                             .point = copy.config.point,
+                             .first_ms = recorded_like(copy, copies).median_total(rounds),
+                             .second_ms = copy.median_total(rounds)});
     return pairs;
 }
 
@@ -359,7 +360,7 @@ void add_timing(nlohmann::json& manifest, const nlohmann::json& entry) {
     double floor = 0;
     for (const nlohmann::json& pair : clock["aa_pairs"])
         if (is_long(pair) || !has_long) floor = std::max(floor, pair["floor"].get<double>());
-    clock["aa_floor"] = floor;
+    if (clock.contains("aa_pairs")) clock["aa_floor"] = floor;
 
     for (nlohmann::json& shot : manifest["shots"])
         for (nlohmann::json& part : shot["left_out"])

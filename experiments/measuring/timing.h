@@ -5,7 +5,7 @@
 #include "experiments/results/median_interval.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shot.h"
-#include "experiments/study/frame_source.h"
+#include "experiments/study/shots/frame_source.h"
 
 #include <functional>
 
@@ -40,7 +40,7 @@ struct TimingLoad {
 
 struct ShotTimes {
     std::vector<TimeRow> rows;
-    std::vector<AaPair> pairs;  ///< one for each variant point that is timed
+    std::vector<AaPair> pairs;  ///< one for each variant point that is timed; none without config.timing.has_copies
     std::vector<SavedTime> saved;
     std::vector<Saving> savings;  ///< of the points that leave anything out
     TimingLoad load;

@@ -6,19 +6,29 @@
 #include "experiments/results/file_name.h"
 #include "metrics/color_map.h"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 namespace {
 
-/// Writes `rgb` as EXR and `picture` as PNG; the entry names both with the hashes of their bytes.
-nlohmann::json save_image(const std::filesystem::path& out, const std::string& folder, const std::string& name,
-                          const HostImage& rgb, PixelType type, const HostImage& picture, float exposure_ev,
-                          nlohmann::json entry) {
-    const std::string stem = "images/" + file_name(folder) + "/" + name;
-    write_exr(out / (stem + ".exr"), rgb, type);
-    write_png(out / (stem + ".png"), picture, exposure_ev);
+/// An image that is kept as EXR and PNG.
+struct KeptImage {
+    std::string name;  ///< of both files, without extension
+    nlohmann::json entry;
+    HostImage rgb;
+    float exposure_ev = 0.0f;
+    PixelType type = PixelType::half;  ///< which does: results are looked at, and measured in float32
+    HostImage picture = {};            ///< what the PNG shows, if it is not `rgb`
+};
+
+/// Writes it; its entry names both files with the hashes of their bytes.
+nlohmann::json save(const std::filesystem::path& out, const std::string& folder, const KeptImage& image) {
+    const std::string stem = "images/" + file_name(folder) + "/" + image.name;
+    write_exr(out / (stem + ".exr"), image.rgb, image.type);
+    write_png(out / (stem + ".png"), image.picture.values.empty() ? image.rgb : image.picture, image.exposure_ev);
+    nlohmann::json entry = image.entry;
     for (const std::string kind : {"exr", "png"}) {
         entry[kind] = stem + "." + kind;
         entry[kind + "_hash"] = file_hash(out / (stem + "." + kind));
@@ -26,10 +36,12 @@ nlohmann::json save_image(const std::filesystem::path& out, const std::string& f
     return entry;
 }
 
-/// Half floats do: results are looked at, and measured in float32.
-nlohmann::json save_image(const std::filesystem::path& out, const std::string& folder, const std::string& name,
-                          const HostImage& rgb, float exposure_ev, nlohmann::json entry) {
-    return save_image(out, folder, name, rgb, PixelType::half, rgb, exposure_ev, std::move(entry));
+/// All at once: packing them takes the time.
+std::vector<nlohmann::json> save(const std::filesystem::path& out, const std::string& folder,
+                                 const std::vector<KeptImage>& images) {
+    std::vector<nlohmann::json> entries(images.size());
+    tbb::parallel_for(size_t(0), images.size(), [&](size_t i) { entries[i] = save(out, folder, images[i]); });
+    return entries;
 }
 
 HostImage repeated_channel(const HostImage& source) {
@@ -53,6 +65,18 @@ HostImage error_picture(const HostImage& error) {
     Plane sizes(error.extent);
     for (size_t i = 0; i < error.values.size(); ++i) sizes.values[i / 3] += std::abs(error.values[i]) / 3.0;
     return false_color(sizes, 1.0);
+}
+
+/// Of the images of a point's run.
+std::string name_of(const ResultRow& row, const std::string& suffix) {
+    return file_name(row.variant + "." + row.point, 150) + ".s" + std::to_string(row.seed) + "." + suffix;
+}
+
+nlohmann::json entry_of(const ResultRow& row, const std::string& kind, const std::string& target) {
+    return {{"shot", row.shot},       {"frame", std::stoul(row.frame)},
+            {"variant", row.variant}, {"point", row.point},
+            {"seed", row.seed},       {"kind", kind},
+            {"target", target}};
 }
 
 }  // namespace
@@ -98,68 +122,69 @@ CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, cons
 
 std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot,
                                                   unsigned frame, const Reference& reference, float exposure_ev) {
-    std::vector<nlohmann::json> entries;
     std::vector<std::pair<const char*, const ReferenceOutput*>> outputs = {
         {"image", &reference.image}, {"specular", &reference.specular}, {"incident", &reference.incident}};
     if (!reference.ladder.is_empty()) {
         outputs.push_back({"camera_radiance", &reference.ladder.camera_radiance});
         outputs.push_back({"on_screen", &reference.ladder.on_screen});
     }
+    std::vector<KeptImage> images;
     for (const auto& [target, output] : outputs)
-        entries.push_back(save_image(
-            out, shot, "reference." + reference.hash.substr(0, 8) + "." + target, output->mean, exposure_ev,
-            {{"shot", shot}, {"frame", frame}, {"variant", "reference"}, {"kind", "reference"}, {"target", target}}));
-    return entries;
+        images.push_back({.name = "reference." + reference.hash.substr(0, 8) + "." + target,
+                          .entry = {{"shot", shot},
+                                    {"frame", frame},
+                                    {"variant", "reference"},
+                                    {"kind", "reference"},
+                                    {"target", target}},
+                          .rgb = output->mean,
+                          .exposure_ev = exposure_ev});
+    return save(out, shot, images);
 }
 
 nlohmann::json save_roughness_image(const std::filesystem::path& out, const std::string& shot, unsigned frame,
                                     const HostImage& roughness) {
     ContentHash hash;
     hash.add(std::as_bytes(std::span(roughness.values)));
-    return save_image(
-        out, shot, "surface." + hash.hex().substr(0, 8) + ".roughness", repeated_channel(roughness), 0.0f,
-        {{"shot", shot}, {"frame", frame}, {"variant", "reference"}, {"kind", "surface"}, {"target", "roughness"}});
+    return save(out, shot,
+                KeptImage{.name = "surface." + hash.hex().substr(0, 8) + ".roughness",
+                          .entry = {{"shot", shot},
+                                    {"frame", frame},
+                                    {"variant", "reference"},
+                                    {"kind", "surface"},
+                                    {"target", "roughness"}},
+                          .rgb = repeated_channel(roughness)});
 }
 
 nlohmann::json save_verdict_image(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix,
                                   const std::string& stage, const HostImage& map) {
-    const std::string name =
-        file_name(row.variant + "." + row.point, 150) + ".s" + std::to_string(row.seed) + "." + suffix;
-    const nlohmann::json entry = {{"shot", row.shot},       {"frame", std::stoul(row.frame)},
-                                  {"variant", row.variant}, {"point", row.point},
-                                  {"seed", row.seed},       {"kind", "hits"},
-                                  {"target", stage}};
-    return save_image(out, row.shot, name + ".hits." + file_name(stage, 60), map, 0.0f, entry);
+    return save(out, row.shot,
+                KeptImage{.name = name_of(row, suffix) + ".hits." + file_name(stage, 60),
+                          .entry = entry_of(row, "hits", stage),
+                          .rgb = map});
 }
 
 std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out, const ResultRow& row,
                                                const std::string& suffix, const PoseTruth& truth,
                                                const CompositedImages& images, float exposure_ev) {
-    const std::string name =
-        file_name(row.variant + "." + row.point, 150) + ".s" + std::to_string(row.seed) + "." + suffix;
-    const nlohmann::json base = {{"shot", row.shot},
-                                 {"frame", std::stoul(row.frame)},
-                                 {"variant", row.variant},
-                                 {"point", row.point},
-                                 {"seed", row.seed}};
-    std::vector<nlohmann::json> entries;
-    const auto save = [&](const char* kind, const char* target, const HostImage& rgb, float ev) {
-        nlohmann::json entry = base;
-        entry["kind"] = kind, entry["target"] = target;
-        entries.push_back(save_image(out, row.shot, name + "." + kind + "." + target, rgb, ev, entry));
+    std::vector<KeptImage> kept;
+    const auto keep = [&](const std::string& kind, const std::string& target, const HostImage& rgb,
+                          float ev) -> KeptImage& {
+        return kept.emplace_back(KeptImage{.name = name_of(row, suffix) + "." + kind + "." + target,
+                                           .entry = entry_of(row, kind, target),
+                                           .rgb = rgb,
+                                           .exposure_ev = ev});
     };
     const HostImage image = composited_image(truth, images);
-    save("result", "image", image, exposure_ev);
-    save("result", "specular", images.specular, exposure_ev);
-    save("result", "incident", images.incident, exposure_ev);
-    save("raw", "radiance", images.radiance, exposure_ev);
-    save("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
+    keep("result", "image", image, exposure_ev);
+    keep("result", "specular", images.specular, exposure_ev);
+    keep("result", "incident", images.incident, exposure_ev);
+    keep("raw", "radiance", images.radiance, exposure_ev);
+    keep("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
     for (const auto& [target, reference] : truth.targets) {
         const HostImage error = relative_error(tested_image(target, images, image), reference.image);
-        nlohmann::json entry = base;
-        entry["kind"] = "error", entry["target"] = target, entry["epsilon"] = relative_error_epsilon(reference.image);
-        entries.push_back(save_image(out, row.shot, name + ".error." + target, error, PixelType::float32,
-                                     error_picture(error), 0.0f, entry));
+        KeptImage& of_error = keep("error", target, error, 0.0f);
+        of_error.entry["epsilon"] = relative_error_epsilon(reference.image);
+        of_error.type = PixelType::float32, of_error.picture = error_picture(error);
     }
-    return entries;
+    return save(out, row.shot, kept);
 }

@@ -1,6 +1,6 @@
 #include "core/error.h"
 #include "experiments/measuring/timing.h"
-#include "experiments/study/folder_owner.h"
+#include "experiments/study/folder/folder_owner.h"
 #include "experiments/study/run.h"
 #include "experiments/study/study_results.h"
 

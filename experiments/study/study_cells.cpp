@@ -5,9 +5,9 @@
 #include "experiments/results/host_info.h"
 #include "experiments/results/provenance.h"
 #include "experiments/study/config/conditions.h"
-#include "experiments/study/point_run.h"
-#include "experiments/study/rehearsal.h"
-#include "experiments/study/shot_run.h"
+#include "experiments/study/shots/point_run.h"
+#include "experiments/study/shots/rehearsal.h"
+#include "experiments/study/shots/shot_run.h"
 #include "experiments/study/study_run.h"
 
 #include <algorithm>
@@ -227,7 +227,7 @@ std::unique_ptr<ShotRun> open(StudyRun& study, const PlannedShot& shot) {
 /// Compiles all that the study renders, so that a mistake in a shader is told before hours of work. Once in a process.
 void rehearse_once(StudyRun& study) {
     if (study.is_rehearsed) return;
-    const SpentTime::Span span(study.spent, "rehearsal");
+    const SpentTime::Span span(study.spent, "compiling");
     rehearse(study.device, study.config.variants);
     study.is_rehearsed = true;
 }

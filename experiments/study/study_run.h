@@ -3,11 +3,11 @@
 #include "core/gpu/device.h"
 #include "experiments/measuring/workload.h"
 #include "experiments/results/provenance.h"
-#include "experiments/study/cell_store.h"
+#include "experiments/study/folder/cell_store.h"
+#include "experiments/study/plan/study_plan.h"
 #include "experiments/study/progress.h"
 #include "experiments/study/run.h"
 #include "experiments/study/spent_time.h"
-#include "experiments/study/study_plan.h"
 
 /// A study on its way: all that it needs. `config` and `settings` must outlive it.
 struct StudyRun {

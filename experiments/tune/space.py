@@ -33,7 +33,7 @@ class Axis:
         self.values = written.get("values")
         self.is_log = "log" in written
         self.ends = sorted(written.get("log") or written.get("lin") or ())
-        self.is_whole = declared["type"] == "integer"
+        self.is_whole = declared.get("type") == "integer"  # those with names have values alone
         self.only_if, self.skip_if = written.get("only_if"), written.get("skip_if")
 
     def needs(self):

@@ -46,6 +46,7 @@ class Studies:
         self.rules = asked["tune"]
         self.common = {k: v for k, v in asked["study"].items() if k not in NOT_OF_STUDIES}
         self.timing = asked["study"].get("timing", {})
+        self.search_timing = self.timing | {"copies": False}  # of many points, whose ratios are compared with a slack of their own
         seeds = asked["study"].get("seeds", DEFAULT_SEEDS)
         self.seeds = seeds if isinstance(seeds, list) else list(range(seeds))
         self.shots = self._placed(single_shots(asked["study"]["shots"]), asked["folder"])
@@ -77,7 +78,8 @@ class Studies:
         folder = os.path.join(self.out, name)
         os.makedirs(os.path.dirname(folder), exist_ok=True)
         study = self.common | {"variants": variants, "shots": shots, "seeds": seeds}
-        study["timing"] = self.timing if is_timed and self.has_clock else {"frames": 0}
+        timing = self.timing if name == "judged" else self.search_timing
+        study["timing"] = timing if is_timed and self.has_clock else {"frames": 0}
         study["costs"] = is_timed and not self.has_clock
         with open(folder + ".json", "w", encoding="utf-8") as stream:  # beside the folder: study.json in it is ssrlab's own
             json.dump(study, stream, indent=1)

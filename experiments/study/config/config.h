@@ -74,6 +74,7 @@ struct VariantConfig {
 struct TimingConfig {
     unsigned frames = 15;  ///< measured per variant, after the warm-up; 0: no timing
     unsigned warm_up = 3;
+    bool has_copies = true;  ///< of each point, which tell the noise of times and what leaving out work saves
 };
 
 /// Which rays of a technique are compared with what they truly meet.

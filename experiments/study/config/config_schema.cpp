@@ -174,7 +174,7 @@ nlohmann::json config_schema(const std::string& variant) {
                     {"reference", {{"anyOf", {reference, {{"const", "none"}}}}}},
                     {"composite", {{"enum", {"split_sum", "additive_fresnel"}}}},
                     {"resolution", extents},
-                    {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}})},
+                    {"timing", object({{"frames", integer(0, 100000)}, {"warm_up", integer(1, 1000)}, {"copies", {{"type", "boolean"}}}})},
                     {"hits", object({{"every", integer(1, 64)}, {"seeds", integer(1, 1000000)}})},
                     {"costs", {{"type", "boolean"}}},
                     {"images", {{"enum", {"last", "all"}}}},

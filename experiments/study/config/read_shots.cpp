@@ -2,8 +2,8 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
-#include "experiments/study/capture.h"
 #include "experiments/study/config/config_values.h"
+#include "experiments/study/shots/capture.h"
 #include "metrics/ghost.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // What the noise of the path-traced light that techniques read adds to their errors.
 #include "experiments/measuring/lit_noise.h"
 #include "core/gpu/device.h"
-#include "experiments/study/point_run.h"
+#include "experiments/study/shots/point_run.h"
 #include "groundtruth/reference_cache.h"
 #include "tests/experiments/study/study_fixture.h"
 
@@ -105,7 +105,8 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
     const auto results = [&](const ReferenceHalves& light) {
         FrameStore store(*source, shot.config.depth_format, size_t(1) << 28),
             lit(*source, shot.config.depth_format, size_t(1) << 28);
-        ShotTruth truth = shot_truth(shot, config, store, source->graph(), [&](unsigned, ReferenceUse) { return reference; });
+        ShotTruth truth =
+            shot_truth(shot, config, store, source->graph(), [&](unsigned, ReferenceUse) { return reference; });
         PoseTruth pose = *truth.poses.at(0);
         pose.diffuse = mean_of(light.a, light.b), pose.lit_halves = light;
         truth.poses[0] = std::make_shared<PoseTruth>(std::move(pose));

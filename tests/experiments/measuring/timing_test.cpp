@@ -232,6 +232,12 @@ TEST_F(Timing, MeasuresWhatLeavingOutSaved) {
     EXPECT_LT(saving.share.high, 1.0);
     EXPECT_TRUE(all.savings.empty());
 
+    config.timing.has_copies = false;
+    const ShotTimes alone = time(source, rough);
+    EXPECT_EQ(alone.rows.size(), lean.rows.size());
+    EXPECT_TRUE(alone.pairs.empty() && alone.saved.empty() && alone.savings.empty());
+    config.timing.has_copies = true;
+
     const Shot mirrors = shot("fence", {0});
     WatchedSource mirror_source(device, mirrors, config);
     EXPECT_TRUE(time(mirror_source, mirrors).saved.empty());
@@ -271,4 +277,8 @@ TEST(TimingEntry, GoesIntoTheManifest) {
     add_timing(manifest, timing_entry(times, "c", another));
     EXPECT_EQ(manifest["clock"]["proofs"].size(), 2u);
     EXPECT_EQ(manifest["clock"]["load"].size(), 3u);
+
+    nlohmann::json of_points_alone = {{"shots", nlohmann::json::array()}};
+    add_timing(of_points_alone, timing_entry(ShotTimes{}, "a", clock));
+    EXPECT_FALSE(of_points_alone["clock"].contains("aa_floor")) << "a noise of 0 would be a claim";
 }

@@ -1,6 +1,6 @@
 // Captures: what is played after what, what is refused, what is warned of. A wall at a known distance stands for an
 // engine.
-#include "experiments/study/capture.h"
+#include "experiments/study/shots/capture.h"
 #include "core/error.h"
 #include "core/exr.h"
 #include "core/files.h"

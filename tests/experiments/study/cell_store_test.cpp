@@ -1,10 +1,10 @@
 // Cells on disk: what is damaged is not believed, what is claimed is done once, what is stale is known.
-#include "experiments/study/cell_store.h"
+#include "experiments/study/folder/cell_store.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "experiments/results/provenance.h"
 #include "experiments/results/result_images.h"
-#include "experiments/study/stale_files.h"
+#include "experiments/study/folder/stale_files.h"
 
 #include <gtest/gtest.h>
 

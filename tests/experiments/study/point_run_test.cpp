@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
-#include "experiments/study/frame_source.h"
+#include "experiments/study/shots/frame_source.h"
 #include "tests/experiments/study/study_fixture.h"
 
 TEST_F(StudyTest, AHeldPoseDoesNotFlickerAndHasOneReference) {

@@ -4,8 +4,8 @@
 #include "core/json.h"
 #include "experiments/results/file_name.h"
 #include "experiments/results/result_images.h"
-#include "experiments/study/cell_store.h"
-#include "experiments/study/folder_owner.h"
+#include "experiments/study/folder/cell_store.h"
+#include "experiments/study/folder/folder_owner.h"
 #include "tests/experiments/study/study_fixture.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "core/gpu/device.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/results/result_images.h"
-#include "experiments/study/frame_source.h"
+#include "experiments/study/shots/frame_source.h"
 #include "tests/experiments/study/study_fixture.h"
 #include "variants/registry.h"
 

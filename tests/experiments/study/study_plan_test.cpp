@@ -1,5 +1,5 @@
 // Which cells a study has, what each of them depends on, and which of them a process does.
-#include "experiments/study/study_plan.h"
+#include "experiments/study/plan/study_plan.h"
 #include "core/error.h"
 #include "tests/experiments/study/study_fixture.h"
 
@@ -83,8 +83,8 @@ TEST_F(StudyPlanTest, AnEditRedoesTheCellsThatItMayChange) {
     EXPECT_EQ(changed("experiments/measuring/timing.cpp"), Cells({"times"}));
     EXPECT_EQ(changed("experiments/measuring/judged_hits.cpp"), renders);
     for (const char* file : {"core/gpu/frame.cpp", "core/shaders/gbuffer/background.frag", "core/scene/gltf_mesh.cpp",
-                             "groundtruth/path_tracer.cpp", "metrics/flip.cpp", "experiments/study/shot_truth.cpp",
-                             "experiments/study/config/targets.cpp"})
+                             "groundtruth/path_tracer.cpp", "metrics/flip.cpp",
+                             "experiments/study/shots/shot_truth.cpp", "experiments/study/config/targets.cpp"})
         EXPECT_EQ(changed(file), all) << file;
     EXPECT_THROW(SourceCode(read_sources(tree.root)).needed_by({"variants/frostbyte_sssr/"}), Error);
 }

@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/study/config/shot.h"
-#include "experiments/study/shot_truth.h"
+#include "experiments/study/shots/shot_truth.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>

@@ -23,7 +23,7 @@ import race  # noqa: E402  (beside tune.py)
 import studies  # noqa: E402
 
 RAYS = {"default": 1, "type": "integer"}
-DECLARED = {"rays": RAYS, "blur": {"default": 1.0, "type": "number"}, "march": {"default": "linear", "enum": ["linear", "tree"], "type": "string"},
+DECLARED = {"rays": RAYS, "blur": {"default": 1.0, "type": "number"}, "march": {"default": "linear", "enum": ["linear", "tree"]},
             "step": {"default": 4.0, "type": "number"}, "clamp": {"default": True, "type": "boolean"}}  # fmt: skip
 DEFAULTS = {name: p["default"] for name, p in DECLARED.items()}
 AXES = {"rays": [1, 2, 4], "blur": {"log": [0.25, 4.0]}, "march": ["linear", "tree"], "clamp": [True, False],
@@ -52,6 +52,8 @@ class FakeSsrlab:
         with open(file, encoding="utf-8") as stream:
             study = json.load(stream)
         assert "tune" not in study and "tables" not in study, "a step is a study of its own"
+        if study["timing"]["frames"]:
+            assert study["timing"].get("copies", True) == (os.path.basename(out) == "judged"), "only what is judged needs second copies"
         self.calls.append(os.path.basename(out))
         if len(self.calls) == self.fails_at:
             return types.SimpleNamespace(returncode=3)

@@ -1,6 +1,6 @@
 #include "core/error.h"
 #include "core/near_miss.h"
-#include "experiments/study/study_plan.h"
+#include "experiments/study/plan/study_plan.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "experiments/study/cell_store.h"
+#include "experiments/study/folder/cell_store.h"
 
 #include "core/error.h"
 #include "core/files.h"

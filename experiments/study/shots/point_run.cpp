@@ -1,4 +1,4 @@
-#include "experiments/study/point_run.h"
+#include "experiments/study/shots/point_run.h"
 
 #include "core/gbuffer/composite.h"
 #include "core/gpu/device.h"

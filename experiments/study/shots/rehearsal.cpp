@@ -1,4 +1,4 @@
-#include "experiments/study/rehearsal.h"
+#include "experiments/study/shots/rehearsal.h"
 
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"

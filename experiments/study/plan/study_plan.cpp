@@ -1,12 +1,12 @@
-#include "experiments/study/study_plan.h"
+#include "experiments/study/plan/study_plan.h"
 
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/results/manifest.h"
 #include "experiments/results/source_code.h"
-#include "experiments/study/capture.h"
 #include "experiments/study/config/conditions.h"
 #include "experiments/study/config/shot.h"
+#include "experiments/study/shots/capture.h"
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 
@@ -42,12 +42,13 @@ public:
     }
 
     std::string of_references(const std::string& request) {
-        return name({"experiments/study/shot_run.cpp"}, request, with_images({}));
+        return name({"experiments/study/shots/shot_run.cpp"}, request, with_images({}));
     }
     std::string of_renders(const std::string& request, size_t variant) {
         const PointIdentity& point = points_[variant];
         std::vector<std::string> sources = point.sources;
-        sources.push_back("experiments/study/point_run.cpp"), sources.push_back("experiments/study/shot_run.cpp");
+        sources.push_back("experiments/study/shots/point_run.cpp"),
+            sources.push_back("experiments/study/shots/shot_run.cpp");
         const VariantConfig& v = config_.variants[variant];
         std::vector<std::string> what = {v.variant, v.point, point.parameters};
         for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
@@ -56,14 +57,15 @@ public:
     std::string of_costs(const std::string& request, size_t variant) {
         const PointIdentity& point = points_[variant];
         std::vector<std::string> sources = point.sources;
-        sources.push_back("experiments/measuring/costs.cpp"), sources.push_back("experiments/study/shot_run.cpp");
+        sources.push_back("experiments/measuring/costs.cpp"), sources.push_back("experiments/study/shots/shot_run.cpp");
         const VariantConfig& v = config_.variants[variant];
         return name(sources, request, {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())});
     }
     /// `runs`: by variant, whether it runs on the shot.
     std::string of_times(const std::string& request, const std::vector<bool>& runs) {
-        std::vector<std::string> sources = {"experiments/measuring/timing.cpp", "experiments/study/shot_run.cpp"};
+        std::vector<std::string> sources = {"experiments/measuring/timing.cpp", "experiments/study/shots/shot_run.cpp"};
         std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up)};
+        if (!config_.timing.has_copies) what.push_back("alone");
         for (size_t i = 0; i < points_.size(); ++i) {
             const VariantConfig& v = config_.variants[i];
             if (!v.is_timed || !runs[i]) continue;

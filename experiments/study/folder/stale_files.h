@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/study/cell_store.h"
+#include "experiments/study/folder/cell_store.h"
 
 #include <set>
 

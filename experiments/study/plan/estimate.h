@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gpu/device.h"
+#include "experiments/study/plan/study_plan.h"
 #include "experiments/study/run.h"
-#include "experiments/study/study_plan.h"
 
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/measuring/measure.h"
-#include "experiments/study/frame_source.h"
+#include "experiments/study/shots/frame_source.h"
 
 #include <functional>
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/gpu/device.h"
 #include "experiments/results/cell.h"
-#include "experiments/study/capture.h"
-#include "experiments/study/shot_truth.h"
+#include "experiments/study/shots/capture.h"
+#include "experiments/study/shots/shot_truth.h"
 
 #include <filesystem>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "experiments/study/shot_truth.h"
+#include "experiments/study/shots/shot_truth.h"
 
 #include "core/error.h"
 #include "core/files.h"

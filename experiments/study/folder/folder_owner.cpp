@@ -1,4 +1,4 @@
-#include "experiments/study/folder_owner.h"
+#include "experiments/study/folder/folder_owner.h"
 
 #include "core/error.h"
 #include "core/files.h"

@@ -1,9 +1,9 @@
 #pragma once
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/rasterizer.h"
-#include "experiments/study/capture.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shot.h"
+#include "experiments/study/shots/capture.h"
 
 #include <map>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "experiments/study/frame_source.h"
+#include "experiments/study/shots/frame_source.h"
 
 #include "core/error.h"
 #include "core/gbuffer/environment_images.h"

@@ -1,4 +1,4 @@
-#include "experiments/study/shot_run.h"
+#include "experiments/study/shots/shot_run.h"
 
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"

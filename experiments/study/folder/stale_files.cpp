@@ -1,4 +1,4 @@
-#include "experiments/study/stale_files.h"
+#include "experiments/study/folder/stale_files.h"
 
 #include <algorithm>
 

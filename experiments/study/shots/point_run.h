@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/results/cell.h"
-#include "experiments/study/shot_truth.h"
+#include "experiments/study/shots/shot_truth.h"
 #include "experiments/study/spent_time.h"
 
 struct PointRunSettings {

@@ -1,4 +1,4 @@
-#include "experiments/study/capture.h"
+#include "experiments/study/shots/capture.h"
 
 #include "core/error.h"
 #include "core/files.h"

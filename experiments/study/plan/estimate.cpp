@@ -1,0 +1,265 @@
+#include "experiments/study/plan/estimate.h"
+
+#include "experiments/measuring/render_variant.h"
+#include "experiments/study/shots/point_run.h"
+#include "experiments/study/shots/shot_run.h"
+#include "groundtruth/reference.h"
+#include "variants/registry.h"
+
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<glm::uvec2, 2> calibration_extents = {glm::uvec2(64, 36), glm::uvec2(160, 90)};
+constexpr unsigned few_samples = 32, many_samples = 128;
+constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
+constexpr unsigned plays_of_lit_noise = 2;  // of a point: with the light of each half of the reference
+
+double seconds_of(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double pixels_of(glm::uvec2 extent) { return double(extent.x) * double(extent.y); }
+
+/// Seconds that grow with the number of pixels.
+struct Line {
+    double fixed = 0, per_pixel = 0;
+    double at(double pixels) const { return fixed + per_pixel * pixels; }
+};
+
+Line line_through(const std::array<double, 2>& seconds) {
+    const double few = pixels_of(calibration_extents[0]), many = pixels_of(calibration_extents[1]);
+    const double slope = std::max(seconds[1] - seconds[0], 0.0) / (many - few);
+    return {std::max(seconds[0] - slope * few, 0.0), slope};
+}
+
+/// Points that are alike but for what a design varies.
+std::string kind_of(const VariantConfig& variant) { return variant.variant + " " + variant.preset; }
+
+/// What a point of a kind takes.
+struct PointRates {
+    Line once;     ///< images, and what is measured of the point as a whole
+    Line measure;  ///< a frame of a seed
+    Line frame;    ///< rendered: the mean of the first and the last point of the kind
+};
+
+/// What was measured on small images.
+struct Rates {
+    Line opening;                              ///< a shot: its scene, its first frame, what is measured of the truth
+    Line guide;                                ///< what a reference does before its samples
+    double per_sample = 0;                     ///< seconds per pixel and sample of a reference
+    std::map<std::string, PointRates> points;  ///< by kind_of()
+};
+
+/// Measures on a folder of its own, which it removes.
+class Calibration {
+public:
+    Calibration(Device& device, const Config& config, const RunSettings& settings)
+        : device_(device), settings_(settings), config_(config) {
+        folder_ = fs::temp_directory_path() / ("ssrlab-plan-" + std::to_string(getpid()));
+        for (const VariantConfig& variant : config.variants) {
+            auto [ends, is_new] = ends_of_kinds_.try_emplace(kind_of(variant), variant, variant);
+            ends->second.second = variant;
+        }
+        config_.reference = {.max_samples = few_samples, .max_depth = config.reference.max_depth};
+    }
+    ~Calibration() {
+        std::error_code error;
+        fs::remove_all(folder_, error);
+    }
+
+    Rates measure(const ShotConfig& shot) {
+        OfBothSizes opening{}, traced{};
+        std::map<std::string, PointSeconds> points;
+        for (size_t i = 0; i < calibration_extents.size(); ++i) {
+            const std::unique_ptr<ShotRun> run = open(shot, i, opening[i], traced[i]);
+            for (const auto& [kind, ends] : ends_of_kinds_) {
+                measure_point(*run, i, ends.first, points[kind]);
+                points[kind].last_frame[i] = ends.second.point == ends.first.point
+                                                 ? points[kind].first_frame[i]
+                                                 : seconds_of_frame(*run, ends.second);
+            }
+        }
+        config_.reference.max_samples = many_samples;
+        double unused = 0, traced_longer = 0;
+        open(shot, 1, unused, traced_longer);
+        Rates rates{.opening = line_through(opening), .guide = {}, .points = {}};
+        const double most = pixels_of(calibration_extents[1]);
+        rates.per_sample = std::max(traced_longer - traced[1], 0.0) / (most * (many_samples - few_samples));
+        for (size_t i = 0; i < traced.size(); ++i)
+            traced[i] -= rates.per_sample * few_samples * pixels_of(calibration_extents[i]);
+        rates.guide = line_through(traced);
+        for (const auto& [kind, seconds] : points) rates.points[kind] = rates_of(seconds);
+        return rates;
+    }
+
+private:
+    using OfBothSizes = std::array<double, 2>;
+
+    struct PointSeconds {
+        OfBothSizes of_a_seed{}, of_two_seeds{}, first_frame{}, last_frame{};
+    };
+
+    static PointRates rates_of(const PointSeconds& seconds) {
+        PointSeconds s = seconds;
+        for (size_t i = 0; i < s.of_a_seed.size(); ++i) {
+            const double seed = s.of_two_seeds[i] - s.of_a_seed[i];
+            s.of_a_seed[i] -= seed + plays_of_lit_noise * s.first_frame[i];  // what is done once
+            s.of_two_seeds[i] = seed - s.first_frame[i];                     // what is measured of a frame
+            s.first_frame[i] = (s.first_frame[i] + s.last_frame[i]) / 2;
+        }
+        return {line_through(s.of_a_seed), line_through(s.of_two_seeds), line_through(s.first_frame)};
+    }
+
+    /// A still frame of the shot; of a capture its own size.
+    std::unique_ptr<ShotRun> open(const ShotConfig& shot, size_t size, double& opening, double& traced) {
+        ShotConfig small = shot;
+        small.extent = calibration_extents[size], small.frames = {shot.frames.front()};
+        small.warm_up = 0, small.repeat = 1, small.measure_from = shot.frames.front();
+        small.change.reset();
+        std::unique_ptr<ShotRun> run;
+        const double all = seconds_of([&] {
+            run = open_shot(device_, small, config_,
+                            {.out = folder_,
+                             .cache = folder_ / ("cache" + std::to_string(size)),
+                             .search_path = settings_.search_path,
+                             .keep_all = settings_.keep_all,
+                             .say = [](const std::string&) {},
+                             .report = [](double, const std::string&) {}});
+        });
+        traced = run->entry.contains("reference") ? run->entry["reference"]["seconds"].get<double>() : 0.0;
+        opening = std::max(all - traced, 0.0);
+        return run;
+    }
+
+    void measure_point(ShotRun& run, size_t size, VariantConfig variant, PointSeconds& seconds) {
+        const bool is_first_size = size == 0;  // compiles
+        const auto play = [&](std::vector<unsigned> seeds) {
+            variant.seeds = std::move(seeds);
+            return seconds_of([&] {
+                run_point(
+                    device_, run.shot, run.truth, *run.store, config_, variant,
+                    {.out = folder_, .image_suffix = "plan", .keep_all = settings_.keep_all, .report = [](double) {}});
+            });
+        };
+        if (is_first_size) play({0});
+        seconds.of_a_seed[size] = play({0});
+        seconds.of_two_seeds[size] = play({0, 1});
+        seconds.first_frame[size] = seconds_of_frame(run, variant);
+    }
+
+    double seconds_of_frame(ShotRun& run, const VariantConfig& config) {
+        const FrameStep& step = run.shot.steps.front();
+        const FrameStore::Frame frame = run.store->frame(step, run.truth.lit(step));
+        PassGraph graph(device_, run.shot.config.extent);
+        const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
+        if (!settings_.keep_all) variant->leave_out(run.shot.facts);
+        const auto render = [&] {
+            render_variant(graph, *variant, frame.camera, 0, frame.gbuffer);
+            graph.times();  // waits
+        };
+        render();  // compiles, and allocates
+        return seconds_of(render);
+    }
+
+    Device& device_;
+    const RunSettings& settings_;
+    Config config_;
+    std::map<std::string, std::pair<VariantConfig, VariantConfig>> ends_of_kinds_;  ///< first and last point
+    fs::path folder_;
+};
+
+/// What the process holds that does the cell: device, scene, G-buffers and a truth; a seed's images and what is
+/// measured of them; copies that are timed. Bytes per pixel are those of the images' formats, rounded up. `quickstart`
+/// held 762 MiB, for which this says 805; three shots of 96x54 203, for which it says 329. Larger images have not been
+/// compared.
+double memory_of(const ShotConfig& shot, size_t timed_copies) {
+    constexpr double base_mib = 300, truth_bytes = 1500, seed_bytes = 600, gbuffer_bytes = 250, copy_bytes = 250;
+    const double pixels = pixels_of(shot.extent);
+    const double kept_mib = std::min(pixels * double(shot.frames.size()) * gbuffer_bytes / 1048576, 1024.0);
+    return base_mib + kept_mib + pixels * (truth_bytes + seed_bytes + copy_bytes * double(timed_copies)) / 1048576;
+}
+
+/// Seconds of a study's cells.
+class CellSeconds {
+public:
+    CellSeconds(const Rates& rates, const Config& config) : rates_(rates), config_(config) {}
+
+    double of(const PlannedCell& cell, const ShotConfig& shot) const {
+        const double pixels = pixels_of(shot.extent);
+        switch (cell.kind) {
+            case CellKind::references:
+                return rates_.opening.at(pixels) + cell.units * of_reference(shot);
+            case CellKind::renders:
+                return of_renders(*cell.variant, shot);
+            case CellKind::costs:
+                // Frames before the last are rendered as they are; counting takes several times a frame.
+                return frame_of(*cell.variant, shot) * (cell.units + counting_factor) + compiling_seconds;
+            case CellKind::times:
+                return rates_.opening.at(pixels) + clock_proof_seconds + of_times(shot);
+        }
+        return 0;
+    }
+
+    /// Two copies of each point, and one that leaves nothing out, take turns.
+    unsigned copies_timed() const { return config_.timing.has_copies ? 3 : 1; }
+
+private:
+    double of_reference(const ShotConfig& shot) const {
+        if (!config_.has_reference || !shot.gbuffer.empty()) return 0;
+        const unsigned samples =
+            config_.reference.max_samples > 0 ? config_.reference.max_samples : ReferenceSettings::default_samples;
+        const double pixels = pixels_of(shot.extent), traced = rates_.per_sample * samples * pixels,
+                     most = config_.reference.max_seconds;
+        return rates_.guide.at(pixels) + (most > 0 ? std::min(traced, most) : traced);
+    }
+
+    double of_renders(const VariantConfig& variant, const ShotConfig& shot) const {
+        const double pixels = pixels_of(shot.extent), seeds = double(variant.seeds.size());
+        const PointRates& rates = rates_.points.at(kind_of(variant));
+        const std::vector<FrameStep> steps = timeline(shot);
+        const auto measured = double(std::ranges::count_if(steps, &FrameStep::is_measured));
+        return rates.once.at(pixels) + rates.measure.at(pixels) * measured * seeds +
+               rates.frame.at(pixels) * double(steps.size()) * (seeds + plays_of_lit_noise);
+    }
+
+    double of_times(const ShotConfig& shot) const {
+        double seconds = 0;
+        for (const VariantConfig& variant : config_.variants)
+            if (variant.is_timed)
+                seconds += copies_timed() * frame_of(variant, shot) * (config_.timing.frames + config_.timing.warm_up);
+        return seconds;
+    }
+
+    double frame_of(const VariantConfig& variant, const ShotConfig& shot) const {
+        return rates_.points.at(kind_of(variant)).frame.at(pixels_of(shot.extent));
+    }
+
+    const Rates& rates_;
+    const Config& config_;
+};
+
+}  // namespace
+
+std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config& config, const StudyPlan& plan,
+                                                   const RunSettings& settings) {
+    const Rates rates = Calibration(device, config, settings).measure(config.shots.front());
+    const CellSeconds seconds(rates, config);
+    const auto timed = size_t(std::ranges::count_if(config.variants, &VariantConfig::is_timed));
+    std::map<std::string, CellEstimate> estimates;
+    for (const PlannedShot& shot : plan.shots)
+        for (const PlannedCell& cell : shot.cells)
+            estimates[cell.name] = {
+                .seconds = seconds.of(cell, shot.config),
+                .memory_mib =
+                    memory_of(shot.config, cell.kind == CellKind::times ? seconds.copies_timed() * timed : 0)};
+    return estimates;
+}
