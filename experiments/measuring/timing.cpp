@@ -229,6 +229,22 @@ void add_proof(nlohmann::json& proofs, const nlohmann::json& entry) {
     proofs.back()["shots"] = {entry["shot"]};
 }
 
+/// The largest difference of two copies of a point.
+double floor_of(const nlohmann::json& clock) {
+    double empty_submit_ms = 0;
+    for (const nlohmann::json& proof : clock["proofs"])
+        empty_submit_ms = std::max(empty_submit_ms, proof["empty_submit_ms"].get<double>());
+    // What takes hardly longer than submitting nothing is as noisy as that: it counts only where there is nothing else.
+    const auto is_long = [&](const nlohmann::json& pair) {
+        return pair["first_ms"].get<double>() > 10 * empty_submit_ms;
+    };
+    const bool has_long = std::ranges::any_of(clock["aa_pairs"], is_long);
+    double floor = 0;
+    for (const nlohmann::json& pair : clock["aa_pairs"])
+        if (is_long(pair) || !has_long) floor = std::max(floor, pair["floor"].get<double>());
+    return floor;
+}
+
 }  // namespace
 
 double AaPair::floor() const {
@@ -349,18 +365,7 @@ void add_timing(nlohmann::json& manifest, const nlohmann::json& entry) {
     for (const nlohmann::json& pair : entry["aa_pairs"]) clock["aa_pairs"].push_back(pair);
     for (const nlohmann::json& saving : entry.value("savings", nlohmann::json::array()))
         clock["savings"].push_back(saving);
-    double empty_submit_ms = 0;
-    for (const nlohmann::json& proof : clock["proofs"])
-        empty_submit_ms = std::max(empty_submit_ms, proof["empty_submit_ms"].get<double>());
-    // What takes hardly longer than submitting nothing is as noisy as that: it counts only where there is nothing else.
-    const auto is_long = [&](const nlohmann::json& pair) {
-        return pair["first_ms"].get<double>() > 10 * empty_submit_ms;
-    };
-    const bool has_long = std::ranges::any_of(clock["aa_pairs"], is_long);
-    double floor = 0;
-    for (const nlohmann::json& pair : clock["aa_pairs"])
-        if (is_long(pair) || !has_long) floor = std::max(floor, pair["floor"].get<double>());
-    if (clock.contains("aa_pairs")) clock["aa_floor"] = floor;
+    if (clock.contains("aa_pairs")) clock["aa_floor"] = floor_of(clock);
 
     for (nlohmann::json& shot : manifest["shots"])
         for (nlohmann::json& part : shot["left_out"])
