@@ -101,7 +101,11 @@ int parse_and_run(int argc, char** argv) {
         ->delimiter(',')
         ->type_name("TERM");
     plan_command_.add_flag("--list", plan.has_list, "List the cells in place of estimates");
-    plan_command_.add_option("--json", plan.json, "Also write all cells with their estimates")->type_name("FILE.json");
+    plan_command_
+        .add_option(
+            "--json", plan.json,
+            "Also write all cells with their estimates, for other machines: the memory of this one is no limit then")
+        ->type_name("FILE.json");
     plan_command_.add_flag("--keep-all", plan.keep_all, "As of `ssrlab run`");
     add_device(plan_command_, common), add_scene_path(plan_command_, common);
     plan_command_.callback([&] { plan_command(plan, common); });

@@ -20,6 +20,10 @@ struct ShotOptions {
     unsigned frame = 0;
 };
 
+/// A study, by its config. Fails with Error where it is none, and where it is `ssrlab tune`'s.
+struct Config config_of_study(const std::filesystem::path& file);
+std::filesystem::path default_results(const std::filesystem::path& config);
+
 struct RunOptions {
     std::filesystem::path config, out;
     bool keep_all = false, replaces = false, prunes = false, takes_times_here = false;

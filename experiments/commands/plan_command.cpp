@@ -61,8 +61,8 @@ void print_list(const std::vector<PlannedWork>& work) {
                     cell->what.c_str());
 }
 
-/// A design that would fill the machine's memory, or the rest of the year.
-void refuse_absurd(const std::vector<PlannedWork>& work) {
+/// A design that would take the rest of the year, or fill the memory of this machine, if it is to run `here`.
+void refuse_absurd(const std::vector<PlannedWork>& work, bool here) {
     double seconds = 0, memory = 0;
     std::string largest;
     for (const PlannedWork& w : work) {
@@ -74,7 +74,7 @@ void refuse_absurd(const std::vector<PlannedWork>& work) {
         fail("this would take about ", std::llround(seconds / 86400),
              " days here; sweep fewer values, or take fewer seeds, shots or samples");
     const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)) / 1048576;
-    if (memory > machine)
+    if (here && memory > machine)
         fail(largest, " would need about ", std::llround(memory), " MiB of memory, and this machine has ",
              std::llround(machine), "; give the shot a lower resolution");
 }
@@ -82,18 +82,17 @@ void refuse_absurd(const std::vector<PlannedWork>& work) {
 }  // namespace
 
 void plan_command(const PlanOptions& options, const CommonOptions& common) {
-    const Config config = read_config(options.config);
+    const Config config = config_of_study(options.config);
     const CellSelection selection(options.cells);
     const size_t cells = config.shots.size() * (config.variants.size() + 2);
     if (cells > most_cells)
         fail(options.config.string(), ": ", config.shots.size(), " shots x ", config.variants.size(), " points are ",
              cells, " cells; at most ", most_cells,
              " are planned: sweep fewer values, or draw from them (`random`, `sobol`)");
-    const RunSettings settings{
-        .out = options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out,
-        .device = common.device,
-        .search_path = scene_search_path(common.scene_path),
-        .keep_all = options.keep_all};
+    const RunSettings settings{.out = options.out.empty() ? default_results(options.config) : options.out,
+                               .device = common.device,
+                               .search_path = scene_search_path(common.scene_path),
+                               .keep_all = options.keep_all};
     Device device(settings.device);
     const StudyPlan plan = plan_study(config, device.info(), settings.search_path, settings.keep_all);
     const CellStore store(settings.out, [](const std::string& note) { std::fprintf(stderr, "%s\n", note.c_str()); });
@@ -118,5 +117,5 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
         "\nOn this machine and %s while nothing else runs; at most about %lld MiB of memory. Measured on small "
         "images; references at their limit of samples, those in the cache are found.\n",
         device.info().name.c_str(), std::llround(memory));
-    refuse_absurd(work);
+    refuse_absurd(work, options.json.empty());
 }

@@ -12,8 +12,6 @@
 
 #include <cstdio>
 
-namespace {
-
 Config config_of_study(const std::filesystem::path& file) {
     Config config = read_config(file);
     if (config.is_tuned) fail(file.string(), ": has a 'tune': `ssrlab tune` runs it");
@@ -24,7 +22,7 @@ std::filesystem::path default_results(const std::filesystem::path& config) {
     return std::filesystem::path("results") / config.stem();
 }
 
-}  // namespace
+namespace {}  // namespace
 
 void run_study_command(const RunOptions& options, const CommonOptions& common) {
     run_study(config_of_study(options.config),

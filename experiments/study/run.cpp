@@ -70,9 +70,9 @@ public:
     }
 
 private:
-    /// Tables and report are of all shots so far: of a long study's time a hundredth goes into those that it does
-    /// not end with.
-    bool are_results_due() const { return std::chrono::steady_clock::now() - written_ > 100 * took_; }
+    /// Tables and report are of all shots so far: of a long study's time half a hundredth goes into those that
+    /// it does not end with.
+    bool are_results_due() const { return std::chrono::steady_clock::now() - written_ > 200 * took_; }
 
     std::vector<ShotAnswer> write(bool is_complete) {
         const auto start = std::chrono::steady_clock::now();

@@ -57,6 +57,12 @@ def rows_that_speak(rows):
     return [r for r in rows if r["speaks"] == "1"]
 
 
+def commits_of(manifest):
+    """Of the programs that made a study's cells."""
+    programs = (maker["ssrlab"] for maker in manifest.get("provenance", []))
+    return " and ".join(dict.fromkeys((p["commit"] or "unknown") + (" with changes" if p.get("dirty") else "") for p in programs))
+
+
 class Results:
     def __init__(self, folder):
         self.folder = folder

@@ -6,7 +6,7 @@ import json
 import os
 from dataclasses import fields
 
-from paper_figures.results import ResultsError
+from paper_figures.results import ResultsError, commits_of
 from paper_tables.cells import Cell
 
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (configs/comparison.json) takes
@@ -35,11 +35,10 @@ def origin(manifest):
     estimators = sorted({p["estimators"] for p in programs})
     if len(estimators) > 1:
         raise ResultsError(f"its cells were made with estimators {estimators}, which give other numbers; run the study again")
-    commits = ((p["commit"] or "unknown") + (" with changes" if p.get("dirty") else "") for p in programs)
     return {
         "study": manifest["study"]["config"],
         "title": manifest.get("title", ""),
-        "commit": " and ".join(dict.fromkeys(commits)),
+        "commit": commits_of(manifest),
         "code": " ".join(dict.fromkeys(p["code"] for p in programs)),
         "estimators": estimators[0],
         "finished": max(m["finished"] for m in makers),

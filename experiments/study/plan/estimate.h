@@ -12,7 +12,7 @@ struct CellEstimate {
     double memory_mib = 0;  ///< of the process that does it, at most
 };
 
-/// By the names of cells. Calibrated by rendering small images of the study's first shot with one point of each
+/// By the names of cells. Calibrated by rendering small images of the study's first shot with two points of each
 /// technique and preset: a few seconds, and longer where a study has many presets. What cannot be known before, as how
 /// many samples a reference needs to reach an error, is taken at its limit.
 std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config& config, const StudyPlan& plan,

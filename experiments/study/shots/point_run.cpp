@@ -9,6 +9,7 @@
 #include "experiments/measuring/lit_noise.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/measuring/splits.h"
+#include "experiments/results/image_queue.h"
 #include "experiments/results/result_images.h"
 #include "metrics/flicker.h"
 #include "metrics/frame_difference.h"
@@ -47,6 +48,7 @@ struct PointRun {
     const VariantConfig& variant;
     const PointRunSettings& settings;
     Cell cell;
+    ImageQueue images = {};
     std::map<std::string, SeedSplit> splits;  ///< by target, of the last frame
     ReferenceNoiseMeans noise = {};
     LitNoises lit_noise = {};
@@ -173,12 +175,16 @@ bool is_shown(const PointRun& point, const SeedRun& run, const FrameStep& step) 
     return &step == &point.last_step() || (point.config.keeps_all_images && step.is_measured);
 }
 
-/// Calls `save`, whose time is that of files of images.
-template <class Save>
-auto saved(const PointRun& point, Save save) {
+/// What is waited for the files of images counts as theirs.
+template <class Wait>
+auto for_images(const PointRun& point, Wait wait) {
     std::optional<SpentTime::Span> span;
     if (point.settings.spent) span.emplace(*point.settings.spent, "images");
-    return save();
+    return wait();
+}
+
+void save(PointRun& point, std::function<ImageQueue::Entries()> images) {
+    for_images(point, [&] { point.images.add(std::move(images)); });
 }
 
 /// What tells the images of a step from those of other steps and cells.
@@ -215,10 +221,10 @@ void judge_rays(PointRun& point, SeedRun& run, const FrameStep& step, const Came
                                      {masks.begin(), masks.end()});
         if (has_causes) point.causes[step.frame].add(recorded, truth, point.shot.config.extent);
         if (is_shown(point, run, step) && point.config.hits->every == 1)
-            point.cell.images.push_back(saved(point, [&] {
-                return save_verdict_image(point.settings.out, row, image_suffix(point, step), recorded.stage,
-                                          map_of_verdicts(recorded, truth, point.shot.config.extent));
-            }));
+            save(point, [&out = point.settings.out, row, suffix = image_suffix(point, step), stage = recorded.stage,
+                         map = map_of_verdicts(recorded, truth, point.shot.config.extent)] {
+                return ImageQueue::Entries{save_verdict_image(out, row, suffix, stage, map)};
+            });
     }
     if (has_causes) point.causes[step.frame].finish(*reference, specular, {masks.begin(), masks.end()});
     run.probe->recorded.clear();
@@ -255,12 +261,11 @@ void render_step(PointRun& point, SeedRun& run, const FrameStep& step, const Fra
             judge_rays(point, run, step, frame.camera, images.specular,
                        truth ? masks_of(*truth, images.confidence, point.config) : std::vector<Mask>{everywhere});
         if (is_shown(point, run, step) && point.config.has_reference)
-            for (nlohmann::json& entry : saved(point, [&] {
-                     return save_result_images(point.settings.out, point.row(std::to_string(step.frame), run.seed),
-                                               image_suffix(point, step), point.truth.pose(step), images,
-                                               point.shot.camera.exposure_ev);
-                 }))
-                point.cell.images.push_back(std::move(entry));
+            save(point, [&point, row = point.row(std::to_string(step.frame), run.seed),
+                         suffix = image_suffix(point, step), &truth = point.truth.pose(step), images] {
+                return save_result_images(point.settings.out, row, suffix, truth, images,
+                                          point.shot.camera.exposure_ev);
+            });
         run.before = images.specular;
     }
     report_step(point);
@@ -396,5 +401,6 @@ Cell run_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameSt
     point.cell.reference_noise =
         point.noise.means({.shot = shot.name(), .variant = variant.variant, .point = variant.point});
     add_notes(point);
+    point.cell.images = for_images(point, [&] { return point.images.finish(); });
     return std::move(point.cell);
 }

@@ -58,6 +58,11 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     expect_mistake("run study.json", "did you mean 'mcguire_dda'?");
     config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"thicknes": 1}}]})");
     expect_mistake("run study.json", "did you mean 'dda.thickness'?");
+    config(
+        "{" + good_shot +
+        R"(, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 15}, "tune": {"axes": {"dda.stride": [1, 2]}}})");
+    for (const char* command : {"run", "plan"})
+        expect_mistake(command + std::string(" study.json"), "`ssrlab tune` runs it");
     config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.stride": 1000}}]})");
     expect_mistake("run study.json", "[1, 64]");
     config(R"({"shots": [{"scene": "sky_only", "resolution": [0, 8]}], "variants": [{"variant": "none"}]})");

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -38,6 +39,23 @@ TEST(Configs, AreReadAndFindTheirShots) {
         }
     }
     EXPECT_GE(files, 5u);
+}
+
+TEST(Configs, KeepTheNamesOfTheirPoints) {
+    // Results, figures and tables know points by their names.
+    std::map<std::string, std::string> golden;
+    std::istringstream lines(read_text(source / "tests/data/point_names.txt"));
+    for (std::string name, hash; lines >> name >> hash;) golden[name] = hash;
+    for (const auto& file : fs::directory_iterator(source / "experiments/configs")) {
+        const std::string name = file.path().stem().string();
+        if (name.ends_with("_figures")) continue;
+        ContentHash hash;
+        for (const VariantConfig& variant : read_config(file.path()).variants)
+            hash.add(variant.variant + " " + variant.point + "\n");
+        EXPECT_EQ(golden[name], hash.hex())
+            << "points of " << name << " have other names; if that is meant, tests/data/point_names.txt has to say: "
+            << name << " " << hash.hex();
+    }
 }
 
 TEST(Configs, LimitAReferenceByWhatTheySet) {

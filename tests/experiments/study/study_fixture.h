@@ -23,10 +23,11 @@ struct StudyTest : testing::Test {
     void TearDown() override { fs::remove_all(folder); }
 
     Config config(const std::string& scenes, const std::string& more = "") {
-        write_text(folder / "study.json", R"({"shots": [{"scene": )" + scenes +
-                                              R"(, "resolution": [96, 54]}], "reference": {"samples": 64},
+        write_text(folder / "study.json",
+                   R"({"shots": [{"scene": )" + scenes +
+                       R"(, "resolution": [96, 54]}], "reference": {"samples": 64},
             "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2)" +
-                                              more + "}");
+                       (more.find("\"metrics\"") == more.npos ? R"(, "metrics": ["mse", "relmse"])" : "") + more + "}");
         return read_config(folder / "study.json");
     }
     fs::path run(const Config& study, const std::string& out, bool keep_all = false) {
