@@ -26,3 +26,14 @@ def with_interval(measured, between=" "):
     if measured.low is None or measured.high is None:
         return text(measured.value, places)
     return f"{text(measured.value, places)}{between}[{text(measured.low, places)}, {text(measured.high, places)}]"
+
+
+def count(value):
+    """A count, or a mean of counts, with three digits: 12.3 M for 12 345 678; below 1000 without zeros at the end. Number and
+    letter are held together by a no-break space."""
+    rounded = f"{value:.2e}"
+    exponent = int(rounded.split("e")[1])
+    thousands = min(exponent // 3, 3)
+    if thousands <= 0:
+        return f"{float(rounded):g}"
+    return f"{float(rounded) / 1000**thousands:.{max(2 - exponent + 3 * thousands, 0)}f}\N{NO-BREAK SPACE}{'kMG'[thousands - 1]}"

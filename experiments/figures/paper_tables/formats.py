@@ -47,10 +47,11 @@ def cell_text(table, cell):
     if cell.value is None:
         text = NO_VALUE
     else:
-        text = numbers.with_interval(cell)
+        text = numbers.count(cell.value) if cell.is_count() else numbers.with_interval(cell)
         if _has_range(cell):
             places = numbers.decimals(cell.value, cell.low, cell.high)
-            words.append(f"{numbers.text(cell.least, places)} to {numbers.text(cell.most, places)}")
+            least, most = (numbers.count(n) if cell.is_count() else numbers.text(n, places) for n in (cell.least, cell.most))
+            words += [f"{least} to {most}"] if least != most or not cell.is_count() else []
         if _is_part(table, cell):
             words.append(f"{cell.mean_of} of {table['over_count']}")
     if cell.clock and len(table["clocks"]) > 1:
@@ -70,10 +71,13 @@ def notes(table, cells):
     if any(_is_part(table, c) and c.value is not None for c in cells):
         found.append(f"\"n of {table['over_count']}\": so many of the {over} have a value and are in the mean")
     found += dict.fromkeys(f"{mark}: {meaning}" for c in cells for mark, meaning in _lesser(c))
-    reasons = list(dict.fromkeys(f'"{reason}"' for c in cells for reason in _reasons(c)))
-    if reasons:
-        found.append(f"{', '.join(reasons)}: why there is no interval")
-    if any(c.value is not None and not _has_interval(c) and not _reasons(c) for c in cells):
+    for lacking, of in (("interval", [c for c in cells if c.value is not None]), ("number", [c for c in cells if c.value is None])):
+        reasons = list(dict.fromkeys(f'"{reason}"' for c in of for reason in _reasons(c)))
+        if reasons:
+            found.append(f"{', '.join(reasons)}: why there is no {lacking}")
+    if any(c.is_count() for c in cells):
+        found.append("counts of the last frame, exact but for rounding to three digits; k, M, G: thousands, millions, billions")
+    if any(c.value is not None and not _has_interval(c) and not _reasons(c) and not c.is_count() for c in cells):
         found.append("a number without brackets has no interval")
     if any(c.value is None for c in cells):
         found.append(f"{NO_VALUE}: no value")
@@ -124,7 +128,7 @@ def _latex_escaped(text):
         text = text.replace(plain, escaped)
     for mark, name in {"\N{DAGGER}": "dag", "\N{DOUBLE DAGGER}": "ddag", DISTURBED: "S"}.items():
         text = text.replace(mark, f"\\{name}{{}}")
-    return text.replace(NO_VALUE, "--")
+    return text.replace(NO_VALUE, "--").replace("\N{NO-BREAK SPACE}", "~")
 
 
 def latex(table, cells, made_from):
