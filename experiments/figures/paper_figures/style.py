@@ -3,6 +3,7 @@
 import hashlib
 import os
 import re
+import textwrap
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -146,9 +147,12 @@ def _grow(figure, above=0.0, below=0.0):
 
 
 def note(figure, text):
-    """A sentence below all panels, in place of one that stands there already. The figure grows by its lines."""
+    """Sentences below all panels, in place of what stands there already: in lines that break between words, within one only if it
+    is longer than a line. The figure grows by its lines."""
     before = figure._supxlabel.get_text() if figure._supxlabel else ""
-    shown = "\n".join(wrapped(line, letters(figure.get_figwidth() / CENTIMETRE)) for line in text.split("\n"))
+    longest = letters(figure.get_figwidth() / CENTIMETRE)
+    lines = [part for line in text.split("\n") for part in textwrap.wrap(line, longest, break_long_words=False, break_on_hyphens=False)]
+    shown = "\n".join(wrapped(line, longest) for line in lines)
     lines = (shown.count("\n") + 1 if shown else 0) - (before.count("\n") + 1 if before else 0)
     figure.supxlabel(shown, linespacing=1.15)
     _grow(figure, below=lines * 1.2 * text_size() / 72)
@@ -200,10 +204,20 @@ class _LogTicks(LogLocator):
         return super().tick_values(vmin, vmax)
 
 
-def log_axis(axis):
+def log_axis(axis, text=None):
+    """`text`: how a tick's number is written; default: number()."""
     axis.set_major_locator(_LogTicks())
-    axis.set_major_formatter(FuncFormatter(lambda x, _: number(x)))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: (text or number)(x)))
     axis.set_minor_formatter(NullFormatter())
+
+
+def log_log(axes, title, xlabel, margin, x_text=None):
+    """A panel with two logarithmic axes."""
+    axes.set(xscale="log", yscale="log", xlabel=xlabel)
+    log_axis(axes.xaxis, x_text)
+    log_axis(axes.yaxis)
+    axes.set_title(panel_title(title, axes))
+    axes.margins(margin)
 
 
 def number(x):

@@ -364,6 +364,7 @@ class Folder(unittest.TestCase):
         self.assertEqual((to["roof", "w"]["status"], to["roof", "w"]["cost"]), ("not reached", ""))
         (fit, *_) = read(self.out, "fits.csv")
         self.assertEqual((fit["parameter"], fit["points"], fit["floor_low"], fit["rung"]), ("rays", "4", "0", "on_screen"))
+        self.assertEqual(fit["point_names"], "rays=1; rays=2; rays=4; rays=8")
         self.assertEqual((at["floor", "v", 4.1]["fits"], at["floor", "v", 10]["fits"]), ("maybe", "surely"))  # 4.04 ms and 2 %
         self.assertEqual({s for s, _ in front}, {"floor", "wall", "roof", "sky"})  # moon was left out
         self.assertEqual(front["floor", "oracle"]["verdict"], "asks the scene")
