@@ -12,6 +12,8 @@ from matplotlib.textpath import TextPath
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 import numpy as np
 
+from paper_figures.texts import wrapped
+
 CENTIMETRE = 1 / 2.54
 WIDTHS = {"column": 8.5, "page": 17.6, "slide": 25.0}  # cm
 SINGLE_COLUMN = WIDTHS["column"] * CENTIMETRE
@@ -173,17 +175,6 @@ def listed(entries, centimetres):
 def text_width(text):
     """cm of a line of text."""
     return TextPath((0, 0), text, size=text_size()).get_extents().width / 72 * 2.54 if text.strip() else 0.0
-
-
-def wrapped(text, longest):
-    """In lines of `longest` letters at most, broken before a dot within a name and behind a space, '=' or '_'; what has none
-    of these stays."""
-    lines = [""]
-    for part in re.split(r"(?<=[ =_])|(?=\.\S)(?!(?<=\d)\.\d)", text):
-        if lines[-1] and len(lines[-1] + part.rstrip()) > longest:
-            lines.append("")
-        lines[-1] += part
-    return "\n".join(line.rstrip() for line in lines)
 
 
 def panel_title(text, axes):

@@ -1,4 +1,4 @@
-"""A table as Markdown, LaTeX and CSV."""
+"""What the cells of a table say, and the table as Markdown and CSV."""
 
 import csv
 import io
@@ -94,25 +94,26 @@ def notes(table, cells):
     return text and text[0].upper() + text[1:] + "."
 
 
-def _is_bold(cell):
+def is_bold(cell):
     return cell.is_significant or cell.standing == BEST
 
 
-def _grid(cells):
+def grid(cells):
+    """(names of rows, names of columns, {(row, column): Cell})"""
     rows = list(dict.fromkeys(c.row for c in cells))
     columns = list(dict.fromkeys(c.column for c in cells))
     return rows, columns, {(c.row, c.column): c for c in cells}
 
 
 def markdown(table, cells, made_from):
-    rows, columns, at = _grid(cells)
+    rows, columns, at = grid(cells)
 
     def shown(row, column):
         cell = at.get((row, column))
         if cell is None:
             return ""
         text = cell_text(table, cell)
-        mark = "**" if _is_bold(cell) else "*" if cell.standing == TIED else ""
+        mark = "**" if is_bold(cell) else "*" if cell.standing == TIED else ""
         return f"{mark}{text}{mark}"
 
     escaped = [c.replace("|", "\\|") for c in columns]
@@ -123,46 +124,9 @@ def markdown(table, cells, made_from):
     return "\n".join([*lines, "", f"{made_from} {notes(table, cells)}".rstrip(), ""])
 
 
-def _latex_escaped(text):
-    for plain, escaped in {"\\": r"\textbackslash{}", "_": r"\_", "%": r"\%", "&": r"\&", "#": r"\#", "^": r"\^{}"}.items():
-        text = text.replace(plain, escaped)
-    for mark, name in {"\N{DAGGER}": "dag", "\N{DOUBLE DAGGER}": "ddag", DISTURBED: "S"}.items():
-        text = text.replace(mark, f"\\{name}{{}}")
-    return text.replace(NO_VALUE, "--").replace("\N{NO-BREAK SPACE}", "~")
-
-
-def latex(table, cells, made_from):
-    """With the package booktabs; intervals small, as what the marks mean below."""
-    rows, columns, at = _grid(cells)
-
-    def shown(row, column):
-        cell = at.get((row, column))
-        if cell is None:
-            return ""
-        value, _, rest = _latex_escaped(cell_text(table, cell)).partition(" ")
-        style = "textbf" if _is_bold(cell) else "textit" if cell.standing == TIED else None
-        value = f"\\{style}{{{value}}}" if style else value
-        return f"{value} {{\\scriptsize {rest}}}" if rest else value
-
-    head = " & ".join(_latex_escaped(c) for c in columns)
-    lines = [
-        f"% {made_from}",
-        "\\begin{table}",
-        f"\\caption{{{_latex_escaped(table['caption'])}}}",
-        f"\\begin{{tabular}}{{l{'r' * len(columns)}}}",
-        "\\toprule",
-        f" & {head} \\\\",
-        "\\midrule",
-    ]
-    lines += [f"{_latex_escaped(r)} & " + " & ".join(shown(r, c) for c in columns) + " \\\\" for r in rows]
-    explained = notes(table, cells)
-    below = [f"\\par\\smallskip {{\\scriptsize {_latex_escaped(explained)}}}"] if explained else []
-    return "\n".join([*lines, "\\bottomrule", "\\end{tabular}", *below, "\\end{table}", ""])
-
-
 def comma_separated(cells):
     """The grid with a column for each value, low and high, and for its standing where the table marks the best."""
-    rows, columns, at = _grid(cells)
+    rows, columns, at = grid(cells)
     parts = ["value", "low", "high", *(["standing"] if any(c.standing for c in cells) else [])]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")

@@ -8,7 +8,7 @@ SHOTS = ("floor", "wall")
 TABLES = [
     {
         "name": "changes",
-        "caption": "What each change does_to the error",
+        "caption": "What each change does_to {the} error",
         "of": "effects",
         "where": {"target": "specular", "metric": ["mse", "flip"]},
         "rows": "taps",
@@ -47,6 +47,11 @@ def write(file, text):
 def read(file):
     with open(file, encoding="utf-8") as stream:
         return stream.read()
+
+
+def footer(folder, name):
+    """The line below a table that was made."""
+    return read(os.path.join(folder, "tables", name + ".md")).splitlines()[-1]
 
 
 def write_rows(file, rows):
