@@ -1,12 +1,12 @@
 """Paper figures from a results folder, as PDF, SVG and PNG: those that figures.json asks for (experiments/README.md), else all
-that the study has results for. Of each shot: error against time, stage times, and crops with error maps. Of the study: error
-and bias by roughness, bias and variance, effects of changes, temporal metrics, the error of each frame, errors against the
-truth ladder, and depth fetches per ray against the resolution.
+that the study has results for. Of each shot: error against time, times and counted costs of stages, and crops with error maps.
+Of the study: error and bias by roughness, bias and variance, effects of changes, temporal metrics, the error of each frame,
+errors against the truth ladder, what error a cost buys, and depth fetches per ray against the resolution.
 
 usage: figures.py RESULTS [--out DIR] [--choice figures.json] [--target specular] [--metric mse] [--mask reflective]
 
-It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv and the EXR images (experiments/RESULTS.md),
-and writes the same bytes whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
+It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv, costs.csv, the EXR images
+(experiments/RESULTS.md) and what `ssrlab tradeoff` wrote, and writes the same bytes whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
 """
 
 import argparse
@@ -29,13 +29,14 @@ from paper_figures import (
     effects,
     error_time,
     fetches,
+    fits,
     frames,
     ladder,
     maps,
     request,
     response,
     roughness,
-    stage_times,
+    stages,
     style,
     temporal,
 )
@@ -43,7 +44,7 @@ from paper_figures.crop_choice import read_crops
 from paper_figures.results import Results, ResultsError
 
 # Kind of figure to what draws it: of one shot at a time, or of all that are asked for.
-SHOT_FIGURES = {"stage_times": stage_times.draw, "crops": crops.draw}
+SHOT_FIGURES = {"stage_times": stages.draw_times, "stage_costs": stages.draw_costs, "crops": crops.draw}
 STUDY_FIGURES = {
     "error_time": error_time.draw,
     "ladder": ladder.draw,
@@ -55,11 +56,12 @@ STUDY_FIGURES = {
     "bias_variance": bias_variance.draw,
     "temporal": temporal.draw,
     "frames": frames.draw,
+    "fits": fits.draw,
     "fetches": fetches.draw,
 }
-UNASKED_OF_SHOTS = ("error_time", "stage_times", "crops")  # without figures.json a file for each shot
-UNASKED = ("ladder", "roughness_error", "roughness_bias", "bias_variance", "temporal", "frames", "fetches", "effects")
-UNMEASURED = ("stage_times", "fetches")  # of studies without a reference, too
+UNASKED_OF_SHOTS = ("error_time", "stage_times", "stage_costs", "crops")  # without figures.json a file for each shot
+UNASKED = ("ladder", "roughness_error", "roughness_bias", "bias_variance", "temporal", "frames", "fits", "fetches", "effects")
+UNMEASURED = ("stage_times", "stage_costs", "fetches")  # of studies without a reference, too
 
 
 def parse_arguments():

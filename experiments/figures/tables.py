@@ -11,7 +11,7 @@ import os
 import sys
 
 from paper_figures.results import Results, ResultsError
-from paper_tables import documents, formats, summary_file
+from paper_tables import documents, formats, latex, summary_file
 from paper_tables.cells import Table, cells_of
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
@@ -65,7 +65,7 @@ def make(folder, out, summary_folder):
         table, cells = cells_of(results, Table(entry, folder))
         made_from = summary_file.made_from(origin, table, cells)
         write(os.path.join(out, table["name"] + ".md"), formats.markdown(table, cells, made_from))
-        write(os.path.join(out, table["name"] + ".tex"), formats.latex(table, cells, made_from))
+        write(os.path.join(out, table["name"] + ".tex"), latex.latex(table, cells, made_from))
         write(os.path.join(out, table["name"] + ".csv"), formats.comma_separated(cells))
         tables.append(table)
         every += cells

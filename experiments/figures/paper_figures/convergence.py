@@ -4,7 +4,7 @@ time, over the frames of a sequence; or, without a fit, over how many seeds are 
 import numpy
 
 from paper_figures import style, sweeps
-from paper_figures.error_time import front
+from paper_figures.error_time import TIME_AXIS, front
 from paper_figures.fetches import power_of
 from paper_figures.placed_labels import place_labels
 from paper_figures.results import Measured, ResultsError, frame_number, is_over_frames
@@ -66,7 +66,7 @@ def _over_seeds(results, chosen, errors, shot):
 
 
 OVER = {  # how the lines are made, what the axis is called
-    "time": (_over_time, "time of a frame (ms)"),
+    "time": (_over_time, TIME_AXIS),
     "frame": (_over_frames, "frames since the history was empty"),
     "seeds": (_over_seeds, "seeds that are averaged"),
 }
@@ -140,14 +140,10 @@ def draw(results, chosen):
             pieces[shot] += _draw_line(axes, name, points, color, mark)
             if is_fitted and _slope_text(points):
                 _draw_fit(axes, points, color)
-        axes.set(xscale="log", yscale="log", xlabel=axis)
-        style.log_axis(axes.xaxis)
-        style.log_axis(axes.yaxis)
+        style.log_log(axes, results.shot_label(shot), axis, 0.12)
         if not is_fitted:
             counts = [2**i for i in range(12) if 2**i <= max(x for points in lines.values() for x, _ in points)]
             axes.set_xticks(counts, [str(c) for c in counts])
-        axes.set_title(style.panel_title(results.shot_label(shot), axes))
-        axes.margins(0.12)
     panels[0].set_ylabel(f"{chosen.metric} of {chosen.target},\n{chosen.mask} pixels")
     style.draw_legend(figure, panels, names)
     fitted = "; dashed: error = a x^slope by least squares of logarithms; slope ± 95 %, of the scatter about it" if is_fitted else "; bias\N{SUPERSCRIPT TWO} + variance / n"

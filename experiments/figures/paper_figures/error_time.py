@@ -1,12 +1,9 @@
 """Error against run time, both logarithmic, with intervals: a panel per shot, with the front of those that no other beats."""
 
-import math
-
-from paper_figures import style
+from paper_figures import style, tradeoff
 from paper_figures.placed_labels import place_labels
 
-
-JUDGED = "tradeoff/front.csv"  # what `ssrlab tradeoff` says of the same errors and times
+TIME_AXIS = "time of a frame (ms)"
 
 
 def front(places):
@@ -33,8 +30,8 @@ def is_beaten(place, others):
 def _judged(results, shot, places):
     """(keys of the front by time, keys that are beaten): as `ssrlab tradeoff` judged them by intervals, where its file has these
     very errors, else as front() and is_beaten() do. Techniques that ask the scene, as no engine can, take no part."""
-    rows = {(r["variant"], r["point"]): r for r in results.read_csv(JUDGED, is_optional=True) if r["shot"] == shot and r["unit"] == "ms"}
-    if rows and all(k in rows and rows[k]["error"] and math.isclose(float(rows[k]["error"]), e.value, rel_tol=1e-6) for k, (_, e) in places.items()):
+    rows = tradeoff.judged(results, shot, {key: error for key, (_, error) in places.items()})
+    if rows and all(rows[k]["unit"] == "ms" for k in places):
         line = [k for k in places if rows[k]["is_nominal_front"] == "1" and rows[k]["verdict"] in ("front", "undecided", "dominated")]
         return sorted(line, key=lambda k: places[k][0].value), {k for k in places if rows[k]["verdict"] == "dominated"}
     fair = {k: p for k, p in places.items() if not results.variants.get(k, {}).get("asks_scene")}
@@ -59,29 +56,35 @@ def _draw_none(axes, results, errors, shot):
     return []
 
 
+def draw_mark(axes, cost, error, mark, color, is_hollow=False, alpha=1.0):
+    """A mark with the whiskers of both; returns where these are, which no label may cover."""
+    x, y = cost.whiskers(), error.whiskers()
+    axes.errorbar(
+        [cost.value],
+        [error.value],
+        xerr=x,
+        yerr=y,
+        fmt=mark,
+        color=color,
+        elinewidth=0.7,
+        markerfacecolor="white" if is_hollow else color,
+        markeredgewidth=0.8 if is_hollow else 0,
+        alpha=alpha,
+    )
+    return [
+        (cost.value - x[0][0], error.value, cost.value + x[1][0], error.value),
+        (cost.value, error.value - y[0][0], cost.value, error.value + y[1][0]),
+    ]
+
+
 def _draw_points(axes, results, places, groups, beaten):
     """Marks with whiskers; returns where the whiskers are."""
     whiskers = []
     for (variant, point), (time, error) in places.items():
         group = results.point_group(variant, point)
         color, mark = style.series(groups.index(group), results.colors.get((variant, point)))
-        is_hollow = error.is_one_seed
-        x, y = time.whiskers(), error.whiskers()
-        axes.errorbar(
-            [time.value],
-            [error.value],
-            xerr=x,
-            yerr=y,
-            fmt=mark,
-            color=color,
-            elinewidth=0.7,
-            markerfacecolor="white" if is_hollow else color,
-            markeredgewidth=0.8 if is_hollow else 0,
-            alpha=0.4 if (variant, point) in beaten else 1.0,
-        )
+        whiskers += draw_mark(axes, time, error, mark, color, is_hollow=error.is_one_seed, alpha=0.4 if (variant, point) in beaten else 1.0)
         axes.plot([], [], mark, color=color, label=group)
-        whiskers.append((time.value - x[0][0], error.value, time.value + x[1][0], error.value))
-        whiskers.append((time.value, error.value - y[0][0], time.value, error.value + y[1][0]))
     return whiskers
 
 
@@ -127,11 +130,7 @@ def draw(results, chosen):
         line, beaten = _judged(results, shot, shown) if chosen.option("front", True) else ([], set())
         has_beaten |= bool(beaten)
         whiskers[shot] = _draw_points(axes, results, shown, groups, beaten) + _draw_front(axes, shown, line)
-        axes.set(xscale="log", yscale="log", xlabel="time of a frame (ms)")
-        axes.set_title(style.panel_title(results.shot_label(shot), axes))
-        style.log_axis(axes.xaxis)
-        style.log_axis(axes.yaxis)
-        axes.margins(0.16)
+        style.log_log(axes, results.shot_label(shot), TIME_AXIS, 0.16)
         whiskers[shot] += [(axes.get_xlim()[0], value, axes.get_xlim()[1], value) for value in of_none]
         every[shot] = shown
     panels[0].set_ylabel(f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels")

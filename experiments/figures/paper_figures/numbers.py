@@ -26,3 +26,14 @@ def with_interval(measured, between=" "):
     if measured.low is None or measured.high is None:
         return text(measured.value, places)
     return f"{text(measured.value, places)}{between}[{text(measured.low, places)}, {text(measured.high, places)}]"
+
+
+def count(value, keeps_zeros=True):
+    """A count, or a mean of counts, with three digits: 12.3 M for 12 345 678; below 1000, and if asked above it, without zeros
+    at the end. Number and letter are held together by a no-break space."""
+    rounded = f"{value:.2e}"
+    exponent = int(rounded.split("e")[1])
+    thousands = max(min(exponent // 3, 3), 0)
+    shown = float(rounded) / 1000**thousands
+    text = f"{shown:.{max(2 - exponent + 3 * thousands, 0)}f}" if keeps_zeros and thousands else f"{shown:g}"
+    return text + ("", "\N{NO-BREAK SPACE}k", "\N{NO-BREAK SPACE}M", "\N{NO-BREAK SPACE}G")[thousands]

@@ -16,6 +16,8 @@ SHARED = {"crops", "figures", "shots", "points", "labels", "colors", "font", "fo
 OPTIONS = {  # keys of one kind alone
     "error_time": {"front"},
     "stage_times": set(),
+    "stage_costs": {"quantity"},
+    "fits": set(),
     "ladder": set(),
     "response": {"parameter", "where", "show"},
     "map": {"x", "y", "where", "show"},

@@ -73,6 +73,7 @@ class Results:
         self.splits = self.read_csv("splits.csv", is_optional=True)
         self.effects = self.read_csv("effects.csv", is_optional=True)
         self.hits = self.read_csv("hits.csv", is_optional=True)
+        self.costs = self.read_csv("costs.csv", is_optional=True)
         self.single_changes = self._single_changes()
         self.hidden = set(self.single_changes)  # of figures of whole points: these have figures of their own
         self.colors = {}  # (variant, point) to "#rrggbb", before those of the palette
@@ -120,7 +121,7 @@ class Results:
                 rows.sort(key=lambda r: place_of_shot[r["shot"]])
             return rows
 
-        for name in ("all_errors", "errors", "times", "splits", "effects", "hits"):
+        for name in ("all_errors", "errors", "times", "splits", "effects", "hits", "costs"):
             setattr(view, name, kept(getattr(self, name)))
         if shots is not None:
             view.shot_entries = {shot: self.shot_entries.get(shot, {}) for shot in shots}
@@ -219,6 +220,14 @@ class Results:
             if r["shot"] == shot and r["variant"]:
                 values = (self._number(r, c, "time_summary.csv") for c in ("median_ms", "low_ms", "high_ms"))
                 stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*values)
+        return stages
+
+    def costs_of(self, shot, quantity):
+        """(variant, point) to {stage: Measured}, whose values are counts: exact, without an interval."""
+        stages = {}
+        for r in self.costs:
+            if r["shot"] == shot and r["quantity"] == quantity:
+                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(self._number(r, "value", "costs.csv"), None, None)
         return stages
 
     def warnings_of_times(self, shots):

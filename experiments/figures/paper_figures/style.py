@@ -3,6 +3,7 @@
 import hashlib
 import os
 import re
+import textwrap
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -10,6 +11,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.textpath import TextPath
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 import numpy as np
+
+from paper_figures.texts import wrapped
 
 CENTIMETRE = 1 / 2.54
 WIDTHS = {"column": 8.5, "page": 17.6, "slide": 25.0}  # cm
@@ -146,9 +149,12 @@ def _grow(figure, above=0.0, below=0.0):
 
 
 def note(figure, text):
-    """A sentence below all panels, in place of one that stands there already. The figure grows by its lines."""
+    """Sentences below all panels, in place of what stands there already: in lines that break between words, within one only if it
+    is longer than a line. The figure grows by its lines."""
     before = figure._supxlabel.get_text() if figure._supxlabel else ""
-    shown = "\n".join(wrapped(line, letters(figure.get_figwidth() / CENTIMETRE)) for line in text.split("\n"))
+    longest = letters(figure.get_figwidth() / CENTIMETRE)
+    lines = [part for line in text.split("\n") for part in textwrap.wrap(line, longest, break_long_words=False, break_on_hyphens=False)]
+    shown = "\n".join(wrapped(line, longest) for line in lines)
     lines = (shown.count("\n") + 1 if shown else 0) - (before.count("\n") + 1 if before else 0)
     figure.supxlabel(shown, linespacing=1.15)
     _grow(figure, below=lines * 1.2 * text_size() / 72)
@@ -171,17 +177,6 @@ def text_width(text):
     return TextPath((0, 0), text, size=text_size()).get_extents().width / 72 * 2.54 if text.strip() else 0.0
 
 
-def wrapped(text, longest):
-    """In lines of `longest` letters at most, broken before a dot within a name and behind a space, '=' or '_'; what has none
-    of these stays."""
-    lines = [""]
-    for part in re.split(r"(?<=[ =_])|(?=\.\S)(?!(?<=\d)\.\d)", text):
-        if lines[-1] and len(lines[-1] + part.rstrip()) > longest:
-            lines.append("")
-        lines[-1] += part
-    return "\n".join(line.rstrip() for line in lines)
-
-
 def panel_title(text, axes):
     """In lines as long as the panel's share of its figure."""
     columns = axes.get_subplotspec().get_gridspec().ncols
@@ -200,10 +195,20 @@ class _LogTicks(LogLocator):
         return super().tick_values(vmin, vmax)
 
 
-def log_axis(axis):
+def log_axis(axis, text=None):
+    """`text`: how a tick's number is written; default: number()."""
     axis.set_major_locator(_LogTicks())
-    axis.set_major_formatter(FuncFormatter(lambda x, _: number(x)))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: (text or number)(x)))
     axis.set_minor_formatter(NullFormatter())
+
+
+def log_log(axes, title, xlabel, margin, x_text=None):
+    """A panel with two logarithmic axes."""
+    axes.set(xscale="log", yscale="log", xlabel=xlabel)
+    log_axis(axes.xaxis, x_text)
+    log_axis(axes.yaxis)
+    axes.set_title(panel_title(title, axes))
+    axes.margins(margin)
 
 
 def number(x):

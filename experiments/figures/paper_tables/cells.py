@@ -17,6 +17,7 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
     "hits": ("hits.csv", ("value", "low", "high")),
+    "costs": ("costs.csv", ("value", "low", "high")),  # counts: without an interval, as they are exact
     "limits": ("summary.csv", ("value", "low", "high")),  # errors over the information limit of one frame: limits.py
     "agreement": ("summary.csv", ("value", "low", "high")),  # of metrics with each other, and ...
     "eye": ("summary.csv", ("value", "low", "high")),  # ... with people: agreement.py
@@ -36,6 +37,8 @@ SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
 
 NO_INTERVAL = "none: "  # experiments/results/interval.h: before the reason
 NOT_POSITIVE = NO_INTERVAL + "an error is not above 0"
+SOME_ZERO = NO_INTERVAL + "a count is 0"
+EXACT = "exact"  # of counts, in place of what an interval holds
 BOTH = " / "  # between what differs among the parts of a mean
 
 
@@ -53,11 +56,14 @@ class Cell:
     most: float = None
     is_significant: bool = False  # by the adjusted p-value of the study's primary comparisons
     seeds: int = None
-    interval: str = None  # what it holds, or why there is none: experiments/results/interval.h
+    interval: str = None  # what it holds, or why there is none: experiments/results/interval.h; EXACT
     mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
     clock: str = None  # of times
     disturbed_share: float = None  # of the frames that a time is the median of, by other programs
     standing: str = None  # in its row or column: "best", told from all others, or "tied"; paper_figures/standing.py
+
+    def is_count(self):
+        return self.interval == EXACT
 
     def reasons(self):
         """Why there is no interval, where that is known."""
@@ -181,8 +187,17 @@ def _timed(row, against=""):
     return tuple(row.get(key) for key in ("shot", against + "variant", against + "point", "stage"))
 
 
+def _count(row):
+    value = _number(row, "value")
+    if value is None or not value.is_integer():
+        raise ResultsError(f"costs.csv: 'value' = \"{row['value']}\" is not a whole number")
+    return int(value)
+
+
 def _cell(selection, row, name):
     table = selection.table
+    if table.of == "costs":
+        return Cell(table.name, *name, _count(row), interval=EXACT)
     value, low, high = (_number(row, c) for c in SOURCES[table.of][1] or ("value", "low", "high"))
     if table.of in SHARES and row["quantity"] not in NOT_SHARES:
         low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
@@ -222,11 +237,15 @@ def _geometric_mean(parts):
     result.seeds = min((c.seeds for c in cells if c.seeds is not None), default=None)
     if not cells:
         return result
-    if min(c.value for c in cells) <= 0:
-        result.interval = NOT_POSITIVE
+    least, most = min(c.value for c in cells), max(c.value for c in cells)
+    if result.is_count() and least == most:  # 0 too, and not a rounding away from it
+        result.value = result.least = result.most = least
+        return result
+    if least <= 0:
+        result.interval = SOME_ZERO if result.is_count() else NOT_POSITIVE
         return result
     result.value = math.exp(sum(math.log(c.value) for c in cells) / len(cells))
-    result.least, result.most = min(c.value for c in cells), max(c.value for c in cells)
+    result.least, result.most = least, most
     if all(c.low and c.low > 0 and c.high for c in cells):
         half = math.sqrt(sum((math.log(c.high / c.low) / 2) ** 2 for c in cells)) / len(cells)
         result.low, result.high = result.value * math.exp(-half), result.value * math.exp(half)

@@ -1,4 +1,4 @@
-"""A table as Markdown, LaTeX and CSV."""
+"""What the cells of a table say, and the table as Markdown and CSV."""
 
 import csv
 import io
@@ -47,10 +47,11 @@ def cell_text(table, cell):
     if cell.value is None:
         text = NO_VALUE
     else:
-        text = numbers.with_interval(cell)
+        text = numbers.count(cell.value) if cell.is_count() else numbers.with_interval(cell)
         if _has_range(cell):
             places = numbers.decimals(cell.value, cell.low, cell.high)
-            words.append(f"{numbers.text(cell.least, places)} to {numbers.text(cell.most, places)}")
+            least, most = (numbers.count(n) if cell.is_count() else numbers.text(n, places) for n in (cell.least, cell.most))
+            words += [f"{least} to {most}"] if least != most or not cell.is_count() else []
         if _is_part(table, cell):
             words.append(f"{cell.mean_of} of {table['over_count']}")
     if cell.clock and len(table["clocks"]) > 1:
@@ -70,10 +71,13 @@ def notes(table, cells):
     if any(_is_part(table, c) and c.value is not None for c in cells):
         found.append(f"\"n of {table['over_count']}\": so many of the {over} have a value and are in the mean")
     found += dict.fromkeys(f"{mark}: {meaning}" for c in cells for mark, meaning in _lesser(c))
-    reasons = list(dict.fromkeys(f'"{reason}"' for c in cells for reason in _reasons(c)))
-    if reasons:
-        found.append(f"{', '.join(reasons)}: why there is no interval")
-    if any(c.value is not None and not _has_interval(c) and not _reasons(c) for c in cells):
+    for lacking, of in (("interval", [c for c in cells if c.value is not None]), ("number", [c for c in cells if c.value is None])):
+        reasons = list(dict.fromkeys(f'"{reason}"' for c in of for reason in _reasons(c)))
+        if reasons:
+            found.append(f"{', '.join(reasons)}: why there is no {lacking}")
+    if any(c.is_count() for c in cells):
+        found.append("counts of the last frame, exact but for rounding to three digits; k, M, G: thousands, millions, billions")
+    if any(c.value is not None and not _has_interval(c) and not _reasons(c) and not c.is_count() for c in cells):
         found.append("a number without brackets has no interval")
     if any(c.value is None for c in cells):
         found.append(f"{NO_VALUE}: no value")
@@ -90,25 +94,26 @@ def notes(table, cells):
     return text and text[0].upper() + text[1:] + "."
 
 
-def _is_bold(cell):
+def is_bold(cell):
     return cell.is_significant or cell.standing == BEST
 
 
-def _grid(cells):
+def grid(cells):
+    """(names of rows, names of columns, {(row, column): Cell})"""
     rows = list(dict.fromkeys(c.row for c in cells))
     columns = list(dict.fromkeys(c.column for c in cells))
     return rows, columns, {(c.row, c.column): c for c in cells}
 
 
 def markdown(table, cells, made_from):
-    rows, columns, at = _grid(cells)
+    rows, columns, at = grid(cells)
 
     def shown(row, column):
         cell = at.get((row, column))
         if cell is None:
             return ""
         text = cell_text(table, cell)
-        mark = "**" if _is_bold(cell) else "*" if cell.standing == TIED else ""
+        mark = "**" if is_bold(cell) else "*" if cell.standing == TIED else ""
         return f"{mark}{text}{mark}"
 
     escaped = [c.replace("|", "\\|") for c in columns]
@@ -119,46 +124,9 @@ def markdown(table, cells, made_from):
     return "\n".join([*lines, "", f"{made_from} {notes(table, cells)}".rstrip(), ""])
 
 
-def _latex_escaped(text):
-    for plain, escaped in {"\\": r"\textbackslash{}", "_": r"\_", "%": r"\%", "&": r"\&", "#": r"\#", "^": r"\^{}"}.items():
-        text = text.replace(plain, escaped)
-    for mark, name in {"\N{DAGGER}": "dag", "\N{DOUBLE DAGGER}": "ddag", DISTURBED: "S"}.items():
-        text = text.replace(mark, f"\\{name}{{}}")
-    return text.replace(NO_VALUE, "--")
-
-
-def latex(table, cells, made_from):
-    """With the package booktabs; intervals small, as what the marks mean below."""
-    rows, columns, at = _grid(cells)
-
-    def shown(row, column):
-        cell = at.get((row, column))
-        if cell is None:
-            return ""
-        value, _, rest = _latex_escaped(cell_text(table, cell)).partition(" ")
-        style = "textbf" if _is_bold(cell) else "textit" if cell.standing == TIED else None
-        value = f"\\{style}{{{value}}}" if style else value
-        return f"{value} {{\\scriptsize {rest}}}" if rest else value
-
-    head = " & ".join(_latex_escaped(c) for c in columns)
-    lines = [
-        f"% {made_from}",
-        "\\begin{table}",
-        f"\\caption{{{_latex_escaped(table['caption'])}}}",
-        f"\\begin{{tabular}}{{l{'r' * len(columns)}}}",
-        "\\toprule",
-        f" & {head} \\\\",
-        "\\midrule",
-    ]
-    lines += [f"{_latex_escaped(r)} & " + " & ".join(shown(r, c) for c in columns) + " \\\\" for r in rows]
-    explained = notes(table, cells)
-    below = [f"\\par\\smallskip {{\\scriptsize {_latex_escaped(explained)}}}"] if explained else []
-    return "\n".join([*lines, "\\bottomrule", "\\end{tabular}", *below, "\\end{table}", ""])
-
-
 def comma_separated(cells):
     """The grid with a column for each value, low and high, and for its standing where the table marks the best."""
-    rows, columns, at = _grid(cells)
+    rows, columns, at = grid(cells)
     parts = ["value", "low", "high", *(["standing"] if any(c.standing for c in cells) else [])]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")

@@ -104,7 +104,7 @@ Config read_config(const std::filesystem::path& file) {
         object.number("reflective_max_roughness", 0.0f, 1.0f, config.reflective_max_roughness);
     config.reflective_min_reflectance =
         object.number("reflective_min_reflectance", 0.0f, 1.0f, config.reflective_min_reflectance);
-    check_tables(object);
+    check_tables(object, config);
     check_tune(object, config);
     object.finish();
 

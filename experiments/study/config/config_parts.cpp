@@ -82,9 +82,9 @@ void check_budgets(JsonObject& tune) {
 
 }  // namespace
 
-void check_tables(JsonObject& config) {
+void check_tables(JsonObject& object, const Config& config) {
     std::set<std::string> names;
-    for (JsonObject& table : config.objects("tables")) {
+    for (JsonObject& table : object.objects("tables")) {
         const std::string name = table.text("name");
         const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
         if (name.empty() || !std::ranges::all_of(name, is_plain))
@@ -92,8 +92,8 @@ void check_tables(JsonObject& config) {
         if (!names.insert(name).second) fail(table.where(), ": two tables are called '", name, "'");
         table.text("caption");
         table.any("of");
-        table.choice(
-            "of", {"effects", "results", "splits", "times", "time_effects", "hits", "limits", "agreement", "eye"}, "");
+        if (table.choice("of", table_sources, "") == "costs" && !config.counts_costs)
+            fail(table.at("of"), ": the study counts no costs; add \"costs\": true");
         check_object(table, "where");
         check_names(table, "rows");
         check_names(table, "columns");

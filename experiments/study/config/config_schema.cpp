@@ -2,6 +2,7 @@
 
 #include "core/gpu/pass_cost.h"
 #include "experiments/study/config/config.h"
+#include "experiments/study/config/config_parts.h"
 #include "experiments/study/config/design.h"
 #include "metrics/masks.h"
 #include "metrics/metric.h"
@@ -86,8 +87,7 @@ json table_schema() {
     return object(
         {{"name", text},
          {"caption", text},
-         {"of",
-          {{"enum", {"effects", "results", "splits", "times", "time_effects", "hits", "limits", "agreement", "eye"}}}},
+         {"of", {{"enum", table_sources}}},
          {"where", any_object},
          {"rows", one_or_more(text)},
          {"columns", one_or_more(text)},

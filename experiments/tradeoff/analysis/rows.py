@@ -122,6 +122,7 @@ class Analysis:
             points, fit = fits.fit_axis(axis, shot.floor)
             row = self._shot_columns(shot) | {"variant": axis.variant, "label": self.label(axis.variant)}
             row |= {"parameter": axis.parameter, "fixed": axis.fixed, "points": len(points), **vars(fit)}
+            row["point_names"] = "; ".join(p.point for p in points)
             if points:
                 row |= {"cost_from": min(p.cost for p in points), "cost_to": max(p.cost for p in points)}
             if rung:

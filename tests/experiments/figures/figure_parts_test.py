@@ -3,30 +3,16 @@
 usage: figure_parts_test.py
 """
 
-import os
-import sys
+from figures_start import check
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/figures"))
-os.environ["MPLBACKEND"] = "Agg"
-
-try:
-    import matplotlib.pyplot as plt
-    import numpy as np
-    from matplotlib.text import Text
-except ImportError as missing:
-    sys.exit(f"figures need python3-matplotlib and python3-numpy (tests/run.sh installs them): {missing}")
-
-from paper_figures import crops, style  # noqa: E402
-from paper_figures.lines import draw_lines  # noqa: E402
-from paper_figures.placed_labels import place_labels  # noqa: E402
-from paper_figures.results import Measured  # noqa: E402
-from paper_figures.standing import Ends, standings  # noqa: E402
-
-
-def check(is_true, what):
-    if not is_true:
-        sys.exit(f"figure_parts_test: {what}")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.text import Text
+from paper_figures import crops, style
+from paper_figures.lines import draw_lines
+from paper_figures.placed_labels import place_labels
+from paper_figures.results import Measured
+from paper_figures.standing import Ends, standings
 
 
 def test_crop_boxes():

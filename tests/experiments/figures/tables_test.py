@@ -16,117 +16,14 @@ script = sys.argv[1]
 sys.path.insert(0, os.path.dirname(script))
 sys.dont_write_bytecode = True
 
+from paper_figures import numbers  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
-
-SHOTS = ("floor", "wall")
-TABLES = [
-    {
-        "name": "changes",
-        "caption": "What each change does_to the error",
-        "of": "effects",
-        "where": {"target": "specular", "metric": ["mse", "flip"]},
-        "rows": "taps",
-        "columns": "metric",
-        "over": "shot",
-        "sort": "mse",
-        "labels": {"taps = 16": "sixteen | taps"},
-    },
-    {
-        "name": "levels",
-        "caption": "Errors",
-        "of": "results",
-        "where": {"metric": "mse", "point": ["taps=4", "default"]},
-        "rows": ["variant", "point"],
-        "columns": "shot",
-    },
-    {"name": "parts", "caption": "Parts", "of": "splits", "where": {"shot": "floor"}, "rows": "point", "columns": "metric"},
-]
-SEEDS, REFERENCE, ONE_SEED = "seeds", "reference and seeds", "none: 1 seed"  # experiments/results/interval.h
-RATIOS = {  # point, metric, shot: ratio, low, high, p_holm
-    ("taps=4", "mse", "floor"): (0.5, 0.45, 0.555555555555, 0.001),
-    ("taps=4", "mse", "wall"): (2.0, 1.8, 2.222222222222, 0.001),
-    ("taps=4", "flip", "floor"): (0.81, 0.80, 0.82, 0.2),
-    ("taps=4", "flip", "wall"): (0.81, "", "", ""),
-    ("taps=16", "mse", "floor"): (0.25, 0.2, 0.3, 0.2),
-    ("taps=16", "mse", "wall"): (0.25, 0.2, 0.3, 0.2),
-}
+from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows  # noqa: E402
 
 
 def check(is_true, what):
     if not is_true:
         sys.exit(f"tables_test: {what}")
-
-
-def write(file, text):
-    os.makedirs(os.path.dirname(file), exist_ok=True)
-    with open(file, "w", encoding="utf-8") as stream:
-        stream.write(text)
-
-
-def read(file):
-    with open(file, encoding="utf-8") as stream:
-        return stream.read()
-
-
-def write_rows(file, rows):
-    with open(file, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, rows[0].keys())
-        writer.writeheader()
-        writer.writerows(rows)
-
-
-def manifest(tables, verdict="passed"):
-    points = [("default", 1), ("taps=4", 4), ("taps=16", 16)]
-    return {
-        "provenance": [
-            {
-                "ssrlab": {"commit": "abc1234", "dirty": False, "code": "00ff", "estimators": 7},
-                "device": {"name": "a device"},
-                "finished": "2026-01-31T12:05:00Z",
-            }
-        ],
-        "study": {"name": "made_up", "config": "configs/made_up.json"},
-        "title": "Made up",
-        "is_complete": True,
-        "config": {"tables": tables},
-        "clock": {"proofs": [{"verdict": verdict, "shots": SHOTS}]},
-        "shots": [{"shot": s, "width": 320, "height": 180} for s in SHOTS],
-        "variants": [{"variant": "sssr", "point": p, "parameters": {"taps": taps}} for p, taps in points],
-    }
-
-
-def write_results(folder, tables=TABLES, ratios=RATIOS):
-    write(os.path.join(folder, "manifest.json"), json.dumps(manifest(tables)))
-    effects = [
-        {"shot": shot, "frame": "0", "variant": "sssr", "point": point, "against": "baseline", "against_variant": "sssr"}
-        | {"against_point": "default", "target": "specular", "metric": metric, "mask": "all", "seeds": 8}
-        | {"interval": SEEDS if metric == "flip" else REFERENCE}
-        | dict(zip(("ratio", "low", "high", "p_holm", "interval"), numbers))
-        for (point, metric, shot), numbers in ratios.items()
-    ]
-    write_rows(os.path.join(folder, "effects.csv"), effects)
-    errors = [
-        {"shot": shot, "frame": frame, "variant": "sssr", "point": point, "target": "specular", "metric": "mse", "mask": "all"}
-        | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1, "speaks": int(frame == "")}
-        for shot in SHOTS
-        for frame, point, value in (("3", "default", 5.0), ("", "default", 0.0123), ("3", "taps=4", 0.002))
-    ]
-    errors += [row | {"frame": "", "value": 0.00234, "low": "", "high": "", "speaks": 1} for row in errors if row["point"] == "taps=4"]
-    write_rows(os.path.join(folder, "summary.csv"), errors)
-    split = {"shot": "floor", "frame": "3", "variant": "sssr", "target": "specular", "mask": "all", "seeds": 8, "mse": 3}
-    split |= {"bias_squared": 2, "bias_squared_low": 1.5, "bias_squared_high": 2.5, "variance": 1}
-    split |= {"variance_low": 0.9, "variance_high": 1.1}
-    write_rows(os.path.join(folder, "splits.csv"), [split | {"point": "default"}, split | {"point": "taps=4"}])
-    times = [
-        {"shot": shot, "variant": "sssr", "point": point, "stage": "total", "clock": "gpu_timestamp", "frames": 15}
-        | {"median_ms": 2, "low_ms": 1.9, "high_ms": 2.1, "disturbed_share": 0.4 if (shot, point) == ("wall", "default") else 0}
-        for shot in SHOTS
-        for point in ("default", "taps=4")
-    ]
-    write_rows(os.path.join(folder, "time_summary.csv"), times)
-    ratio = {"variant": "sssr", "point": "taps=4", "against": "baseline", "against_variant": "sssr", "against_point": "default"}
-    ratio |= {"stage": "total", "clock": "gpu_timestamp", "rounds": 15, "ratio": 1, "low": 0.9, "high": 1.1}
-    write_rows(os.path.join(folder, "time_effects.csv"), [{"shot": shot} | ratio for shot in SHOTS])
 
 
 def tables(*arguments):
@@ -153,7 +50,8 @@ def test_numbers(folder):
     parts = read(os.path.join(folder, "tables", "parts.md")).splitlines()
     check(parts[4] == "| default | 3.00 | 2.00 [1.50, 2.50] | 1.00 [0.90, 1.10] |", parts[4])
     latex = read(os.path.join(folder, "tables", "changes.tex"))
-    check(r"\toprule" in latex and r"does\_to" in latex and r"1.000 {\scriptsize [0.928" in latex, latex)
+    check(r"\toprule" in latex and r"\caption{What each change does\_to \{the\} error}" in latex, latex)
+    check(r"taps = 4 & 1.000 {\scriptsize [0.928, 1.077] (0.500 to 2.000)} & 0.810 \\" in latex, latex)
     grid = list(csv.reader(open(os.path.join(folder, "tables", "changes.csv"))))
     check(grid[0] == ["", "mse", "mse low", "mse high", "flip", "flip low", "flip high"], grid[0])
     check(abs(float(grid[2][1]) - 1) < 1e-12 and abs(float(grid[2][2]) - math.exp(-half)) < 1e-9, grid[2])
@@ -210,10 +108,6 @@ def test_display_names(folder):
     check(lines[2] == "| | rooms |" and [line.split(" | ")[0] for line in lines[4:6]] == [r"| sssr, four \| taps", "| faithful, default"], lines)
 
 
-def footer(folder, name):
-    return read(os.path.join(folder, "tables", name + ".md")).splitlines()[-1]
-
-
 def test_footers(folder):
     """A footer counts the shots of its table's own cells, and a mean says how many of them have a value."""
     missing = {("taps=4", "mse", "wall"): ("", "", "", "", "none: no value")}
@@ -226,7 +120,7 @@ def test_footers(folder):
     check("2 shots at" in lines[7] and "\"n of 2\": so many of the shots have a value" in lines[7], lines[7])
     check(lines[7].endswith("\N{EN DASH}: no value."), lines[7])
     latex = read(os.path.join(folder, "tables", "changes.tex"))
-    check(r"sixteen | taps & -- & " in latex, latex)
+    check(r"sixteen \textbar{} taps & -- & " in latex, latex)
     parts = footer(folder, "parts")
     check("abc1234, 1 of the study's 2 shots (floor) at 320x180, 8 seeds," in parts, parts)
 
@@ -245,6 +139,7 @@ def test_footers(folder):
 def test_what_intervals_hold(folder):
     """Marks tell apart what intervals hold and why there is none, in Markdown, LaTeX and the document that shows them."""
     single = {k: v for k, v in TABLES[0].items() if k not in ("over", "sort")} | {"columns": ["metric", "shot"], "name": "single"}
+    single["labels"] = {"flip": "FLIP of all frames"}
     one_seed = {("taps=4", "mse", "wall"): (2.0, "", "", "", ONE_SEED), ("taps=4", "flip", "wall"): (0.81, 0.80, 0.82, 0.2)}
     write_results(folder, [TABLES[0], single], RATIOS | one_seed)
     root = os.path.join(folder, "tree")
@@ -260,8 +155,11 @@ def test_what_intervals_hold(folder):
     check("| 1.00 (0.50 to 2.00; 1 seed) | 0.8100 [0.8030, 0.8171]\N{DAGGER} |" in mean, mean)
     check(text in read(os.path.join(root, "README.md")) and mean in read(os.path.join(root, "README.md")), "marks are lost where they are kept")
     latex = read(os.path.join(folder, "tables", "single.tex"))
-    check(r"0.8100 {\scriptsize [0.8000, 0.8200]\dag{}}" in latex and r"2.00 {\scriptsize (1 seed)}" in latex, latex)
-    check(r"{\scriptsize In brackets 95 \% intervals; \dag{}: the interval holds" in latex, latex)
+    # Too wide for a page's text: values in one line, all else in the next.
+    check(r"taps = 4 & \textbf{0.500} & 2.00 & 0.8100 & 0.8100 \\[-2.5pt]" in latex, latex)
+    check(r"\begin{tabular}[b]{@{}r@{}}FLIP of all\\frames, floor\end{tabular}" in latex, latex)
+    check(r"& {\scriptsize [0.450, 0.556]} & {\scriptsize (1 seed)} & {\scriptsize [0.8000, 0.8200]\dag{}} &" in latex, latex)
+    check(r"{\scriptsize In brackets 95 \% intervals; \dag{}: the interval holds" in latex and "``1 seed''" in latex, latex)
 
 
 def test_times(folder):
@@ -329,6 +227,46 @@ def test_shares(folder):
     for number, value in zip(numbers, expected, strict=True):
         check((number is None) == (value is None) and (number is None or abs(number - value) < 1e-12), f"{numbers}, expected {expected}")
     check("(0.600 to 0.900)" in lines[4], lines[4])
+
+
+def test_counts(temporary):
+    """Counts are short where they are read and whole in CSV files, the kept one too; equal ones have no range."""
+    for value, text in ((0, "0"), (999, "999"), (12.34, "12.3"), (79.99999, "80"), (999.7, "1.00 k"), (12345678, "12.3 M"), (999600, "1.00 M"), (5.5e12, "5500 G")):
+        check(numbers.count(value).replace("\N{NO-BREAK SPACE}", " ") == text, f"{value} becomes {numbers.count(value)}")
+    folder, root = os.path.join(temporary, "counts"), os.path.join(temporary, "tree of counts")
+    single = {"name": "counts", "caption": "Counts", "of": "costs", "rows": "stage", "columns": ["quantity", "shot"]}
+    mean = single | {"name": "mean", "columns": "quantity", "over": "shot"}
+    write_results(folder, [single, mean])
+    counts = {  # stage: by quantity the values in both shots
+        "trace": {"operations": (12345678, 3000000), "atomics": (10007, 10007), "idle": (0, 40)},
+        "total": {"operations": (123456789, 987), "atomics": (663001, 663004), "idle": (0, 0)},
+    }
+    place = {"variant": "sssr", "point": "default"}
+    rows = [
+        {"shot": shot} | place | {"stage": stage, "quantity": quantity, "value": values[i]}
+        for i, shot in enumerate(SHOTS)
+        for stage, quantities in counts.items()
+        for quantity, values in quantities.items()
+    ]
+    write_rows(os.path.join(folder, "costs.csv"), rows)
+    block = "<!-- table made_up {} -->\n<!-- end of table -->\n"
+    write(os.path.join(root, "README.md"), block.format("counts") + block.format("mean"))
+    result = tables(folder, "--keep", "--root", root)
+    check(result.returncode == 0, result.stderr)
+    text = read(os.path.join(root, "README.md")).replace("\N{NO-BREAK SPACE}", " ")
+    check("| trace | 12.3 M | 10.0 k | 0 | 3.00 M | 10.0 k | 40 |" in text, text)
+    check("| trace | 6.09 M (3.00 M to 12.3 M) | 10.0 k | \N{EN DASH} (a count is 0) |" in text, text)
+    check("| total | 349 k (987 to 123 M) | 663 k | 0 |" in text, text)
+    check('"a count is 0": why there is no number;' in text, text)
+    check("exact but for rounding to three digits; k, M, G" in text and "no interval" not in text.split("mean -->")[0], text)
+    made = [read(os.path.join(folder, "tables", name + ".md")) for name in ("counts", "mean")]
+    check(all(table in read(os.path.join(root, "README.md")) for table in made), f"{made} became {text}")
+    check(r"349~k {\scriptsize (987 to 123~M)}" in read(os.path.join(folder, "tables", "mean.tex")), "LaTeX")
+    grid = list(csv.reader(open(os.path.join(folder, "tables", "counts.csv"))))
+    check(grid[1][:4] == ["trace", "12345678", "", ""], grid[1])
+    check("total,\"operations, floor\",123456789," in read(os.path.join(root, "experiments", "summaries", "made_up.csv")), "a kept count")
+    write_rows(os.path.join(folder, "costs.csv"), [rows[0] | {"value": "1.5"}])
+    check("is not a whole number" in tables(folder).stderr, "half an operation")
 
 
 def test_means_over_what_is_told_apart(folder):
@@ -448,6 +386,7 @@ def main():
         test_what_intervals_hold(folder)
         test_times(folder)
         test_shares(folder)
+        test_counts(temporary)
         test_means_over_what_is_told_apart(folder)
         test_refusals(folder)
         test_tables_that_nobody_asks_for(temporary)

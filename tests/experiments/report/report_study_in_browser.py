@@ -211,7 +211,10 @@ def test_stages(page):
     choose_in(page, "stages", "Bars show", "shares of each point's total")
     widths = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => +b.getAttribute('width'))", part)
     check(abs(sum(widths[:10]) - sum(widths[10:])) < 1, "bars of shares are equally long, whatever the times")
+    said = "return [...document.querySelectorAll(\"nav a[href='#stages'], #stages > h2, #stage-shots > .note\")].map(e => e.textContent.slice(0, 29))"
+    equal(page.execute_script(said), ["Stage times and counted costs"] * 2 + ["Median times over the measured"[:29]], "what the section shows")
     choose_in(page, "stages", "Bars show", "bytes")
+    equal(page.execute_script(said)[2], "Counted by the shaders as they ran"[:29], "what the switch shows")
     bars = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => [b.getAttribute('fill'), b.getAttribute('width') / 1, +b.dataset.value])", part)
     equal([bar[::2] for bar in bars[:2]], [[fills[0], 5], [fills[1], 10]], "stages by MB read and written, which look as by their times")
     check(abs(bars[1][1] / bars[0][1] - 2) < 0.01, f"bars of costs are as long as they say: {bars}")

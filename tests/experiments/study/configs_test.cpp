@@ -237,3 +237,17 @@ TEST(Configs, EachChangesOneParameterAtATime) {
         {"variant": "mcguire_dda", "each": {"dda.stride": [2]}, "sweep": {"dda.refine": [false]}}]})");
     EXPECT_THROW(read_config(file), Error);
 }
+
+/// Else tables.py would say so after the study has run.
+TEST(Configs, TablesOfCostsNeedThemCounted) {
+    const fs::path file = fs::path(testing::TempDir()) / "tables_of_costs.json";
+    const auto write_counting = [&](const std::string& costs) {
+        write_text(file,
+                   R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "none"}], "costs": )" + costs + R"(,
+            "tables": [{"name": "a", "caption": "", "of": "costs", "rows": "stage", "columns": "quantity"}]})");
+    };
+    write_counting("true");
+    EXPECT_TRUE(read_config(file).counts_costs);
+    write_counting("false");
+    EXPECT_THROW(read_config(file), Error);
+}

@@ -8,6 +8,9 @@ const costKinds = {
         {name: "operations", axis: "millions of scalar operations, as shaders state them", of: c => c.operations / 1e6}
 };
 
+const howCounted =
+    "Counted by the shaders as they ran, in the shot's last frame with the first seed: exact, and of no machine.";
+
 const costTotals = new Map(report.costs.filter(c => c.stage === "total").map(c => [c.shot + "|" + pointKey(c), c]));
 
 /// The total of a point as a value of an axis, like totalTime(); undefined where nothing was counted.
@@ -39,8 +42,8 @@ function costTable(shot) {
     const names = "Invocations, Idle, Fetches, Texels, Bytes read, Bytes written, Unique bytes, Operations".split(", ");
     return folded(
         "What the stages do, counted",
-        h("p", {class: "note"},
-          "In the shot's last frame, with the first seed: no machine is in these numbers. Idle are invocations that write nothing; unique bytes count what a pass reads or writes of an image or buffer no more than once. Caches and compression are not counted."),
+        h("p", {class: "note"}, howCounted,
+          " Idle are invocations that write nothing; unique bytes count what a pass reads or writes of an image or buffer no more than once."),
         table(
             [{name: "Variant"}, {name: "Stage"}, ...names.map(name => ({name, number: true}))], sorted.map(row),
             {groupBy: 0}));

@@ -1,4 +1,4 @@
-// Stage times and costs: stacked bars per shot and the numbers.
+// Stage times and counted costs: stacked bars per shot and the numbers.
 
 /// Eight colours, each plain and in three textures, of start.js's page-wide <defs>.
 const textures = ["plain", "stripes", "dots", "checks"];
@@ -38,11 +38,27 @@ function showStages() {
     const ofTimes = report.times.length ? [["times", "times"], ["shares", "shares of each point's total"]] : [],
           ofCosts = report.costs.length ? Object.entries(costKinds).map(([kind, {name}]) => [kind, name]) : [];
     if (!ofTimes.length) stageChoice.bars = "fetches";
+    const note = h("p", {class: "note"});
     const bars = select("Bars show", [...ofTimes, ...ofCosts], stageChoice.bars, value => {
         stageChoice.bars = value;
+        note.textContent = stagesText();
         pointsChanged();
     });
+    if (ofCosts.length) {
+        const title = ofTimes.length ? "Stage times and counted costs" : "Counted costs of stages";
+        document.querySelector("#stages h2").textContent = title;
+        document.querySelector("nav a[href='#stages']").textContent = title;
+        note.textContent = stagesText();
+        at("stage-shots").append(note);
+    }
     at("stage-shots").append(h("div", {class: "controls"}, bars), shotParts(shots, stagesOf));
+}
+
+/// What the switch shows, where there are counts.
+function stagesText() {
+    if (stageChoice.bars in costKinds)
+        return `${howCounted} A count is no time: it holds no caches, no compression, no lanes that wait for others.`;
+    return "Median times over the measured frames, of the machine that took them. The switch puts what stages do, counted, in their place.";
 }
 
 function stagesOf(shot) {

@@ -1,11 +1,15 @@
-"""Stacked bars: which stage of each point takes how long. Techniques stand apart, each below the names of its own stages."""
+"""Stacked bars: which stage of each point takes how long, or does how much. Techniques stand apart, each below the names of its
+own stages."""
 
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter
 from matplotlib.transforms import blended_transform_factory
 
 from paper_figures import numbers, style
+from paper_figures.request import near
+from paper_figures.results import ResultsError
 
-MOST_STAGES = 7  # of a technique, named and coloured; the shortest others are added up, unless there is but one
+MOST_STAGES = 7  # of a technique, named and coloured; the least others are added up, unless there is but one
 REST = "others"
 REST_COLOR = "#bbbbbb"
 # Okabe and Ito's colours, dark and light in turn; what has about the same lightness differs by its hatch, so that neighbours and
@@ -29,12 +33,13 @@ def _short(stage):
 
 
 def _named_stages(points):
-    """The stages of a technique that take longest, in the order in which they run."""
-    every = list(dict.fromkeys(s for stages in points.values() for s in stages if s != "total"))
-    longest = {s: max(stages[s].value for stages in points.values() if s in stages) for s in every}
+    """The stages of a technique that take most, in the order in which they run; those that take nothing are none."""
+    every = dict.fromkeys(s for stages in points.values() for s in stages if s != "total")
+    most = {s: max(stages[s].value for stages in points.values() if s in stages) for s in every}
+    every = [s for s in every if most[s] > 0]
     if len(every) <= MOST_STAGES + 1:
         return every, []
-    kept = sorted(every, key=longest.get, reverse=True)[:MOST_STAGES]
+    kept = sorted(every, key=most.get, reverse=True)[:MOST_STAGES]
     return [s for s in every if s in kept], [s for s in every if s not in kept]
 
 
@@ -51,17 +56,35 @@ def _legend_lines(names, width):
     return lines
 
 
-def _grouped(results, shot):
-    """{variant: {point: {stage: Measured}}}"""
+def _grouped(results, points):
+    """{variant: {point: {stage: Measured}}} of the points of whose stages one takes something."""
     groups = {}
-    for key, stages in results.times_of(shot).items():
-        if key not in results.hidden and any(s != "total" for s in stages):
+    for key, stages in points.items():
+        if key not in results.hidden and any(m.value > 0 for s, m in stages.items() if s != "total"):
             groups.setdefault(key[0], {})[key] = stages
     return groups
 
 
-def draw(results, shot, chosen):
-    groups = _grouped(results, shot)
+def draw_times(results, shot, chosen):
+    said = ["median time of a frame (ms) with its 95 % interval", *results.warnings_of_times([shot])]
+    return _draw(results, shot, chosen, results.times_of(shot), "; ".join(said), numbers.with_interval)
+
+
+def draw_costs(results, shot, chosen):
+    quantity = chosen.option("quantity", "operations")
+    known = {row["quantity"] for row in results.costs}
+    if known and quantity not in known:
+        raise ResultsError(f"{chosen.where}: 'quantity' = \"{quantity}\" was not counted{near(quantity, known)}")
+    said = f"{quantity.replace('_', ' ')}, counted in the last frame by the shaders themselves"
+    figure = _draw(results, shot, chosen, results.costs_of(shot, quantity), said, lambda total: numbers.count(total.value))
+    if figure:
+        figure.axes[0].xaxis.set_major_formatter(FuncFormatter(lambda x, _: numbers.count(x, keeps_zeros=False)))
+    return figure
+
+
+def _draw(results, shot, chosen, points, said, total_text):
+    """`points`: {(variant, point): {stage: Measured}}; `said`: what the bars show; `total_text`: the total behind a bar."""
+    groups = _grouped(results, points)
     if not groups:
         return None
     width = style.width_of(chosen, 1 if sum(map(len, groups.values())) <= 8 else 2)
@@ -70,7 +93,8 @@ def draw(results, shot, chosen):
     blocks = []
     for variant, points in groups.items():
         named, rest = _named_stages(points)
-        lines = _legend_lines([*named, *([REST] if rest else [])], width - 0.4) if len(named) > 1 else []
+        is_one_pass = len({s for stages in points.values() for s in stages} - {"total"}) == 1
+        lines = [] if is_one_pass else _legend_lines([*named, *([REST] if rest else [])], width - 0.4)
         labels = {k: style.wrapped(results.own_label(*k) or (k[1] or "default"), longest) for k in points}
         blocks.append((results.labels.get(variant, variant), points, named, rest, lines, labels))
     rows = {id(b): [max(ROW * scale, LINE * scale * (t.count("\n") + 1)) for t in b[5].values()] for b in blocks}
@@ -96,9 +120,9 @@ def draw(results, shot, chosen):
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
     axes.grid(axis="y", visible=False)
-    style.note(figure, "; ".join(["median time of a frame (ms) with its 95 % interval", *results.warnings_of_times([shot])]))
+    style.note(figure, said)
     axes.set_title(results.shot_label(shot))
-    _draw_totals(figure, axes, list(ticks), [s for _, points, *_ in blocks for s in points.values()])
+    _draw_totals(figure, axes, list(ticks), [s for _, points, *_ in blocks for s in points.values()], total_text)
     return figure
 
 
@@ -129,8 +153,8 @@ def _draw_bar(axes, y, height, stages, named, rest):
         start += value
 
 
-def _draw_totals(figure, axes, ys, every):
-    """The total with its interval right of each bar; the axis leaves room for the longest."""
+def _draw_totals(figure, axes, ys, every, total_text):
+    """The total right of each bar, with its interval where it has one; the axis leaves room for the longest."""
     ends, texts = [], []
     for y, stages in zip(ys, every):
         total = stages.get("total")
@@ -139,9 +163,10 @@ def _draw_totals(figure, axes, ys, every):
             ends.append(end)
             texts.append("")
             continue
-        axes.errorbar([total.value], [y], xerr=total.whiskers(), fmt="none", ecolor="#000000", elinewidth=0.6, capsize=1.5, capthick=0.6)
+        if total.low is not None:
+            axes.errorbar([total.value], [y], xerr=total.whiskers(), fmt="none", ecolor="#000000", elinewidth=0.6, capsize=1.5, capthick=0.6)
         ends.append(max(end, total.high or total.value))
-        texts.append(numbers.with_interval(total))
+        texts.append(total_text(total))
     figure.draw_without_rendering()
     room = axes.get_window_extent().width / figure.dpi * 2.54
     axes.set_xlim(0, max(e / (1 - min((style.text_width(t) + 0.3) / room, 0.8)) for e, t in zip(ends, texts)))

@@ -1,0 +1,93 @@
+"""A table as LaTeX, with the packages booktabs and graphicx."""
+
+import re
+
+from paper_figures.standing import TIED
+from paper_figures.texts import wrapped
+from paper_tables.formats import DISTURBED, NO_VALUE, cell_text, grid, is_bold, notes
+
+ESCAPES = str.maketrans(
+    {c: "\\" + c for c in "_%&#${}"}
+    | {"\\": r"\textbackslash{}", "^": r"\^{}", "~": r"\textasciitilde{}", "|": r"\textbar{}", "<": r"\textless{}", ">": r"\textgreater{}"}
+    | {"\N{DAGGER}": r"\dag{}", "\N{DOUBLE DAGGER}": r"\ddag{}", DISTURBED: r"\S{}", NO_VALUE: "--", "\N{NO-BREAK SPACE}": "~"}
+)
+# Widths in pt: of letters in 10 pt Computer Modern, about, the gap between columns, and what there is room for.
+LETTER, SMALL_LETTER, GAP = 4.9, 3.9, 8
+COLUMN, TEXT = 240, 345  # a column of two; the text of the class article, the narrowest that spans a page
+HEAD = 14  # letters of a column's name in a line, at least
+MOST_LINES = 45  # that a page has room for, with a caption and notes
+
+
+def escaped(text):
+    return re.sub(r'"([^"]*)"', r"``\1''", text.translate(ESCAPES))
+
+
+def _parts(table, cell):
+    """A cell's number, and what stands small behind it."""
+    number, _, rest = cell_text(table, cell).partition(" ") if cell else ("", "", "")
+    return number, rest
+
+
+def _widths(table, rows, columns, at):
+    """For all columns (in one line for each row, with all but the numbers in a second line), without their names."""
+    found = []
+    for column in columns:
+        texts = [_parts(table, at.get((row, column))) for row in rows]
+        number, rest = LETTER * max(len(n) for n, _ in texts), SMALL_LETTER * max(len(r) for _, r in texts)
+        found.append((number + rest, max(number, rest)))
+    return found
+
+
+def _head(column, width):
+    """A column's name, in as many lines as it needs to be no wider than the column."""
+    lines = [escaped(line) for line in wrapped(column, max(int(width / LETTER), HEAD)).split("\n")]
+    return lines[0] if len(lines) == 1 else r"\begin{tabular}[b]{@{}r@{}}" + r"\\".join(lines) + r"\end{tabular}"
+
+
+def latex(table, cells, made_from):
+    """What is too wide for a page's text is set in two lines for each row, as long as the page is high enough, and shrunk where that is
+    not enough; what is wider than a column spans both of a page that has two."""
+    rows, columns, at = grid(cells)
+    names = LETTER * max(len(row) for row in rows)
+    one, two = (list(widths) for widths in zip(*_widths(table, rows, columns, at)))
+    is_stacked = names + sum(GAP + w for w in one) > TEXT and 2 * len(rows) <= MOST_LINES
+    widths = [max(w, HEAD * LETTER) for w in (two if is_stacked else one)]
+    environment = "table*" if names + sum(GAP + w for w in widths) > COLUMN else "table"
+
+    def shown(row, column):
+        """What stands in the row's first line, and in its second."""
+        cell = at.get((row, column))
+        number, rest = (escaped(part) for part in _parts(table, cell))
+        style = None if cell is None else "textbf" if is_bold(cell) else "textit" if cell.standing == TIED else None
+        number = f"\\{style}{{{number}}}" if style else number
+        small = f"{{\\scriptsize {rest}}}" if rest else ""
+        return (number, small) if is_stacked else (" ".join(part for part in (number, small) if part), "")
+
+    body = []
+    for row in rows:
+        first, second = zip(*(shown(row, c) for c in columns))
+        body.append(" & ".join([escaped(row), *first]) + (r" \\[-2.5pt]" if any(second) else r" \\"))
+        body += [" & ".join(["", *second]).lstrip() + r" \\"] if any(second) else []
+        body += [r"\addlinespace[2pt]"] if is_stacked and row != rows[-1] else []
+    explained = notes(table, cells)
+    return "\n".join(
+        [
+            f"% {made_from}",
+            "% Needs the packages booktabs and graphicx.",
+            f"\\begin{{{environment}}}",
+            f"\\centering\\setlength{{\\tabcolsep}}{{{GAP / 2:g}pt}}",
+            f"\\caption{{{escaped(table['caption'])}}}",
+            f"\\label{{tab:{table['name']}}}\\par\\smallskip",
+            r"\resizebox{\ifdim\width>\linewidth\linewidth\else\width\fi}{!}{%",
+            f"\\begin{{tabular}}{{l{'r' * len(columns)}}}",
+            "\\toprule",
+            " & ".join(["", *(_head(c, w) for c, w in zip(columns, widths))]).lstrip() + r" \\",
+            "\\midrule",
+            *body,
+            "\\bottomrule",
+            "\\end{tabular}}",
+            *([f"\\par\\smallskip\\parbox{{\\linewidth}}{{\\scriptsize {escaped(explained)}}}"] if explained else []),
+            f"\\end{{{environment}}}",
+            "",
+        ]
+    )

@@ -1,0 +1,171 @@
+"""Error against run time: a made-up results folder, from its tables to its answers.
+
+usage: tradeoff_folder_test.py TRADEOFF_FOLDER SSRLAB
+"""
+
+import contextlib
+import csv
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+TRADEOFF, SSRLAB = sys.argv.pop(1), sys.argv.pop(1)
+sys.path.insert(0, TRADEOFF)
+
+from tradeoff import FILES, main  # noqa: E402
+
+FRAMES = 15
+MACHINES = (("first", ("floor", "wall")), ("second", ("roof",)))
+PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "v:rays=4": (16.0, 0.5), "v:rays=8": (32.0, 0.25), "w": (6.0, 4.0)}
+
+
+def write_csv(folder, name, columns, rows):
+    with open(os.path.join(folder, name), "w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, columns, restval="")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def write_study(folder):
+    """Three shots, two on one machine; errors of `v` are 8 / ms."""
+    shots = [s for _, of_machine in MACHINES for s in of_machine]
+    names_of_cells = dict(zip((n for n, _ in MACHINES), ("times", "timing")))  # now, and in earlier versions
+    keys = {name: tuple(name.partition(":")[::2]) for name in PRESETS}
+    keys = {name: (v, p or "default") for name, (v, p) in keys.items()}
+    errors, times, counts, effects = [], [], [], []
+    errors += [{"shot": "moon", "variant": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "speaks": 1}]
+    oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "speaks": 1, "seed": 0}
+    errors += [oracle | {"shot": s, "value": 0.01, "low": 0.01, "high": 0.01, "ranked": 1} for s in shots]
+    # Over the frames of `sky` there is next to no error, and no time.
+    nearly_none = {"shot": "sky", "variant": "none", "frame": "", "value": 0.0015, "low": 0.0014, "high": 0.0016, "ranked": 1, "floor": 0.001}
+    errors.append(oracle | nearly_none)
+    for number, a_shot in enumerate(shots):
+        for name, (ms, error) in PRESETS.items():
+            own = {"shot": a_shot, "variant": keys[name][0], "point": keys[name][1]}
+            row = own | {"frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": error * (number + 1), "speaks": 1}
+            errors.append(row | {"low": row["value"] * 0.99, "high": row["value"] * 1.01, "ranked": 1, "floor": 0.001, "seed": 0})
+            for frame in range(FRAMES):
+                times.append(own | {"seed": 0, "stage": "total", "frame": frame, "milliseconds": ms * (1 + 0.01 * (frame % 3)), "clock": "host_fence", "disturbed": 0})
+                times.append(own | {"stage": "v/march", "frame": frame, "milliseconds": 500, "clock": "host_fence"})
+                times.append(own | {"variant": "", "point": "", "stage": "gbuffer/draw", "frame": frame, "milliseconds": 1000, "clock": "host_fence"})
+            counts += [own | {"stage": stage, "quantity": "fetches", "value": 50 * ms} for stage in ("march", "shade")]
+        compared = {"shot": a_shot, "variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "target": "specular"}
+        effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51})
+    columns = ["shot", "frame", "variant", "point", "seed", "target", "metric", "mask", "value", "low", "high", "ranked", "speaks", "floor"]
+    write_csv(folder, "summary.csv", columns, errors)
+    write_csv(folder, "results.csv", columns, errors)
+    write_csv(folder, "times.csv", ["shot", "variant", "point", "seed", "stage", "frame", "milliseconds", "clock", "disturbed"], times)
+    write_csv(folder, "time_summary.csv", ["shot"], [])
+    write_csv(folder, "costs.csv", ["shot", "variant", "point", "stage", "quantity", "value"], counts)
+    write_csv(folder, "effects.csv", list(effects[0]), effects)
+    manifest = {
+        "title": "Made up",
+        "is_complete": True,
+        "primary": {"metric": "mse", "mask": "reflective", "target": "specular"},
+        "clock": {"aa_floor": 0.02, "proofs": [{"verdict": "passed", "shots": ["floor", "wall"]}]},
+        "provenance": [{"host": {"name": n, "cpu": "c", "cores": 2}, "device": {"name": "d"}, "cells": [{"what": f"{s}: {names_of_cells[n]}"} for s in of]} for n, of in MACHINES],
+        "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in (*shots, "sky")],
+        "variants": [{"variant": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
+    }
+    manifest["variants"].append({"variant": "oracle", "point": "default", "asks_scene": True, "parameters": {}})
+    with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
+        json.dump(manifest, stream)
+
+
+def run(*arguments):
+    """The script, within this process: exit code and what it said of mistakes."""
+    said, sys.argv = io.StringIO(), ["tradeoff.py", *arguments]
+    with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+        return main(), said.getvalue()
+
+
+def read(folder, name):
+    with open(os.path.join(folder, name), newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+class Folder(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = cls.temporary.name
+        write_study(cls.folder)
+        asked = ["--leave-out", "moon", "--times", "3", "4.1", "10", "--factors", "0.0625", "--baseline", "none:default"]
+        cls.done = subprocess.run([SSRLAB, "tradeoff", cls.folder, *asked], capture_output=True, text=True)
+        cls.out = os.path.join(cls.folder, "tradeoff")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_the_tables(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        front = {(r["shot"], r["label"]): r for r in read(self.out, "front.csv")}
+        self.assertEqual(front["floor", "w"]["verdict"], "dominated")
+        self.assertEqual((front["floor", "w"]["dominated_by"], front["floor", "v rays=8"]["is_nominal_front"]), ("v rays=1", "1"))
+        self.assertAlmostEqual(float(front["floor", "v rays=1"]["cost"]), 4.04)  # of `total` alone, in the middle of 4, 4.04, 4.08
+        at = {(r["shot"], r["variant"], float(r["cost"])): r for r in read(self.out, "error_at_cost.csv")}
+        self.assertAlmostEqual(float(at["wall", "v", 10]["error"]), 2 * 8.08 / 10, places=5)
+        self.assertEqual(at["wall", "v", 3]["status"], "before start")
+        self.assertEqual((at["wall", "v", 10]["point"], at["wall", "v", 3]["error"]), ("rays=2", ""))
+        to = {(r["shot"], r["variant"]): r for r in read(self.out, "cost_to_error.csv")}
+        self.assertAlmostEqual(float(to["roof", "v"]["cost"]), 16.16, places=3)
+        self.assertEqual((to["roof", "w"]["status"], to["roof", "w"]["cost"]), ("not reached", ""))
+        (fit, *_) = read(self.out, "fits.csv")
+        self.assertEqual((fit["parameter"], fit["points"], fit["floor_low"], fit["rung"]), ("rays", "4", "0", "on_screen"))
+        self.assertEqual(fit["point_names"], "rays=1; rays=2; rays=4; rays=8")
+        self.assertEqual((at["floor", "v", 4.1]["fits"], at["floor", "v", 10]["fits"]), ("maybe", "surely"))  # 4.04 ms and 2 %
+        self.assertEqual({s for s, _ in front}, {"floor", "wall", "roof", "sky"})  # moon was left out
+        self.assertEqual(front["floor", "oracle"]["verdict"], "asks the scene")
+        self.assertEqual({r["shot"] for r in read(self.out, "limits.csv")}, {"floor", "wall", "roof"})
+        (limit, *_) = read(self.out, "limits.csv")
+        self.assertEqual((limit["label"], float(limit["over_rung"])), ("v rays=8", 2.5))
+        change = next(r for r in read(self.out, "stages.csv") if r["shot"] == "floor")
+        self.assertEqual((change["change"], change["verdict"]), ("rays: 1 -> 2", "buys error"))
+        self.assertAlmostEqual(float(change["cost_per_percent"]), 4.04 / 100, places=4)  # 100 % more error without
+
+    def test_machines_are_never_mixed(self):
+        with open(os.path.join(self.out, "answers.md"), encoding="utf-8") as stream:
+            answers = stream.read()
+        self.assertIn("Times of different machines or sizes are never compared", answers)
+        # 0.8 of 8 in `floor` and as much in `wall`; nothing fits in 3 ms but `none`.
+        self.assertIn("| 3 | none that fits in all scenes |", answers)
+        self.assertIn("**v** has the least error, 0.101 of that of none (geometric mean, 2 scenes)", answers)
+        self.assertIn("2 scenes are too few for an interval", answers)
+        self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-51, -49] |", answers)
+        self.assertIn("Multiples leave out sky:", answers)
+        self.assertIn("The clock did not prove itself in 1 of 3 shots", answers)
+        rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
+        self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
+        self.assertEqual(len([r for r in read(self.out, "stages.csv") if not r["shot"]]), 2)
+
+    def test_counted_costs_take_the_place_of_times(self):
+        out = os.path.join(self.folder, "counted")
+        self.assertEqual(run(self.folder, "--cost", "fetches", "--times", "1000", "--out", out), (0, ""))
+        at = {(r["shot"], r["variant"]): r for r in read(out, "error_at_cost.csv")}
+        self.assertAlmostEqual(float(at["floor", "v"]["error"]), 0.8, places=6)
+        self.assertEqual({r["cost_low"] for r in read(out, "front.csv") if r["label"] == "w"}, {"600"})
+        self.assertIn("has no 'bytes'", run(self.folder, "--cost", "bytes")[1])
+
+    def test_mistakes(self):
+        for options, said in ((["--baseline", "x"], "no point x"), (["--metric", "flip"], "no errors of specular flip"), (["--leave-out", "sun"], "'sun'")):
+            code, found = run(self.folder, *options)
+            self.assertEqual(code, 2)
+            self.assertIn(said, found)
+
+    def test_the_readme_has_every_column(self):
+        with open(os.path.join(TRADEOFF, "README.md"), encoding="utf-8") as stream:
+            sections = re.split(r"^`(\w+\.csv)`", stream.read(), flags=re.M)
+        told = {name: set(re.findall(r"`(\w+)`", text)) for name, text in zip(sections[1::2], sections[2::2])}
+        for name, columns in FILES.items():
+            self.assertEqual(set(columns) - told[name], set(), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
