@@ -1,6 +1,7 @@
 #include "experiments/measuring/timing.h"
 
 #include "core/gpu/device.h"
+#include "experiments/measuring/kept_clock_proof.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/results/results.h"
 #include "variants/registry.h"
@@ -198,24 +199,6 @@ std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies, const std::ve
                              .first_ms = recorded_like(copy, copies).median_total(rounds),
                              .second_ms = copy.median_total(rounds)});
     return pairs;
-}
-
-nlohmann::json clock_entry(const ClockProof& proof) {
-    nlohmann::json checks = nlohmann::json::array();
-    for (const ClockCheck& c : proof.checks) {
-        checks.push_back({{"stage_kind", c.stage_kind},
-                          {"expected", c.expected},
-                          {"measured_ms", c.measured_ms},
-                          {"ratio", c.ratio},
-                          {"foreign_load", nullptr},
-                          {"attempts", c.attempts},
-                          {"verdict", name_of(c.verdict)}});
-        if (c.foreign_load) checks.back()["foreign_load"] = *c.foreign_load;
-    }
-    return {{"method", proof.method},
-            {"empty_submit_ms", proof.empty_submit_ms},
-            {"verdict", name_of(proof.verdict())},
-            {"checks", checks}};
 }
 
 /// One entry for each proof, with the shots that were timed by its clock.

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "experiments/measuring/costs.h"
+#include "experiments/measuring/kept_clock_proof.h"
 #include "experiments/measuring/timing.h"
 #include "experiments/measuring/timing_lock.h"
 #include "experiments/results/host_info.h"
@@ -118,7 +119,7 @@ std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, const std::op
 /// The proof of the clock, made once in a process.
 const ClockProof& proven_clock(StudyRun& study) {
     if (study.clock) return *study.clock;
-    study.clock = prove_clock(study.device);
+    study.clock = kept_clock_proof(study.settings.cache, study.maker, [&] { return prove_clock(study.device); });
     if (study.clock->verdict() == ClockVerdict::failed)
         study.progress.say(
             "warning: the clock did not prove itself: passes of 1 : 10 : 100 work took other times on a quiet machine, "

@@ -2,7 +2,6 @@
 
 from analysis import scenes
 from analysis.rows import RUNGS
-from paper_figures.results import commits_of
 
 MOST_LISTED = 4
 
@@ -50,7 +49,7 @@ class Answers:
         study, manifest = self.study, self.study.results.manifest
         title = manifest.get("title") or manifest.get("study", {}).get("name", "")
         lines = [f"# {title}: error against {'time' if self.unit == 'ms' else self.unit}", ""]
-        if commits := commits_of(manifest):
+        if commits := study.commits:
             lines += [f"`ssrlab run {manifest['study']['config']}`, commit {commits}; then `ssrlab tradeoff`.", ""]
         lines.append(
             f"Error: {study.metric} of `{study.target}` over `{study.mask}` pixels, {len(study.shots)} shots of "

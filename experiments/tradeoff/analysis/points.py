@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "figures"))
 
-from paper_figures.results import Results, ResultsError, rows_that_speak  # noqa: E402
+from paper_figures.results import Results, ResultsError, commits_of, rows_that_speak  # noqa: E402
 
 TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
 
@@ -97,6 +97,7 @@ class Study:
     def __init__(self, folder, target=None, metric=None, mask=None, cost=None, left_out=()):
         self.results = Results(folder)
         manifest = self.results.manifest
+        self.commits = commits_of(manifest)
         primary = manifest.get("primary", {})
         self.target = target or primary.get("target", "specular")
         self.metric = metric or primary.get("metric", "mse")
