@@ -86,6 +86,8 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
     using nlohmann::json;
     const Config config = read_config(options.config);
     if (!config.is_tuned) fail(options.config.string(), ": has no 'tune'; `ssrlab run` runs a study");
+    if (!config.source["tune"].contains("axes"))
+        fail(options.config.string(), ": 'tune' has no 'axes'; it is for others to extend");
     const std::filesystem::path out =
         options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out;
     json points = json::array();

@@ -22,8 +22,6 @@ std::filesystem::path default_results(const std::filesystem::path& config) {
     return std::filesystem::path("results") / config.stem();
 }
 
-namespace {}  // namespace
-
 void run_study_command(const RunOptions& options, const CommonOptions& common) {
     run_study(config_of_study(options.config),
               {.out = options.out.empty() ? default_results(options.config) : options.out,

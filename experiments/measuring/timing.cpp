@@ -1,7 +1,7 @@
 #include "experiments/measuring/timing.h"
 
 #include "core/gpu/device.h"
-#include "experiments/measuring/kept_clock_proof.h"
+#include "experiments/measuring/clock_proofs.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/results/results.h"
 #include "variants/registry.h"

@@ -203,6 +203,9 @@ def compare(old, new, arguments):
         times = [change for change in times if change[0][0] not in moved]
     if times:
         print(f"\nTimes of {len(times)} points changed beyond their intervals and what two copies of a point differ by:")
+        for one in (old, new):
+            if "aa_floor" not in one.manifest.get("clock", {}):
+                print(f"  (in {one.folder} no point was timed twice: what copies differ by is not known of it)")
         for (shot, variant, point), a, b in times if arguments.all else times[:12]:
             print(f"  {shot}: {variant} {point}: {a:.3g} ms -> {b:.3g} ms (x{b / a:.3f})")
     if arguments.csv:

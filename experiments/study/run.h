@@ -18,8 +18,8 @@ struct RunSettings {
 };
 
 /// Runs a study and fills the results folder (experiments/RESULTS.md). What is finished can be read while it runs:
-/// tables and report are written after the first shot, then as often as a fiftieth of the time allows, and at the end.
-/// Of a part of the cells nothing but these is written: merge_study() makes the tables once all are there.
+/// tables and report are written after the first shot, then as often as a two hundredth of the time allows, and at the
+/// end. Of a part of the cells nothing but these is written: merge_study() makes the tables once all are there.
 void run_study(const Config& config, const RunSettings& settings);
 
 /// Fills settings.out with the cells that folders of the same study hold, and makes tables and report of all that

@@ -1,6 +1,6 @@
 #include "core/error.h"
+#include "experiments/measuring/clock_proofs.h"
 #include "experiments/measuring/costs.h"
-#include "experiments/measuring/kept_clock_proof.h"
 #include "experiments/measuring/timing.h"
 #include "experiments/measuring/timing_lock.h"
 #include "experiments/results/host_info.h"
@@ -116,7 +116,7 @@ std::optional<Cell> do_cell(StudyRun& study, const CellTask& task, const std::op
     return is_kept ? std::move(cell) : std::move(*found);
 }
 
-/// The proof of the clock, made once in a process.
+/// The proof of the clock, made or loaded once in a process.
 const ClockProof& proven_clock(StudyRun& study) {
     if (study.clock) return *study.clock;
     study.clock = kept_clock_proof(study.settings.cache, study.maker, [&] { return prove_clock(study.device); });
@@ -228,7 +228,7 @@ std::unique_ptr<ShotRun> open(StudyRun& study, const PlannedShot& shot) {
 /// Compiles all that the study renders, so that a mistake in a shader is told before hours of work. Once in a process.
 void rehearse_once(StudyRun& study) {
     if (study.is_rehearsed) return;
-    const SpentTime::Span span(study.spent, "compiling");
+    const SpentTime::Span span(study.spent, compiling);
     rehearse(study.device, study.config.variants);
     study.is_rehearsed = true;
 }

@@ -46,7 +46,7 @@ nlohmann::json run_entry(const StudyRun& study) {
     double all = 0, overhead = 0;
     for (const auto& [what, spent] : seconds) {
         all += spent;
-        if (std::ranges::count(cell_kind_names(), what) == 0 && what != "compiling") overhead += spent;
+        if (std::ranges::count(cell_kind_names(), what) == 0 && what != compiling) overhead += spent;
     }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

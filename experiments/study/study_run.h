@@ -9,6 +9,9 @@
 #include "experiments/study/run.h"
 #include "experiments/study/spent_time.h"
 
+/// What SpentTime calls the compilation of all points' shaders before the first cell.
+inline constexpr const char* compiling = "compiling";
+
 /// A study on its way: all that it needs. `config` and `settings` must outlive it.
 struct StudyRun {
     StudyRun(const Config& config, const RunSettings& settings)

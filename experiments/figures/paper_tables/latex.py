@@ -22,6 +22,11 @@ def escaped(text):
     return re.sub(r'"([^"]*)"', r"``\1''", text.translate(ESCAPES))
 
 
+def _name(row):
+    """At the start of a line, where a bracket or a star would be an argument of the line break before it."""
+    return ("{}" if row[:1] in ("[", "*") else "") + escaped(row)
+
+
 def _parts(table, cell):
     """A cell's number, and what stands small behind it."""
     number, _, rest = cell_text(table, cell).partition(" ") if cell else ("", "", "")
@@ -66,7 +71,7 @@ def latex(table, cells, made_from):
     body = []
     for row in rows:
         first, second = zip(*(shown(row, c) for c in columns))
-        body.append(" & ".join([escaped(row), *first]) + (r" \\[-2.5pt]" if any(second) else r" \\"))
+        body.append(" & ".join([_name(row), *first]) + (r" \\[-2.5pt]" if any(second) else r" \\"))
         body += [" & ".join(["", *second]).lstrip() + r" \\"] if any(second) else []
         body += [r"\addlinespace[2pt]"] if is_stacked and row != rows[-1] else []
     explained = notes(table, cells)

@@ -111,7 +111,8 @@ void check_tune(JsonObject& object, Config& config) {
     config.is_tuned = true;
     if (config.variants.empty()) return;  // of which read_config() complains
     check_tuned_points(object, tune, config);
-    check_axes(tune.object("axes"), tune.any("axes"), make_variant(config.variants.front().variant)->params);
+    if (tune.has("axes"))  // which one that others extend may leave to them
+        check_axes(tune.object("axes"), tune.any("axes"), make_variant(config.variants.front().variant)->params);
     const std::string time = tune.text("time", "milliseconds");
     const bool has_clock = time == "milliseconds";
     std::vector<std::string> counted;

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <set>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -19,7 +19,6 @@ namespace {
 constexpr std::array<glm::uvec2, 2> calibration_extents = {glm::uvec2(64, 36), glm::uvec2(160, 90)};
 constexpr unsigned few_samples = 32, many_samples = 128;
 constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
-constexpr unsigned plays_of_lit_noise = 2;  // of a point: with the light of each half of the reference
 
 double seconds_of(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -51,6 +50,11 @@ struct PointRates {
     Line frame;    ///< rendered: the mean of the first and the last point of the kind
 };
 
+/// How often a point is played besides its seeds: with the light of each half of a reference (point_run.cpp).
+unsigned plays_of_lit_noise(const Config& config, const ShotConfig& shot) {
+    return config.has_reference && !shot.direct_lit && shot.gbuffer.empty() ? 2 : 0;
+}
+
 /// What was measured on small images.
 struct Rates {
     Line opening;                              ///< a shot: its scene, its first frame, what is measured of the truth
@@ -77,10 +81,12 @@ public:
     }
 
     Rates measure(const ShotConfig& shot) {
-        OfBothSizes opening{}, traced{};
+        OfBothSizes opening{}, rendered{};
         std::map<std::string, PointSeconds> points;
         for (size_t i = 0; i < calibration_extents.size(); ++i) {
-            const std::unique_ptr<ShotRun> run = open(shot, i, opening[i], traced[i]);
+            rendered[i] = seconds_of([&] { open(shot, i); });
+            std::unique_ptr<ShotRun> run;
+            opening[i] = seconds_of([&] { run = open(shot, i); });
             for (const auto& [kind, ends] : ends_of_kinds_) {
                 measure_point(*run, i, ends.first, points[kind]);
                 points[kind].last_frame[i] = ends.second.point == ends.first.point
@@ -89,15 +95,15 @@ public:
             }
         }
         config_.reference.max_samples = many_samples;
-        double unused = 0, traced_longer = 0;
-        open(shot, 1, unused, traced_longer);
+        const double longer = seconds_of([&] { open(shot, 1); });
         Rates rates{.opening = line_through(opening), .guide = {}, .points = {}};
-        const double most = pixels_of(calibration_extents[1]);
-        rates.per_sample = std::max(traced_longer - traced[1], 0.0) / (most * (many_samples - few_samples));
-        for (size_t i = 0; i < traced.size(); ++i)
-            traced[i] -= rates.per_sample * few_samples * pixels_of(calibration_extents[i]);
-        rates.guide = line_through(traced);
-        for (const auto& [kind, seconds] : points) rates.points[kind] = rates_of(seconds);
+        rates.per_sample =
+            std::max(longer - rendered[1], 0.0) / (pixels_of(calibration_extents[1]) * (many_samples - few_samples));
+        OfBothSizes guide{};
+        for (size_t i = 0; i < guide.size(); ++i)
+            guide[i] = rendered[i] - opening[i] - rates.per_sample * few_samples * pixels_of(calibration_extents[i]);
+        rates.guide = line_through(guide);
+        for (const auto& [kind, seconds] : points) rates.points[kind] = rates_of(seconds, shot);
         return rates;
     }
 
@@ -108,36 +114,30 @@ private:
         OfBothSizes of_a_seed{}, of_two_seeds{}, first_frame{}, last_frame{};
     };
 
-    static PointRates rates_of(const PointSeconds& seconds) {
-        PointSeconds s = seconds;
-        for (size_t i = 0; i < s.of_a_seed.size(); ++i) {
-            const double seed = s.of_two_seeds[i] - s.of_a_seed[i];
-            s.of_a_seed[i] -= seed + plays_of_lit_noise * s.first_frame[i];  // what is done once
-            s.of_two_seeds[i] = seed - s.first_frame[i];                     // what is measured of a frame
-            s.first_frame[i] = (s.first_frame[i] + s.last_frame[i]) / 2;
+    PointRates rates_of(const PointSeconds& seconds, const ShotConfig& shot) const {
+        OfBothSizes once{}, measure{}, frame{};
+        for (size_t i = 0; i < once.size(); ++i) {
+            const double seed = seconds.of_two_seeds[i] - seconds.of_a_seed[i];
+            once[i] = seconds.of_a_seed[i] - seed - plays_of_lit_noise(config_, shot) * seconds.first_frame[i];
+            measure[i] = seed - seconds.first_frame[i];
+            frame[i] = (seconds.first_frame[i] + seconds.last_frame[i]) / 2;
         }
-        return {line_through(s.of_a_seed), line_through(s.of_two_seeds), line_through(s.first_frame)};
+        return {line_through(once), line_through(measure), line_through(frame)};
     }
 
     /// A still frame of the shot; of a capture its own size.
-    std::unique_ptr<ShotRun> open(const ShotConfig& shot, size_t size, double& opening, double& traced) {
+    std::unique_ptr<ShotRun> open(const ShotConfig& shot, size_t size) {
         ShotConfig small = shot;
         small.extent = calibration_extents[size], small.frames = {shot.frames.front()};
         small.warm_up = 0, small.repeat = 1, small.measure_from = shot.frames.front();
         small.change.reset();
-        std::unique_ptr<ShotRun> run;
-        const double all = seconds_of([&] {
-            run = open_shot(device_, small, config_,
-                            {.out = folder_,
-                             .cache = folder_ / ("cache" + std::to_string(size)),
-                             .search_path = settings_.search_path,
-                             .keep_all = settings_.keep_all,
-                             .say = [](const std::string&) {},
-                             .report = [](double, const std::string&) {}});
-        });
-        traced = run->entry.contains("reference") ? run->entry["reference"]["seconds"].get<double>() : 0.0;
-        opening = std::max(all - traced, 0.0);
-        return run;
+        return open_shot(device_, small, config_,
+                         {.out = folder_,
+                          .cache = folder_ / ("cache" + std::to_string(size)),
+                          .search_path = settings_.search_path,
+                          .keep_all = settings_.keep_all,
+                          .say = [](const std::string&) {},
+                          .report = [](double, const std::string&) {}});
     }
 
     void measure_point(ShotRun& run, size_t size, VariantConfig variant, PointSeconds& seconds) {
@@ -161,6 +161,9 @@ private:
         const FrameStore::Frame frame = run.store->frame(step, run.truth.lit(step));
         PassGraph graph(device_, run.shot.config.extent);
         const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
+        RayProbe probe;  // exact_scene asks the scene, which takes as long as it takes: here it meets nothing
+        probe.exact_hits = [](const RecordedRays& recorded) { return std::vector<ExactHit>(recorded.rays.size()); };
+        variant->ray_probe = &probe;
         if (!settings_.keep_all) variant->leave_out(run.shot.facts);
         const auto render = [&] {
             render_variant(graph, *variant, frame.camera, 0, frame.gbuffer);
@@ -182,7 +185,7 @@ private:
 /// held 762 MiB, for which this says 805; three shots of 96x54 203, for which it says 329. Larger images have not been
 /// compared.
 double memory_of(const ShotConfig& shot, size_t timed_copies) {
-    constexpr double base_mib = 300, truth_bytes = 1500, seed_bytes = 600, gbuffer_bytes = 250, copy_bytes = 250;
+    constexpr double base_mib = 300, truth_bytes = 1500, seed_bytes = 850, gbuffer_bytes = 250, copy_bytes = 250;
     const double pixels = pixels_of(shot.extent);
     const double kept_mib = std::min(pixels * double(shot.frames.size()) * gbuffer_bytes / 1048576, 1024.0);
     return base_mib + kept_mib + pixels * (truth_bytes + seed_bytes + copy_bytes * double(timed_copies)) / 1048576;
@@ -193,7 +196,8 @@ class CellSeconds {
 public:
     CellSeconds(const Rates& rates, const Config& config) : rates_(rates), config_(config) {}
 
-    double of(const PlannedCell& cell, const ShotConfig& shot) const {
+    /// In the order of the plan: the first times come with the proof of the clock.
+    double of(const PlannedCell& cell, const ShotConfig& shot) {
         const double pixels = pixels_of(shot.extent);
         switch (cell.kind) {
             case CellKind::references:
@@ -204,22 +208,23 @@ public:
                 // Frames before the last are rendered as they are; counting takes several times a frame.
                 return frame_of(*cell.variant, shot) * (cell.units + counting_factor) + compiling_seconds;
             case CellKind::times:
-                return rates_.opening.at(pixels) + clock_proof_seconds + of_times(shot);
+                return rates_.opening.at(pixels) + of_times(shot) + std::exchange(proof_seconds_, 0.0);
         }
         return 0;
     }
 
-    /// Two copies of each point, and one that leaves nothing out, take turns.
+    /// Two copies of each point, and, of those that leave anything out, one that does not.
     unsigned copies_timed() const { return config_.timing.has_copies ? 3 : 1; }
 
 private:
     double of_reference(const ShotConfig& shot) const {
         if (!config_.has_reference || !shot.gbuffer.empty()) return 0;
-        const unsigned samples =
-            config_.reference.max_samples > 0 ? config_.reference.max_samples : ReferenceSettings::default_samples;
-        const double pixels = pixels_of(shot.extent), traced = rates_.per_sample * samples * pixels,
-                     most = config_.reference.max_seconds;
-        return rates_.guide.at(pixels) + (most > 0 ? std::min(traced, most) : traced);
+        const double pixels = pixels_of(shot.extent), guide = rates_.guide.at(pixels);
+        const auto [samples, seconds] = std::pair(config_.reference.max_samples, config_.reference.max_seconds);
+        if (samples == 0 && seconds > 0) return guide + seconds;
+        // How many samples an error takes is not known: then those that a reference has by default.
+        const double traced = rates_.per_sample * pixels * (samples > 0 ? samples : ReferenceSettings::default_samples);
+        return guide + (seconds > 0 ? std::min(traced, double(seconds)) : traced);
     }
 
     double of_renders(const VariantConfig& variant, const ShotConfig& shot) const {
@@ -228,7 +233,7 @@ private:
         const std::vector<FrameStep> steps = timeline(shot);
         const auto measured = double(std::ranges::count_if(steps, &FrameStep::is_measured));
         return rates.once.at(pixels) + rates.measure.at(pixels) * measured * seeds +
-               rates.frame.at(pixels) * double(steps.size()) * (seeds + plays_of_lit_noise);
+               rates.frame.at(pixels) * double(steps.size()) * (seeds + plays_of_lit_noise(config_, shot));
     }
 
     double of_times(const ShotConfig& shot) const {
@@ -245,6 +250,7 @@ private:
 
     const Rates& rates_;
     const Config& config_;
+    double proof_seconds_ = clock_proof_seconds;
 };
 
 }  // namespace
@@ -252,7 +258,7 @@ private:
 std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config& config, const StudyPlan& plan,
                                                    const RunSettings& settings) {
     const Rates rates = Calibration(device, config, settings).measure(config.shots.front());
-    const CellSeconds seconds(rates, config);
+    CellSeconds seconds(rates, config);
     const auto timed = size_t(std::ranges::count_if(config.variants, &VariantConfig::is_timed));
     std::map<std::string, CellEstimate> estimates;
     for (const PlannedShot& shot : plan.shots)

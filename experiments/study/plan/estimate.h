@@ -13,7 +13,7 @@ struct CellEstimate {
 };
 
 /// By the names of cells. Calibrated by rendering small images of the study's first shot with two points of each
-/// technique and preset: a few seconds, and longer where a study has many presets. What cannot be known before, as how
-/// many samples a reference needs to reach an error, is taken at its limit.
+/// technique and preset: some ten seconds, and longer where a study has many presets. References are taken to stop at
+/// their limit of samples or seconds; where they have neither, at the default number of samples.
 std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config& config, const StudyPlan& plan,
                                                    const RunSettings& settings);

@@ -81,6 +81,8 @@ class Answers:
         floor = max((s.floor for s in shots), default=0)
         if floor > 0:
             lines.append(f"Two copies of one point differed by up to {100 * floor:.0f} %: times nearer than that are the same.")
+        if not self.study.has_noise_of_times:
+            lines.append("**No point was timed twice**: how near times are the same is not known, but for the scatter of frames.")
         unproven = [s.label for s in shots if not s.is_clock_proven]
         if unproven:
             lines.append(f"**The clock did not prove itself in {len(unproven)} of {len(shots)} shots** (manifest.json, `clock`).")

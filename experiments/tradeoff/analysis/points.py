@@ -184,6 +184,7 @@ class Study:
             if self.is_error(rung) and isinstance(rung.get("value"), (int, float))
         }
         clock = self.results.manifest.get("clock", {})
+        self.has_noise_of_times = bool(self.counted) or "aa_floor" in clock
         proofs = [p.get("verdict") == "passed" for p in clock.get("proofs", []) if name in p.get("shots", [])]
         size = f"{entry.get('width', '?')}x{entry.get('height', '?')}"
         shown = self.results.shot_label(name)

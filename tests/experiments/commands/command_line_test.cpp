@@ -75,6 +75,24 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     EXPECT_FALSE(fs::exists(folder / "o/results.csv"));
 }
 
+TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
+    // Also of a point that asks the scene, whose time is not told by its rays.
+    config(
+        R"({"shots": [{"scene": "fence", "resolution": [48, 27]}], "reference": "none", "lit": "direct", "seeds": 1, "timing": {"frames": 0},
+        "variants": [{"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}]})");
+    const Outcome small = ssrlab("plan study.json");
+    EXPECT_EQ(small.code, 0) << small.text;
+    EXPECT_NE(small.text.find("1 shots, 2 points"), std::string::npos) << small.text;
+    config(
+        "{" +
+        std::string(
+            R"("shots": [{"scene": "sky_only", "resolution": [16384, 16384]}], "reference": "none", "lit": "direct", "variants": [{"variant": "none"}]})"));
+    const Outcome large = ssrlab("plan study.json"), elsewhere = ssrlab("plan study.json --json plan.json");
+    EXPECT_EQ(large.code, 2);
+    EXPECT_NE(large.text.find("MiB of memory, and this machine has"), std::string::npos) << large.text;
+    EXPECT_EQ(elsewhere.code, 0) << elsewhere.text;
+}
+
 TEST_F(CommandLine, NamesBrokenFiles) {
     write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
     expect_mistake("compare a.exr b.exr", "b.exr: no such file");

@@ -53,9 +53,12 @@ TEST(Configs, KeepTheNamesOfTheirPoints) {
         for (const VariantConfig& variant : read_config(file.path()).variants)
             hash.add(variant.variant + " " + variant.point + "\n");
         EXPECT_EQ(golden[name], hash.hex())
-            << "points of " << name << " have other names; if that is meant, tests/data/point_names.txt has to say: "
-            << name << " " << hash.hex();
+            << "points of " << name
+            << " have other names; if that is meant, tests/data/point_names.txt has to say: " << name << " "
+            << hash.hex();
+        golden.erase(name);
     }
+    for (const auto& [name, hash] : golden) ADD_FAILURE() << "tests/data/point_names.txt: there is no config " << name;
 }
 
 TEST(Configs, LimitAReferenceByWhatTheySet) {
@@ -70,6 +73,21 @@ TEST(Configs, LimitAReferenceByWhatTheySet) {
     EXPECT_EQ(limits("{}"), "s-n256");
     EXPECT_EQ(limits(R"({"samples": 64, "seconds": 5})"), "s-n64-t5");
     EXPECT_EQ(limits(R"({"target_relative_error": 0.5})"), "s-n16777216-e0.5");
+}
+
+TEST(Configs, TimePointsAloneWhereAsked) {
+    const auto has_copies = [](const std::string& timing) {
+        const fs::path file = fs::temp_directory_path() / "ssrlab_timing_copies.json";
+        write_text(
+            file,
+            R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "variants": [{"variant": "none"}], "timing": )" +
+                timing + "}");
+        const Config config = read_config(file);
+        fs::remove(file);
+        return config.timing.has_copies;
+    };
+    EXPECT_TRUE(has_copies("{}"));
+    EXPECT_FALSE(has_copies(R"({"copies": false})"));
 }
 
 TEST(Configs, AdditiveCompositeHasNoIncidentRadiance) {

@@ -108,6 +108,10 @@ TEST_F(StudyPlanTest, CellsAreNamedByWhatIsAskedFor) {
     size_t changed = 0;
     for (const auto& [what, name] : names(plan())) changed += before.at(what) != name;
     EXPECT_EQ(changed, 2u * 2) << "the point with other seeds, and the times, which are of its first";
+    study.timing.has_copies = false;
+    changed = 0;
+    for (const auto& [what, name] : names(plan())) changed += before.at(what) != name;
+    EXPECT_EQ(changed, 2u * 2) << "times of points alone have no noise floor";
     study.reference.max_samples = 999;
     for (const auto& [what, name] : names(plan())) EXPECT_NE(before.at(what), name) << what;
 }

@@ -36,6 +36,7 @@ function drawBudget(shot) {
 /// From where on times differ, by two copies of a point.
 function floorText() {
     const floor = report.manifest.clock?.aa_floor;
+    if (floor === undefined) return "No point was timed twice: how near times are the same is not known.";
     return floor > 0 ? `Times nearer than ${percent(floor)} are the same.` : "";
 }
 

@@ -1,4 +1,4 @@
-#include "experiments/measuring/kept_clock_proof.h"
+#include "experiments/measuring/clock_proofs.h"
 
 #include "core/error.h"
 #include "core/files.h"
@@ -19,14 +19,13 @@ ClockProof proof_of(const nlohmann::json& entry) {
     ClockProof proof{.method = entry.at("method"), .empty_submit_ms = entry.at("empty_submit_ms"), .checks = {}};
     for (const nlohmann::json& c : entry.at("checks")) {
         ClockCheck& check = proof.checks.emplace_back(ClockCheck{.stage_kind = c.at("stage_kind")});
-        check.expected = c.at("expected").get<std::vector<double>>();
         check.measured_ms = c.at("measured_ms").get<std::vector<double>>();
-        if (check.measured_ms.size() != 3 || check.expected.size() != 3)
-            fail("a check of a clock without its three times");
+        if (check.measured_ms.size() != check.expected.size()) fail("a check of a clock without all its times");
         if (!c.at("foreign_load").is_null()) check.foreign_load = c.at("foreign_load").get<double>();
         judge(check);  // which the file has no say in
         check.attempts = c.at("attempts");
     }
+    if (proof.checks.size() != 3) fail("a proof of a clock has three checks");
     return proof;
 }
 
@@ -52,11 +51,13 @@ nlohmann::json clock_entry(const ClockProof& proof) {
 
 ClockProof kept_clock_proof(const std::filesystem::path& folder, const nlohmann::json& maker,
                             const std::function<ClockProof()>& prove) {
+    const std::string start = boot_id();
+    if (start.empty()) return prove();
     ContentHash hash;
-    hash.add(maker.dump() + boot_id());
+    hash.add(maker.dump() + start);
     const std::filesystem::path file = folder / ("clock-" + hash.hex() + ".json");
     try {
-        if (std::filesystem::exists(file))
+        if (std::error_code error; std::filesystem::exists(file, error))
             if (ClockProof kept = proof_of(read_json(file)); kept.verdict() == ClockVerdict::passed) return kept;
     } catch (const Error&) {
     } catch (const nlohmann::json::exception&) {
