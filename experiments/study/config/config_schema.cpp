@@ -115,8 +115,7 @@ json tune_schema(const json& shots) {
                    {"most_runs", integer(1, 1 << 30)},
                    {"most_minutes", number(0, 1e7)},
                    {"batch", integer(1, 256)},
-                   {"seed", integer(0, 1 << 30)}},
-                  {"axes"});
+                   {"seed", integer(0, 1 << 30)}});
 }
 
 }  // namespace

@@ -73,6 +73,8 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
         R"({"shots": [{"scene": "mirror_pilars", "resolution": [8, 8]}], "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
     EXPECT_NE(ssrlab("run study.json --out o").text.find("did you mean 'mirror_pillars'?"), std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "o/results.csv"));
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda"}], "tune": {"most_runs": 9}})");
+    expect_mistake("tune study.json", "it is for others to extend");
 }
 
 TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
