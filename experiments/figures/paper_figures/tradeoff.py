@@ -2,7 +2,9 @@
 
 import math
 
-FRONT, FITS = "tradeoff/front.csv", "tradeoff/fits.csv"
+from paper_figures.results import ResultsError, rows_that_speak
+
+FRONT, FITS, ACROSS, CHANGES = (f"tradeoff/{name}.csv" for name in ("front", "fits", "across", "stages"))
 
 
 def judged(results, shot, errors):
@@ -11,3 +13,17 @@ def judged(results, shot, errors):
     rows = {(r["variant"], r["point"]): r for r in results.read_csv(FRONT, is_optional=True) if r["shot"] == shot}
     is_same = all(k in rows and rows[k]["error"] and math.isclose(float(rows[k]["error"]), e.value, rel_tol=1e-6) for k, e in errors.items())
     return rows if is_same else {}
+
+
+def require_primary(results, file):
+    """Fails unless the answers are there, and of the study's primary error as these results have it."""
+    run, primary = f"run `ssrlab tradeoff {results.folder}`", results.manifest.get("primary", {})
+    front = results.read_csv(FRONT, is_optional=True)
+    if not front or not results.read_csv(file, is_optional=True):
+        raise ResultsError(f"{file} is missing: {run}")
+    rows = rows_that_speak(results.read_csv("summary.csv"))
+    errors = {(r["shot"], r["variant"], r["point"]): r["value"] for r in rows if all(r[k] == primary.get(k) for k in ("metric", "mask", "target"))}
+    for row in front:
+        error = errors.get((row["shot"], row["variant"], row["point"]))
+        if row["error"] and (not error or not math.isclose(float(row["error"]), float(error), rel_tol=1e-6)):
+            raise ResultsError(f"{FRONT} is not of the study's primary error, {primary.get('metric')} of {primary.get('target')}, as these results have it: {run}")

@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import dataclass, replace
 
+from paper_figures import tradeoff
 from paper_figures.results import ResultsError, rows_that_speak
 from paper_figures.standing import HIGHER_IS_BETTER, ratios_of, standings
 from paper_tables import agreement, limits
@@ -21,11 +22,14 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "limits": ("summary.csv", ("value", "low", "high")),  # errors over the information limit of one frame: limits.py
     "agreement": ("summary.csv", ("value", "low", "high")),  # of metrics with each other, and ...
     "eye": ("summary.csv", ("value", "low", "high")),  # ... with people: agreement.py
+    "at_cost": (tradeoff.ACROSS, ("ratio", "low", "high")),  # answers of `ssrlab tradeoff`, over scenes, and ...
+    "changes": (tradeoff.CHANGES, ("value", "low", "high")),  # ... what a change buys: see _change_rows()
 }
 SHARES = ("hits",)  # may be 0: their mean over shots is the arithmetic one
 NOT_SHARES = ("fetches", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
 KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "best", "labels"}
 COMPARED = ("results", "times", "limits")  # of these the cells of a row or column have a best, as far as their metric knows which way
+ADJUSTED = ("effects", "time_effects")  # of these `p_holm` is of the hypothesis that the ratio is 1
 UNDIRECTED = ("bias", "energy_ratio")
 NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
 GROUPS = {  # what rows, columns and means are by, beside the columns of a file
@@ -79,6 +83,16 @@ def _number(row, column):
         raise ResultsError(f"'{column}' = \"{text}\" is not a number") from e
 
 
+def _change_rows(rows):
+    """A row for each of the quantities that a change has over scenes: by how much the error grows, and what that costs."""
+    for row in rows:
+        if row["shot"]:
+            continue
+        for quantity, column in (("error", "error_ratio"), ("cost", "cost"), ("cost per % of error", "cost_per_percent")):
+            ends = column.replace("_ratio", "")
+            yield row | {"quantity": quantity, "value": row[column], "low": row[ends + "_low"], "high": row[ends + "_high"]}
+
+
 def _split_rows(rows):
     """A row for each of the three quantities of splits.csv, named by `metric`."""
     for row in rows:
@@ -125,7 +139,11 @@ class Selection:
         hosts = {load["shot"]: load.get("host", {}).get("name") for load in results.manifest.get("clock", {}).get("load", [])}
         self.hosts = hosts if len(set(hosts.values())) > 1 else {}  # by shot, where times are of several machines
         self.parameters = {(v["variant"], v["point"]): v.get("parameters", {}) for v in results.manifest["variants"]}
+        if table.of in ("at_cost", "changes"):
+            tradeoff.require_primary(results, SOURCES[table.of][0])
         rows = results.read_csv(SOURCES[table.of][0])
+        if table.of == "changes":
+            rows = list(_change_rows(rows))
         if table.of == "splits":
             rows = list(_split_rows(rows))
         if table.of in ("results", "limits", "agreement", "eye"):
@@ -201,7 +219,7 @@ def _cell(selection, row, name):
     value, low, high = (_number(row, c) for c in SOURCES[table.of][1] or ("value", "low", "high"))
     if table.of in SHARES and row["quantity"] not in NOT_SHARES:
         low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
-    p = _number(row, "p_holm")
+    p = _number(row, "p_holm") if table.of in ADJUSTED else None
     seeds = _number(row, "seeds")
     shares = [selection.disturbed.get(key) for key in (_timed(row), _timed(row, "against_"))]
     return Cell(
@@ -213,6 +231,7 @@ def _cell(selection, row, name):
         is_significant=p is not None and p < SIGNIFICANT,
         seeds=seeds and int(seeds),
         interval=row.get("interval") or None,
+        mean_of=int(row["scenes"]) if table.of == "at_cost" else None,
         clock=_clock(selection, row) if row.get("clock") else None,
         disturbed_share=_largest(shares),
     )
@@ -317,15 +336,19 @@ def _clock(selection, row):
 
 def _about(selection, filled):
     """What is said of a table beside its cells; `filled`: the rows that have a value."""
-    table = selection.table
-    shots = [s for s in selection.shots if any(r["shot"] == s["shot"] for r in filled)]
+    table, over = selection.table, selection.table.over
+    if table.of == "at_cost":
+        over, count = "scene", len({s["scene"] for s in selection.shots})
+    else:
+        count = len({selection.entry(r, over) for r in selection.rows}) if over else None
+    shots = [s for s in selection.shots if any(r.get("shot") in (None, "", s["shot"]) for r in filled)]  # without one: over all
     return {
         "name": table.name,
         "caption": table.caption,
         "shots": [s["shot"] for s in shots],
         "resolutions": sorted({f"{s['width']}x{s['height']}" for s in shots}),
-        "over": table.over,
-        "over_count": len({selection.entry(r, table.over) for r in selection.rows}) if table.over else None,
+        "over": over,
+        "over_count": count,
         "clocks": sorted({_clock(selection, r) for r in filled if r.get("clock")}),
     }
 

@@ -62,7 +62,7 @@ def cell_text(table, cell):
 
 def notes(table, cells):
     """What brackets, parentheses and marks of the table mean; "" where it has none."""
-    over = "shots" if table["over"] == "shot" else f"all {table['over']}"
+    over = {"shot": "shots", "scene": "scenes"}.get(table["over"], f"all {table['over']}")
     found = []
     if any(_has_interval(c) for c in cells):
         found.append("in brackets 95 % intervals")

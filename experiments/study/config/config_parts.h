@@ -7,7 +7,7 @@
 
 /// What a table can be "of": those of tables.py (paper_tables/cells.py, SOURCES).
 inline const std::vector<std::string> table_sources = {"effects", "results", "splits", "times",     "time_effects",
-                                                       "hits",    "costs",   "limits", "agreement", "eye"};
+                                                       "hits", "costs", "limits", "agreement", "eye", "at_cost", "changes"};
 
 /// "tables" of the study, if it has any; `config`: what has been read of `object`, the study.
 void check_tables(JsonObject& object, const Config& config);

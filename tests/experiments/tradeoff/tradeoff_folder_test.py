@@ -18,7 +18,9 @@ sys.dont_write_bytecode = True
 TRADEOFF, SSRLAB = sys.argv.pop(1), sys.argv.pop(1)
 sys.path.insert(0, TRADEOFF)
 
-from tradeoff import FILES, main  # noqa: E402
+from tradeoff import FILES, main  # noqa: E402  (before what it finds)
+from paper_figures.results import Results, ResultsError  # noqa: E402
+from paper_tables.cells import Table, cells_of  # noqa: E402
 
 FRAMES = 15
 MACHINES = (("first", ("floor", "wall")), ("second", ("roof",)))
@@ -69,7 +71,8 @@ def write_study(folder):
         "is_complete": True,
         "primary": {"metric": "mse", "mask": "reflective", "target": "specular"},
         "clock": {"aa_floor": 0.02, "proofs": [{"verdict": "passed", "shots": ["floor", "wall"]}]},
-        "provenance": [{"host": {"name": n, "cpu": "c", "cores": 2}, "device": {"name": "d"}, "cells": [{"what": f"{s}: {names_of_cells[n]}"} for s in of]} for n, of in MACHINES],
+        "study": {"name": "made_up", "config": "made_up.json"},
+        "provenance": [{"ssrlab": {"commit": "abc1234"}, "host": {"name": n, "cpu": "c", "cores": 2}, "device": {"name": "d"}, "cells": [{"what": f"{s}: {names_of_cells[n]}"} for s in of]} for n, of in MACHINES],
         "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in (*shots, "sky")],
         "variants": [{"variant": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
     }
@@ -144,6 +147,36 @@ class Folder(unittest.TestCase):
         rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
         self.assertEqual(len([r for r in read(self.out, "stages.csv") if not r["shot"]]), 2)
+
+    def cells(self, **entry):
+        """{(row, column): Cell} of a table, and what is said of it."""
+        about, cells = cells_of(Results(self.folder), Table({"name": "t", "caption": "", **entry}, "test"))
+        return {(c.row.split(", ")[-1], c.column): c for c in cells if c.row.startswith("first")}, about
+
+    def test_answers_become_tables_of_documents(self):
+        at_cost = {"of": "at_cost", "where": {"cost": ["10", "3"]}, "rows": ["machine", "variant"], "columns": "cost"}
+        cells, about = self.cells(**at_cost)
+        self.assertAlmostEqual(cells["v", "10"].value, 0.101, places=3)
+        self.assertEqual((cells["v", "10"].mean_of, about["over"], about["over_count"]), (2, "scene", 4))
+        self.assertNotIn(("v", "3"), cells)
+        changes, _ = self.cells(of="changes", rows=["machine", "change"], columns="quantity")
+        self.assertAlmostEqual(changes["rays: 1 -> 2", "error"].value, 0.5)
+        self.assertAlmostEqual(changes["rays: 1 -> 2", "cost"].value, 4.04)
+        self.assertIsNone(changes["rays: 1 -> 2", "cost per % of error"].value, "two scenes are too few to tell it")
+        # What was answered of other errors is none of these.
+        summary = os.path.join(self.folder, "summary.csv")
+        with open(summary, encoding="utf-8") as stream:
+            text = stream.read()
+        with open(summary, "w", encoding="utf-8") as stream:
+            stream.write(text.replace(",8.0,", ",8.1,"))
+        with self.assertRaisesRegex(ResultsError, "not of the study's primary error.*run `ssrlab tradeoff"):
+            self.cells(**at_cost)
+        with open(summary, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        os.rename(self.out, self.out + "_away")
+        with self.assertRaisesRegex(ResultsError, "is missing: run `ssrlab tradeoff"):
+            self.cells(**at_cost)
+        os.rename(self.out + "_away", self.out)
 
     def test_counted_costs_take_the_place_of_times(self):
         out = os.path.join(self.folder, "counted")
