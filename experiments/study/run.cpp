@@ -95,7 +95,8 @@ void run_study(const Config& config, const RunSettings& settings) {
     StudyRun study(config, settings);
     const auto say = [&](const std::string& text) { study.progress.say(text); };
     const SpentTime::Span span(study.spent, "else");
-    for (const auto& warning : study_entry(config)["warnings"]) say("warning: " + warning.get<std::string>());
+    const nlohmann::json entry = study_entry(config);
+    for (const auto& warning : entry["warnings"]) say("warning: " + warning.get<std::string>());
     plan_work(study, selection);
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
     Runner(study, selection).run();
