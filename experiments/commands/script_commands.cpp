@@ -88,8 +88,7 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
     if (!config.is_tuned) fail(options.config.string(), ": has no 'tune'; `ssrlab run` runs a study");
     if (!config.source["tune"].contains("axes"))
         fail(options.config.string(), ": 'tune' has no 'axes'; it is for others to extend");
-    const std::filesystem::path out =
-        options.out.empty() ? std::filesystem::path("results") / options.config.stem() : options.out;
+    const std::filesystem::path out = options.out.empty() ? default_results(options.config) : options.out;
     json points = json::array();
     for (const VariantConfig& v : config.variants)
         points.push_back({{"variant", v.variant},

@@ -4,12 +4,14 @@ A table is an entry of the config's "tables" (experiments/README.md explains its
 
 import json
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from paper_figures import tradeoff
 from paper_figures.results import ResultsError, rows_that_speak
 from paper_figures.standing import HIGHER_IS_BETTER, ratios_of, standings
 from paper_tables import agreement, limits
+from paper_tables.cell import EXACT, Cell
+from paper_tables.means import SHARES, largest, mean
 
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low", "high")),
@@ -25,7 +27,6 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "at_cost": (tradeoff.ACROSS, ("ratio", "low", "high")),  # answers of `ssrlab tradeoff`, over scenes, and ...
     "changes": (tradeoff.CHANGES, ("value", "low", "high")),  # ... what a change buys: see _change_rows()
 }
-SHARES = ("hits",)  # may be 0: their mean over shots is the arithmetic one
 NOT_SHARES = ("fetches", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
 KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "best", "labels"}
 COMPARED = ("results", "times", "limits")  # of these the cells of a row or column have a best, as far as their metric knows which way
@@ -37,42 +38,6 @@ GROUPS = {  # what rows, columns and means are by, beside the columns of a file
     "shot_group": lambda results, row: results.shot_group(row.get("shot")),
 }
 SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
-
-
-NO_INTERVAL = "none: "  # experiments/results/interval.h: before the reason
-NOT_POSITIVE = NO_INTERVAL + "an error is not above 0"
-SOME_ZERO = NO_INTERVAL + "a count is 0"
-EXACT = "exact"  # of counts, in place of what an interval holds
-BOTH = " / "  # between what differs among the parts of a mean
-
-
-@dataclass
-class Cell:
-    """One number of a table with its 95 % interval, and the range over what it is a mean of; None where there is none."""
-
-    table: str
-    row: str
-    column: str
-    value: float = None  # none: what its rows have is no value, or has no geometric mean
-    low: float = None
-    high: float = None
-    least: float = None  # of the shots that a geometric mean is over
-    most: float = None
-    is_significant: bool = False  # by the adjusted p-value of the study's primary comparisons
-    seeds: int = None
-    interval: str = None  # what it holds, or why there is none: experiments/results/interval.h; EXACT
-    mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
-    clock: str = None  # of times
-    disturbed_share: float = None  # of the frames that a time is the median of, by other programs
-    standing: str = None  # in its row or column: "best", told from all others, or "tied"; paper_figures/standing.py
-
-    def is_count(self):
-        return self.interval == EXACT
-
-    def reasons(self):
-        """Why there is no interval, where that is known."""
-        kinds = (self.interval or "").split(BOTH)
-        return [kind[len(NO_INTERVAL) :] for kind in kinds if kind.startswith(NO_INTERVAL)]
 
 
 def _number(row, column):
@@ -233,72 +198,8 @@ def _cell(selection, row, name):
         interval=row.get("interval") or None,
         mean_of=int(row["scenes"]) if table.of == "at_cost" else None,
         clock=_clock(selection, row) if row.get("clock") else None,
-        disturbed_share=_largest(shares),
+        disturbed_share=largest(shares),
     )
-
-
-def _largest(numbers):
-    return max((n for n in numbers if n is not None), default=None)
-
-
-def _joined(texts):
-    return BOTH.join(dict.fromkeys(t for t in texts if t)) or None
-
-
-def _geometric_mean(parts):
-    """Over shots, which are what they are and no sample: its interval holds what those of the single ones hold, taken as
-    independent (half-widths of logarithms, added in quadrature). Parts without a value are not in it."""
-    cells = [c for c in parts if c.value is not None]
-    result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
-    result.interval = _joined(c.interval for c in cells or parts)
-    result.clock = _joined(c.clock for c in cells)
-    result.disturbed_share = _largest(c.disturbed_share for c in cells)
-    result.seeds = min((c.seeds for c in cells if c.seeds is not None), default=None)
-    if not cells:
-        return result
-    least, most = min(c.value for c in cells), max(c.value for c in cells)
-    if result.is_count() and least == most:  # 0 too, and not a rounding away from it
-        result.value = result.least = result.most = least
-        return result
-    if least <= 0:
-        result.interval = SOME_ZERO if result.is_count() else NOT_POSITIVE
-        return result
-    result.value = math.exp(sum(math.log(c.value) for c in cells) / len(cells))
-    result.least, result.most = least, most
-    if all(c.low and c.low > 0 and c.high for c in cells):
-        half = math.sqrt(sum((math.log(c.high / c.low) / 2) ** 2 for c in cells)) / len(cells)
-        result.low, result.high = result.value * math.exp(-half), result.value * math.exp(half)
-    return result
-
-
-def _arithmetic_mean(parts):
-    """Of shares over shots, which are what they are and no sample; intervals as those of _geometric_mean()."""
-    cells = [c for c in parts if c.value is not None]
-    result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
-    if not cells:
-        return result
-    result.value = sum(c.value for c in cells) / len(cells)
-    result.least, result.most = min(c.value for c in cells), max(c.value for c in cells)
-    result.seeds = min((c.seeds for c in cells if c.seeds is not None), default=None)
-    if all(c.low is not None and c.high is not None for c in cells):
-        half = math.sqrt(sum(((c.high - c.low) / 2) ** 2 for c in cells)) / len(cells)
-        result.low, result.high = result.value - half, result.value + half
-    return result
-
-
-def _mean_of_sample(table, parts):
-    """Of what has no interval by itself, over shots or pairs that are taken as a sample."""
-    mean = agreement.mean_over_shots if table.of == "agreement" else agreement.share_of_pairs
-    result = Cell(parts[0].table, parts[0].row, parts[0].column, *mean([c.value for c in parts]), mean_of=len(parts))
-    if table.of == "agreement":
-        result.least, result.most = min(c.value for c in parts), max(c.value for c in parts)
-    return result
-
-
-def _mean(table, parts):
-    if table.of in ("agreement", "eye"):
-        return _mean_of_sample(table, parts)
-    return _arithmetic_mean(parts) if table.of in SHARES else _geometric_mean(parts)
 
 
 def _refuse_shared(selection, name, rows):
@@ -401,7 +302,7 @@ def cells_of(results, table):
         _refuse_shared(selection, name, rows)
         parts = [_cell(selection, row, name) for row in rows]
         filled += [row for row, part in zip(rows, parts) if part.value is not None]
-        cells.append(parts[0] if table.over is None else _mean(table, parts))
+        cells.append(parts[0] if table.over is None else mean(table, parts))
     if table.best:
         _mark_best(selection, cells, groups)
     return _about(selection, filled), _sorted(cells, table.sort)

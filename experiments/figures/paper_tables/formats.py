@@ -5,7 +5,7 @@ import io
 
 from paper_figures import numbers
 from paper_figures.standing import BEST, TIED
-from paper_tables.cells import BOTH
+from paper_tables.cell import BOTH
 
 # What intervals hold (experiments/results/interval.h) that is less than the scatter over the seeds and the reference's noise, where
 # there are such: its mark, and what the mark says.

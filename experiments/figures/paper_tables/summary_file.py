@@ -7,7 +7,7 @@ import os
 from dataclasses import fields
 
 from paper_figures.results import ResultsError, commits_of
-from paper_tables.cells import Cell
+from paper_tables.cell import Cell
 
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (configs/comparison.json) takes
 MOST_NAMED = 8  # shots below a table that does not show all of the study's; the summary's head names any number

@@ -10,7 +10,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 
 from paper_figures.results import ResultsError  # noqa: E402
 from paper_tables import agreement, documents, limits, summary_file  # noqa: E402
-from paper_tables.cells import Cell  # noqa: E402
+from paper_tables.cell import Cell  # noqa: E402
 
 
 def rows(metric, values, shot="s"):

@@ -1,0 +1,38 @@
+"""One number of a table, and what is known of it."""
+
+from dataclasses import dataclass
+
+NO_INTERVAL = "none: "  # experiments/results/interval.h: before the reason
+NOT_POSITIVE = NO_INTERVAL + "an error is not above 0"
+SOME_ZERO = NO_INTERVAL + "a count is 0"
+EXACT = "exact"  # of counts, in place of what an interval holds
+BOTH = " / "  # between what differs among the parts of a mean
+
+
+@dataclass
+class Cell:
+    """One number of a table with its 95 % interval, and the range over what it is a mean of; None where there is none."""
+
+    table: str
+    row: str
+    column: str
+    value: float = None  # none: what its rows have is no value, or has no geometric mean
+    low: float = None
+    high: float = None
+    least: float = None  # of the shots that a geometric mean is over
+    most: float = None
+    is_significant: bool = False  # by the adjusted p-value of the study's primary comparisons
+    seeds: int = None
+    interval: str = None  # what it holds, or why there is none: experiments/results/interval.h; EXACT
+    mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
+    clock: str = None  # of times
+    disturbed_share: float = None  # of the frames that a time is the median of, by other programs
+    standing: str = None  # in its row or column: "best", told from all others, or "tied"; paper_figures/standing.py
+
+    def is_count(self):
+        return self.interval == EXACT
+
+    def reasons(self):
+        """Why there is no interval, where that is known."""
+        kinds = (self.interval or "").split(BOTH)
+        return [kind[len(NO_INTERVAL) :] for kind in kinds if kind.startswith(NO_INTERVAL)]
