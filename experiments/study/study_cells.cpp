@@ -152,7 +152,7 @@ Cell renders_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned,
                       .image_suffix = planned.name.substr(0, 8),
                       .keep_all = study.settings.keep_all,
                       .report = report,
-                      .spent = &study.spent});
+                      .spent = study.spent});
 }
 
 Cell costs_cell(StudyRun& study, ShotRun& run, const PlannedCell& planned, const std::function<void(double)>& report) {

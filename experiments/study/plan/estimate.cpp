@@ -145,9 +145,13 @@ private:
         const auto play = [&](std::vector<unsigned> seeds) {
             variant.seeds = std::move(seeds);
             return seconds_of([&] {
-                run_point(
-                    device_, run.shot, run.truth, *run.store, config_, variant,
-                    {.out = folder_, .image_suffix = "plan", .keep_all = settings_.keep_all, .report = [](double) {}});
+                SpentTime unused;
+                run_point(device_, run.shot, run.truth, *run.store, config_, variant,
+                          {.out = folder_,
+                           .image_suffix = "plan",
+                           .keep_all = settings_.keep_all,
+                           .report = [](double) {},
+                           .spent = unused});
             });
         };
         if (is_first_size) play({0});

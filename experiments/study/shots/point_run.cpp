@@ -175,16 +175,9 @@ bool is_shown(const PointRun& point, const SeedRun& run, const FrameStep& step) 
     return &step == &point.last_step() || (point.config.keeps_all_images && step.is_measured);
 }
 
-/// What is waited for the files of images counts as theirs.
-template <class Wait>
-auto for_images(const PointRun& point, Wait wait) {
-    std::optional<SpentTime::Span> span;
-    if (point.settings.spent) span.emplace(*point.settings.spent, "images");
-    return wait();
-}
-
 void save(PointRun& point, std::function<ImageQueue::Entries()> images) {
-    for_images(point, [&] { point.images.add(std::move(images)); });
+    const SpentTime::Span span(point.settings.spent, "images");
+    point.images.add(std::move(images));
 }
 
 /// What tells the images of a step from those of other steps and cells.
@@ -401,6 +394,7 @@ Cell run_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameSt
     point.cell.reference_noise =
         point.noise.means({.shot = shot.name(), .variant = variant.variant, .point = variant.point});
     add_notes(point);
-    point.cell.images = for_images(point, [&] { return point.images.finish(); });
+    const SpentTime::Span span(settings.spent, "images");
+    point.cell.images = point.images.finish();
     return std::move(point.cell);
 }

@@ -8,7 +8,7 @@ struct PointRunSettings {
     std::string image_suffix;   ///< tells the cell's images from those of other cells of the same names
     bool keep_all = false;
     std::function<void(double)> report;  ///< gets the share done
-    SpentTime* spent = nullptr;          ///< counts what files of images take, as "images"; null: nobody does
+    SpentTime& spent;                    ///< counts what is waited for files of images, as "images"
 };
 
 /// Plays a shot with one variant point and all its seeds: the heart of ssrlab. Every seed starts from a fresh state,

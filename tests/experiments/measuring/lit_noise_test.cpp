@@ -112,8 +112,9 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
         truth.poses[0] = std::make_shared<PoseTruth>(std::move(pose));
         std::vector<Result> all;
         for (const VariantConfig& variant : config.variants) {
+            SpentTime unused;
             const Cell cell = run_point(device, shot, truth, lit, config, variant,
-                                        {.out = folder, .image_suffix = "x", .report = [](double) {}});
+                                        {.out = folder, .image_suffix = "x", .report = [](double) {}, .spent = unused});
             Result& mean = all.emplace_back();
             for (const ResultRow& r : cell.rows) {
                 mean.value += *r.value / double(cell.rows.size());
