@@ -1,6 +1,7 @@
 #include "variants/registry.h"
 
 #include "core/error.h"
+#include "core/json.h"
 #include "core/near_miss.h"
 
 // One line for each technique; its entry stands in variants/<name>/entry.cpp.
@@ -12,11 +13,39 @@ VariantEntry frostbite_sssr_entry();
 VariantEntry simple_ssr_entry();
 VariantEntry four_mode_ssr_entry();
 
+namespace {
+
+std::vector<VariantEntry> entries_with_tuned_presets() {
+    std::vector<VariantEntry> entries = {none_entry(),         mcguire_dda_entry(),    amd_sssr_entry(),
+                                         diligent_ssr_entry(), frostbite_sssr_entry(), simple_ssr_entry(),
+                                         four_mode_ssr_entry()};
+    for (VariantEntry& entry : entries) {
+        const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / entry.name / "tuned_presets.json";
+        if (std::filesystem::exists(file)) add_tuned_presets(entry, file);
+    }
+    return entries;
+}
+
+}  // namespace
+
 std::span<const VariantEntry> variant_table() {
-    static const std::vector<VariantEntry> table = {none_entry(),         mcguire_dda_entry(),    amd_sssr_entry(),
-                                                    diligent_ssr_entry(), frostbite_sssr_entry(), simple_ssr_entry(),
-                                                    four_mode_ssr_entry()};
+    static const std::vector<VariantEntry> table = entries_with_tuned_presets();
     return table;
+}
+
+void add_tuned_presets(VariantEntry& entry, const std::filesystem::path& file) {
+    const JsonDocument document = read_json_document(file);
+    JsonObject root(document, file.string());
+    for (JsonObject& found : root.objects("presets")) {
+        const std::string of = found.text("variant");
+        if (of != entry.name) fail(found.at("variant"), ": '", of, "' is not '", entry.name, "'");
+        const Preset preset{found.text("name"), found.text("description"), found.any("parameters")};
+        if (std::ranges::find(entry.presets, preset.name, &Preset::name) != entry.presets.end())
+            fail(found.at("name"), ": '", entry.name, "' has a preset '", preset.name, "' already");
+        found.finish();
+        entry.presets.push_back(preset);
+    }
+    root.finish();
 }
 
 namespace {

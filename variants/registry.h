@@ -1,11 +1,17 @@
 #pragma once
 #include "variants/common/variant_entry.h"
 
+#include <filesystem>
 #include <span>
 
-/// All techniques, the baseline first. Adding one takes a declaration and a line in registry.cpp, and an entry in its
-/// own folder.
+/// All techniques, the baseline first, with the presets of their entries and those that `ssrlab tune` found. Adding one
+/// takes a declaration and a line in registry.cpp, and an entry in its own folder.
 std::span<const VariantEntry> variant_table();
+
+/// Adds presets that `ssrlab tune` found, from the presets.json that it wrote; the table has those of
+/// variants/<name>/tuned_presets.json. An Error names the place of what is wrong in the file: presets of another
+/// variant, or of a name that the entry has. Names and values of parameters are judged where a preset is used.
+void add_tuned_presets(VariantEntry& entry, const std::filesystem::path& file);
 
 /// Fails with a near miss if there is none of that name.
 const VariantEntry& find_variant(const std::string& name);

@@ -12,6 +12,9 @@ from paper_figures.placed_labels import place_labels
 from paper_figures.results import Measured
 
 
+FASTER = 1.1  # a point that is this much faster than the baseline is worth a name though it errs more
+
+
 def ratio_of(difference):
     """A difference of logarithms as a ratio with its 95 % interval."""
     half = difference.half_width()
@@ -88,18 +91,25 @@ class Outcome:
             yield shot, {m: self.results.measured(rows[m], ("ratio", "low", "high"), "effects.csv") if m in rows else None for m in self.studies.metrics}
 
     def write_presets(self):
+        """As the table of techniques reads them (variants/registry.h). What was found among the config's own points has a name already, and
+        what is neither faster than the baseline nor told to err less, or errs more on unseen scenes, is worth none."""
         presets = []
         for name, budgets in self.found.items():
             point = self.points[name]
             searched, judged = ratio_of(self.race.error(point)), self.unseen(name)
-            text = f"the least error found within {times(budgets)} the {self.time_word()} of `{self.tuning.baseline}`: {with_interval(searched)} of its error"
-            text += f" in {math.exp(self.race.log_time(point)):.2f} of its {self.time_word()} on the scenes of the search"
+            is_faster = self.race.log_time(point) < -math.log(FASTER)
+            is_better = searched.high < 1 and (judged is None or judged[0].value < 1)
+            if name in self.tuning.points or not (is_faster or is_better):
+                continue
+            word, scenes_of_search = self.time_word(), len(self.studies.shots)
+            text = f"the least error that `ssrlab tune` found within {times(budgets)} the {word} of `{self.tuning.baseline}`: {with_interval(searched)} of its error"
+            text += f" in {math.exp(self.race.log_time(point)):.2f} of its {word} on the {scenes_of_search} scenes of the search"
             if judged:
-                text += f", {with_interval(judged[0])} on {judged[1]} others"
-            preset = {"variant": self.tuning.start_entry["variant"], "name": "tuned_" + "_".join(f"{b:g}x" for b in budgets).replace(".", "_")}
-            presets.append(preset | {"description": text, "parameters": self.changes(point)})
+                text += f"; {with_interval(judged[0])}" + (f" in {judged[2]:.2f}" if judged[2] else "") + f" on {judged[1]} others"
+            preset = {"variant": self.tuning.start_entry["variant"], "name": f"best_{min(budgets):g}x", "description": text}
+            presets.append(preset | {"parameters": self.changes(point)})
         with open(self.file("presets.json"), "w", encoding="utf-8") as stream:
-            json.dump(presets, stream, indent=2)
+            json.dump({"presets": presets}, stream, indent=2)
             stream.write("\n")
 
     def time_word(self):

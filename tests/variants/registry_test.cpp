@@ -41,6 +41,27 @@ TEST(Registry, AppliesPresetsBeforeParameters) {
     EXPECT_EQ(variant->params.values().at("dda.refine"), true);
 }
 
+/// What `ssrlab tune` writes becomes presets by a copy of its file; a copy beside the wrong technique is told.
+TEST(Registry, TakesPresetsThatASearchFound) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "tuned_presets.json";
+    const auto add = [&](VariantEntry entry, const std::string& preset) {
+        write_text(file, R"({"presets": [)" + preset + "]}");
+        add_tuned_presets(entry, file);
+        return entry.presets.back();
+    };
+    const VariantEntry& dda = find_variant("mcguire_dda");
+    const Preset found = add(dda, R"({"variant": "mcguire_dda", "name": "best_4x", "description": "made up",
+                                      "parameters": {"dda.stride": 2}})");
+    EXPECT_EQ(found.name, "best_4x");
+    EXPECT_EQ(found.meaning, "made up");
+    EXPECT_EQ(found.parameters, nlohmann::json({{"dda.stride", 2}}));
+    const std::string rest = R"("description": "", "parameters": {}})";
+    EXPECT_EQ(message_of([&] { add(dda, R"({"variant": "amd_sssr", "name": "best_4x", )" + rest); }),
+              file.string() + ":1:15: presets[0]: 'amd_sssr' is not 'mcguire_dda'");
+    EXPECT_EQ(message_of([&] { add(dda, R"({"variant": "mcguire_dda", "name": "coarse", )" + rest); }),
+              file.string() + ":1:41: presets[0]: 'mcguire_dda' has a preset 'coarse' already");
+}
+
 TEST(Registry, DescribesEveryVariantInFull) {
     for (const VariantEntry& entry : variant_table()) {
         EXPECT_FALSE(entry.title.empty() || entry.source.empty() || entry.description.empty()) << entry.name;

@@ -4,6 +4,7 @@ from paper_figures import style, tradeoff
 from paper_figures.placed_labels import place_labels
 
 TIME_AXIS = "time of a frame (ms)"
+MOST_NUMBERS = 20  # in a panel, with a key below: more of them, and the key is larger than the plot
 
 
 def front(places):
@@ -122,13 +123,14 @@ def draw(results, chosen):
     keys = list(dict.fromkeys(key for places in every.values() for key in places))
     groups = list(dict.fromkeys(results.point_group(*k) for k in keys))
     figure, panels = style.panels(len(every), chosen, height=6.4 if len(every) == 1 else 5.6)
-    has_nonpositive, has_beaten, whiskers = False, False, {}
+    has_nonpositive, has_beaten, whiskers, unbeaten = False, False, {}, set()
     for axes, (shot, places) in zip(panels, every.items()):
         shown = {k: p for k, p in places.items() if p[1].value > 0}
         has_nonpositive |= len(shown) < len(places)
         of_none = _draw_none(axes, results, errors, shot)
         line, beaten = _judged(results, shot, shown) if chosen.option("front", True) else ([], set())
         has_beaten |= bool(beaten)
+        unbeaten |= shown.keys() - beaten
         whiskers[shot] = _draw_points(axes, results, shown, groups, beaten) + _draw_front(axes, shown, line)
         style.log_log(axes, results.shot_label(shot), TIME_AXIS, 0.16)
         whiskers[shot] += [(axes.get_xlim()[0], value, axes.get_xlim()[1], value) for value in of_none]
@@ -142,12 +144,18 @@ def draw(results, chosen):
     notes += [style.ONE_SEED_NOTE] if any(e.is_one_seed for places in every.values() for _, e in places.values()) else []
     style.draw_legend(figure, panels, groups)
     style.note(figure, "; ".join(notes))
-    _name(figure, results, panels, every, whiskers, keys, groups, notes)
+    _name(figure, results, panels, every, whiskers, keys, groups, notes, unbeaten)
     return figure
 
 
-def _name(figure, results, panels, every, whiskers, keys, groups, notes):
-    """Names beside all marks; where they do not all fit, numbers there, and what they mean below."""
+def numbered(keys, unbeaten):
+    """Those of the keys that get a number."""
+    return [k for k in keys if k in unbeaten] if len(keys) > MOST_NUMBERS else keys
+
+
+def _name(figure, results, panels, every, whiskers, keys, groups, notes, unbeaten):
+    """Names beside all marks; where they do not all fit, numbers there, and what they mean below: of very many marks those alone that are
+    not told to be beaten in every panel."""
     texts = {key: _own_text(results, key, groups) for key in keys}
     colors = {k: style.series(groups.index(results.point_group(*k)), results.colors.get(k))[0] for k in keys}
     before = [len(axes.texts) for axes in panels]
@@ -165,7 +173,10 @@ def _name(figure, results, panels, every, whiskers, keys, groups, notes):
     for axes, count in zip(panels, before):
         for text in list(axes.texts)[count:]:
             text.remove()
-    numbers = {key: str(1 + i) for i, key in enumerate(k for k in keys if texts[k])}
+    nameable = [k for k in keys if texts[k]]
+    numbers = {key: str(1 + i) for i, key in enumerate(numbered(nameable, unbeaten))}
+    if len(numbers) < len(nameable):
+        notes = [*notes, "without a number: pale in every panel"]
     entries = (f"{n}: {results.point_label(*key)}" for key, n in numbers.items())
     legend = style.listed(entries, figure.get_figwidth() / style.CENTIMETRE)
     style.note(figure, legend + "\n" + "; ".join(notes))

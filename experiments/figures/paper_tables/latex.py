@@ -49,13 +49,21 @@ def _head(column, width):
     return lines[0] if len(lines) == 1 else r"\begin{tabular}[b]{@{}r@{}}" + r"\\".join(lines) + r"\end{tabular}"
 
 
+def _rows_of_pages(rows, is_stacked):
+    """The rows in parts that a page has room for, as equal as they can be."""
+    most = MOST_LINES // 2 if is_stacked else MOST_LINES
+    count = -(-len(rows) // most)
+    ends = [round(i * len(rows) / count) for i in range(count + 1)]
+    return [rows[begin:end] for begin, end in zip(ends, ends[1:])]
+
+
 def latex(table, cells, made_from):
-    """What is too wide for a page's text is set in two lines for each row, as long as the page is high enough, and shrunk where that is
-    not enough; what is wider than a column spans both of a page that has two."""
+    """What is too wide for a page's text is set in two lines for each row, and shrunk where that is not enough; what is wider than a column
+    spans both of a page that has two, and what is longer than a page becomes several tables."""
     rows, columns, at = grid(cells)
     names = LETTER * max(len(row) for row in rows)
     one, two = (list(widths) for widths in zip(*_widths(table, rows, columns, at)))
-    is_stacked = names + sum(GAP + w for w in one) > TEXT and 2 * len(rows) <= MOST_LINES
+    is_stacked = names + sum(GAP + w for w in one) > TEXT
     widths = [max(w, HEAD * LETTER) for w in (two if is_stacked else one)]
     environment = "table*" if names + sum(GAP + w for w in widths) > COLUMN else "table"
 
@@ -68,31 +76,38 @@ def latex(table, cells, made_from):
         small = f"{{\\scriptsize {rest}}}" if rest else ""
         return (number, small) if is_stacked else (" ".join(part for part in (number, small) if part), "")
 
-    body = []
-    for row in rows:
-        first, second = zip(*(shown(row, c) for c in columns))
-        body.append(" & ".join([_name(row), *first]) + (r" \\[-2.5pt]" if any(second) else r" \\"))
-        body += [" & ".join(["", *second]).lstrip() + r" \\"] if any(second) else []
-        body += [r"\addlinespace[2pt]"] if is_stacked and row != rows[-1] else []
+    def body(rows):
+        lines = []
+        for row in rows:
+            first, second = zip(*(shown(row, c) for c in columns))
+            lines.append(" & ".join([_name(row), *first]) + (r" \\[-2.5pt]" if any(second) else r" \\"))
+            lines += [" & ".join(["", *second]).lstrip() + r" \\"] if any(second) else []
+            lines += [r"\addlinespace[2pt]"] if is_stacked and row != rows[-1] else []
+        return lines
+
     explained = notes(table, cells)
-    return "\n".join(
-        [
-            f"% {made_from}",
-            "% Needs the packages booktabs and graphicx.",
+
+    def page(rows, number, count):
+        is_last = number == count
+        caption = escaped(table["caption"]) + (f" ({number} of {count})" if count > 1 else "")
+        label = [f"\\label{{tab:{table['name']}}}"] if number == 1 else []
+        return [
             f"\\begin{{{environment}}}",
             f"\\centering\\setlength{{\\tabcolsep}}{{{GAP / 2:g}pt}}",
-            f"\\caption{{{escaped(table['caption'])}}}",
-            f"\\label{{tab:{table['name']}}}\\par\\smallskip",
+            f"\\caption{{{caption}}}",
+            "".join([*label, r"\par\smallskip"]),
             r"\resizebox{\ifdim\width>\linewidth\linewidth\else\width\fi}{!}{%",
             f"\\begin{{tabular}}{{l{'r' * len(columns)}}}",
             "\\toprule",
             " & ".join(["", *(_head(c, w) for c, w in zip(columns, widths))]).lstrip() + r" \\",
             "\\midrule",
-            *body,
+            *body(rows),
             "\\bottomrule",
             "\\end{tabular}}",
-            *([f"\\par\\smallskip\\parbox{{\\linewidth}}{{\\scriptsize {escaped(explained)}}}"] if explained else []),
+            *([f"\\par\\smallskip\\parbox{{\\linewidth}}{{\\scriptsize {escaped(explained)}}}"] if explained and is_last else []),
             f"\\end{{{environment}}}",
-            "",
         ]
-    )
+
+    pages = _rows_of_pages(rows, is_stacked)
+    head = [f"% {made_from}", "% Needs the packages booktabs and graphicx."]
+    return "\n".join([*head, *(line for i, part in enumerate(pages, 1) for line in page(part, i, len(pages))), ""])

@@ -152,6 +152,9 @@ def test_front(folder):
         line, beaten = error_time._judged(results, "s", places)
         check(([k[1] for k in line], {k[1] for k in beaten}) == ((["a", "b", "d"], {"c"}) if is_same else (["a", "b"], {"d"})), f"{line}, {beaten}")
 
+    few, many = list(range(20)), list(range(21))
+    check(error_time.numbered(few, {3}) == few and error_time.numbered(many, {20, 3}) == [3, 20], "of many marks those on the front have numbers")
+
 
 def refused(draw, chosen, part, *arguments):
     try:
