@@ -11,7 +11,6 @@ from paper_figures.numbers import with_interval
 from paper_figures.placed_labels import place_labels
 from paper_figures.results import Measured
 
-
 FASTER = 1.1  # a point that is this much faster than the baseline is worth a name though it errs more
 
 
