@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <set>
 #include <utility>
 
 namespace fs = std::filesystem;
@@ -203,15 +204,27 @@ private:
     fs::path folder_;
 };
 
-/// What the process holds that does the cell: device, scene, G-buffers and a truth; a seed's images and what is
-/// measured of them; copies that are timed. Bytes per pixel are those of the images' formats, rounded up. `quickstart`
-/// held 762 MiB, for which this says 805; three shots of 96x54 203, for which it says 329. Of larger images it says too
-/// much: seven points at 1920x1080 held 6.1 GiB, for which it says 15.5.
-double memory_of(const ShotConfig& shot, size_t timed_copies) {
-    constexpr double base_mib = 300, truth_bytes = 1500, seed_bytes = 850, gbuffer_bytes = 250, copy_bytes = 250;
-    const double pixels = pixels_of(shot.extent);
-    const double kept_mib = std::min(pixels * double(shot.frames.size()) * gbuffer_bytes / 1048576, 1024.0);
-    return base_mib + kept_mib + pixels * (truth_bytes + seed_bytes + copy_bytes * double(timed_copies)) / 1048576;
+/// What the process holds at most that does a cell of the shot: device, scene, G-buffer and truth; then either copies
+/// that are timed, each with its images and compiled shaders, or a point's images with what is measured of them, and
+/// the compiled shaders of all points, which the driver keeps. Fitted above what was held:
+///
+/// | | said (MiB) | held |
+/// |---|---|---|
+/// | 640x360: rendering 1 (`none`) and 4 points, timing 12 copies | 643, 748, 917 | 460, 628, 796 |
+/// | 1920x1080: rendering 1, 4 and 7 points, timing 21 copies | 4071, 4176, 4281, 8261 | 3162, 3704, 3710, 6228 |
+/// | 256x144, `quickstart`: rendering, timing | 783, 871 | 687, 764 |
+/// | 192x108, `quality`: counting, timing | 1288, 2107 | 823, 2013 |
+double memory_of(const ShotConfig& shot, const Config& config, size_t timed_copies) {
+    constexpr double base_mib = 180, copy_mib = 10, point_mib = 10, kind_mib = 25, most_kept_mib = 1024;
+    constexpr double truth_bytes = 1250, render_bytes = 700, frame_bytes = 250, copy_bytes = 130;  // per pixel
+    const double mib_of_byte = pixels_of(shot.extent) / 1048576;
+    const double kept_mib = std::min(mib_of_byte * double(shot.frames.size() - 1) * frame_bytes, most_kept_mib);
+    const double held_mib = base_mib + kept_mib + mib_of_byte * truth_bytes;
+    if (timed_copies > 0) return held_mib + double(timed_copies) * (copy_mib + mib_of_byte * copy_bytes);
+    std::set<std::string> kinds;
+    for (const VariantConfig& variant : config.variants) kinds.insert(kind_of(variant));
+    return held_mib + mib_of_byte * render_bytes + point_mib * double(config.variants.size()) +
+           kind_mib * double(kinds.size());
 }
 
 /// Seconds of a study's cells.
@@ -289,6 +302,6 @@ std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config&
             estimates[cell.name] = {
                 .seconds = seconds.of(cell, shot.config),
                 .memory_mib =
-                    memory_of(shot.config, cell.kind == CellKind::times ? seconds.copies_timed() * timed : 0)};
+                    memory_of(shot.config, config, cell.kind == CellKind::times ? seconds.copies_timed() * timed : 0)};
     return estimates;
 }
