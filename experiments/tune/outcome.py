@@ -64,15 +64,17 @@ class Outcome:
         return {k: v for k, v in point.parameters.items() if v != self.tuning.declared[k].get("default")}
 
     def unseen(self, name):
-        """(ratio of errors to the baseline's over the judging scenes, their number, ratio of times); None where nothing was judged."""
+        """(ratio of errors to the baseline's over the judging scenes, their number, ratio of times or None); None where nothing was judged."""
         if self.results is None or name == self.tuning.baseline:
             return None
         logs = [(shot["scene"], math.log(row.value)) for shot, rows in self.unseen_rows(name) for row in rows.values() if row]
         if not logs:
             return None
         value, low, high, count, _ = scenes.geometric_mean(logs)
-        taken = [math.log(ratio) for ratio, _ in self.studies.times_of(self.results, self.point_of(name)).values()]
-        return Measured(value, low, high), count, math.exp(sum(taken) / len(taken)) if taken else None
+        scene_of = {shot["shot"]: shot["scene"] for shot in self.results.manifest["shots"]}
+        taken = self.studies.times_of(self.results, self.point_of(name)).items()
+        time = scenes.geometric_mean([(scene_of[shot], math.log(ratio)) for shot, (ratio, _) in taken])[:3] if taken else None
+        return Measured(value, low, high), count, Measured(*time) if time else None
 
     def point_of(self, name):
         return next(v["point"] for v in self.results.manifest["variants"] if v.get("label") == name)
@@ -104,7 +106,7 @@ class Outcome:
             text = f"the least error that `ssrlab tune` found within {times(budgets)} the {word} of `{self.tuning.baseline}`: {with_interval(searched)} of its error"
             text += f" in {math.exp(self.race.log_time(point)):.2f} of its {word} on the {scenes_of_search} scenes of the search"
             if judged:
-                text += f"; {with_interval(judged[0])}" + (f" in {judged[2]:.2f}" if judged[2] else "") + f" on {judged[1]} others"
+                text += f"; {with_interval(judged[0])}" + (f" in {with_interval(judged[2])}" if judged[2] else "") + f" on {judged[1]} others"
             preset = {"variant": self.tuning.start_entry["variant"], "name": f"best_{min(budgets):g}x", "description": text}
             presets.append(preset | {"parameters": self.changes(point)})
         with open(self.file("presets.json"), "w", encoding="utf-8") as stream:
@@ -121,7 +123,7 @@ class Outcome:
             f"# Tuned: {tuning.start_entry['variant']}",
             "",
             f"Error: {error}, as a multiple of that of `{tuning.baseline}`, geometric mean over scenes; {self.time_word()}: likewise "
-            f"(that of `{tuning.baseline}`: {tuning.baseline_cost:.4g} {self.unit}). In brackets 95 % intervals: of the scenes of the search by "
+            f"(that of `{tuning.baseline}`: {tuning.baseline_cost:.4g} {self.unit}; on the scenes of the search without an interval). In brackets 95 % intervals: of the scenes of the search by "
             "the seeds and the reference's noise, for these scenes as they are; of unseen ones by how they differ among each other, none below "
             f"{scenes.LEAST_SCENES} scenes.",
             "",
@@ -152,7 +154,7 @@ class Outcome:
         cells = [name, with_interval(ratio_of(self.race.error(point))), f"{math.exp(self.race.log_time(point)):.3f}"]
         if name == self.tuning.baseline:
             return [name, "1", "1"] + (["1", "1"] if self.results else ["", ""])
-        return cells + ([with_interval(judged[0]), "" if judged[2] is None else f"{judged[2]:.3f}"] if judged else ["", ""])
+        return cells + ([with_interval(judged[0]), with_interval(judged[2]) if judged[2] else ""] if judged else ["", ""])
 
     def unseen_lines(self):
         if self.results is None:
