@@ -4,7 +4,7 @@ from paper_figures import style, tradeoff
 from paper_figures.placed_labels import place_labels
 
 TIME_AXIS = "time of a frame (ms)"
-MOST_NUMBERS = 20  # in a panel, with a key below: more of them, and the key is larger than the plot
+MOST_NUMBERS = 20  # with a key below: more of them, and the key is larger than the plot
 
 
 def front(places):

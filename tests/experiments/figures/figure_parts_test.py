@@ -1,4 +1,4 @@
-"""What figures are made of, without results: names beside marks, the best, crops, exposures, texts.
+"""What figures and tables are made of, without results: names beside marks, the best, crops, exposures, texts, pages.
 
 usage: figure_parts_test.py
 """
@@ -13,6 +13,8 @@ from paper_figures.lines import draw_lines
 from paper_figures.placed_labels import place_labels
 from paper_figures.results import Measured
 from paper_figures.standing import Ends, standings
+from paper_tables.cell import Cell
+from paper_tables.latex import latex
 
 
 def test_crop_boxes():
@@ -105,6 +107,19 @@ def test_exposure():
     check(crops.auto_exposure(np.zeros((4, 4, 3))) == 0.0, "a black image")
 
 
+def test_long_tables():
+    """What a page has no room for becomes several tables that together have every row once."""
+    entry = {"name": "long", "caption": "Many points", "of": "results", "over": "shot", "labels": {}}
+    for columns, most in (("a", 45), ("abcdefgh", 22)):  # those with many columns have two lines in each row
+        cells = [Cell("long", f"point {i}", c, 1.0, 0.5, 2.0) for i in range(100) for c in columns]
+        pages = latex(entry, cells, "made up").split(r"\begin{table")[1:]
+        rows = [[line.split(" & ")[0] for line in page.split("\n") if line.startswith("point")] for page in pages]
+        check(max(map(len, rows)) <= most and min(map(len, rows)) >= most // 2, f"{[len(r) for r in rows]} rows in pages")
+        check(sum(rows, []) == [f"point {i}" for i in range(100)], "rows are missing")
+        check(all(rf"\caption{{Many points ({i} of {len(pages)})}}" in page for i, page in enumerate(pages, 1)), pages)
+        check([r"\label{tab:long}" in page for page in pages] == [True] + [False] * (len(pages) - 1), pages)
+
+
 test_crop_boxes()
 test_file_names()
 test_wrapped()
@@ -112,3 +127,4 @@ test_values_not_above_zero()
 test_labels_do_not_overlap()
 test_best_only_where_certain()
 test_exposure()
+test_long_tables()

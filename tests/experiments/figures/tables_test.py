@@ -18,8 +18,6 @@ sys.dont_write_bytecode = True
 
 from paper_figures import numbers  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
-from paper_tables.cell import Cell  # noqa: E402
-from paper_tables.latex import latex  # noqa: E402
 from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows  # noqa: E402
 
 
@@ -136,19 +134,6 @@ def test_footers(folder):
     write(os.path.join(folder, "manifest.json"), json.dumps(incomplete))
     check(tables(folder).returncode == 0, "an incomplete study")
     check(footer(folder, "parts").startswith("`ssrlab run configs/made_up.json` (not complete): commit unknown, 1 of"), footer(folder, "parts"))
-
-
-def test_long_tables():
-    """What a page has no room for becomes several tables that together have every row once."""
-    entry = {"name": "long", "caption": "Many points", "of": "results", "over": "shot", "labels": {}}
-    for columns, most in (("a", 45), ("abcdefgh", 22)):  # those with many columns have two lines in each row
-        cells = [Cell("long", f"point {i}", c, 1.0, 0.5, 2.0) for i in range(100) for c in columns]
-        pages = latex(entry, cells, "made up").split(r"\begin{table")[1:]
-        rows = [[line.split(" & ")[0] for line in page.split("\n") if line.startswith("point")] for page in pages]
-        check(max(map(len, rows)) <= most and min(map(len, rows)) >= most // 2, f"{[len(r) for r in rows]} rows in pages")
-        check(sum(rows, []) == [f"point {i}" for i in range(100)], "rows are missing")
-        check(all(rf"\caption{{Many points ({i} of {len(pages)})}}" in page for i, page in enumerate(pages, 1)), pages)
-        check([r"\label{tab:long}" in page for page in pages] == [True] + [False] * (len(pages) - 1), pages)
 
 
 def test_what_intervals_hold(folder):
@@ -398,7 +383,6 @@ def main():
         test_best(folder)
         test_display_names(folder)
         test_footers(folder)
-        test_long_tables()
         test_what_intervals_hold(folder)
         test_times(folder)
         test_shares(folder)
