@@ -43,6 +43,11 @@ Jackknifed jackknifed_mean(std::span<const double> values) {
     return mean;
 }
 
+std::pair<double, double> RatioEstimate::interval(double error) const {
+    const double half_width = student_t_quantile(1 - error / 2, degrees) * standard_error, logarithm = std::log(value);
+    return {std::exp(logarithm - half_width - excess_of_a), std::exp(logarithm + half_width + excess_of_b)};
+}
+
 RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const SharedScatter& shared) {
     if (a.without.size() != b.without.size())
         fail("a paired comparison needs as many seeds on each side, found ", a.without.size(), " and ",
@@ -60,10 +65,12 @@ RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const S
     const double degrees_share =
         (n < 2 ? 0.0 : std::pow(of_seeds, 4) / double(n - 1)) + shared.variance * shared.variance / shared.degrees;
     const double degrees = degrees_share > 0 ? variance * variance / degrees_share : double(n - 1);
-    const double half_width = student_t_quantile(0.975, degrees) * std::sqrt(variance);
-    if (!std::isfinite(std::exp(logarithm + half_width))) return ratio;
     const double down = -std::log1p(-shared.excess_of_a), up = -std::log1p(-shared.excess_of_b);
-    ratio.low = std::exp(logarithm - half_width - down), ratio.high = std::exp(logarithm + half_width + up);
+    ratio.standard_error = std::sqrt(variance), ratio.degrees = degrees;
+    ratio.excess_of_a = down, ratio.excess_of_b = up;
+    const auto [low, high] = ratio.interval(0.05);
+    if (!std::isfinite(high)) return ratio;
+    ratio.low = low, ratio.high = high;
     const double unexplained = std::max({logarithm - down, -logarithm - up, 0.0});
     const double t = unexplained == 0 ? 0 : unexplained / std::sqrt(variance);
     ratio.p_value = 2 * student_t_cdf(-t, degrees);

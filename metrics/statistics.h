@@ -27,6 +27,13 @@ struct RatioEstimate {
     double value;
     std::optional<double> low, high;  ///< 95 % interval
     std::optional<double> p_value;    ///< two-sided, of "the ratio is 1": below 0.05 where the interval leaves out 1
+    // Of ln(value), where there is an interval:
+    double standard_error = 0, degrees = 1;   ///< of Student's t
+    double excess_of_a = 0, excess_of_b = 0;  ///< by which either end reaches further, in logarithms
+
+    /// The interval of another probability of error than 0.05, in (0, 1): it leaves out 1 where p_value is below
+    /// `error`. Only where there is one at 0.05.
+    std::pair<double, double> interval(double error) const;
 };
 
 /// What is uncertain of ln(a / b) beside the scatter of the seeds, and independent of it: its variance, and the degrees
@@ -43,8 +50,8 @@ struct SharedScatter {
 /// finite numbers. `shared` joins it: variances add up, with Welch's and Satterthwaite's degrees of freedom
 /// (Satterthwaite 1946, "An Approximate Distribution of Estimates of Variance Components"). Two single values, whose
 /// `without` are empty, have an interval of what is shared alone, if anything is. What a or b may have in excess moves
-/// the end of the interval on its side, and p is that of a ratio that such an excess would explain as far as it can. Fails
-/// if a or b is not above 0, or if they hold unequal numbers of seeds.
+/// the end of the interval on its side, and p is that of a ratio that such an excess would explain as far as it can.
+/// Fails if a or b is not above 0, or if they hold unequal numbers of seeds.
 ///
 /// Coverage of ratios of means in 40000 simulated studies of 4, 8, 16 seeds: 94.9, 95.1, 95.1 % for log-normal values
 /// of deviation 0.05 and correlation 0.9; 93.3, 93.1, 93.7 % for deviation 1 without correlation; 90.5, 89.7, 90.1 %

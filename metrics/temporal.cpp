@@ -36,14 +36,31 @@ const TemporalMetric& temporal_metric_named(const std::string& name) {
     fail("no temporal metric named '", name, "'", suggestion(name, names));
 }
 
-bool is_error(const std::string& metric) {
-    const auto is_lower_better = [&](const auto& table, auto name, auto better) {
+std::optional<Better> direction_of(const std::string& metric) {
+    const auto direction_in = [&](const auto& table, auto name, auto better) -> std::optional<Better> {
         const auto found = std::ranges::find(table, metric, name);
-        return found != table.end() && (*found).*better == Better::lower;
+        if (found == table.end()) return {};
+        return (*found).*better;
     };
-    return is_lower_better(all_metrics(), &Metric::name, &Metric::better) ||
-           is_lower_better(temporal_metrics(), &TemporalMetric::name, &TemporalMetric::better);
+    if (const auto found = direction_in(all_metrics(), &Metric::name, &Metric::better)) return found;
+    return direction_in(temporal_metrics(), &TemporalMetric::name, &TemporalMetric::better);
 }
+
+double shortfall(Better better, double value) {
+    switch (better) {
+        case Better::lower:
+            return value;
+        case Better::higher:
+            return -value;
+        case Better::near_zero:
+            return std::abs(value);
+        case Better::near_one:
+            return std::abs(value - 1);
+    }
+    return value;
+}
+
+bool is_error(const std::string& metric) { return direction_of(metric) == Better::lower; }
 
 double greatest_value(const std::string& metric) {
     const bool is_at_most_one = metric.find("ssim") != metric.npos || metric == "flip" || metric == "hdr_flip" ||

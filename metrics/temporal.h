@@ -24,6 +24,13 @@ const std::vector<TemporalMetric>& temporal_metrics();
 /// Fails on an unknown name, with the nearest known one.
 const TemporalMetric& temporal_metric_named(const std::string& name);
 
+/// Which values of a metric, of one frame or of a sequence, are good; none for names that are not known.
+std::optional<Better> direction_of(const std::string& metric);
+
+/// How far a value is from the best one, so that less is better whatever the metric's direction: the value itself, its
+/// negative, or its distance from 0 or 1. Only differences of it mean something where `better` is `higher`.
+double shortfall(Better better, double value);
+
 /// Whether less of the metric, of one frame or of a sequence, is better: such are never negative, but for the
 /// correction of noise. False for names that are not known.
 bool is_error(const std::string& metric);

@@ -25,7 +25,7 @@ except ImportError as missing:
 from paper_figures.crops import display
 from paper_figures.exr import read_exr_rgb
 from paper_figures.results import Results, ResultsError
-from paper_tables.agreement import HIGHER_IS_BETTER, JUDGEMENTS
+from paper_tables.agreement import JUDGEMENTS
 
 METRICS = ("mse", "relmse", "flip")
 COLUMNS = ("shot", "first", "first_point", "second", "second_point", "nearer", "judge")
@@ -35,13 +35,12 @@ GAP = 12
 
 
 def values_of(results):
-    """{shot: {(variant, point): {metric: badness}}} of the reflection, of the pixels that reflect."""
+    """{shot: {(variant, point): {metric: shortfall}}} of the reflection, of the pixels that reflect."""
     found = {}
     for row in results.errors:
         if row["target"] == "specular" and row["mask"] == "reflective" and row["metric"] in METRICS and row["value"]:
-            sign = -1 if row["metric"] in HIGHER_IS_BETTER else 1
             points = found.setdefault(row["shot"], {})
-            points.setdefault((row["variant"], row["point"]), {})[row["metric"]] = sign * float(row["value"])
+            points.setdefault((row["variant"], row["point"]), {})[row["metric"]] = results.shortfall(row["metric"], float(row["value"]))
     return found
 
 

@@ -1,7 +1,9 @@
 #include "experiments/report/answers.h"
 
-#include "experiments/report/report_points.h"
-#include "metrics/metric.h"
+#include "experiments/evaluation/standings.h"
+#include "experiments/results/interval.h"
+#include "experiments/results/study_points.h"
+#include "metrics/temporal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,43 +52,36 @@ std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
 /// What one shot's points scored, and how long they took.
 struct Scored {
     AnswerPoint point;
-    bool is_ranked = false;
+    const MetricSummary* error = nullptr;
     const TimeSummary* time = nullptr;  ///< of all its stages; null: not timed
+    bool is_ranked() const { return error->holds_all_noise && error->low && error->high; }
 };
 
-/// The interval of a / b by the ends of both: wider than one of pairs would be, and so on the safe side.
+bool is_same(const AnswerPoint& a, const AnswerPoint& b) { return a.variant == b.variant && a.point == b.point; }
+
+/// A quotient with its 95 % interval.
 struct Ratio {
     double value;
     std::optional<double> low, high;
 };
-Ratio ratio_of(double a, std::optional<double> a_low, std::optional<double> a_high, double b,
-               std::optional<double> b_low, std::optional<double> b_high) {
-    Ratio r{a / b, {}, {}};
-    if (a_low && b_high && *b_high > 0) r.low = std::max(*a_low, 0.0) / *b_high;
-    if (a_high && b_low && *b_low > 0) r.high = *a_high / *b_low;
-    return r;
+/// By the ends of both intervals: wider than one of pairs would be, and so on the safe side.
+Ratio ratio_of(const TimeSummary& a, const TimeSummary& b) {
+    return {a.median / b.median, a.low / b.high, a.high / b.low};
+}
+/// Of a point to the best one, as they were paired; without an interval where they were not.
+Ratio over_best(const Scored& s, const AnswerPoint& best) {
+    if (s.error->over_best) return {*s.error->over_best, s.error->over_best_low, s.error->over_best_high};
+    return {s.point.value / best.value, {}, {}};
+}
+Ratio inverse(const Ratio& r) {
+    const auto inverted = [](const std::optional<double>& v) {
+        return v && *v > 0 ? std::optional(1 / *v) : std::nullopt;
+    };
+    return {1 / r.value, inverted(r.high), inverted(r.low)};
 }
 std::string shown(const Ratio& r) {
     return shown_ratio(r.value) +
            (r.low && r.high ? " [" + shown_ratio(*r.low) + ", " + shown_ratio(*r.high) + "]" : "");
-}
-
-PointSet oracles(const json& manifest) {
-    PointSet points;
-    for (const json& v : manifest.value("variants", json::array()))
-        if (v.is_object() && v.value("asks_scene", false))
-            points.insert({v.value("variant", ""), v.value("point", "")});
-    return points;
-}
-
-using PointLabels = std::map<std::pair<std::string, std::string>, std::string>;
-
-PointLabels point_labels(const json& manifest) {
-    PointLabels labels;
-    for (const json& v : manifest.value("variants", json::array()))
-        if (v.is_object() && v.contains("label") && v["label"].is_string())
-            labels[{v.value("variant", ""), v.value("point", "")}] = v["label"];
-    return labels;
 }
 
 std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& shot, const Headline& headline) {
@@ -107,7 +102,7 @@ std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& sho
 std::vector<AnswerPoint> front_of(const std::vector<Scored>& scored) {
     std::vector<const Scored*> timed;
     for (const Scored& s : scored)
-        if (s.time && s.is_ranked) timed.push_back(&s);
+        if (s.time && s.is_ranked()) timed.push_back(&s);
     std::ranges::stable_sort(timed, {}, [](const Scored* s) { return s->time->median; });
     std::vector<AnswerPoint> front;
     for (const Scored* s : timed)
@@ -116,8 +111,7 @@ std::vector<AnswerPoint> front_of(const std::vector<Scored>& scored) {
 }
 
 const Scored& find(const std::vector<Scored>& scored, const AnswerPoint& point) {
-    return *std::ranges::find_if(
-        scored, [&](const Scored& s) { return s.point.variant == point.variant && s.point.point == point.point; });
+    return *std::ranges::find_if(scored, [&](const Scored& s) { return is_same(s.point, point); });
 }
 
 /// What a reader must know before a time is believed.
@@ -144,77 +138,90 @@ std::string cheaper_clause(const ShotAnswer& answer, const std::vector<Scored>& 
     for (auto p = answer.front.rbegin(); p != answer.front.rend(); ++p) {
         const TimeSummary* time = find(scored, *p).time;
         if (time->median > worth_while * own->median || !(answer.best->value > 0)) continue;
-        const Ratio times = ratio_of(time->median, time->low, time->high, own->median, own->low, own->high),
-                    errors =
-                        ratio_of(p->value, p->low, p->high, answer.best->value, answer.best->low, answer.best->high);
-        return "; " + name_of(*p) + " takes " + shown(times) + " its time" +
-               (clock.is_proven ? "" : " (by a clock that did not prove itself)") + " at " + shown(errors) +
-               " the error";
+        return "; " + name_of(*p) + " takes " + shown(ratio_of(*time, *own)) + " its time" +
+               (clock.is_proven ? "" : " (timer validation failed)") + " at " +
+               shown(over_best(find(scored, *p), *answer.best)) + " the error";
     }
     return "; nothing on the front is faster by a fifth, or by more than copies of one point differ";
 }
 
 std::string limit_clause(const ShotAnswer& answer) {
     if (!answer.limit) return "";
+    const std::string what = "the lower bound for any single-frame technique";
     if (answer.limit->low.value_or(answer.limit->value) <= 0)  // noise can leave it below
-        return "; what this one frame shows leaves no error that can be told from 0";
+        return "; " + what + " is not distinguishable from 0";
     const std::string limit = shown(answer.limit->value) + interval_text(answer.limit->low, answer.limit->high);
     const double least = answer.best->low.value_or(answer.best->value),
                  most = answer.limit->high.value_or(answer.limit->value);
-    return least > most ? "; " + limit + " is left by one that finds all that this one frame shows"
-                        : "; that is no more than the " + limit +
-                              " that a technique leaves which finds all that this one frame shows";
+    return least > most ? "; " + what + " is " + limit : "; that reaches " + what + ", " + limit;
 }
 
-std::string gain_clause(const ShotAnswer& answer) {
+std::string gain_clause(const ShotAnswer& answer, const std::vector<Scored>& scored) {
     if (!answer.baseline || answer.baseline->variant == answer.best->variant || !(answer.baseline->value > 0))
         return "";
-    return " (" + shown_ratio(answer.best->value / answer.baseline->value) + " that of none)";
+    return " (" + shown(inverse(over_best(find(scored, *answer.baseline), *answer.best))) + " that of none)";
+}
+
+/// "1 seed", of "none: 1 seed".
+std::string why_not_ranked(const MetricSummary& e) {
+    const std::string none = "none: ";
+    if (e.interval.starts_with(none)) return e.interval.substr(none.size());
+    return e.interval == interval::seeds ? "its interval holds its seeds alone" : "not repeatable";
+}
+
+/// What was measured and is not ranked: said before the verdict where it measures less than the best of those that are.
+std::string unranked_text(const ShotAnswer& answer, const std::vector<Scored>& scored, const Headline& headline) {
+    if (answer.unranked.empty()) return "";
+    const AnswerPoint& least = answer.unranked.front();
+    const std::string why = " (" + why_not_ranked(*find(scored, least).error) + ")";
+    const std::string measured = name_of(least) + " measures least, " + headline.metric + " " + shown(least.value);
+    const std::string points =
+        std::to_string(answer.unranked.size()) + " of " + std::to_string(scored.size()) + " points";
+    if (!answer.best)
+        return "Nothing is ranked, as no " + headline.metric + " of this shot has an interval that holds all noise" +
+               why + ": " + measured + ".";
+    if (least.value < answer.best->value)
+        return measured + ", but is only measured, as are " + points + why + ". Among those that are ranked, ";
+    return "";
 }
 
 std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& scored, const Headline& headline,
                         const ClockRecord& clock) {
-    if (!answer.best)
-        return "No " + headline.metric + " of this shot has an interval that holds all noise: nothing is ranked.";
-    std::string text;
+    std::string text = unranked_text(answer, scored, headline);
+    if (!answer.best) return text;
+    const std::string value = ", " + headline.metric + " " + shown(answer.best->value) +
+                              interval_text(answer.best->low, answer.best->high) + gain_clause(answer, scored);
+    const std::string name = name_of(*answer.best);
+    if (answer.unranked.size() + 1 == scored.size() && scored.size() > 1)
+        return text + name + " stands alone" + value + ".";
     if (answer.tied.empty())
-        text = name_of(*answer.best) + " has the least error, " + headline.metric + " " + shown(answer.best->value) +
-               interval_text(answer.best->low, answer.best->high) + gain_clause(answer);
+        text += name + " has the least error" + value;
     else
-        text = name_of(*answer.best) + " has the least error measured, " + headline.metric + " " +
-               shown(answer.best->value) + interval_text(answer.best->low, answer.best->high) + gain_clause(answer) +
-               ", but cannot be told from " + listed(answer.tied, 3);
+        text += name + " has the least error measured" + value + ", but is not distinguishable from " +
+                listed(answer.tied, 3);
     return text + cheaper_clause(answer, scored, clock) + limit_clause(answer) + ".";
 }
 
-/// Distance from perfect.
-double badness(const std::string& metric, double value) {
-    return metric_named(metric).better == Better::lower ? value : -value;
-}
-
-std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<AnswerPoint>& perceived,
-                                   const std::string& metric, const std::optional<double>& floor) {
+/// By the standings of the perceptual error, which were decided as those of the physical one were.
+std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<Scored>& perceived,
+                                   const std::string& metric) {
     if (perceived.empty() || !answer.best) return "";
-    const auto of = [&](const AnswerPoint& p) {
-        return std::ranges::find_if(perceived,
-                                    [&](const AnswerPoint& q) { return q.variant == p.variant && q.point == p.point; });
-    };
-    const auto first =
-        std::ranges::min_element(perceived, {}, [&](const AnswerPoint& p) { return badness(metric, p.value); });
-    const std::string noise =
-        floor ? " (of which the reference's own noise scores " + shown(*floor) + ")" : std::string();
-    const auto own = of(*answer.best);
+    const auto own = std::ranges::find_if(perceived, [&](const Scored& s) { return is_same(s.point, *answer.best); });
     if (own == perceived.end()) return "";
+    const Better better = metric_named(metric).better;
+    const auto first =
+        std::ranges::min_element(perceived, {}, [&](const Scored& s) { return shortfall(better, s.point.value); });
+    const std::string by = "By " + metric + ", which is nearer to what people see, ",
+                      own_value = shown(own->point.value) + interval_text(own->point.low, own->point.high);
+    if (own->error->standing == standing::best) return by + "it is the best, too: " + own_value + ".";
     if (own == first)
-        return "By " + metric + ", which is nearer to what people see, it leads, too: " + shown(own->value) +
-               interval_text(own->low, own->high) + noise + ".";
-    // Where the noise of one is not known, no difference counts that noise alone would score.
-    const bool have_intervals = own->low && own->high && first->low && first->high;
-    const bool is_told = have_intervals ? std::max(*own->low, *first->low) > std::min(*own->high, *first->high)
-                                        : floor && badness(metric, own->value) - badness(metric, first->value) > *floor;
-    return "By " + metric + ", which is nearer to what people see, " + with_value(*first) + ", " +
-           (is_told ? "is ahead of it" : "cannot be told from it") + " at " + shown(own->value) +
-           interval_text(own->low, own->high) + noise + ".";
+        return by + "it measures best, too: " + own_value +
+               (own->error->standing.empty() ? "" : ", not distinguishable from others") + ".";
+    if (own->error->standing == standing::behind)
+        return by + with_value(first->point) + ", is significantly better than it at " + own_value + ".";
+    const bool are_ranked = !own->error->standing.empty() && !first->error->standing.empty();
+    return by + with_value(first->point) + ", measures better" +
+           (are_ranked ? ", but is not distinguishable from it at " : ", not ranked, than it at ") + own_value + ".";
 }
 
 }  // namespace
@@ -231,17 +238,15 @@ Headline headline_of(const json& manifest, std::span<const MetricSummary> errors
 
 std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& manifest) {
     const Headline headline = headline_of(manifest, tables.errors);
-    const PointSet left_out = oracles(manifest);
-    PointLabels labels = point_labels(manifest);
+    const PointSet left_out = points_using_scene_data(manifest);
+    auto labels = point_labels(manifest);
     std::vector<std::string> shots;
     for (const MetricSummary& e : tables.errors)
         if (std::ranges::count(shots, e.shot) == 0) shots.push_back(e.shot);
     std::vector<ShotAnswer> answers;
     for (const std::string& shot : shots) {
         ShotAnswer answer{.shot = shot, .limit = limit_of(manifest, shot, headline)};
-        std::vector<Scored> scored;
-        std::vector<AnswerPoint> perceived;
-        std::optional<double> perceptual_floor;
+        std::vector<Scored> scored, perceived;
         for (const MetricSummary& e : tables.errors) {
             if (!e.speaks_for_shot || e.shot != shot || e.mask != headline.mask || e.target != headline.target ||
                 !e.value || left_out.contains({e.variant, e.point}))
@@ -251,26 +256,26 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
                 const auto time = std::ranges::find_if(tables.times, [&](const TimeSummary& t) {
                     return t.shot == shot && t.variant == e.variant && t.point == e.point && t.stage == "total";
                 });
-                scored.push_back({point, e.holds_all_noise, time == tables.times.end() ? nullptr : &*time});
+                scored.push_back({point, &e, time == tables.times.end() ? nullptr : &*time});
                 if (e.variant == "none" && !answer.baseline) answer.baseline = point;
             }
-            if (e.metric == headline.perceptual_metric) perceived.push_back(point), perceptual_floor = e.floor;
+            if (e.metric == headline.perceptual_metric) perceived.push_back({point, &e});
         }
         if (scored.empty()) continue;
-        for (const Scored& s : scored)
-            if (s.is_ranked && (!answer.best || s.point.value < answer.best->value)) answer.best = s.point;
+        std::ranges::stable_sort(scored, {}, [](const Scored& s) { return s.point.value; });
         for (const Scored& s : scored) {
-            const AnswerPoint& p = s.point;
-            if (!answer.best || !s.is_ranked || (p.variant == answer.best->variant && p.point == answer.best->point))
-                continue;
-            if (p.low.value_or(p.value) <= answer.best->high.value_or(answer.best->value)) answer.tied.push_back(p);
+            if (!s.is_ranked())
+                answer.unranked.push_back(s.point);
+            else if (!answer.best)
+                answer.best = s.point;
+            else if (s.error->standing == standing::tied)
+                answer.tied.push_back(s.point);
         }
         answer.front = front_of(scored);
         const ClockRecord clock = clock_of(manifest, shot);
         answer.is_clock_proven = clock.is_proven;
         answer.sentence = sentence_of(answer, scored, headline, clock);
-        answer.perceptual_sentence =
-            perceptual_sentence_of(answer, perceived, headline.perceptual_metric, perceptual_floor);
+        answer.perceptual_sentence = perceptual_sentence_of(answer, perceived, headline.perceptual_metric);
         answers.push_back(std::move(answer));
     }
     return answers;
@@ -287,9 +292,11 @@ json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headli
     const auto optional_json = [&](const std::optional<AnswerPoint>& p) { return p ? point_json(*p) : json(); };
     json list = json::array();
     for (const ShotAnswer& a : answers) {
-        json tied = json::array(), front = json::array();
-        for (const AnswerPoint& p : a.tied) tied.push_back(point_json(p));
-        for (const AnswerPoint& p : a.front) front.push_back(point_json(p));
+        const auto points_json = [&](const std::vector<AnswerPoint>& points) {
+            json all = json::array();
+            for (const AnswerPoint& p : points) all.push_back(point_json(p));
+            return all;
+        };
         list.push_back({{"shot", a.shot},
                         {"sentence", a.sentence},
                         {"perceptual_sentence", a.perceptual_sentence},
@@ -298,11 +305,12 @@ json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headli
                         {"target", headline.target},
                         {"perceptual_metric", headline.perceptual_metric},
                         {"best", optional_json(a.best)},
-                        {"tied", tied},
+                        {"tied", points_json(a.tied)},
+                        {"unranked", points_json(a.unranked)},
                         {"baseline", optional_json(a.baseline)},
                         {"limit", optional_json(a.limit)},
                         {"is_clock_proven", a.is_clock_proven},
-                        {"front", front}});
+                        {"front", points_json(a.front)}});
     }
     return list;
 }

@@ -21,12 +21,13 @@ struct AnswerPoint {
     std::string label = "";           ///< how the study names it; "": by variant and point
 };
 
-/// What a study says of one shot at first sight: which technique, at which cost, and how certain that is. Points that
-/// ask the scene where rays end (exact_scene) take no part: no engine can have them.
+/// What a study says of one shot at first sight: which technique, at which cost, and how certain that is, by the
+/// standings that evaluation/standings.h decided. Points that use scene data (exact_scene) take no part.
 struct ShotAnswer {
     std::string shot;
     std::optional<AnswerPoint> best;      ///< least error of those whose interval holds all noise
-    std::vector<AnswerPoint> tied;        ///< whose intervals overlap that of `best`
+    std::vector<AnswerPoint> tied;        ///< ranked ones that are not distinguishable from `best`
+    std::vector<AnswerPoint> unranked;    ///< measured, without an interval that holds all noise; the least error first
     std::optional<AnswerPoint> baseline;  ///< `none`, where it was run: no reflections but the environment's
     std::optional<AnswerPoint> limit;  ///< error of the truth ladder's rung on_screen: see groundtruth/truth_ladder.h
     std::vector<AnswerPoint> front;    ///< that no other beats in both error and time, by ascending time; a hint, by

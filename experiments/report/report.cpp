@@ -161,8 +161,6 @@ std::vector<ShotAnswer> write_report(const std::filesystem::path& folder, bool l
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
     const ReportTables tables = read_report_tables(folder, manifest);
-    write_rows(folder / "summary.csv", tables.errors);
-    write_rows(folder / "time_summary.csv", tables.times);
 
     const PointSet singles = single_changes(manifest);
     json data = report_data(tables, singles);

@@ -1,8 +1,8 @@
 #include "experiments/report/report_data.h"
 
 #include "core/gpu/pass_cost.h"
-#include "metrics/metric.h"
-#include "metrics/temporal.h"
+#include "experiments/evaluation/evaluation.h"
+#include "experiments/results/manifest.h"
 
 #include <algorithm>
 #include <map>
@@ -24,34 +24,6 @@ struct Texts {
         return at->second;
     }
 };
-
-const char* name_of(Better better) {
-    switch (better) {
-        case Better::lower:
-            return "lower";
-        case Better::higher:
-            return "higher";
-        case Better::near_zero:
-            return "near_zero";
-        case Better::near_one:
-            return "near_one";
-    }
-    return "";
-}
-
-json metric_descriptions() {
-    json all = json::object();
-    const auto describe = [&](const auto& m) {
-        all[m.name] = {{"formula", m.formula}, {"unit", m.unit}, {"better", name_of(m.better)}, {"doc", m.doc}};
-    };
-    for (const Metric& m : all_metrics()) describe(m);
-    for (const TemporalMetric& m : temporal_metrics()) describe(m);
-    for (const auto& [name, doc] : {std::pair("bias_squared", "what of the squared error all seeds share"),
-                                    std::pair("variance", "what of the squared error differs from seed to seed")})
-        all[name] = {
-            {"formula", "seed_pairs"}, {"unit", "radiance^2"}, {"better", name_of(Better::lower)}, {"doc", doc}};
-    return all;
-}
 
 template <class Member>
 constexpr bool is_text = false;
@@ -104,27 +76,20 @@ json cost_table(const std::vector<CostRow>& costs, Texts& code) {
 }  // namespace
 
 ReportTables read_report_tables(const std::filesystem::path& folder, const json& manifest) {
-    ReportTables tables{
-        .errors = summarise(read_rows<ResultRow>(folder / "results.csv"), points_without_seeds(manifest)),
-        .splits = {},
-        .hits = {},
-        .costs = {},
-        .effects = {},
-        .time_effects = {},
-        .times = {}};
-    // No interval holds how they scatter from run to run.
-    const PointSet not_repeatable = points_not_repeatable(manifest);
-    for (MetricSummary& e : tables.errors)
-        if (e.frame == "all") e.frame = over_frames;  // as earlier versions wrote it
-    for (MetricSummary& e : tables.errors)
-        if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
+    require_evaluation(folder, manifest);
+    ReportTables tables{.errors = read_rows<MetricSummary>(folder / "summary.csv"),
+                        .splits = {},
+                        .hits = {},
+                        .costs = {},
+                        .effects = {},
+                        .time_effects = {},
+                        .times = read_rows<TimeSummary>(folder / "time_summary.csv")};
     const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
     if (has("splits.csv")) tables.splits = read_rows<SplitRow>(folder / "splits.csv");
     if (has("hits.csv")) tables.hits = read_rows<HitRow>(folder / "hits.csv");
     if (has("costs.csv")) tables.costs = read_rows<CostRow>(folder / "costs.csv");
     if (has("effects.csv")) tables.effects = read_rows<EffectRow>(folder / "effects.csv");
     if (has("time_effects.csv")) tables.time_effects = read_rows<TimeEffectRow>(folder / "time_effects.csv");
-    if (has("times.csv")) tables.times = summarise(read_rows<TimeRow>(folder / "times.csv"));
     return tables;
 }
 

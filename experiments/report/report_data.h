@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/report/report_points.h"
 #include "experiments/results/effects.h"
+#include "experiments/results/study_points.h"
 #include "experiments/results/summary.h"
 #include "experiments/results/time_effects.h"
 
@@ -17,7 +17,8 @@ struct ReportTables {
     std::vector<TimeSummary> times;
 };
 
-/// results.csv must be there; tables that are not are empty. `manifest` is the folder's.
+/// summary.csv and time_summary.csv must be there, as this version writes them (require_evaluation()); other tables
+/// that are not are empty. `manifest` is the folder's.
 ReportTables read_report_tables(const std::filesystem::path& folder, const nlohmann::json& manifest);
 
 /// What the page's scripts read (page/data.js): tables as arrays, with texts as indices into `texts`, since few texts

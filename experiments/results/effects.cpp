@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <tuple>
 
 namespace {
+
+constexpr double significance = 0.05;
 
 using Quantity = std::tuple<std::string, std::string, std::string, std::string>;  // shot, target, metric, mask
 Quantity quantity_of(const ResultRow& r) { return {r.shot, r.target, r.metric, r.mask}; }
@@ -76,6 +79,7 @@ void set_ratio(EffectRow& row, const Jackknifed& error, const Jackknifed& base_e
     }
     const RatioEstimate e = jackknifed_ratio(error, base_error, shared);
     row.ratio = e.value, row.low = e.low, row.high = e.high, row.p = e.p_value;
+    row.estimate = e;
 }
 
 /// Takes the interval away where it would hold less than it seems to.
@@ -200,16 +204,45 @@ std::vector<EffectRow> effects_of_splits(const Side& point, const Side& baseline
     return effects;
 }
 
+/// `count`: of its family, which no p is multiplied by more than.
+void judge(EffectRow& e, double p_holm, size_t count) {
+    e.p_holm = p_holm;
+    const bool is_significant = p_holm < significance;
+    e.verdict = !is_significant ? verdict::not_distinguishable : *e.ratio < 1 ? verdict::less : verdict::more;
+    const double factor = *e.p > 0 && p_holm < 1 ? p_holm / *e.p : double(count);
+    const bool is_exact = e.estimate.standard_error == 0;
+    const auto [low, high] = is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor);
+    e.low_holm = low, e.high_holm = high;
+}
+
 using Table = std::map<Quantity, std::map<Point, Side>>;
 
-/// `table` holds what was measured, by quantity and point.
-std::vector<EffectRow> effects_in(Table& table, const std::vector<VariantConfig>& variants,
-                                  const PointSet& not_repeatable,
-                                  std::vector<EffectRow> (*effects_of)(const Side&, const Side&)) {
+Table errors_by_point(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise) {
+    Table table;
+    for (const ResultRow& r : rows)
+        if (r.speaks_for_shot && is_error(r.metric)) table[quantity_of(r)][{r.variant, r.point}].seeds[r.seed] = &r;
+    for (const ReferenceNoise& n : noise) {
+        const auto points = table.find({n.shot, n.target, n.metric, n.mask});
+        if (points == table.end()) continue;
+        const auto side = points->second.find({n.variant, n.point});
+        if (side != points->second.end() && side->second.seeds.begin()->second->frame == n.frame)
+            side->second.noise = &n;
+    }
+    return table;
+}
+
+void set_seed_dependence(Table& table, const std::vector<VariantConfig>& variants) {
     for (auto& [quantity, points] : table)
         for (const VariantConfig& v : variants)
             if (const auto found = points.find({v.variant, v.point}); found != points.end())
                 found->second.depends_on_seed = v.depends_on_seed;
+}
+
+/// `table` holds what was measured, by quantity and point.
+std::vector<EffectRow> effects_in(Table table, const std::vector<VariantConfig>& variants,
+                                  const PointSet& not_repeatable,
+                                  std::vector<EffectRow> (*effects_of)(const Side&, const Side&)) {
+    set_seed_dependence(table, variants);
     std::vector<EffectRow> effects;
     for (const PointComparison& c : comparisons_of(variants)) {
         const Point name(c.point->variant, c.point->point), other(c.baseline->variant, c.baseline->point);
@@ -231,17 +264,24 @@ std::vector<EffectRow> effects_in(Table& table, const std::vector<VariantConfig>
 
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
                                       const PointSet& not_repeatable, std::span<const ReferenceNoise> noise) {
-    Table table;
-    for (const ResultRow& r : rows)
-        if (r.speaks_for_shot && is_error(r.metric)) table[quantity_of(r)][{r.variant, r.point}].seeds[r.seed] = &r;
-    for (const ReferenceNoise& n : noise) {
-        const auto points = table.find({n.shot, n.target, n.metric, n.mask});
-        if (points == table.end()) continue;
-        const auto side = points->second.find({n.variant, n.point});
-        if (side != points->second.end() && side->second.seeds.begin()->second->frame == n.frame)
-            side->second.noise = &n;
-    }
-    return effects_in(table, variants, not_repeatable, effects_of_rows);
+    return effects_in(errors_by_point(rows, noise), variants, not_repeatable, effects_of_rows);
+}
+
+PairedErrors paired_errors(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
+                           const PointSet& not_repeatable, std::span<const ReferenceNoise> noise) {
+    auto table = std::make_shared<Table>(errors_by_point(rows, noise));
+    set_seed_dependence(*table, variants);
+    return [table, not_repeatable](const EffectRow& asked) -> std::optional<EffectRow> {
+        const auto points = table->find({asked.shot, asked.target, asked.metric, asked.mask});
+        if (points == table->end()) return {};
+        const Point name(asked.variant, asked.point), other(asked.against_variant, asked.against_point);
+        const auto a = points->second.find(name), b = points->second.find(other);
+        if (a == points->second.end() || b == points->second.end()) return {};
+        EffectRow effect = effects_of_rows(a->second, b->second).front();
+        if ((not_repeatable.contains(name) || not_repeatable.contains(other)) && effect.ratio)
+            withhold_interval(effect, interval::not_repeatable);
+        return effect;
+    };
 }
 
 std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<VariantConfig>& variants,
@@ -251,14 +291,18 @@ std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::
     return effects_in(table, variants, not_repeatable, effects_of_splits);
 }
 
-void set_families(std::span<EffectRow> effects, const PrimaryComparisons& primary) {
-    std::vector<EffectRow*> told;
-    std::vector<double> p;
+void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary) {
+    std::map<std::tuple<std::string, std::string, std::string>, std::vector<EffectRow*>> families;
     for (EffectRow& e : effects) {
         const bool is_primary = e.metric == primary.metric && e.mask == primary.mask && e.target == primary.target;
-        e.family = is_primary ? "primary" : "exploratory", e.p_holm.reset();
-        if (is_primary && e.p) told.push_back(&e), p.push_back(*e.p);
+        e.family = is_primary ? "primary" : "exploratory", e.verdict.clear();
+        e.p_holm = e.low_holm = e.high_holm = std::nullopt;
+        if (e.p && e.ratio) families[{e.target, e.metric, e.mask}].push_back(&e);
     }
-    const std::vector<double> adjusted = holm_adjusted(p);
-    for (size_t i = 0; i < told.size(); ++i) told[i]->p_holm = adjusted[i];
+    for (const auto& [error, family] : families) {
+        std::vector<double> p;
+        for (const EffectRow* e : family) p.push_back(*e->p);
+        const std::vector<double> adjusted = holm_adjusted(p);
+        for (size_t i = 0; i < family.size(); ++i) judge(*family[i], adjusted[i], family.size());
+    }
 }

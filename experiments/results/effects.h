@@ -1,7 +1,9 @@
 #pragma once
 #include "experiments/results/cell.h"
 #include "experiments/study/config/comparisons.h"
+#include "metrics/statistics.h"
 
+#include <functional>
 #include <set>
 #include <span>
 
@@ -15,8 +17,11 @@ struct EffectRow {
         ratio;  ///< mean error of the point / of the baseline, over the seeds; none if one is not above 0
     std::optional<double> low, high, p;  ///< 95 % interval; two-sided p of "the ratio is 1", see jackknifed_ratio()
     std::string interval;                ///< what the interval holds, or why there is none (interval.h)
-    std::string family;                  ///< "primary" or "exploratory", see set_families()
-    std::optional<double> p_holm;        ///< p adjusted for the whole primary family; none of exploratory effects
+    std::string family;                  ///< "primary" or "exploratory", see set_verdicts()
+    std::optional<double> p_holm;        ///< p adjusted for its family, see set_verdicts()
+    std::optional<double> low_holm, high_holm;  ///< interval that leaves out 1 where p_holm is below 0.05
+    std::string verdict;                        ///< see set_verdicts(); empty without a p
+    RatioEstimate estimate{};                   ///< what all of these are made of; no column
 
     static constexpr auto columns() {
         return std::tuple(
@@ -27,7 +32,9 @@ struct EffectRow {
             Column{"metric", &EffectRow::metric}, Column{"formula", &EffectRow::formula},
             Column{"mask", &EffectRow::mask}, Column{"seeds", &EffectRow::seeds}, Column{"ratio", &EffectRow::ratio},
             Column{"low", &EffectRow::low}, Column{"high", &EffectRow::high}, Column{"interval", &EffectRow::interval},
-            Column{"p", &EffectRow::p}, Column{"family", &EffectRow::family}, Column{"p_holm", &EffectRow::p_holm});
+            Column{"p", &EffectRow::p}, Column{"family", &EffectRow::family}, Column{"p_holm", &EffectRow::p_holm},
+            Column{"low_holm", &EffectRow::low_holm}, Column{"high_holm", &EffectRow::high_holm},
+            Column{"verdict", &EffectRow::verdict});
     }
 };
 
@@ -46,12 +53,29 @@ using PointSet = std::set<std::pair<std::string, std::string>>;
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
                                       const PointSet& not_repeatable = {}, std::span<const ReferenceNoise> noise = {});
 
+/// What `variant` `point` changes about one error of `against_variant` `against_point`, as paired_effects() has it, of
+/// any two points: `asked` names them, with shot, target, metric and mask. None where either has no such error.
+using PairedErrors = std::function<std::optional<EffectRow>(const EffectRow& asked)>;
+
+/// Refers to `rows` and `noise`, which must outlive it.
+PairedErrors paired_errors(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
+                           const PointSet& not_repeatable = {}, std::span<const ReferenceNoise> noise = {});
+
 /// The same of the squared bias and of the variance by themselves, of each shot's last frame: whether a point wins by
 /// the one or by the other. As all pairs of the common seeds tell them, two seeds or more; intervals from three on.
 std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<VariantConfig>& variants,
                                      const PointSet& not_repeatable = {});
 
-/// The effects on the primary error, of all points and shots, are one family, whose p-values are adjusted together
-/// (holm_adjusted()): among many comparisons some come out small by chance. All others are exploratory: their intervals
-/// and p hold for each by itself, and what they suggest is for another study to show.
-void set_families(std::span<EffectRow> effects, const PrimaryComparisons& primary);
+/// EffectRow::verdict.
+namespace verdict {
+inline constexpr const char* less = "less";
+inline constexpr const char* more = "more";
+inline constexpr const char* not_distinguishable = "not distinguishable";
+}  // namespace verdict
+
+/// Decides `verdict` of all effects that have a p, at 0.05. The effects on one error (target, metric, mask), of all
+/// points and shots, are a family, whose p-values are adjusted together (holm_adjusted()): among many comparisons some
+/// come out small by chance. `low_holm` and `high_holm` are intervals at the level that each is judged at, so that they
+/// agree with the verdict: 0.05 over the factor by which p was adjusted. The `primary` family is what the study was
+/// made to compare; in `exploratory` ones what is significant is so among the effects on that error alone.
+void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary);

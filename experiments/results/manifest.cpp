@@ -4,6 +4,7 @@
 #include "experiments/results/shot_facts.h"
 #include "experiments/study/config/comparisons.h"
 #include "experiments/study/config/read_shots.h"
+#include "metrics/temporal.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -35,6 +36,20 @@ nlohmann::json variant_entries(const Config& config) {
         if (const std::string why = variant->not_repeatable(); !why.empty()) entries.back()["not_repeatable"] = why;
     }
     return entries;
+}
+
+const char* name_of(Better better) {
+    switch (better) {
+        case Better::lower:
+            return "lower";
+        case Better::higher:
+            return "higher";
+        case Better::near_zero:
+            return "near_zero";
+        case Better::near_one:
+            return "near_one";
+    }
+    return "";
 }
 
 /// Within the source tree relative to it, as documents name it.
@@ -76,6 +91,20 @@ nlohmann::json left_out_entries(const Shot& shot, const Config& config) {
 
 }  // namespace
 
+nlohmann::json metric_descriptions() {
+    nlohmann::json all = nlohmann::json::object();
+    const auto describe = [&](const auto& m) {
+        all[m.name] = {{"formula", m.formula}, {"unit", m.unit}, {"better", name_of(m.better)}, {"doc", m.doc}};
+    };
+    for (const Metric& m : all_metrics()) describe(m);
+    for (const TemporalMetric& m : temporal_metrics()) describe(m);
+    for (const auto& [name, doc] : {std::pair("bias_squared", "what of the squared error all seeds share"),
+                                    std::pair("variance", "what of the squared error differs from seed to seed")})
+        all[name] = {
+            {"formula", "seed_pairs"}, {"unit", "radiance^2"}, {"better", name_of(Better::lower)}, {"doc", doc}};
+    return all;
+}
+
 nlohmann::json study_entry(const Config& config) {
     nlohmann::json warnings = nlohmann::json::array();
     if (std::ranges::any_of(config.shots, &ShotConfig::direct_lit))
@@ -101,6 +130,7 @@ nlohmann::json study_entry(const Config& config) {
             {"variants", variant_entries(config)},
             {"primary",
              {{"metric", config.primary.metric}, {"mask", config.primary.mask}, {"target", config.primary.target}}},
+            {"metrics", metric_descriptions()},
             {"parameter_docs", parameter_docs(config)},
             {"images", nlohmann::json::array()}};
 }

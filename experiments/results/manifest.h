@@ -5,6 +5,10 @@
 
 // The parts of manifest.json, as experiments/RESULTS.md describes them.
 
+/// {name: {"formula", "unit", "better", "doc"}} of all metrics, and of both parts of a squared error: the one source of
+/// which values are good, for report, tables and figures.
+nlohmann::json metric_descriptions();
+
 /// What holds for the whole study, before any cell is done.
 nlohmann::json study_entry(const Config& config);
 

@@ -57,6 +57,11 @@ const std::map<std::string, Meaning>& meanings() {
         {"non_finite", {"pixel", "pixels of the result that are NaN or infinite"}},
         {"negative", {"pixel", "pixels of the result below zero"}},
         {"speaks", {"", "whether the row speaks for its shot"}},
+        {"standing", {"", "best, tied or behind among the points of its shot; empty: not ranked"}},
+        {"over_best", {"", "value over that of the best measured point of its shot, paired by seed"}},
+        {"over_best_low", {"", "low end of its 95 % interval"}},
+        {"over_best_high", {"", "high end of its 95 % interval"}},
+        {"p_best", {"", "p-value of: no worse than the best measured point; adjusted for the points of the shot"}},
         {"mse", {"", "bias_squared + variance"}},
         {"bias_squared", {"", "squared error that would remain over infinitely many seeds"}},
         {"bias_squared_low", {"", "low end of its 95 % interval"}},
@@ -86,7 +91,10 @@ const std::map<std::string, Meaning>& meanings() {
         {"rounds", {"", "frames in which both were timed"}},
         {"p", {"", "two-sided p-value of: the ratio is 1"}},
         {"family", {"", "primary, or exploratory"}},
-        {"p_holm", {"", "p adjusted for the whole primary family; empty for others"}},
+        {"p_holm", {"", "p adjusted for all effects on the same error"}},
+        {"low_holm", {"", "low end of the interval at the level that p_holm is judged at"}},
+        {"high_holm", {"", "high end of that interval"}},
+        {"verdict", {"", "less, more or not distinguishable, by p_holm at 0.05; empty without a p"}},
     };
     return all;
 }

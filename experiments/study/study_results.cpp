@@ -1,6 +1,7 @@
 #include "experiments/study/study_results.h"
 
 #include "core/files.h"
+#include "experiments/evaluation/evaluation.h"
 #include "experiments/measuring/timing.h"
 #include "experiments/results/effects.h"
 #include "experiments/results/host_info.h"
@@ -8,6 +9,7 @@
 #include "experiments/results/provenance.h"
 #include "experiments/results/results.h"
 #include "experiments/results/results_schema.h"
+#include "experiments/results/study_points.h"
 #include "experiments/results/time_effects.h"
 #include "experiments/study/folder/stale_files.h"
 
@@ -77,7 +79,7 @@ void write_effects(const StudyRun& study, const nlohmann::json& manifest, const 
     const std::vector<VariantConfig>& variants = study.config.variants;
     std::vector<EffectRow> effects = paired_effects(rows.results, variants, not_repeatable, rows.reference_noise);
     std::ranges::move(split_effects(rows.splits, variants, not_repeatable), std::back_inserter(effects));
-    set_families(effects, study.config.primary);
+    set_verdicts(effects, study.config.primary);
     write_rows(study.settings.out / "effects.csv", effects);
     write_rows(study.settings.out / "time_effects.csv", time_effects(rows.times, variants));
 }
@@ -96,6 +98,7 @@ std::vector<ShotAnswer> write_results(StudyRun& study, bool is_complete, const n
         write_tables(study.settings.out, rows);
         write_parameters(study.settings.out, study.config.variants);
         write_effects(study, manifest, rows);
+        write_evaluation(study.settings.out, rows, manifest, study.config.variants);
     }
     std::vector<ShotAnswer> answers;
     {

@@ -8,8 +8,7 @@ from matplotlib.patches import Rectangle
 
 from paper_figures import numbers, style
 from paper_figures.crop_choice import AUTO, TONE_CURVES as CURVE_NAMES, Crop, check_box, is_box, is_exposure
-from paper_figures.results import ResultsError, label
-from paper_figures.standing import BEST, HIGHER_IS_BETTER, TIED, ratios_of, standings
+from paper_figures.results import BEST, TIED, ResultsError, label
 
 REFERENCE = ("reference", "")
 MOST_POINTS = 6  # of those that nobody chose
@@ -91,14 +90,14 @@ def auto_exposure(truth, tone_curve="none"):
     return float(np.floor(4 * np.log2((WHITE if tone_curve == "none" else 1.0) / bright)) / 4)
 
 
-def _best_of_each(results, images, errors, shot):
+def _best_of_each(results, images, errors, shot, metric):
     """`none`, and of each technique the point of least error that an engine could have, in the order of their errors."""
     variants = {}
     for key in images:
         is_exact = results.variants.get(key, {}).get("asks_scene", False)
         error = errors.get((shot, *key))
         if key[0] not in ("reference", "none") and not is_exact:
-            variants.setdefault(key[0], []).append((error.value if error else np.inf, key))
+            variants.setdefault(key[0], []).append((results.shortfall(metric, error.value) if error else np.inf, key))
     best = sorted(min(points) for points in variants.values())
     return [key for key in images if key[0] == "none"][:1] + [key for _, key in best][: MOST_POINTS - 1]
 
@@ -174,7 +173,7 @@ def draw(results, shot, chosen):
     if keys:
         keys = {REFERENCE: chosen.where or collected.crops[0].where, **keys}
     images = _images(results, shot, target, collected.frame if collected else None, keys)
-    shown = [k for k in keys if k != REFERENCE] or _best_of_each(results, images, errors, shot)
+    shown = [k for k in keys if k != REFERENCE] or _best_of_each(results, images, errors, shot, chosen.metric)
     if not shown or REFERENCE not in images:
         return None
     truth = images[REFERENCE]
@@ -185,11 +184,7 @@ def draw(results, shot, chosen):
     techniques = [maps[k] for k in shown if k[0] != "none"] or list(maps.values())
     look, crops = _exposed(collected.crops if collected else _own_crops(chosen, techniques, truth), truth)
     of_shot = {key: errors.get((shot, *key)) for key in shown}
-    pairs = ratios_of(
-        e for e in results.effects
-        if (e["shot"], e["target"], e["metric"], e["mask"]) == (shot, chosen.target, chosen.metric, chosen.mask)
-    )
-    marks = standings({k: e for k, e in of_shot.items() if k[0] != "none"}, chosen.metric in HIGHER_IS_BETTER, pairs)
+    marks = results.standings_of(shot, chosen.target, chosen.metric, chosen.mask)
     cell = 0.95 * _width(chosen) / min(_most_columns(chosen), len(shown) + 1)
     letters = style.letters(0.95 * cell)
     titles = [_truth_title(results, shot), *(_title(results, k, of_shot[k], chosen, marks, letters, cell) for k in shown)]
@@ -241,7 +236,7 @@ def _below(results, shot, target, chosen, errors, look, crops):
     exposures = ", ".join(f"{ev:+g} EV" + ("" if curve == "none" else f" {curve}") for ev, curve in looks)
     text = f"{results.shot_label(shot)}, {target}; error maps in one scale. Exposure {exposures}"
     text += " (whole, then each crop)" if len(looks) > 1 else ""
-    text += f". Top: {chosen.metric} of {chosen.target}, {chosen.mask} pixels, 95 % interval; bold: told from all others"
+    text += f". Top: {chosen.metric} of {chosen.target}, {chosen.mask} pixels, 95 % interval; bold: significantly the best of the shot"
     text += "; below crops: their MSE, with the truth's noise."
     noise = _reference_noise(results, shot)
     if noise and noise[1] > NOISY:

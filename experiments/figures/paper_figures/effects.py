@@ -8,7 +8,6 @@ import matplotlib.pyplot as plt
 from paper_figures import style
 from paper_figures.results import label
 
-SIGNIFICANT = 0.05
 LONG_LABEL = 40  # characters, beyond which labels would leave the panels no room
 FARTHEST = 20.0  # ratios further from 1 would squeeze all others; they are written at the border of their panel
 CUT = 2.0  # intervals reach at most this factor beyond the outermost ratio
@@ -111,9 +110,8 @@ def _draw(results, chosen, rows, groups, against):
 
 
 def _family(rows):
-    if any(e["family"] == "primary" for e in rows):
-        return f"filled: p (Holm, over all primary comparisons) < {SIGNIFICANT}"
-    return "exploratory: each interval by itself, not adjusted for their number"
+    family = "primary" if any(e["family"] == "primary" for e in rows) else "exploratory"
+    return f"filled: significant; intervals and verdicts adjusted for all effects on this error (Holm; {family})"
 
 
 def _draw_shot(results, axes, rows, keys):
@@ -122,7 +120,7 @@ def _draw_shot(results, axes, rows, keys):
     axes.set_xscale("log")
     axes.grid(axis="y", visible=False)
     for e in rows:
-        ratio = results.measured(e, ("ratio", "low", "high"), "effects.csv")
+        ratio = results.measured(e, ("ratio", "low_holm", "high_holm"), "effects.csv")
         if ratio is None:
             continue
         row = keys.index((e["variant"], e["point"]))
@@ -141,7 +139,7 @@ def _draw_shot(results, axes, rows, keys):
                 color=color,
             )
             continue
-        is_significant = e["p_holm"] != "" and float(e["p_holm"]) < SIGNIFICANT
+        is_significant = e["verdict"] in ("less", "more")
         axes.errorbar(
             [ratio.value],
             [row],
@@ -160,7 +158,7 @@ def _is_near(ratio):
 
 def _limit(axes, results, rows):
     """One scale for all panels. An interval of few seeds may reach far beyond all ratios: it is cut."""
-    measured = [results.measured(e, ("ratio", "low", "high"), "effects.csv") for e in rows]
+    measured = [results.measured(e, ("ratio", "low_holm", "high_holm"), "effects.csv") for e in rows]
     measured = [m for m in measured if m is not None and _is_near(m)]
     ratios = [1.0] + [m.value for m in measured]
     low, high = min(ratios) / CUT, max(ratios) * CUT

@@ -14,6 +14,8 @@ class ResultsError(Exception):
 
 
 ONE_SEED = "none: 1 seed"  # experiments/results/interval.h
+BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
+EVALUATED = {"summary.csv": ("speaks", "standing"), "effects.csv": ("verdict",)}  # columns that decide; older versions wrote none
 OVER_FRAMES = ("", "all")  # `frame` of a row that speaks for all measured frames of its shot
 
 
@@ -52,8 +54,6 @@ def frame_number(row, file="summary.csv"):
 
 def rows_that_speak(rows):
     """Of each shot those over its frames, or of its last one, as `ssrlab run` decided."""
-    if rows and "speaks" not in rows[0]:
-        raise ResultsError("summary.csv has no column 'speaks': another version of ssrlab made it; run the study again")
     return [r for r in rows if r["speaks"] == "1"]
 
 
@@ -149,9 +149,18 @@ class Results:
             return []
         try:
             with open(file, newline="", encoding="utf-8") as text:
-                return list(csv.DictReader(text))
+                reader = csv.DictReader(text)
+                rows = list(reader)
         except OSError as e:
             raise ResultsError(f"cannot read {file}: {e.strerror}") from e
+        lacking = [c for c in EVALUATED.get(name, ()) if c not in (reader.fieldnames or ())]
+        if lacking:
+            writer = self.manifest.get("written", {}).get("ssrlab", {}).get("commit") or "another version"
+            raise ResultsError(
+                f"{file} has no column '{lacking[0]}': ssrlab of {writer} wrote it; run `ssrlab run` or `ssrlab merge` again, "
+                "which keeps finished cells and makes the tables"
+            )
+        return rows
 
     def _single_changes(self):
         """(variant, point) to (parameter, value) of the swept points that differ from a baseline in one parameter."""
@@ -177,6 +186,23 @@ class Results:
             return float(text) if text else None
         except ValueError as e:
             raise ResultsError(f"{os.path.join(self.folder, name)}: '{column}' = \"{text}\" is not a number") from e
+
+    def direction_of(self, metric):
+        """ "lower", "higher", "near_zero" or "near_one": which values of a metric are good."""
+        metrics = self.manifest.get("metrics", {})
+        if metric not in metrics:
+            raise ResultsError(f"{os.path.join(self.folder, 'manifest.json')} does not say which values of {metric} are good: another version of ssrlab wrote it; run the study again")
+        return metrics[metric]["better"]
+
+    def shortfall(self, metric, value):
+        """How far a value is from the best one: less is better, whatever the metric's direction."""
+        better = self.direction_of(metric)
+        return {"lower": value, "higher": -value, "near_zero": abs(value), "near_one": abs(value - 1)}[better]
+
+    def standings_of(self, shot, target, metric, mask):
+        """(variant, point) to best, tied or behind, as ssrlab decided among the points of a shot."""
+        where = (shot, target, metric, mask)
+        return {(r["variant"], r["point"]): r["standing"] for r in self.errors if (r["shot"], r["target"], r["metric"], r["mask"]) == where}
 
     def shots(self):
         """Those that were measured; of a study that measures no errors all."""

@@ -6,7 +6,6 @@ import math
 import os
 
 from paper_figures.results import ResultsError
-from paper_figures.standing import HIGHER_IS_BETTER
 
 STUDENT = {3: 3.18245, 4: 2.77645, 5: 2.57058, 6: 2.44691, 7: 2.36462, 8: 2.30600, 9: 2.26216}  # t(0.975, degrees of freedom)
 # Pairs of images, without names and in an order drawn anew, of which somebody said which is nearer to the truth
@@ -15,17 +14,12 @@ PAIR = ("shot", "first", "first_point", "second", "second_point")
 JUDGEMENTS = os.path.abspath(os.path.join(os.path.dirname(__file__), "../../findings/judgements.csv"))
 
 
-def _badness(row):
-    value = float(row["value"])
-    return -value if row["metric"] in HIGHER_IS_BETTER else value
-
-
-def _by_shot(rows):
-    """{shot: {metric: {(variant, point): badness}}} of the rows that have a value."""
+def _by_shot(results, rows):
+    """{shot: {metric: {(variant, point): shortfall}}} of the rows that have a value."""
     found = {}
     for row in rows:
         if row["value"]:
-            found.setdefault(row["shot"], {}).setdefault(row["metric"], {})[(row["variant"], row["point"])] = _badness(row)
+            found.setdefault(row["shot"], {}).setdefault(row["metric"], {})[(row["variant"], row["point"])] = results.shortfall(row["metric"], float(row["value"]))
     return found
 
 
@@ -40,9 +34,9 @@ def kendall_tau(first, second):
     return (concordant - discordant) / pairs if pairs else None
 
 
-def agreement_rows(rows):
+def agreement_rows(results, rows):
     """For each shot and pair of metrics Kendall's tau between the orders in which they put the points."""
-    for shot, metrics in _by_shot(rows).items():
+    for shot, metrics in _by_shot(results, rows).items():
         for metric, against in itertools.product(metrics, metrics):
             points = [p for p in metrics[metric] if p in metrics[against]]
             tau = kendall_tau([metrics[metric][p] for p in points], [metrics[against][p] for p in points])
@@ -63,9 +57,9 @@ def _decided(judgements):
     return [of_pair[0] for of_pair in pairs.values() if len({j["nearer"] for j in of_pair}) == 1 and of_pair[0]["nearer"] in PAIR]
 
 
-def eye_rows(rows, judgements):
+def eye_rows(results, rows, judgements):
     """For each metric and pair that was decided, 1 if the metric puts the two points in the order of the judgement."""
-    found = _by_shot(rows)
+    found = _by_shot(results, rows)
     for number, judged in enumerate(_decided(judgements)):
         if judged["shot"] not in found:
             raise ResultsError(f"{JUDGEMENTS} judges {judged['shot']}, of which these results have no rows")

@@ -21,13 +21,13 @@ class Cell:
     high: float = None
     least: float = None  # of the shots that a geometric mean is over
     most: float = None
-    is_significant: bool = False  # by the adjusted p-value of the study's primary comparisons
+    is_significant: bool = False  # as effects.csv says (`verdict`)
     seeds: int = None
     interval: str = None  # what it holds, or why there is none: experiments/results/interval.h; EXACT
     mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
     clock: str = None  # of times
     disturbed_share: float = None  # of the frames that a time is the median of, by other programs
-    standing: str = None  # in its row or column: "best", told from all others, or "tied"; paper_figures/standing.py
+    standing: str = None  # in its shot: best or tied (summary.csv)
 
     def is_count(self):
         return self.interval == EXACT

@@ -4,17 +4,15 @@ A table is an entry of the config's "tables" (experiments/README.md explains its
 
 import json
 import math
-from dataclasses import replace
 
 from paper_figures import tradeoff
-from paper_figures.results import ResultsError, rows_that_speak
-from paper_figures.standing import HIGHER_IS_BETTER, ratios_of, standings
+from paper_figures.results import BEST, TIED, ResultsError, rows_that_speak
 from paper_tables import agreement, limits
 from paper_tables.cell import EXACT, Cell
 from paper_tables.means import SHARES, largest, mean
 
 SOURCES = {  # name to (file, columns of value, low and high)
-    "effects": ("effects.csv", ("ratio", "low", "high")),
+    "effects": ("effects.csv", ("ratio", "low_holm", "high_holm")),  # intervals that agree with the verdict
     "results": ("summary.csv", ("value", "low", "high")),
     "splits": ("splits.csv", None),  # its quantities are columns: see _split_rows()
     "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
@@ -29,15 +27,12 @@ SOURCES = {  # name to (file, columns of value, low and high)
 }
 NOT_SHARES = ("fetches", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
 KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "best", "labels"}
-COMPARED = ("results", "times", "limits")  # of these the cells of a row or column have a best, as far as their metric knows which way
-ADJUSTED = ("effects", "time_effects")  # of these `p_holm` is of the hypothesis that the ratio is 1
-UNDIRECTED = ("bias", "energy_ratio")
+COMPARED = ("results", "limits")  # of these points have a standing in their shot
 NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
 GROUPS = {  # what rows, columns and means are by, beside the columns of a file
     "group": lambda results, row: results.point_group(row.get("variant"), row.get("point")),
     "shot_group": lambda results, row: results.shot_group(row.get("shot")),
 }
-SIGNIFICANT = 0.05  # of p_holm, from where on a ratio is told from 1
 
 
 def _number(row, column):
@@ -89,6 +84,8 @@ class Table:
         self.best = entry.get("best")
         if self.best not in (None, "row", "column"):
             raise ResultsError(f"{where_from}: 'best' = \"{self.best}\", but must be row or column")
+        if self.best and self.over is not None:
+            raise ResultsError(f"{where_from}: table '{self.name}' is of means over {self.over}, which have no 'best': `ssrlab tradeoff` compares over scenes")
         if self.best and self.of not in COMPARED:
             raise ResultsError(f"{where_from}: table '{self.name}' has a 'best', which only numbers of {', '.join(COMPARED)} have, not those of {self.of}")
 
@@ -120,9 +117,9 @@ class Selection:
         if table.of == "limits":
             self.rows = list(limits.limit_rows(self.rows, self.shots))
         if table.of == "agreement":
-            self.rows = list(agreement.agreement_rows(self.rows))
+            self.rows = list(agreement.agreement_rows(results, self.rows))
         if table.of == "eye":
-            self.rows = list(agreement.eye_rows(self.rows, agreement.read_judgements()))
+            self.rows = list(agreement.eye_rows(results, self.rows, agreement.read_judgements()))
         if not self.rows:
             raise ResultsError(f"table '{table.name}': {SOURCES[table.of][0]} has no row where {json.dumps(table.where)}")
         self.disturbed = {_timed(r): _number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
@@ -184,7 +181,6 @@ def _cell(selection, row, name):
     value, low, high = (_number(row, c) for c in SOURCES[table.of][1] or ("value", "low", "high"))
     if table.of in SHARES and row["quantity"] not in NOT_SHARES:
         low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
-    p = _number(row, "p_holm") if table.of in ADJUSTED else None
     seeds = _number(row, "seeds")
     shares = [selection.disturbed.get(key) for key in (_timed(row), _timed(row, "against_"))]
     return Cell(
@@ -193,7 +189,7 @@ def _cell(selection, row, name):
         value,
         low,
         high,
-        is_significant=p is not None and p < SIGNIFICANT,
+        is_significant=row.get("verdict") in ("less", "more"),
         seeds=seeds and int(seeds),
         interval=row.get("interval") or None,
         mean_of=int(row["scenes"]) if table.of == "at_cost" else None,
@@ -255,39 +251,16 @@ def _about(selection, filled):
 
 
 def _mark_best(selection, cells, rows_of):
-    """Gives cells their standing among those of their column or row; of a mean over shots by its own interval. Numbers whose
-    interval does not hold all that is random (`ranked`) are told from none."""
-    table = selection.table
-    axis = "column" if table.best == "column" else "row"
-    for name in dict.fromkeys(getattr(c, axis) for c in cells):
-        own = [c for c in cells if getattr(c, axis) == name and c.value is not None]
-        rows = [row for c in own for row in rows_of[c.row, c.column]]
-        metrics = {row.get("metric", table.of) for row in rows}
-        if len(metrics) > 1 or metrics & set(UNDIRECTED):
-            raise ResultsError(f"table '{table.name}': {axis} '{name}' has no best: its cells are of {', '.join(sorted(metrics))}")
-        numbers, ratios = {}, {}
-        for c in own:
-            known = all(row.get("ranked", "1") == "1" for row in rows_of[c.row, c.column])
-            numbers[id(c)] = c if known else replace(c, low=None, high=None)
-        if table.over is None and table.of != "times":
-            ratios = _paired(selection, own, rows_of)
-        found = standings(numbers, bool(metrics & set(HIGHER_IS_BETTER)), ratios)
-        for c in own:
-            c.standing = found.get(id(c))
-
-
-def _paired(selection, cells, rows_of):
-    """{(id of a cell, id of another): Ends} of the paired comparisons that the study has of them."""
-    place = ("shot", "target", "metric", "mask")
-    of_point = {}
+    """Gives cells the standing that ssrlab decided among all points of their shot (summary.csv)."""
+    axis = "column" if selection.table.best == "column" else "row"
+    metrics_of = {}
     for c in cells:
-        row = rows_of[c.row, c.column][0]
-        of_point.setdefault(tuple(row[k] for k in place), {})[row["variant"], row["point"]] = id(c)
-    found = {}
-    for where, points in of_point.items():
-        effects = [e for e in selection.results.effects if tuple(e[k] for k in place) == where]
-        found |= {(points[a], points[b]): ends for (a, b), ends in ratios_of(effects).items() if a in points and b in points}
-    return found
+        rows = rows_of[c.row, c.column]
+        metrics_of.setdefault(getattr(c, axis), set()).update(row["metric"] for row in rows)
+        c.standing = rows[0]["standing"] if rows[0]["standing"] in (BEST, TIED) else None
+    for name, metrics in metrics_of.items():
+        if len(metrics) > 1:
+            raise ResultsError(f"table '{selection.table.name}': {axis} '{name}' has no best: its cells are of {', '.join(sorted(metrics))}")
 
 
 def cells_of(results, table):

@@ -4,7 +4,7 @@ import csv
 import io
 
 from paper_figures import numbers
-from paper_figures.standing import BEST, TIED
+from paper_figures.results import BEST, TIED
 from paper_tables.cell import BOTH
 
 # What intervals hold (experiments/results/interval.h) that is less than the scatter over the seeds and the reference's noise, where
@@ -85,11 +85,11 @@ def notes(table, cells):
     if share:
         found.append(f"{DISTURBED}: other programs disturbed some of its frames, {100 * share:.0f} % at most")
     if any(c.is_significant for c in cells):
-        found.append("bold: told from 1 by Holm's test at 0.05")
+        found.append("bold: significantly different from 1; intervals are adjusted for all effects on the same error (Holm)")
     if any(c.standing == BEST for c in cells):
-        found.append("bold: the best, told from all others by their paired comparison or by intervals that do not meet")
+        found.append("bold: significantly the best of all points of its shot")
     if any(c.standing == TIED for c in cells):
-        found.append("italic: the best and what cannot be told from it")
+        found.append("italic: the best measured of its shot, or not distinguishable from it")
     text = "; ".join(found)
     return text and text[0].upper() + text[1:] + "."
 

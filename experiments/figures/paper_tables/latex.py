@@ -2,7 +2,7 @@
 
 import re
 
-from paper_figures.standing import TIED
+from paper_figures.results import TIED
 from paper_figures.texts import wrapped
 from paper_tables.formats import DISTURBED, NO_VALUE, cell_text, grid, is_bold, notes
 

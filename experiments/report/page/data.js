@@ -17,7 +17,9 @@ function readData() {
         biasSquared: {value: s.biasSquared, low: s.biasSquaredLow, high: s.biasSquaredHigh},
         variance: {value: s.variance, low: s.varianceLow, high: s.varianceHigh}
     });
-    const effect = e => ({...e, value: e.ratio, holm: e.pHolm, isPrimary: e.family === "primary"});
+    /// With the interval that agrees with the verdict.
+    const effect = e =>
+        ({...e, value: e.ratio, low: e.lowHolm, high: e.highHolm, holm: e.pHolm, isPrimary: e.family === "primary"});
     const timeEffect = e => ({...e, value: e.ratio});
     const time = t => ({...t, value: t.medianMs, low: t.lowMs, high: t.highMs});
     /// As experiments/stability/stability_report.h has it; its lists become objects.

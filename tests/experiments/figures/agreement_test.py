@@ -17,6 +17,13 @@ def rows(metric, values, shot="s"):
     return [{"shot": shot, "variant": "v", "point": p, "metric": metric, "value": str(v)} for p, v in values.items()]
 
 
+class Directions:
+    """What a results folder says of its metrics (paper_figures/results.py)."""
+
+    def shortfall(self, metric, value):
+        return -value if metric in ("ssim", "ms_ssim", "ssim_luma") else value
+
+
 class Agreement(unittest.TestCase):
     def test_kendalls_tau_counts_pairs(self):
         self.assertEqual(agreement.kendall_tau([1, 2, 3, 4], [1, 2, 3, 4]), 1)
@@ -27,7 +34,7 @@ class Agreement(unittest.TestCase):
 
     def test_more_is_better_by_ssim(self):
         both = rows("mse", {"a": 1, "b": 2, "c": 3}) + rows("ssim", {"a": 0.9, "b": 0.8, "c": 0.7})
-        taus = {(r["metric"], r["against"]): float(r["value"]) for r in agreement.agreement_rows(both)}
+        taus = {(r["metric"], r["against"]): float(r["value"]) for r in agreement.agreement_rows(Directions(), both)}
         self.assertEqual(taus[("mse", "ssim")], 1)
         self.assertEqual(len(taus), 4)
 
@@ -50,10 +57,10 @@ class Agreement(unittest.TestCase):
         both = rows("mse", {"a": 1, "b": 2}) + rows("ssim", {"a": 0.7, "b": 0.8})
         judged = {"shot": "s", "first": "v", "first_point": "a", "second": "v", "second_point": "b"}
         swapped = judged | {"first_point": "b", "second_point": "a"}  # judges differ: undecided
-        found = list(agreement.eye_rows(both, [judged | {"nearer": "second"}] * 2 + [swapped | {"nearer": n} for n in ("first", "second")]))
+        found = list(agreement.eye_rows(Directions(), both, [judged | {"nearer": "second"}] * 2 + [swapped | {"nearer": n} for n in ("first", "second")]))
         self.assertEqual({r["metric"]: r["value"] for r in found}, {"mse": "0.0", "ssim": "1.0"})
         with self.assertRaises(ResultsError):
-            list(agreement.eye_rows(both, [judged | {"shot": "another", "nearer": "first"}]))
+            list(agreement.eye_rows(Directions(), both, [judged | {"shot": "another", "nearer": "first"}]))
 
 
 class Limits(unittest.TestCase):

@@ -12,7 +12,6 @@ from paper_figures import crops, style
 from paper_figures.lines import draw_lines
 from paper_figures.placed_labels import place_labels
 from paper_figures.results import Measured
-from paper_figures.standing import Ends, standings
 from paper_tables.cell import Cell
 from paper_tables.latex import latex
 
@@ -85,18 +84,6 @@ def test_labels_do_not_overlap():
         plt.close(figure)
 
 
-def test_best_only_where_certain():
-    separate = {"a": Ends(1.0, 0.9, 1.1), "b": Ends(1.3, 1.2, 1.4), "c": Ends(2.0, None, None)}
-    check(standings({k: separate[k] for k in "ab"}) == {"a": "best"}, "intervals that do not meet")
-    check(standings(separate) == {"a": "tied", "c": "tied"}, "one without an interval")
-    meeting = {"a": Ends(1.0, 0.9, 1.1), "b": Ends(1.05, 1.0, 1.2)}
-    check(standings(meeting) == {"a": "tied", "b": "tied"}, "intervals that meet")
-    paired = Ends(1.05, 1.01, 1.09)
-    check(standings(meeting, ratios={("b", "a"): paired}) == {"a": "best"}, "a paired comparison tells more")
-    check(standings(separate | {"b": Ends(1.3, 1.05, 1.4)}, True)["c"] == "tied", "more is better, by a number without interval")
-    check(standings({"a": separate["a"]}) == {}, "nothing to compare with")
-
-
 def test_exposure():
     """The brightest percent begins just below white, whatever the few brightest pixels are."""
     truth = np.full((10, 100, 3), 0.2, np.float32)
@@ -125,6 +112,5 @@ test_file_names()
 test_wrapped()
 test_values_not_above_zero()
 test_labels_do_not_overlap()
-test_best_only_where_certain()
 test_exposure()
 test_long_tables()

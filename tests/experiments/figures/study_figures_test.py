@@ -265,7 +265,7 @@ def test_ratios_far_from_one(folder):
     chosen = request_of("effects")
     rows = effects.comparisons(results, chosen)["effects"]
     limits = effects.draw(results, chosen, rows).get_axes()[0].get_xlim()
-    rows.append(dict(rows[0], ratio="328", low="17", high="6330"))
+    rows.append(dict(rows[0], ratio="328", low_holm="17", high_holm="6330"))
     figure = effects.draw(results, chosen, rows)
     check(figure.get_axes()[0].get_xlim() == limits, "a ratio of 328 changes the scale")
     check("328 [17, 6.33e3] →" in [t.get_text() for a in figure.get_axes() for t in a.texts], "a ratio of 328 is not written")

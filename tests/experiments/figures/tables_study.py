@@ -75,6 +75,7 @@ def manifest(tables, verdict="passed"):
         "title": "Made up",
         "is_complete": True,
         "config": {"tables": tables},
+        "metrics": {m: {"better": b} for m, b in (("mse", "lower"), ("flip", "lower"), ("ssim", "higher"), ("ms_ssim", "higher"))},
         "clock": {"proofs": [{"verdict": verdict, "shots": SHOTS}]},
         "shots": [{"shot": s, "width": 320, "height": 180} for s in SHOTS],
         "variants": [{"variant": "sssr", "point": p, "parameters": {"taps": taps}} for p, taps in points],
@@ -87,13 +88,14 @@ def write_results(folder, tables=TABLES, ratios=RATIOS):
         {"shot": shot, "frame": "0", "variant": "sssr", "point": point, "against": "baseline", "against_variant": "sssr"}
         | {"against_point": "default", "target": "specular", "metric": metric, "mask": "all", "seeds": 8}
         | {"interval": SEEDS if metric == "flip" else REFERENCE}
-        | dict(zip(("ratio", "low", "high", "p_holm", "interval"), numbers))
+        | dict(zip(("ratio", "low_holm", "high_holm", "p_holm", "interval"), numbers))
+        | {"verdict": "" if numbers[3] == "" else "not distinguishable" if numbers[3] > 0.05 else "less" if numbers[0] < 1 else "more"}
         for (point, metric, shot), numbers in ratios.items()
     ]
     write_rows(os.path.join(folder, "effects.csv"), effects)
     errors = [
         {"shot": shot, "frame": frame, "variant": "sssr", "point": point, "target": "specular", "metric": "mse", "mask": "all"}
-        | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1, "speaks": int(frame == "")}
+        | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1, "speaks": int(frame == ""), "standing": "best" if point == "taps=4" else "behind"}
         for shot in SHOTS
         for frame, point, value in (("3", "default", 5.0), ("", "default", 0.0123), ("3", "taps=4", 0.002))
     ]

@@ -58,7 +58,7 @@ def test_numbers(folder):
 
 
 def test_bold(folder):
-    """A ratio that Holm's test tells from 1 is bold, in a table of single shots; "!wall" leaves that one out."""
+    """A ratio with a verdict of effects.csv is bold, in a table of single shots; "!wall" leaves that one out."""
     table = TABLES[0] | {"columns": ["metric", "shot"], "where": {"metric": "mse"}}
     table = {k: v for k, v in table.items() if k not in ("over", "sort")}
     write_results(folder, [table])
@@ -72,22 +72,32 @@ def test_bold(folder):
 
 
 def test_best(folder):
-    """The best of a column is bold where the paired comparison or both intervals tell it; else all that may be it are alike."""
+    """Points are bold or italic as summary.csv says of their shot, whatever the order of their numbers; means have no standing."""
     levels = TABLES[1] | {"best": "column"}
-    times = {"name": "times", "caption": "Times", "of": "times", "where": {"stage": "total"}, "rows": "point", "columns": "shot", "best": "column"}
-    write_results(folder, [levels, times])
+    write_results(folder, [levels])
     check(tables(folder).returncode == 0, "a best")
     lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
     check(lines[4].startswith("| sssr, taps=4 | **0.00234** | **0.00234** |") and lines[5].startswith("| sssr, default | 0.0123 ["), lines[4:6])
-    check("bold: the best, told from all others" in lines[7] and "italic" not in lines[7], lines[7])
-    lines = read(os.path.join(folder, "tables", "times.md")).splitlines()
-    check(lines[5] == "| taps=4 | *2.00 [1.90, 2.10]* | *2.00 [1.90, 2.10]* |" and "italic: the best and what" in lines[7], lines[5:8])
-    unsure = {key: (*values[:1], "", "", "") for key, values in RATIOS.items()}  # taps=4 itself has no interval
-    write_results(folder, [levels], unsure)
+    check("bold: significantly the best" in lines[7] and "italic" not in lines[7], lines[7])
+    file = os.path.join(folder, "summary.csv")
+    rows = list(csv.DictReader(open(file)))
+    write_rows(file, [row | {"standing": "tied"} for row in rows])
     check(tables(folder).returncode == 0, "no best")
     grid = list(csv.reader(open(os.path.join(folder, "tables", "levels.csv"))))
     check(grid[0][4] == "floor standing" and [row[4] for row in grid[1:]] == ["tied", "tied"], grid)
     check(r"\textit{0.00234}" in read(os.path.join(folder, "tables", "levels.tex")), "LaTeX")
+    higher = [row | {"metric": "ms_ssim", "standing": "best" if row["point"] == "default" else "behind"} for row in rows]
+    write_rows(file, higher)
+    write(os.path.join(folder, "manifest.json"), json.dumps(manifest([levels | {"where": {"metric": "ms_ssim"}}])))
+    check(tables(folder).returncode == 0, "more is better")
+    lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
+    check("**0.0123" in lines[5 if "default" in lines[5] else 4], lines[4:6])
+    write(os.path.join(folder, "manifest.json"), json.dumps(manifest([levels | {"columns": "metric", "over": "shot"}])))
+    failed = tables(folder)
+    check(failed.returncode != 0 and "have no 'best'" in failed.stderr, failed.stderr)
+    write_rows(file, [{k: v for k, v in row.items() if k != "standing"} for row in rows])
+    failed = tables(folder)
+    check(failed.returncode != 0 and "no column 'standing'" in failed.stderr and "ssrlab run" in failed.stderr, failed.stderr)
 
 
 def test_display_names(folder):

@@ -1,6 +1,9 @@
 // What a study says of a shot at first sight, of made-up tables.
 #include "experiments/report/answers.h"
 
+#include "experiments/evaluation/standings.h"
+#include "experiments/results/interval.h"
+
 #include <gtest/gtest.h>
 
 namespace {
@@ -38,13 +41,17 @@ struct Made {
                         .formula = metric,
                         .mask = "reflective"};
         e.value = value, e.low = value - half, e.high = value + half;
-        e.holds_all_noise = metric == "mse", e.speaks_for_shot = true;
+        e.holds_all_noise = true, e.speaks_for_shot = true;
+        e.interval = interval::reference;
         tables.errors.push_back(e);
         if (milliseconds > 0)
             tables.times.push_back({"s", variant, "default", "total", "host_fence", 15, milliseconds,
                                     0.9 * milliseconds, 1.1 * milliseconds});
     }
-    ShotAnswer answer(const json& of_study = manifest) const { return shot_answers(tables, of_study).at(0); }
+    ShotAnswer answer(const json& of_study = manifest) {
+        set_standings(tables.errors, {}, {{"exact", "default"}});
+        return shot_answers(tables, of_study).at(0);
+    }
 };
 
 }  // namespace
@@ -60,8 +67,7 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
     EXPECT_EQ(
         a.sentence,
         "slow has the least error, mse 0.065 [0.06, 0.07] (0.1x that of none); quick takes 0.6x [0.49x, 0.73x] its "
-        "time at 1.8x [1.6x, 2x] the error; 0.05 [0.049, 0.051] is left by one that finds all that this one frame "
-        "shows.");
+        "time at 1.8x the error; the lower bound for any single-frame technique is 0.05 [0.049, 0.051].");
     ASSERT_EQ(a.front.size(), 3u);
     EXPECT_EQ(a.front[1].variant, "quick");
     EXPECT_EQ(a.perceptual_sentence, "");
@@ -72,8 +78,7 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
 
     json doubtful = manifest;
     doubtful["clock"]["proofs"][0]["verdict"] = "failed";
-    EXPECT_NE(made.answer(doubtful).sentence.find("its time (by a clock that did not prove itself) at 1.8x"),
-              std::string::npos);
+    EXPECT_NE(made.answer(doubtful).sentence.find("its time (timer validation failed) at 1.8x"), std::string::npos);
     doubtful["clock"]["aa_floor"] = 0.45;  // 0.6 of the time is then no difference
     EXPECT_EQ(made.answer(doubtful).sentence.find("quick takes"), std::string::npos);
 }
@@ -81,26 +86,54 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
 TEST(Answers, RankNothingThatIntervalsCannotTellApart) {
     Made made;
     made.add("a", 0.06, 0.002);
-    made.add("b", 0.063, 0.002);
+    made.add("b", 0.062, 0.002);
     made.add("c", 0.07, 0.002);
     const ShotAnswer a = made.answer();
     ASSERT_EQ(a.tied.size(), 1u);
     EXPECT_EQ(a.tied[0].variant, "b");
-    EXPECT_NE(a.sentence.find("a has the least error measured, mse 0.06 [0.058, 0.062], but cannot be told from b;"),
-              std::string::npos)
+    EXPECT_NE(
+        a.sentence.find("a has the least error measured, mse 0.06 [0.058, 0.062], but is not distinguishable from b;"),
+        std::string::npos)
         << a.sentence;
+}
 
-    made.tables.errors[0].holds_all_noise = false;  // as of a single seed
-    EXPECT_EQ(made.answer().best->variant, "b");
-    for (MetricSummary& e : made.tables.errors) e.holds_all_noise = false;
+TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
+    Made made;
+    made.add("none", 0.6, 0.01);
+    made.add("a", 0.06, 0.002);
+    made.add("b", 0.2, 0.002);
+    for (size_t i : {1, 2}) {
+        MetricSummary& e = made.tables.errors[i];
+        e.holds_all_noise = false, e.interval = interval::one_seed, e.low = e.high = {};
+    }
+    const ShotAnswer alone = made.answer();
+    EXPECT_EQ(alone.best->variant, "none");
+    ASSERT_EQ(alone.unranked.size(), 2u);
+    EXPECT_EQ(alone.sentence.find("has the least error"), std::string::npos) << alone.sentence;
+    EXPECT_TRUE(
+        alone.sentence.starts_with("a measures least, mse 0.06, but is only measured, as are 2 of 3 points (1 "
+                                   "seed). Among those that are ranked, none stands alone, mse 0.6"))
+        << alone.sentence;
+
+    made.add("c", 0.1, 0.002);
+    EXPECT_TRUE(
+        made.answer().sentence.starts_with("a measures least, mse 0.06, but is only measured, as are 2 of 4 "
+                                           "points (1 seed). Among those that are ranked, c has the least"))
+        << made.answer().sentence;
+
+    for (MetricSummary& e : made.tables.errors) e.holds_all_noise = false, e.interval = interval::one_seed;
     EXPECT_FALSE(made.answer().best);
-    EXPECT_NE(made.answer().sentence.find("nothing is ranked"), std::string::npos);
+    EXPECT_EQ(made.answer().sentence,
+              "Nothing is ranked, as no mse of this shot has an interval that holds all noise (1 seed): a measures "
+              "least, mse 0.06.");
 }
 
 TEST(Answers, SayWhereALimitOfOneFrameIsReached) {
     Made made;
     made.add("a", 0.0505, 0.001);
-    EXPECT_NE(made.answer().sentence.find("no more than the 0.05 [0.049, 0.051] that"), std::string::npos)
+    EXPECT_NE(
+        made.answer().sentence.find("that reaches the lower bound for any single-frame technique, 0.05 [0.049, 0.051]"),
+        std::string::npos)
         << made.answer().sentence;
 }
 
@@ -109,7 +142,8 @@ TEST(Answers, TakeALimitInTheNoiseForNone) {
     made.add("a", 0.0505, 0.001);
     json noisy = manifest;
     noisy["shots"][0]["truth_ladder"][1].update({{"value", -1e-7}, {"low", -2e-6}, {"high", 1e-6}});
-    EXPECT_NE(made.answer(noisy).sentence.find("leaves no error that can be told from 0."), std::string::npos)
+    EXPECT_NE(made.answer(noisy).sentence.find("single-frame technique is not distinguishable from 0."),
+              std::string::npos)
         << made.answer(noisy).sentence;
 }
 
@@ -119,18 +153,18 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
     made.add("b", 0.08, 0.001);
     made.add("a", 0.2, 0.01, 0, "flip");
     made.add("b", 0.1, 0.01, 0, "flip");
-    EXPECT_NE(made.answer().perceptual_sentence.find("b, 0.1 [0.09, 0.11], is ahead of it at 0.2 [0.19, 0.21]"),
+    EXPECT_NE(made.answer().perceptual_sentence.find(
+                  "b, 0.1 [0.09, 0.11], is significantly better than it at 0.2 [0.19, 0.21]"),
               std::string::npos)
         << made.answer().perceptual_sentence;
     made.tables.errors[3].value = 0.195, made.tables.errors[3].low = 0.185, made.tables.errors[3].high = 0.205;
-    EXPECT_NE(made.answer().perceptual_sentence.find("cannot be told from it"), std::string::npos);
-    made.tables.errors[3].value = 0.17, made.tables.errors[3].low = made.tables.errors[3].high = {};
-    EXPECT_NE(made.answer().perceptual_sentence.find("cannot be told from it"), std::string::npos)
-        << "no noise is known";
-    for (MetricSummary& e : made.tables.errors) e.floor = 0.02;
-    EXPECT_NE(made.answer().perceptual_sentence.find("b, 0.17, is ahead of it"), std::string::npos);
-    for (MetricSummary& e : made.tables.errors) e.floor = 0.04;
-    EXPECT_NE(made.answer().perceptual_sentence.find("cannot be told from it"), std::string::npos);
-    made.tables.errors[3].value = 0.3;
-    EXPECT_NE(made.answer().perceptual_sentence.find("it leads, too"), std::string::npos);
+    EXPECT_NE(made.answer().perceptual_sentence.find("b, 0.195 [0.185, 0.205], measures better, but is not "
+                                                     "distinguishable from it at 0.2"),
+              std::string::npos);
+    made.tables.errors[3].holds_all_noise = false;
+    EXPECT_NE(made.answer().perceptual_sentence.find("measures better, not ranked"), std::string::npos)
+        << "its noise is not known";
+    made.tables.errors[3].holds_all_noise = true;
+    made.tables.errors[3].value = made.tables.errors[3].low = made.tables.errors[3].high = 0.3;
+    EXPECT_NE(made.answer().perceptual_sentence.find("it is the best, too"), std::string::npos);
 }

@@ -85,7 +85,7 @@ def test_effects(page, folder, stepping_shot):
         result = (
             "not repeatable"
             if point == RACING
-            else "not told" if point == "lucky" else "less error" if is_significant else "changes nothing"
+            else "not distinguishable" if point == "lucky" else "less error" if is_significant else "changes nothing"
         )
         check(result in cells[9][0], f"result of {point}: {cells[9][0]!r}, expected {result!r}")
     marks = values(page, "#effect-table .point")
@@ -121,13 +121,15 @@ def test_effects(page, folder, stepping_shot):
     choose_in(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("mse")))
     note = page.find_element(By.ID, "effect-family").text
     check(note.startswith("Exploratory") and "relmse of specular, reflective" in note, f"what mse stands for: {note}")
-    heads = [e.text for e in page.find_elements(By.CSS_SELECTOR, "#effect-table th")]
-    check("p, exploratory" in heads and "p (Holm)" not in heads, f"heads of an exploratory metric: {heads}")
+    choose_in(page, "effects", "Scale", "all ratios")
     filled = page.execute_script(
         """return [...document.querySelectorAll('#effect-table .point')].filter(
         p => p.getAttribute('fill') !== 'var(--card)' && p.tagName !== 'text').length"""
     )
-    equal(filled, 0, "filled marks among exploratory ratios")
+    chosen = dict(target="specular", metric="mse", mask="reflective", shot=stepping_shot)
+    rows = rows_of(folder, "effects.csv", variant="sssr", against="baseline", **chosen)
+    verdicts = [r["verdict"] for r in rows]
+    equal(filled, sum(v in ("less", "more") for v in verdicts), "filled marks: the significant ones of the table")
     choose_in(page, "effects", "Against", "sssr with float_histories=false and otherwise the same")
     choose_in(page, "effects", "Metric", next(o.text for o in options if o.text.startswith("relmse")))
     quantity = dict(target="specular", metric="relmse", mask="reflective", shot=stepping_shot)

@@ -2,6 +2,8 @@
 
 #include "core/exr.h"
 #include "core/files.h"
+#include "experiments/evaluation/evaluation.h"
+#include "experiments/results/manifest.h"
 #include "experiments/results/results.h"
 
 #include <cmath>
@@ -275,6 +277,7 @@ json manifest_head() {
                  {"verdict", "failed"},
                  {"shots", {fixture_shots[0], fixture_shots[1], fixture_shots[2]}},
                  {"checks", {check("compute", "passed", 101.0), check("fragment", "failed", 31.0)}}}}}}},
+            {"metrics", metric_descriptions()},
             {"variants", variants},
             {"shots", json::array()},
             {"images", json::array()}};
@@ -300,6 +303,8 @@ void write_report_fixture(const std::filesystem::path& folder) {
             }
         if (shot == fixture_shots[0]) add_pixel_images(folder, shot, extent, manifest["images"]);
     }
-    write_tables(folder, rows_of(cells));
+    const StudyRows rows = rows_of(cells);
+    write_tables(folder, rows);
+    write_evaluation(folder, rows, manifest, {});
     write_text(folder / "manifest.json", manifest.dump(1));
 }

@@ -2,8 +2,10 @@
 
 #include "core/exr.h"
 #include "core/files.h"
+#include "experiments/evaluation/evaluation.h"
 #include "experiments/results/effects.h"
 #include "experiments/results/interval.h"
+#include "experiments/results/manifest.h"
 #include "experiments/results/results.h"
 #include "experiments/results/time_effects.h"
 
@@ -223,6 +225,7 @@ json study_manifest(const std::vector<StudyShot>& shots) {
         {"title", "A study of changes"},
         {"primary", {{"metric", "relmse"}, {"mask", "reflective"}, {"target", "specular"}}},
         {"is_complete", true},
+        {"metrics", metric_descriptions()},
         {"clock",
          {{"aa_floor", 0.02},
           {"aa_pairs", json::array()},
@@ -341,11 +344,12 @@ void write_study_fixture(const std::filesystem::path& folder) {
     for (EffectRow& e : split_effects(rows.splits, variants)) effects.push_back(std::move(e));
     for (EffectRow& e : effects)
         if (e.point == "first race=true") e.low = e.high = e.p = std::nullopt, e.interval = interval::not_repeatable;
-    set_families(effects, {.metric = "relmse", .mask = "reflective", .target = "specular"});
+    set_verdicts(effects, {.metric = "relmse", .mask = "reflective", .target = "specular"});
     write_rows(folder / "effects.csv", effects);
     write_rows(folder / "time_effects.csv", time_effects(rows.times, variants));
     json manifest = study_manifest(shots);
     add_rung_images(folder, shots.front().name, manifest["images"]);
     add_frame_images(folder, study_moving_shot, manifest["images"]);
+    write_evaluation(folder, rows, manifest, variants);
     write_text(folder / "manifest.json", manifest.dump(1));
 }

@@ -308,23 +308,26 @@ TEST_F(Report, IsOneSmallFileThatNeedsNothingElse) {
 }
 
 TEST_F(Report, DoesWithoutTimesAndWithOneShot) {
-    std::filesystem::remove(folder / "times.csv");
+    write_rows(folder / "time_summary.csv", std::vector<TimeSummary>());
     auto manifest = read_json(folder / "manifest.json");
     for (const char* key : {"clock", "provenance", "shots", "images", "variants"}) manifest.erase(key);
     write_text(folder / "manifest.json", manifest.dump());
     EXPECT_EQ(message(), "");
-    EXPECT_EQ(read_text(folder / "time_summary.csv"),
-              "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,disturbed_share\n");
 }
 
 TEST_F(Report, NamesTheFileThatIsMissingOrBroken) {
-    const std::string results = read_text(folder / "results.csv"), manifest = read_text(folder / "manifest.json");
+    const std::string summary = read_text(folder / "summary.csv"), manifest = read_text(folder / "manifest.json");
     const auto after = [&](const char* file, const std::string& content) {
         write_text(folder / file, content);
         return message();
     };
-    EXPECT_NE(after("results.csv", results.substr(0, results.size() - 5)).find("results.csv:"), std::string::npos);
-    write_text(folder / "results.csv", results);
+    EXPECT_NE(after("summary.csv", summary + "s,").find("summary.csv:"), std::string::npos);
+    std::string older = summary;
+    older.replace(older.find("standing"), 8, "position");
+    const std::string of_older = after("summary.csv", older);
+    EXPECT_NE(of_older.find("summary.csv has no column 'standing'; "), std::string::npos) << of_older;
+    EXPECT_NE(of_older.find("Run `ssrlab run`"), std::string::npos) << of_older;
+    write_text(folder / "summary.csv", summary);
     EXPECT_NE(after("manifest.json", "[1, 2]").find("manifest.json must be a JSON object"), std::string::npos);
     EXPECT_NE(after("manifest.json", manifest.substr(0, 100)).find("manifest.json:"), std::string::npos);
     EXPECT_NE(after("manifest.json", R"({"images": [{"shot": 1}]})").find("images[0]: 'shot' must be a text"),
@@ -336,7 +339,7 @@ TEST_F(Report, NamesTheFileThatIsMissingOrBroken) {
     EXPECT_NE(message().find("reference_image.exr"), std::string::npos);
     std::filesystem::remove(image);
     EXPECT_NE(message().find("reference_image.exr: no such file"), std::string::npos);
-    std::filesystem::remove(folder / "results.csv");
-    EXPECT_NE(message().find("results.csv"), std::string::npos);
+    std::filesystem::remove(folder / "summary.csv");
+    EXPECT_NE(message().find("summary.csv is missing"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
 }

@@ -57,7 +57,7 @@ def test_answers(page, shots):
         labels = "return [...document.querySelectorAll('#answer-pictures canvas')].map(c => c.getAttribute('aria-label'))"
         WebDriverWait(page, 20).until(lambda p: all(shots[shot] in label for label in p.execute_script(labels)))
     titles = texts(page, "#answer-pictures b")
-    equal(titles, ["truth", "best: mcguire_dda · stride=1", "base line: mcguire_dda · stride=4"], "pictures")
+    equal(titles, ["truth", "best: mcguire_dda · stride=1", "baseline: mcguire_dda · stride=4"], "pictures")
     colours = page.execute_script(
         """return [...document.querySelectorAll('#answer-pictures canvas')].map(c =>
         c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => (a * 31 + b) % 1e9))"""

@@ -5,7 +5,7 @@ const answerChoice = {
 };
 
 const answerOf = shot => report.answers.find(a => a.shot === shot);
-/// Label of what the answer calls the base line; undefined where it has none.
+/// Label of what the answer calls the baseline; undefined where it has none.
 const baselineLabel = shot => {
     const baseline = answerOf(shot)?.baseline;
     return baseline ? pointLabel(baseline) : undefined;
@@ -17,7 +17,7 @@ function showShotBelow(shot) {
     if (viewer.shot !== null && report.images.some(i => i.shot === shot)) chooseShot(shot);
 }
 
-/// The viewer at that shot with the truth, this point and the best, or the base line beside the best itself.
+/// The viewer at that shot with the truth, this point and the best, or the baseline beside the best itself.
 function openPoint(row) {
     const best = answerOf(row.shot)?.best, isOther = best && pointLabel(best) !== pointLabel(row);
     const points = unique([pointLabel(row), isOther ? pointLabel(best) : baselineLabel(row.shot)].filter(Boolean));
@@ -59,7 +59,7 @@ function drawAnswers(shots) {
                 shots.length <= mostTwoLines ? 2 :
                                                1);
     const perceptual = answerOf(answerChoice.shot)?.perceptual_sentence;
-    at("answer-note").replaceChildren(perceptual ?? "", " ", disagreementText(answerChoice.shot) ?? "");
+    at("answer-note").replaceChildren(perceptual ?? "");
     drawAnswerCharts();
     return drawAnswerPictures();
 }
@@ -85,30 +85,6 @@ const headlineMetrics = () => {
     return [first, otherMetric(first, report.errors)].filter(Boolean).map(key => key.split("|")[0]);
 };
 
-const isApart = (a, b) => a.low !== null && b.low !== null && (a.high < b.low || b.high < a.low);
-
-/// Pairs that both errors tell apart, in opposite orders.
-function disagreements(shot) {
-    const [physical, perceptual] = headlineMetrics().map(metric => headlineRows(shot, metric).filter(mayShow));
-    if (!perceptual) return [];
-    const other = new Map(perceptual.map(r => [pointKey(r), r]));
-    return physical.flatMap((a, i) => physical.slice(i + 1).map(b => [a, b])).filter(([a, b]) => {
-        const [c, d] = [a, b].map(r => other.get(pointKey(r)));
-        return c && d && isApart(a, b) && isApart(c, d) && (a.value < b.value) !== (c.value < d.value);
-    });
-}
-
-function disagreementText(shot) {
-    const pairs = disagreements(shot), [physical, perceptual] = headlineMetrics();
-    if (!pairs.length) return null;
-    const names = pair => [...pair].sort((a, b) => a.value - b.value).map(pointLabel).join(" before ");
-    const text = `${physical} and ${perceptual} disagree about ${pairs.length} ${
-        pairs.length === 1 ? "pair" : "pairs"} of points`;
-    return h(
-        "span", {title: `By ${physical}, and the other way by ${perceptual}:\n${pairs.map(names).join("\n")}`},
-        `${text}, such as ${names(pairs[0])} by ${physical} alone.`);
-}
-
 function drawAnswerCharts() {
     const {shot} = answerChoice, metrics = headlineMetrics();
     const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), {width: 420, height: 320}));
@@ -118,7 +94,7 @@ function drawAnswerCharts() {
     at("answer-legend").replaceChildren(pointLegend(headlineRows(shot, metrics[0])));
 }
 
-/// [{title, image, row}]: truth, best and base line.
+/// [{title, image, row}]: truth, best and baseline.
 function answerPictures(shot) {
     const ofShot = report.images.map((image, index) => ({...image, index})).filter(i => i.shot === shot);
     const frames = ofShot.map(i => Number(i.frame ?? 0)),
@@ -134,8 +110,8 @@ function answerPictures(shot) {
     };
     return [
         {title: "truth", text: target, image: own.find(i => i.target === target && i.kind === "reference")},
-        of(answer?.tied?.length ? "best, not told from others" : "best", answer?.best),
-        of("base line", answer?.baseline)
+        of(answer?.tied?.length ? "best, not distinguishable from others" : "best", answer?.best),
+        of("baseline", answer?.baseline)
     ].filter(Boolean);
 }
 

@@ -30,7 +30,6 @@ const matrixColumns = groups => groups.flatMap(rows => unique(rows.map(r => r.sh
         metric: rows[0].metric,
         isFirst: i === 0,
         reference: own.length ? columnReference(own) : null,
-        best: clearlyBest(own),
         byPoint: new Map(rows.filter(r => r.shot === shot).map(r => [pointKey(r), r]))
     };
 }));
@@ -94,7 +93,7 @@ function matrixCaption(columns) {
         hasTimes ? " Times are in milliseconds, coloured against the least of a technique." : ""}`;
 }
 
-function matrixButton(row, ratio, {reference, best}) {
+function matrixButton(row, ratio, {reference}) {
     const text = row.value === null  ? "–" :
         ratio === null || row.isTime ? number(row.value, 3) :
                                        number(ratio, ratio < 10 ? 3 : 2);
@@ -102,14 +101,14 @@ function matrixButton(row, ratio, {reference, best}) {
     const button =
         h("button",
           {"data-value": row.value,
-           class: row.isTime ? "time" :
-               row === best  ? "best" :
-                               null},
+           class: row.isTime               ? "time" :
+               row.standing === "best" ? "best" :
+                                         null},
           text, mistakes.length ? " !" : "");
     withTip(button, [
         `${row.shot}\n${pointText(row)}`, row.isTime ? `${number(row.value)} ms ${interval(row)}` : rowText(row),
         ratio === null || reference === row ? null : `${number(ratio, 3)} times that of ${pointLabel(reference)}`,
-        row === best ? "best of its shot, no other interval touches its own" : null, row.isTime ? null : shortWhy(row),
+        row.isTime ? null : standingText(row), row.isTime ? null : shortWhy(row),
         ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
     ].filter(Boolean).join("\n"));
     button.removeAttribute("role");  // it has its own
@@ -117,6 +116,12 @@ function matrixButton(row, ratio, {reference, best}) {
     button.addEventListener("click", () => openPoint(row));
     return button;
 }
+
+const standingText = row => ({
+    best: "significantly the best of its shot",
+    tied: "not distinguishable from the best of its shot",
+    behind: "significantly worse than the best of its shot"
+})[row.standing] ?? "not ranked";
 
 const timeColumn = "time";
 
@@ -128,6 +133,7 @@ const timeRows = rows => rows.flatMap(row => {
         metric: timeColumn,
         isTime: true,
         isRanked: false,
+        standing: "",
         value: time.value,
         low: time.low,
         high: time.high

@@ -52,28 +52,8 @@ function badness(metric, value) {
     }
 }
 
-/// The interval of badness() over [low, high].
-function badnessInterval(row) {
-    if (row.low === null) return null;
-    const ends = [badness(row.metric, row.low), badness(row.metric, row.high)];
-    if (ends[0] === null) return null;
-    const perfect = {near_zero: 0, near_one: 1}[better(row.metric)];
-    const least = perfect !== undefined && row.low <= perfect && perfect <= row.high ? 0 : Math.min(...ends);
-    return [least, Math.max(...ends)];
-}
-
-/// Of the rows whose intervals hold all that is random, the one that is best in its shot with an interval that no other
-/// one touches, or null. The others take no part.
-function clearlyBest(all) {
-    const rows = all.filter(r => r.isRanked);
-    const intervals = rows.map(badnessInterval);
-    if (rows.length < 2 || intervals.includes(null)) return null;
-    const first = intervals.reduce((b, x, i) => x[1] < intervals[b][1] ? i : b, 0);
-    return intervals.every((x, i) => i === first || x[0] > intervals[first][1]) ? rows[first] : null;
-}
-
-const clearlyBestRows = rows =>
-    new Set(unique(rows.map(r => r.shot)).map(shot => clearlyBest(rows.filter(r => r.shot === shot))));
+/// The rows that are significantly the best of their shot, as ssrlab decided (evaluation/standings.h).
+const bestRows = rows => new Set(rows.filter(r => r.standing === "best"));
 
 /// The row of `none` over the same frames.
 const noneLike = (row, rows) => [...rows, ...report.frames].find(
@@ -135,7 +115,7 @@ function showSummary() {
     const chosen = filteredRows(chosenRows()), ladder = ladderRows(choice.metric),
           rows = besideTheirShots(chosen, ladder);
     const others = [...otherRows(), ...ladderRows(otherMetric(choice.metric, report.errors))];
-    const best = clearlyBestRows(chosen), otherBest = clearlyBestRows(otherRows());
+    const best = bestRows(chosen), otherBest = bestRows(otherRows());
     const name = choice.metric.split("|")[0];
     const columns = [
         {name: "Shot"}, {name: "Variant"}, {name: "Point"}, {name: name, number: true},

@@ -9,7 +9,6 @@ const effectChoice = {
     scale: "all"
 };
 const hiddenShots = new Set();  // by the legend
-const significant = 0.05;       // of p after Holm's correction
 const errorParts = {
     bias_squared: "bias²",
     variance: "variance"
@@ -145,10 +144,10 @@ function familyText(rows) {
     if (rows.some(e => e.isPrimary))
         return `Primary: ${metric} of ${target}, ${
                    mask} pixels, all points and shots, is what this study was made to ` +
-            "compare. Filled marks differ from 1 after Holm's correction over all of these.";
+            "compare. Filled marks are significant. Verdicts, p and intervals are adjusted for all of these (Holm).";
     return "Exploratory: not among the comparisons that this study was made for" +
         (metric ? ` (${metric} of ${target}, ${mask} pixels)` : "") +
-        ". Each interval and p holds by itself; among many some leave out 1 by chance.";
+        ". Verdicts, p and intervals are adjusted for all effects on this error (Holm).";
 }
 
 const otherColumns = (others, text) => others.map(other => ({name: `${other}: ${text}`, number: true}));
@@ -156,10 +155,9 @@ const pooledColumns = others =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio, one mark per shot"},
      {name: "Mean ratio (range over shots)", number: true}, ...otherColumns(others, "mean ratio"),
      {name: "Helps", number: true}, {name: "Harms", number: true}, {name: "Shots", number: true}];
-const pName = () => effectsShown().some(e => isChosen(e) && e.isPrimary) ? "p (Holm)" : "p, exploratory";
 const effectColumns = others =>
     [{name: `Change of ${effectChoice.against}`}, {name: "Ratio"}, {name: "Ratio [95 %]", number: true},
-     ...otherColumns(others, "ratio"), {name: pName(), number: true}, {name: "Seeds", number: true}, {name: "Result"}];
+     ...otherColumns(others, "ratio"), {name: "p (Holm)", number: true}, {name: "Seeds", number: true}, {name: "Result"}];
 
 /// All ratios fit unless a narrower scale is asked for; an interval of few seeds may reach far beyond them and is cut.
 function effectScale(rows, hasIntervals) {
@@ -181,8 +179,7 @@ function whyNotRepeatable(e) {
     return reason(e.variant, e.point) || reason(e.againstVariant, e.againstPoint) || null;
 }
 
-/// Of the primary family alone: among many exploratory ones some p are small by chance.
-const isSignificant = e => e.isPrimary && e.holm !== null && e.holm < significant && !whyNotRepeatable(e);
+const isSignificant = e => e.verdict === "less" || e.verdict === "more";
 
 /// The times of the points that are compared, as ratios like the errors'.
 const totalTimeEffects = rows => report.timeEffects.filter(
@@ -193,16 +190,13 @@ function repeatNote(rows) {
     return reasons.length ? h("small", {class: "not-repeatable"}, "no interval: " + reasons.join("; ")) : null;
 }
 
-const shownP = e => e.isPrimary ? e.holm : e.p;
-const pText = e => e.isPrimary ? `p (Holm) ${number(e.holm, 2)}` : `p ${number(e.p, 2)}, exploratory`;
-
 function effectMark(e, shots, isAll) {
     return {
         style: seriesStyle(isAll ? shots.indexOf(e.shot) : 0),
         row: isAll ? {value: e.value} : e,
         isHollow: !isSignificant(e),
         tip: `${e.shot}\n${e.point}\n${e.metric} × ${number(e.value)} ${interval(e)}\n${
-            whyNotRepeatable(e) ?? `${pText(e)}, ${e.seeds} seeds`}`
+            whyNotRepeatable(e) ?? `p (Holm) ${number(e.holm, 2)}, ${e.seeds} seeds`}`
     };
 }
 
@@ -218,12 +212,12 @@ function meanCell(rows) {
 
 /// How many shots the change helps or harms beyond chance.
 function pooledCells(rows, others) {
-    const isPrimary = rows.some(e => e.isPrimary), count = f => rows.filter(f).length;
-    const countCell = n => isPrimary ? cell(n, n ? h("b", {}, String(n)) : "0") : cell(null, "–");
-    const told = count(e => e.value > 0);
+    const count = f => rows.filter(f).length;
+    const countCell = n => cell(n, n ? h("b", {}, String(n)) : "0");
+    const measured = count(e => e.value > 0);
     return [
-        meanCell(rows), ...others.map(meanCell), countCell(count(e => isSignificant(e) && e.value < 1)),
-        countCell(count(e => isSignificant(e) && e.value > 1)), cell(told, String(told))
+        meanCell(rows), ...others.map(meanCell), countCell(count(e => e.verdict === "less")),
+        countCell(count(e => e.verdict === "more")), cell(measured, String(measured))
     ];
 }
 
@@ -238,22 +232,16 @@ function whyNoRatio(e) {
                     `${errorParts[e.metric] ?? "an error"} is not above 0`;
 }
 
-const exploratoryText = e => "exploratory: the interval " +
-    (e.high < 1    ? "lies below 1" :
-         e.low > 1 ? "lies above 1" :
-                     "holds 1");
-
 function effectCells(e, others) {
     const result = e.value === null                              ? whyNoRatio(e) :
         whyNotRepeatable(e)                                      ? "not repeatable: no interval" :
         e.low === e.value && e.high === e.value && e.value === 1 ? "changes nothing" :
-        !e.isPrimary && e.low !== null                           ? exploratoryText(e) :
-        !isSignificant(e)                                        ? "not told from chance" :
-        e.value < 1                                              ? `${number(100 * (1 - e.value), 2)} % less error` :
+        !isSignificant(e)                                        ? "not distinguishable from 1" :
+        e.verdict === "less"                                     ? `${number(100 * (1 - e.value), 2)} % less error` :
                                                                    `${number(100 * (e.value - 1), 2)} % more error`;
     const ratioCell = r => cell(r.value, number(r.value), " ", h("small", {}, interval(r)));
     return [
-        ratioCell(e), ...others.map(other => other ? ratioCell(other) : "–"), cell(shownP(e), number(shownP(e), 2)),
+        ratioCell(e), ...others.map(other => other ? ratioCell(other) : "–"), cell(e.holm, number(e.holm, 2)),
         cell(e.seeds, String(e.seeds)), isSignificant(e) ? h("b", {}, result) : result
     ];
 }

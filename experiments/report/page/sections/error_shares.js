@@ -67,14 +67,14 @@ function shortWhy(row) {
 
 /// How a point compares with the least error of its shot, and where it errs more.
 function comparisonText({row, by, error}) {
-    if (!error || isOneSeed(error)) return "";
+    if (!error?.standing) return "";
     const {metric} = sharedError;
-    const others = errorGroups.get(row.shot).filter(g => g.error && !isOneSeed(g.error) && mayShow(g.row));
+    const others = errorGroups.get(row.shot).filter(g => g.error?.standing && mayShow(g.row));
     const least = others.reduce((a, b) => b.error.value < a.error.value ? b : a);
     const own = `Its ${metric}, ${number(error.value, 3)},`,
           best = `the least (${pointLabel(least.row)}, ${number(least.error.value, 3)})`;
     if (least.row === row) return `${own} is the least here. `;
-    if (!isApart(error, least.error)) return `${own} is not told from ${best}. `;
+    if (error.standing !== "behind") return `${own} is not distinguishable from ${best}. `;
     const part = (g, key) => (g.by.get(key)?.value ?? 0) * g.error.value;
     const [{key}] = rankedCauses(key => part({by, error}, key) - part(least, key));
     return `${own} is ${number(error.value / least.error.value, 3)} times ${best}; it errs more above all ${

@@ -1,7 +1,7 @@
 #pragma once
 #include "experiments/results/effects.h"
-#include "experiments/results/summary.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -21,3 +21,9 @@ PointSet points_without_seeds(const nlohmann::json& manifest);
 
 /// Points whose results differ from run to run.
 PointSet points_not_repeatable(const nlohmann::json& manifest);
+
+/// Points that use scene data, which no engine has (exact_scene): they are never ranked.
+PointSet points_using_scene_data(const nlohmann::json& manifest);
+
+/// The names that the study gave its points, by (variant, point).
+std::map<std::pair<std::string, std::string>, std::string> point_labels(const nlohmann::json& manifest);

@@ -1,0 +1,52 @@
+#include "experiments/evaluation/evaluation.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/evaluation/standings.h"
+#include "experiments/results/columns.h"
+#include "experiments/results/study_points.h"
+
+namespace {
+
+template <class Row>
+void require_table(const std::filesystem::path& file, const std::string& writer) {
+    const std::string again =
+        "; " + writer +
+        ". Run `ssrlab run` or `ssrlab merge` again: finished cells are kept, and only the tables are made";
+    if (!std::filesystem::exists(file)) fail(file.string(), " is missing", again);
+    const std::string text = read_text(file), header = "," + text.substr(0, text.find_first_of("\r\n")) + ",";
+    for_each_column<Row>([&](const auto& column) {
+        if (header.find("," + std::string(column.name) + ",") == std::string::npos)
+            fail(file.string(), " has no column '", column.name, "'", again);
+    });
+}
+
+std::string writer_of(const nlohmann::json& manifest) {
+    const nlohmann::json maker = manifest.value("written", nlohmann::json::object()).value("ssrlab", nlohmann::json());
+    const std::string commit = maker.is_object() && maker.contains("commit") && maker["commit"].is_string()
+                                   ? maker["commit"].get<std::string>()
+                                   : "";
+    return commit.empty() ? "the manifest does not say which version of ssrlab wrote the folder"
+                          : "ssrlab of commit " + commit + " wrote the folder";
+}
+
+}  // namespace
+
+void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows, const nlohmann::json& manifest,
+                      const std::vector<VariantConfig>& variants) {
+    const PointSet not_repeatable = points_not_repeatable(manifest);
+    std::vector<MetricSummary> errors = summarise(rows.results, points_without_seeds(manifest));
+    // No interval holds how they scatter from run to run.
+    for (MetricSummary& e : errors)
+        if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
+    set_standings(errors, paired_errors(rows.results, variants, not_repeatable, rows.reference_noise),
+                  points_using_scene_data(manifest));
+    write_rows(folder / "summary.csv", errors);
+    write_rows(folder / "time_summary.csv", summarise(rows.times));
+}
+
+void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest) {
+    const std::string writer = writer_of(manifest);
+    require_table<MetricSummary>(folder / "summary.csv", writer);
+    require_table<TimeSummary>(folder / "time_summary.csv", writer);
+}

@@ -1,0 +1,16 @@
+#pragma once
+#include "experiments/results/results.h"
+#include "experiments/study/config/config.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+/// Writes what a results folder's numbers say, decided once for report, tables, figures and commands: summary.csv
+/// (means, intervals, standings) and time_summary.csv. `manifest` is the folder's; of points that it does not name it
+/// is taken that they depend on seeds and that runs repeat them.
+void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows, const nlohmann::json& manifest,
+                      const std::vector<VariantConfig>& variants);
+
+/// Fails with what to run where the folder lacks these files or another version of ssrlab wrote them, so that no
+/// verdict is taken from columns that are missing. `manifest` tells which version it was.
+void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest);
