@@ -247,6 +247,7 @@ def _about(selection, filled):
         "over": over,
         "over_count": count,
         "clocks": sorted({_clock(selection, r) for r in filled if r.get("clock")}),
+        "has_adjusted_intervals": table.of == "effects",
     }
 
 

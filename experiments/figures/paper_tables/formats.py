@@ -85,7 +85,10 @@ def notes(table, cells):
     if share:
         found.append(f"{DISTURBED}: other programs disturbed some of its frames, {100 * share:.0f} % at most")
     if any(c.is_significant for c in cells):
-        found.append("bold: significantly different from 1; intervals are adjusted for all effects on the same error (Holm)")
+        if table.get("has_adjusted_intervals"):
+            found.append("bold: significantly different from 1; intervals are adjusted for all effects on the same error (Holm)")
+        else:  # a summary of before intervals were
+            found.append("bold: significantly different from 1, adjusted for all effects on the same error (Holm), which the intervals are not")
     if any(c.standing == BEST for c in cells):
         found.append("bold: significantly the best of all points of its shot")
     if any(c.standing == TIED for c in cells):

@@ -12,7 +12,7 @@ from paper_tables.cell import Cell
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (configs/comparison.json) takes
 MOST_NAMED = 8  # shots below a table that does not show all of the study's; the summary's head names any number
 COLUMNS = [f.name for f in fields(Cell)]
-ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks")  # a table; see cells_of()
+ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks", "has_adjusted_intervals")  # a table; see cells_of()
 MARK = "# "
 
 
@@ -101,7 +101,7 @@ def read(file):
         raise ResultsError(f"cannot read {file}: {e.strerror}") from e
     head = [line[len(MARK) :].rstrip("\n").split(": ", 1) for line in lines if line.startswith(MARK)]
     try:
-        tables = {t["name"]: ({key: t[key] for key in ABOUT}, []) for t in (json.loads(value) for key, value in head if key == "table")}
+        tables = {t["name"]: ({key: t.get(key) if key == "has_adjusted_intervals" else t[key] for key in ABOUT}, []) for t in (json.loads(value) for key, value in head if key == "table")}
         for row in csv.DictReader(line for line in lines if not line.startswith(MARK)):
             tables[row["table"]][1].append(_cell(row))
         return {key: json.loads(value) for key, value in head if key != "table"}, tables

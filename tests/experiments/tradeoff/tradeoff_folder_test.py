@@ -58,8 +58,8 @@ def write_study(folder):
                 times.append(own | {"variant": "", "point": "", "stage": "gbuffer/draw", "frame": frame, "milliseconds": 1000, "clock": "host_fence"})
             counts += [own | {"stage": stage, "quantity": "fetches", "value": 50 * ms} for stage in ("march", "shade")]
         compared = {"shot": a_shot, "variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "target": "specular"}
-        effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51})
-    columns = ["shot", "frame", "variant", "point", "seed", "target", "metric", "mask", "value", "low", "high", "ranked", "speaks", "floor"]
+        effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51, "low_holm": 0.48, "high_holm": 0.52, "verdict": "less"})
+    columns = ["shot", "frame", "variant", "point", "seed", "target", "metric", "mask", "value", "low", "high", "ranked", "speaks", "floor", "standing"]
     write_csv(folder, "summary.csv", columns, errors)
     write_csv(folder, "results.csv", columns, errors)
     write_csv(folder, "times.csv", ["shot", "variant", "point", "seed", "stage", "frame", "milliseconds", "clock", "disturbed"], times)

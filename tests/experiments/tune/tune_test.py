@@ -90,13 +90,13 @@ class FakeSsrlab:
                     ratio = {"against": "baseline", "stage": "total", "ratio": operations / base_operations}
                     time_effects += [key | ratio] if p is not points[0] else []
                 row = {"against": "baseline", "target": "specular", "metric": "mse", "mask": "all", "ratio": error / base}
-                effects.append(key | row | {"low": error / base * 0.99, "high": error / base * 1.01})
+                effects.append(key | row | {"low": error / base * 0.99, "high": error / base * 1.01, "low_holm": error / base * 0.98, "high_holm": error / base * 1.02, "verdict": "not distinguishable"})
         shots = [{"shot": s["scene"], "scene": s["scene"], "references": [{"hash": s["scene"]}]} for s in study["shots"]]
         with open(os.path.join(out, "manifest.json"), "w", encoding="utf-8") as stream:
             json.dump({"variants": points, "shots": shots}, stream)
         for name, rows in (("results", results), ("costs", costs), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
             with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
-                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "speaks"])
+                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "speaks", "standing"])
                 writer.writeheader()
                 writer.writerows(rows)
 
