@@ -150,14 +150,18 @@ int parse_and_run(int argc, char** argv) {
     figures_command_.callback([&] { status = figures_command(figures); });
 
     DiffOptions diff;
-    CLI::App& diff_command_ = *app.add_subcommand(
-        "diff",
-        "Say which numbers changed beyond their intervals between two results folders (exit code 1 if any did)");
+    CLI::App& diff_command_ = *app.add_subcommand("diff",
+                                                  "Say which numbers changed between two results folders, beyond what "
+                                                  "chance explains (exit code 1 if any did; of two "
+                                                  "runs of one program, in at most 5 % of cases)");
     diff_command_.add_option("old", diff.before, "A folder that `ssrlab run` filled")->required()->type_name("OLD");
     diff_command_.add_option("new", diff.after, "Another, of the same shots and points")->required()->type_name("NEW");
-    diff_command_.add_flag("--times", diff.judges_times, "Changed times count, too");
+    diff_command_.add_flag("--times", diff.judges_times,
+                           "Times count, too, and are judged as one family with the errors");
     diff_command_.add_flag("--all", diff.shows_all, "Name all changes, not only the largest");
-    diff_command_.add_option("--csv", diff.csv, "Also write all rows that were compared")->type_name("FILE.csv");
+    diff_command_
+        .add_option("--csv", diff.csv, "Also write all numbers that were compared, with p-values and verdicts")
+        ->type_name("FILE.csv");
     diff_command_.callback([&] { status = diff_command(diff); });
 
     TablesOptions tables;

@@ -55,7 +55,7 @@ struct DiffOptions {
     std::filesystem::path before, after, csv;
     bool judges_times = false, shows_all = false;
 };
-int diff_command(const DiffOptions& options);  ///< the exit code: 0, 1 if a number changed, 2 or 3
+int diff_command(const DiffOptions& options);  ///< the exit code: 0, or 1 if a number changed
 
 struct TablesOptions {
     std::filesystem::path results, out;

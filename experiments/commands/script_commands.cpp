@@ -1,4 +1,4 @@
-// The commands that are Python scripts: figures, diff, tables, tradeoff, tune.
+// The commands that are Python scripts: figures, tables, tradeoff, tune.
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/commands/child_process.h"
@@ -11,13 +11,12 @@
 
 namespace {
 
-/// Runs a script of experiments/: 0 done, 1 if the script may say no, 2 a mistake of the user, else a fault of the
-/// machine (3).
-int run_script(const std::string& name, const std::vector<std::string>& arguments, bool may_say_no = false) {
+/// Runs a script of experiments/: 0 done, 2 a mistake of the user, else a fault of the machine (3).
+int run_script(const std::string& name, const std::vector<std::string>& arguments) {
     std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/" + name};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const int code = run_program(command);
-    return code == 0 || code == 2 || (code == 1 && may_say_no) ? code : 3;
+    return code == 0 || code == 2 ? code : 3;
 }
 
 void check_results(const std::filesystem::path& results) {
@@ -38,16 +37,6 @@ int figures_command(const FiguresOptions& options) {
 
 int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure) {
     return run_script("figures/stability_figure.py", {"--out=" + figure.string(), "--", csv.string()});
-}
-
-int diff_command(const DiffOptions& options) {
-    check_results(options.before), check_results(options.after);
-    std::vector<std::string> arguments;
-    if (options.judges_times) arguments.push_back("--times");
-    if (options.shows_all) arguments.push_back("--all");
-    if (!options.csv.empty()) arguments.push_back("--csv=" + options.csv.string());
-    arguments.insert(arguments.end(), {"--", options.before.string(), options.after.string()});
-    return run_script("study/diff.py", arguments, /*may_say_no=*/true);
 }
 
 int tables_command(const TablesOptions& options) {

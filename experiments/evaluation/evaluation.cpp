@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/results/columns.h"
+#include "experiments/results/manifest.h"
 #include "experiments/results/study_points.h"
 
 namespace {
@@ -42,7 +43,10 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
     set_standings(errors, paired_errors(rows.results, variants, not_repeatable, rows.reference_noise),
                   points_using_scene_data(manifest));
     write_rows(folder / "summary.csv", errors);
-    write_rows(folder / "time_summary.csv", summarise(rows.times));
+    std::map<std::string, double> floors;
+    for (const TimeRow& t : rows.times)
+        if (const auto floor = aa_floor(manifest, t.shot)) floors[t.shot] = *floor;
+    write_rows(folder / "time_summary.csv", summarise(rows.times, floors));
 }
 
 void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest) {

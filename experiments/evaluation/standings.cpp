@@ -71,7 +71,7 @@ void rank(const std::vector<MetricSummary*>& points, const PairedErrors& paired)
 }  // namespace
 
 double p_by_intervals(const MetricSummary& a, const MetricSummary& b) {
-    const Better better = *direction_of(a.metric);
+    const Better better = direction_of(a.metric).value_or(Better::lower);
     const double difference = shortfall(better, *a.value) - shortfall(better, *b.value);
     if (difference == 0) return 1;
     const bool is_a_worse = difference > 0;

@@ -212,20 +212,23 @@ void add_proof(nlohmann::json& proofs, const nlohmann::json& entry) {
     proofs.back()["shots"] = {entry["shot"]};
 }
 
-/// The largest difference of two copies of a point.
-double floor_of(const nlohmann::json& clock) {
+/// The 95 % quantile of the difference between two copies of one point: that of a normal distribution with the median
+/// of the pairs' differences. It grows neither with the number of pairs, as their largest does, nor with a single one
+/// that was disturbed.
+double floor_of(const nlohmann::json& pairs, const nlohmann::json& proofs) {
+    constexpr double normal_median = 0.67449, normal_quantile = 1.95996;  // of |x|, x of variance 1: 50 %, 95 %
     double empty_submit_ms = 0;
-    for (const nlohmann::json& proof : clock["proofs"])
+    for (const nlohmann::json& proof : proofs)
         empty_submit_ms = std::max(empty_submit_ms, proof["empty_submit_ms"].get<double>());
     // What takes hardly longer than submitting nothing is as noisy as that: it counts only where there is nothing else.
     const auto is_long = [&](const nlohmann::json& pair) {
         return pair["first_ms"].get<double>() > 10 * empty_submit_ms;
     };
-    const bool has_long = std::ranges::any_of(clock["aa_pairs"], is_long);
-    double floor = 0;
-    for (const nlohmann::json& pair : clock["aa_pairs"])
-        if (is_long(pair) || !has_long) floor = std::max(floor, pair["floor"].get<double>());
-    return floor;
+    const bool has_long = std::ranges::any_of(pairs, is_long);
+    std::vector<double> differences;
+    for (const nlohmann::json& pair : pairs)
+        if (is_long(pair) || !has_long) differences.push_back(pair["floor"]);
+    return median_interval(differences).median * normal_quantile / normal_median;
 }
 
 }  // namespace
@@ -348,7 +351,8 @@ void add_timing(nlohmann::json& manifest, const nlohmann::json& entry) {
     for (const nlohmann::json& pair : entry["aa_pairs"]) clock["aa_pairs"].push_back(pair);
     for (const nlohmann::json& saving : entry.value("savings", nlohmann::json::array()))
         clock["savings"].push_back(saving);
-    if (clock.contains("aa_pairs")) clock["aa_floor"] = floor_of(clock);
+    if (!entry["aa_pairs"].empty())
+        clock["aa_floors"][entry["shot"].get<std::string>()] = floor_of(entry["aa_pairs"], clock["proofs"]);
 
     for (nlohmann::json& shot : manifest["shots"])
         for (nlohmann::json& part : shot["left_out"])

@@ -80,6 +80,6 @@ double disturbed_frames(const nlohmann::json& timing_entry);
 /// Whether another timing of the same shot might be less disturbed.
 bool is_disturbed(const nlohmann::json& timing_entry);
 
-/// Puts what timing_entry() gave into the manifest: clock.proofs, clock.load, clock.aa_pairs, clock.aa_floor,
+/// Puts what timing_entry() gave into the manifest: clock.proofs, clock.load, clock.aa_pairs, clock.aa_floors,
 /// clock.savings, and saved_ms of the shot's left_out.
 void add_timing(nlohmann::json& manifest, const nlohmann::json& entry);

@@ -1,6 +1,7 @@
 #include "experiments/report/answers.h"
 
 #include "experiments/evaluation/standings.h"
+#include "experiments/results/manifest.h"
 #include "experiments/results/interval.h"
 #include "experiments/results/study_points.h"
 #include "metrics/temporal.h"
@@ -122,7 +123,7 @@ struct ClockRecord {
 ClockRecord clock_of(const json& manifest, const std::string& shot) {
     const json clock = manifest.value("clock", json::object());
     ClockRecord found;
-    if (clock.contains("aa_floor") && clock["aa_floor"].is_number()) found.floor = clock["aa_floor"];
+    found.floor = aa_floor(manifest, shot).value_or(0);
     for (const json& proof : clock.value("proofs", json::array()))
         if (std::ranges::count(proof.value("shots", json::array()), json(shot)) > 0)
             found.is_proven = proof.value("verdict", "") == "passed";

@@ -137,7 +137,7 @@ void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool h
                 "times of these shots are not proven: " +
                 shots_of(proof) + ".");
     }
-    if (!member(clock, "aa_floor").is_number())
+    if (member(clock, "aa_floors").empty())
         warnings.push_back("No A/A pair was measured: the noise floor of the times is not known.");
 }
 

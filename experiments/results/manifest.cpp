@@ -105,6 +105,13 @@ nlohmann::json metric_descriptions() {
     return all;
 }
 
+std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string& shot) {
+    const nlohmann::json::json_pointer place("/clock/aa_floors");
+    if (!manifest.contains(place) || !manifest[place].is_object()) return {};
+    const auto found = manifest[place].find(shot);
+    return found == manifest[place].end() || !found->is_number() ? std::nullopt : std::optional(found->get<double>());
+}
+
 nlohmann::json study_entry(const Config& config) {
     nlohmann::json warnings = nlohmann::json::array();
     if (std::ranges::any_of(config.shots, &ShotConfig::direct_lit))

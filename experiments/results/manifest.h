@@ -2,6 +2,8 @@
 #include "experiments/study/config/shot.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 // The parts of manifest.json, as experiments/RESULTS.md describes them.
 
@@ -11,6 +13,10 @@ nlohmann::json metric_descriptions();
 
 /// What holds for the whole study, before any cell is done.
 nlohmann::json study_entry(const Config& config);
+
+/// By how much two copies of one point may differ in time in a shot, relative to their mean; none where no point was
+/// timed twice.
+std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string& shot);
 
 /// All that can be said of a shot before anything of it is rendered.
 nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all);

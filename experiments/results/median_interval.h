@@ -1,9 +1,18 @@
 #pragma once
-#include <vector>
+#include <span>
 
-/// The median of the values and its distribution-free 95 % interval from order statistics (binomial with p = 1/2),
-/// which needs at least 6 values; with fewer the interval is the range.
+/// The median of values in order of time, and its 95 % interval from order statistics: the ranks
+/// n / 2 -+ 1.96 sqrt(f n) / 2 of a binomial distribution with p = 1/2, whose variance is f times that of independent
+/// signs, since what slows a machine down lasts for several rounds. f = 1 + 2 sum rho_k over the autocorrelations of
+/// the signs up to the first that is not above 0 (the initial positive sequence of Geyer 1992, "Practical Markov Chain
+/// Monte Carlo"), at least 2: of 15 rounds nothing better is known. The range where there are too few.
+///
+/// Coverage of the median over 400 rounds by windows of 15, 30 and 60 of them, all pairs of five points on lavapipe
+/// while 18 processes shared two cores: 98, 96 and 94 %; with f = 1 it is 93, 89 and 88 %, and a bootstrap over rounds
+/// of the ratio of medians covers 55 to 99 % of pairs, mostly with wider intervals.
 struct MedianInterval {
     double median = 0, low = 0, high = 0;
 };
-MedianInterval median_interval(std::vector<double> values);
+
+/// Fails with Error where there is no value.
+MedianInterval median_interval(std::span<const double> in_order_of_time);

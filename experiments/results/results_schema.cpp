@@ -75,6 +75,8 @@ const std::map<std::string, Meaning>& meanings() {
         {"median_ms", {"ms", "median time over the frames"}},
         {"low_ms", {"ms", "low end of its 95 % interval"}},
         {"high_ms", {"ms", "high end of its 95 % interval"}},
+        {"fits_from_ms", {"ms", "least budget that the time certainly fits into"}},
+        {"may_fit_from_ms", {"ms", "least budget that it may fit into"}},
         {"frames", {"", "how many frames were timed"}},
         {"clock", {"", "what took the time: host_fence or gpu_timestamp"}},
         {"foreign_load", {"", "share of the machine's CPU time that others took meanwhile"}},

@@ -124,7 +124,7 @@ std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const Poin
     return summaries;
 }
 
-std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
+std::vector<TimeSummary> summarise(std::span<const TimeRow> rows, const std::map<std::string, double>& floors) {
     std::vector<TimeSummary> summaries;
     const auto key = [](const TimeRow& t) { return std::tie(t.shot, t.variant, t.point, t.stage); };
     for (const auto& group : grouped(rows, key)) {
@@ -135,8 +135,11 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows) {
         const auto disturbed = std::ranges::count_if(group, [](const TimeRow* row) { return row->is_disturbed; });
         const TimeRow& first = *group.front();
         const MedianInterval m = median_interval(times);
+        const auto floor = floors.find(first.shot);
+        const double near = 1 + (floor == floors.end() ? 0.0 : floor->second);
         summaries.push_back({first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median,
-                             m.low, m.high, double(disturbed) / double(group.size())});
+                             m.low, m.high, std::max(m.high, m.median * near), std::min(m.low, m.median / near),
+                             double(disturbed) / double(group.size())});
     }
     return summaries;
 }

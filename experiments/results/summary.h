@@ -3,6 +3,7 @@
 #include "experiments/results/effects.h"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -57,11 +58,13 @@ struct MetricSummary {
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds = {});
 
 /// One stage of one variant point: the median over the measured frames of all seeds of its time in a frame, with its
-/// interval from order statistics.
+/// median_interval().
 struct TimeSummary {
     std::string shot, variant, point, stage, clock;
     size_t frames = 0;
-    double median = 0, low = 0, high = 0;  ///< ms; the range where there are fewer than 6 frames
+    double median = 0, low = 0, high = 0;  ///< ms
+    double fits_from = 0;                  ///< ms: the point fits into budgets from here on ...
+    double may_fit_from = 0;               ///< ... and not into those below this; in between it may fit
     double disturbed_share = 0;            ///< of the frames: other work took too much of the machine meanwhile
 
     static constexpr auto columns() {
@@ -69,8 +72,12 @@ struct TimeSummary {
                           Column{"point", &TimeSummary::point}, Column{"stage", &TimeSummary::stage},
                           Column{"clock", &TimeSummary::clock}, Column{"frames", &TimeSummary::frames},
                           Column{"median_ms", &TimeSummary::median}, Column{"low_ms", &TimeSummary::low},
-                          Column{"high_ms", &TimeSummary::high},
+                          Column{"high_ms", &TimeSummary::high}, Column{"fits_from_ms", &TimeSummary::fits_from},
+                          Column{"may_fit_from_ms", &TimeSummary::may_fit_from},
                           Column{"disturbed_share", &TimeSummary::disturbed_share});
     }
 };
-std::vector<TimeSummary> summarise(std::span<const TimeRow> rows);
+
+/// `floors`: shot to aa_floor(). A point fits into a budget if neither its interval's end nor the difference of two
+/// copies of one point exceeds it.
+std::vector<TimeSummary> summarise(std::span<const TimeRow> rows, const std::map<std::string, double>& floors = {});

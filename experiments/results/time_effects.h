@@ -24,20 +24,6 @@ struct TimeEffectRow {
     }
 };
 
-/// The median of paired values and its 95 % interval from order statistics: the ranks n / 2 -+ 1.96 sqrt(f n) / 2 of a
-/// binomial distribution with p = 1/2, whose variance is f times that of independent signs, since what slows a machine
-/// down lasts for several rounds. f = 1 + 2 sum rho_k over the autocorrelations of the signs up to the first that is
-/// not above 0 (the initial positive sequence of Geyer 1992, "Practical Markov Chain Monte Carlo"), at least 2: of 15
-/// rounds it cannot be told better. The range where there are too few.
-///
-/// Coverage of the median over 400 rounds by windows of 15, 30 and 60 of them, all pairs of five points on lavapipe
-/// while 18 processes shared two cores: 98, 96 and 94 %; with f = 1 it is 93, 89 and 88 %, and a bootstrap over rounds
-/// of the ratio of medians covers 55 to 99 % of pairs, mostly with wider intervals.
-struct PairedMedian {
-    double median = 0, low = 0, high = 0;
-};
-PairedMedian paired_median(std::span<const double> in_order_of_time);
-
 /// All comparisons_of() `variants` by times.csv's rows. The points took turns in each frame, so that the ratio of one
-/// frame's times is free of what the frame costs and of slow drifts.
+/// frame's times is free of what the frame costs and of slow drifts (median_interval() of the ratios).
 std::vector<TimeEffectRow> time_effects(std::span<const TimeRow> times, const std::vector<VariantConfig>& variants);

@@ -71,7 +71,8 @@ class World:
         error, low, high = students(seeds)
         made = points.Point(p.variant, p.point, p.label, error, max(low, 0.0), high, dict(enumerate(seeds)), True)
         made.rounds = {(0, i): float(ms) for i, ms in enumerate(rounds)}
-        made.cost = float(np.median(rounds))
+        cost, low, high = uncertainty.median_interval(rounds)
+        made.set_cost(cost, low, high, high, low, 0.0)
         return made
 
 
@@ -113,7 +114,7 @@ def study_curves(worlds, trials, tally):
                 drawn = world.trial(generator, count)
                 for p, true in zip(drawn, truth):
                     tally.add(("error", count), p.error_low if len(p.seeds) > 1 else None, p.error_high, true.error)
-                    tally.add(("median cost", count), *uncertainty.cost_interval(p), true.cost)
+                    tally.add(("median cost", count), p.cost_low, p.cost_high, true.cost)
                 for kind, draws in (
                     ("", uncertainty.ShotDraws(drawn, 400, trial)),
                     ("resampled: ", Resampled(drawn, generator)),

@@ -15,7 +15,7 @@ class ResultsError(Exception):
 
 ONE_SEED = "none: 1 seed"  # experiments/results/interval.h
 BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
-EVALUATED = {"summary.csv": ("speaks", "standing"), "effects.csv": ("verdict",)}  # columns that decide; older versions wrote none
+EVALUATED = {"summary.csv": ("speaks", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
 OVER_FRAMES = ("", "all")  # `frame` of a row that speaks for all measured frames of its shot
 
 

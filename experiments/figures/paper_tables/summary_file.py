@@ -12,8 +12,13 @@ from paper_tables.cell import Cell
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (configs/comparison.json) takes
 MOST_NAMED = 8  # shots below a table that does not show all of the study's; the summary's head names any number
 COLUMNS = [f.name for f in fields(Cell)]
-ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks", "has_adjusted_intervals")  # a table; see cells_of()
+ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks")  # a table; see cells_of()
+LATER = ("has_adjusted_intervals",)  # of a table, too; summaries of before have none
 MARK = "# "
+
+
+def _about(table):
+    return {key: table[key] for key in (*ABOUT, *(k for k in LATER if k in table))}
 
 
 def why_not_kept(manifest):
@@ -54,7 +59,7 @@ def write(file, origin_of_all, tables, cells):
     for key, value in origin_of_all.items():
         out.write(f"{MARK}{key}: {json.dumps(value)}\n")
     for table in tables:
-        out.write(f"{MARK}table: {json.dumps({key: table[key] for key in ABOUT})}\n")
+        out.write(f"{MARK}table: {json.dumps(_about(table))}\n")
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(COLUMNS)
     for cell in cells:
@@ -101,7 +106,7 @@ def read(file):
         raise ResultsError(f"cannot read {file}: {e.strerror}") from e
     head = [line[len(MARK) :].rstrip("\n").split(": ", 1) for line in lines if line.startswith(MARK)]
     try:
-        tables = {t["name"]: ({key: t.get(key) if key == "has_adjusted_intervals" else t[key] for key in ABOUT}, []) for t in (json.loads(value) for key, value in head if key == "table")}
+        tables = {t["name"]: (_about(t), []) for t in (json.loads(value) for key, value in head if key == "table")}
         for row in csv.DictReader(line for line in lines if not line.startswith(MARK)):
             tables[row["table"]][1].append(_cell(row))
         return {key: json.loads(value) for key, value in head if key != "table"}, tables

@@ -3,6 +3,9 @@
 
 const report = readData();
 
+/// By how much times of a shot must differ to differ at all; undefined where no point was timed twice.
+const aaFloor = shot => report.manifest.clock?.aa_floors?.[shot];
+
 function readData() {
     const raw = JSON.parse(document.getElementById("data").textContent);
     const camelCase = name => name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());

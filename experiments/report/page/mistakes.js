@@ -29,13 +29,13 @@ function mistakesOfError(row) {
 
 /// The same of the times of `row`'s point.
 function mistakesOfTime(row) {
-    const {aa_floor: floor, aa_pairs: pairs, load} = report.manifest.clock ?? {}, found = [];
-    const pair = list(pairs).find(p => isSamePoint(p, row));
+    const {aa_pairs: pairs, load} = report.manifest.clock ?? {}, floor = aaFloor(row.shot), found = [];
+    const pair = list(pairs).find(p => p.shot === row.shot && isSamePoint(p, row));
     if (pair && pair.floor > mostFloors * floor)
         found.push({
             text: `copies differ ${percent(pair.floor)}`,
             why: `two interleaved copies of this point took ${number(pair.first_ms, 3)} and ${
-                number(pair.second_ms, 3)} ms, far beyond the study's floor of ${percent(floor)}`
+                number(pair.second_ms, 3)} ms, far beyond the shot's floor of ${percent(floor)}`
         });
     const disturbed = list(load).find(l => l.shot === row.shot)?.disturbed_frames;
     if (disturbed)

@@ -24,12 +24,15 @@ function madeCell(row) {
     return h("span", {}, link, " ", h("small", {}, made.cell.finished ?? ""));
 }
 
+/// "2 % to 5 %", over the shots.
+const floorRange = floors => known(floors.length || null, unique([Math.min(...floors), Math.max(...floors)].map(percent)).join(" to "));
+
 function showProvenance() {
     const {clock} = report.manifest, proofs = list(clock?.proofs);
     const times = [
         ["Clock", known(unique(proofs.map(p => p.method)).join(", "))],
         ["Clock proof", proofs.length ? proofs.map(clockProof).join(" | ") : "not recorded"],
-        ["A/A floor of times", known(clock?.aa_floor, percent(clock?.aa_floor))],
+        ["A/A floor of times", floorRange(Object.values(clock?.aa_floors ?? {}))],
         [
             "Empty submit",
             known(proofs[0]?.empty_submit_ms, proofs.map(p => number(p.empty_submit_ms, 3)).join(", ") + " ms")

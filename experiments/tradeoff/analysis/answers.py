@@ -80,7 +80,7 @@ class Answers:
         lines = []
         floor = max((s.floor for s in shots), default=0)
         if floor > 0:
-            lines.append(f"Two copies of one point differed by up to {100 * floor:.0f} %: times nearer than that are the same.")
+            lines.append(f"Two copies of one point may differ by {100 * floor:.0f} % in a shot: times nearer than that are not distinguishable.")
         if not self.study.has_noise_of_times:
             lines.append("**No point was timed twice**: how near times are the same is not known, but for the scatter of frames.")
         unproven = [s.label for s in shots if not s.is_clock_proven]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from analysis.uncertainty import NORMAL, cost_interval
+from analysis.uncertainty import NORMAL
 
 LEAST_POINTS = 4
 EXPONENTS = np.geomspace(0.05, 16, 321)
@@ -143,5 +143,5 @@ def fit_axis(axis, floor_of_costs):
     if max(costs) <= (1 + floor_of_costs) ** 2 * min(costs):
         return points, Fit("its costs hardly differ, for what copies of one point do")
     errors = [_log_deviation(p.error, p.error_low, p.error_high) for p in points]
-    of_costs = [_log_deviation(p.cost, *cost_interval(p)) for p in points]
+    of_costs = [_log_deviation(p.cost, p.cost_low, p.cost_high) for p in points]
     return points, fit_law(costs, [p.error for p in points], errors, of_costs)

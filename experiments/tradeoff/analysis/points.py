@@ -26,13 +26,21 @@ class Point:
     is_ranked: bool  # the interval holds all that is random
     asks_scene: bool = False
     rounds: dict = field(default_factory=dict)  # frame to ms: all points took turns in it; none of a counted cost
-    cost: float = None  # median over the rounds, or counted; None: not timed
+    cost: float = None  # median over the rounds (time_summary.csv), or counted; None: not timed
+    cost_low: float = None  # its interval ...
+    cost_high: float = None
+    fits_from: float = None  # ... and the least budgets that it certainly fits into, and that it may fit into
+    may_fit_from: float = None
     disturbed_share: float = 0.0
     noise: float = 0.0  # what the reference's own noise scores as an error
 
     @property
     def key(self):
         return self.variant, self.point
+
+    def set_cost(self, cost, low, high, fits_from, may_fit_from, disturbed_share):
+        self.cost, self.cost_low, self.cost_high = cost, low, high
+        self.fits_from, self.may_fit_from, self.disturbed_share = fits_from, may_fit_from, disturbed_share
 
     def why_not_judged(self):
         """What keeps the point from being compared by error and cost; empty where nothing does."""
@@ -184,12 +192,12 @@ class Study:
             if self.is_error(rung) and isinstance(rung.get("value"), (int, float))
         }
         clock = self.results.manifest.get("clock", {})
-        self.has_noise_of_times = bool(self.counted) or "aa_floor" in clock
+        self.has_noise_of_times = bool(self.counted) or "aa_floors" in clock
         proofs = [p.get("verdict") == "passed" for p in clock.get("proofs", []) if name in p.get("shots", [])]
         size = f"{entry.get('width', '?')}x{entry.get('height', '?')}"
         shown = self.results.shot_label(name)
         scene = entry.get("scene") or name.split(".")[0]
-        floor = 0.0 if self.counted else clock.get("aa_floor") or 0.0
+        floor = 0.0 if self.counted else clock.get("aa_floors", {}).get(name, 0.0)
         return Shot(name, shown, scene, size, floor, bool(self.counted) or any(proofs), [], ladder)
 
     def _add_costs(self):
@@ -204,14 +212,13 @@ class Study:
                 continue
             # Several seeds may have been timed: each of their frames is a round of its own.
             point.rounds[(int(row["seed"] or 0), int(row["frame"]))] = float(row["milliseconds"])
-            point.disturbed_share += row["disturbed"] == "1"
+        for row in self.results.times:
+            point = points.get((row["shot"], row["variant"], row["point"]))
+            if point is None or row["stage"] != TOTAL:
+                continue
+            columns = ("median_ms", "low_ms", "high_ms", "fits_from_ms", "may_fit_from_ms", "disturbed_share")
+            point.set_cost(*(float(row[c]) for c in columns))
             clocks[row["shot"]] = row["clock"]
-        for point in points.values():
-            if point.rounds:
-                ordered = sorted(point.rounds.values())
-                middle = len(ordered) // 2
-                point.cost = ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle])
-                point.disturbed_share /= len(ordered)
         for shot in self.shots:
             shot.machine = f"{machines.get(shot.name, 'machine not known')}, {clocks.get(shot.name, 'no clock')}, {shot.machine}"
 
@@ -228,7 +235,7 @@ class Study:
                 sums[key] = sums.get(key, 0.0) + float(row["value"])
         for key, value in (sums | totals).items():
             if key in points:
-                points[key].cost = value
+                points[key].set_cost(value, value, value, value, value, 0.0)
 
     def _add_effects(self):
         shots = {s.name: s for s in self.shots}

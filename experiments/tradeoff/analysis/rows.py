@@ -59,8 +59,7 @@ class Analysis:
         for p in shot.points:
             row = self._shot_columns(shot) | {"variant": p.variant, "point": p.point, "label": p.label}
             row |= {"error": p.error, "error_low": p.error_low, "error_high": p.error_high, "cost": p.cost}
-            if p.cost is not None:
-                row["cost_low"], row["cost_high"] = uncertainty.cost_interval(p)
+            row |= {"cost_low": p.cost_low, "cost_high": p.cost_high}
             verdict, by, rivals = verdicts.get(p.key, (p.why_not_judged(), [], []))
             row |= {"is_nominal_front": p.key in nominal, "verdict": verdict}
             row |= {"dominated_by": "; ".join(q.label for q in by), "undecided_with": "; ".join(q.label for q in rivals)}
@@ -76,19 +75,18 @@ class Analysis:
                 error, low, high, _ = curve.error_at(cost)
                 best = curve.best_within(cost)
                 row["status"] = _place(cost, curve) if best else "before start"
-                row["fits"] = self._fits(shot, curve, cost)
+                row["fits"] = self._fits(curve, cost)
                 if best:
                     row |= {"error": error, "low": low, "high": high}
                     row |= {"point": best.point, "point_error": best.error}
                 yield row
 
-    def _fits(self, shot, curve, cost):
-        """Whether the cheapest of the front's points costs so little, by the rule of the report's budget."""
+    def _fits(self, curve, cost):
+        """Whether the cheapest of the front's points costs so little (time_summary.csv)."""
         first = min(curve.points, key=lambda p: p.cost)
-        low, high = uncertainty.cost_interval(first)
-        if max(high, first.cost * (1 + shot.floor)) <= cost:
+        if first.fits_from <= cost:
             return "surely"
-        return "maybe" if min(low, first.cost / (1 + shot.floor)) <= cost else "no"
+        return "maybe" if first.may_fit_from <= cost else "no"
 
     def _cost_to_error_rows(self, shot):
         base = shot.divisor(self.baseline)

@@ -5,13 +5,13 @@ import math
 import numpy as np
 from scipy import stats
 
-NORMAL = 1.959964  # of 95 %, as experiments/results/time_effects.cpp
+NORMAL = 1.959964  # of 95 %, as experiments/results/median_interval.cpp
 LEVELS = (2.5, 97.5)
 
 
 def sign_factor(values):
     """By how much more than those of independent rounds the signs about the median scatter, at least 2: as
-    experiments/results/time_effects.h has it. `values` in order of time."""
+    experiments/results/median_interval.h has it. `values` in order of time."""
     values = np.asarray(values, float)
     signs, n = np.sign(values - np.median(values)), len(values)
     factor = 1.0
@@ -24,17 +24,10 @@ def sign_factor(values):
 
 
 def median_interval(values):
-    """(median, low, high) of values in order of time, as paired_median() of experiments/results/time_effects.h."""
+    """(median, low, high) of values in order of time, as experiments/results/median_interval.h has it."""
     ordered, n = np.sort(values), len(values)
     rank = int(max(0.0, math.floor(n / 2 - NORMAL * math.sqrt(sign_factor(values) * n) / 2)))
     return float(np.median(ordered)), float(ordered[rank]), float(ordered[n - 1 - rank])
-
-
-def cost_interval(point):
-    """(low, high) of a point's cost; both its value where it was counted."""
-    if not point.rounds:
-        return point.cost, point.cost
-    return median_interval([point.rounds[r] for r in sorted(point.rounds)])[1:]
 
 
 class ShotDraws:

@@ -111,6 +111,8 @@ def write_results(folder, tables=TABLES, ratios=RATIOS):
         for shot in SHOTS
         for point in ("default", "taps=4")
     ]
+    for row in times:  # as ssrlab decides them: made up, and printed by no table
+        row |= {"fits_from_ms": row["high_ms"], "may_fit_from_ms": row["low_ms"]}
     write_rows(os.path.join(folder, "time_summary.csv"), times)
     ratio = {"variant": "sssr", "point": "taps=4", "against": "baseline", "against_variant": "sssr", "against_point": "default"}
     ratio |= {"stage": "total", "clock": "gpu_timestamp", "rounds": 15, "ratio": 1, "low": 0.9, "high": 1.1}

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <map>
+#include <random>
 #include <set>
 
 namespace {
@@ -243,6 +244,33 @@ TEST_F(Timing, MeasuresWhatLeavingOutSaved) {
     EXPECT_TRUE(time(mirror_source, mirrors).saved.empty());
 }
 
+/// Of copies whose times differ by 2 % (heavy tails), a floor that covers 95 % of the next pairs, however many there
+/// are.
+TEST(TimingEntry, HasAFloorThatDoesNotGrowWithThePairs) {
+    const ClockProof clock{.method = "host_fence", .empty_submit_ms = 0.1, .checks = {}};
+    std::mt19937 random(3);
+    std::student_t_distribution<double> noise(4);
+    std::vector<double> medians;
+    for (const size_t count : {1, 13, 52}) {
+        std::vector<double> floors;
+        for (int study = 0; study < 401; ++study) {
+            ShotTimes times;
+            for (size_t i = 0; i < count; ++i)
+                times.pairs.push_back({"v", std::to_string(i), 10.0, 10.0 * (1 + 0.02 * noise(random))});
+            nlohmann::json manifest = {{"clock", nlohmann::json::object()}, {"shots", nlohmann::json::array()}};
+            add_timing(manifest, timing_entry(times, "a", clock));
+            floors.push_back(manifest["clock"]["aa_floors"]["a"]);
+        }
+        std::ranges::nth_element(floors, floors.begin() + 200);
+        medians.push_back(floors[200]);
+    }
+    // 95 % of |t| with 4 degrees of freedom lie below 2.78, and of a normal variable with its median below 2.15: the
+    // median of 401 floors is known to 3 % for 52 pairs, and to 15 % for a single one.
+    EXPECT_NEAR(medians[0], 0.043, 0.2 * 0.043);
+    EXPECT_NEAR(medians[1], 0.043, 0.1 * 0.043);
+    EXPECT_NEAR(medians[2], 0.043, 0.05 * 0.043) << "their largest would be 0.12";
+}
+
 TEST(TimingEntry, GoesIntoTheManifest) {
     const ClockProof clock{.method = "host_fence", .empty_submit_ms = 0.1, .checks = {}};
     nlohmann::json manifest = {
@@ -259,7 +287,7 @@ TEST(TimingEntry, GoesIntoTheManifest) {
     times.savings = {{"v", "default", 20.0, {0.25, 0.2, 0.3}}};
     add_timing(manifest, timing_entry(times, "a", clock));
     // The pair of `none` differs by 40 %, but takes only two and three times what an empty submission does.
-    EXPECT_DOUBLE_EQ(manifest["clock"]["aa_floor"].get<double>(), 0.1);
+    EXPECT_NEAR(manifest["clock"]["aa_floors"]["a"].get<double>(), 0.1 * 1.96 / 0.6745, 1e-4);
     EXPECT_EQ(manifest["clock"]["aa_pairs"].size(), 2u);
     EXPECT_EQ(manifest["clock"]["savings"][0]["share"], 0.25);
     EXPECT_EQ(manifest["shots"][0]["left_out"][0]["saved_ms"], 2.5);
@@ -268,7 +296,8 @@ TEST(TimingEntry, GoesIntoTheManifest) {
 
     times.pairs = {{"v", "default", 18.0, 22.0}}, times.saved = {};
     add_timing(manifest, timing_entry(times, "b", clock));
-    EXPECT_DOUBLE_EQ(manifest["clock"]["aa_floor"].get<double>(), 0.2);
+    EXPECT_NEAR(manifest["clock"]["aa_floors"]["b"].get<double>(), 0.2 * 1.96 / 0.6745, 1e-4);
+    EXPECT_NEAR(manifest["clock"]["aa_floors"]["a"].get<double>(), 0.1 * 1.96 / 0.6745, 1e-4) << "a shot's own";
     EXPECT_EQ(manifest["clock"]["aa_pairs"].size(), 3u);
     EXPECT_EQ(manifest["clock"]["aa_pairs"][2]["shot"], "b");
     ASSERT_EQ(manifest["clock"]["proofs"].size(), 1u) << "one clock, proven once";
@@ -280,5 +309,5 @@ TEST(TimingEntry, GoesIntoTheManifest) {
 
     nlohmann::json of_points_alone = {{"shots", nlohmann::json::array()}};
     add_timing(of_points_alone, timing_entry(ShotTimes{}, "a", clock));
-    EXPECT_FALSE(of_points_alone["clock"].contains("aa_floor")) << "a noise of 0 would be a claim";
+    EXPECT_FALSE(of_points_alone["clock"].contains("aa_floors")) << "a noise of 0 would be a claim";
 }

@@ -254,7 +254,7 @@ json manifest_head() {
             {"title", "Linear tracing </script> against the truth"},
             {"warnings", {"a clause that the study has to say"}},
             {"clock",
-             {{"aa_floor", 0.02},
+             {{"aa_floors", {{fixture_shots[0], 0.02}, {fixture_shots[1], 0.02}}},
               {"aa_pairs",
                {{{"shot", fixture_shots[0]},
                  {"variant", "mcguire_dda"},

@@ -227,7 +227,7 @@ json study_manifest(const std::vector<StudyShot>& shots) {
         {"is_complete", true},
         {"metrics", metric_descriptions()},
         {"clock",
-         {{"aa_floor", 0.02},
+         {{"aa_floors", json::object()},
           {"aa_pairs", json::array()},
           {"proofs", json::array({{{"method", "host_fence"},
                                    {"verdict", "passed"},
@@ -254,6 +254,7 @@ json study_manifest(const std::vector<StudyShot>& shots) {
                                                  {"high", 0.0133},
                                                  {"pixels", 500}});
         manifest["shots"].push_back(entry);
+        manifest["clock"]["aa_floors"][shot.name] = 0.02;
         manifest["clock"]["aa_pairs"].push_back({{"shot", shot.name},
                                                  {"variant", "sssr"},
                                                  {"point", "first"},

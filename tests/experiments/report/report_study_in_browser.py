@@ -198,7 +198,7 @@ def test_stages(page):
         equal(len(set(names)), len(names), "stages of one technique that look alike")
     check(all(look.startswith("url(#plain") for look in looks[0][:8]), f"the longest stages are plain: {looks[0]}")
     text = page.find_element(By.CSS_SELECTOR, part).text
-    for words in ("1.12 % (sssr · first, 6.2 ms)", "A/A floor of the study: 2 %"):
+    for words in ("1.12 % (sssr · first, 6.2 ms)", "A/A floor of this shot: 2 %"):
         check(words in text, f"the A/A floor: {text!r}")
     equal(
         page.find_element(By.CSS_SELECTOR, part + " .forms").text.split("\n")[1:],

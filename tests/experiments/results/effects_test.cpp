@@ -105,8 +105,7 @@ TEST(Effects, CompareWithAPointWithoutSeeds) {
     EXPECT_NEAR(*effects_of(rows, variants).at(0).low, 1 / *e.high, 1e-12);
     // Nothing is random but the reference, of which nothing is known.
     rows.back().seed = 0, variants[1].depends_on_seed = false;
-    EXPECT_EQ(effects_of(std::vector{rows.front(), rows.back()}, variants).at(0).interval,
-              interval::unknown_reference);
+    EXPECT_EQ(effects_of(std::vector{rows.front(), rows.back()}, variants).at(0).interval, interval::unknown_reference);
 }
 
 TEST(Effects, PairSeedsByTheirNumber) {
@@ -151,7 +150,8 @@ TEST(Effects, OnOneErrorAreOneFamily) {
         EXPECT_EQ(e.verdict.empty(), !e.p);
         if (!e.p) continue;
         EXPECT_EQ(e.verdict != verdict::not_distinguishable, *e.p_holm < 0.05);
-        EXPECT_EQ(*e.low_holm > 1 || *e.high_holm < 1, *e.p_holm < 0.05) << "the interval beside a verdict agrees with it";
+        EXPECT_EQ(*e.low_holm > 1 || *e.high_holm < 1, *e.p_holm < 0.05)
+            << "the interval beside a verdict agrees with it";
         EXPECT_LE(*e.low_holm, *e.low * (1 + 1e-12));
         EXPECT_GE(*e.high_holm, *e.high * (1 - 1e-12));
         EXPECT_TRUE(e.p);
@@ -189,8 +189,7 @@ TEST(Effects, AreNotMadeUp) {
         effects_of(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", -1e-9)}, two_points);
     ASSERT_EQ(effects.size(), 1u);
     EXPECT_FALSE(effects[0].ratio);
-    effects =
-        effects_of(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", 0.25)}, two_points);
+    effects = effects_of(std::vector{row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", 0.25)}, two_points);
     EXPECT_EQ(effects[0].ratio, 0.25);
     EXPECT_FALSE(effects[0].low || effects[0].high || effects[0].p || effects[0].p_holm);
     EXPECT_EQ(effects[0].interval, interval::one_seed);

@@ -1,5 +1,6 @@
 // Ratios of times: paired by frame, with intervals that allow for slow changes of the machine's speed.
 #include "experiments/results/time_effects.h"
+#include "experiments/results/median_interval.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
@@ -51,7 +52,7 @@ TEST(TimeEffects, CoverTheRatioWhereDisturbancesLast) {
                 load = 0.6 * load + 0.8 * normal(random);
                 ratios.push_back(1.7 * std::exp(0.1 * load + 0.06 * jitter(random)));
             }
-            const PairedMedian m = paired_median(ratios);
+            const MedianInterval m = median_interval(ratios);
             EXPECT_LE(m.low, m.median);
             EXPECT_GE(m.high, m.median);
             covered += m.low <= 1.7 && 1.7 <= m.high;

@@ -22,7 +22,8 @@ def point(name, error, half_width=0.0, cost=10.0, spread=0.0, seeds=None):
     variant, _, rest = name.partition(":")
     made = points.Point(variant, rest or "default", name, error, error - half_width, error + half_width, seeds or {"0": error}, True)
     made.rounds = {(0, f): cost * (1 + spread * ((7 * f) % FRAMES - 7) / 7) for f in range(FRAMES)}
-    made.cost = cost
+    _, low, high = uncertainty.median_interval(list(made.rounds.values()))
+    made.set_cost(cost, low, high, high, low, 0.0)
     return made
 
 

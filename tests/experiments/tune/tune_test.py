@@ -86,7 +86,7 @@ class FakeSsrlab:
                 if study["timing"]["frames"]:  # of a machine whose speed changes from study to study
                     assert points[0]["parameters"] == DEFAULTS, "times are ratios of the same frames"
                     speed = 1e-3 * (1 + zlib.crc32(out.encode()) % 100 / 100)
-                    times.append(key | {"stage": "total", "median_ms": operations * speed})
+                    times.append(key | {"stage": "total", "median_ms": operations * speed, "fits_from_ms": operations * speed})
                     ratio = {"against": "baseline", "stage": "total", "ratio": operations / base_operations}
                     time_effects += [key | ratio] if p is not points[0] else []
                 row = {"against": "baseline", "target": "specular", "metric": "mse", "mask": "all", "ratio": error / base}
@@ -96,7 +96,7 @@ class FakeSsrlab:
             json.dump({"variants": points, "shots": shots}, stream)
         for name, rows in (("results", results), ("costs", costs), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
             with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
-                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "speaks", "standing"])
+                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "speaks", "standing", "fits_from_ms"])
                 writer.writeheader()
                 writer.writerows(rows)
 

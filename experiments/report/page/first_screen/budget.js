@@ -29,20 +29,20 @@ function drawBudget(shot) {
     const parts = budget.milliseconds === null ? [] : headlineMetrics().flatMap(metric => budgetParts(shot, metric));
     if (parts.length && !answerOf(shot)?.is_clock_proven)
         parts.push("The clock did not prove itself: take the times with care. ");
-    if (parts.length) parts.push(floorText());
+    if (parts.length) parts.push(floorText(shot));
     at("budget-answer").replaceChildren(...parts);
 }
 
 /// From where on times differ, by two copies of a point.
-function floorText() {
-    const floor = report.manifest.clock?.aa_floor;
+function floorText(shot) {
+    const floor = aaFloor(shot);
     if (floor === undefined) return "No point was timed twice: how near times are the same is not known.";
     return floor > 0 ? `Times nearer than ${percent(floor)} are the same.` : "";
 }
 
 /// "By mse A, 0.05 [0.04, 0.06], in 9 ms [8, 11]": the least error of the points whose median is within the budget, and
-/// those of less error whose median is not. Where the interval of a time, or the difference of two copies of a point,
-/// holds the budget, it is said that it may not fit, or may. Each name opens its images.
+/// those of less error whose median is not. What fits, and what may, is as time_summary.csv has it (fits_from_ms,
+/// may_fit_from_ms). Each name opens its images.
 function budgetParts(shot, metric) {
     const timed = headlineRows(shot, metric)
                       .map(row => ({row, time: totalTime(row), badness: badness(metric, row.value)}))
@@ -59,18 +59,16 @@ function budgetParts(shot, metric) {
             `, ${number(row.value, 3)} ${error(row)}`.trimEnd() + `, in ${number(time.value, 3)} ms ${interval(time, 3)}`
         ];
     };
-    const spread = 1 + (report.manifest.clock?.aa_floor ?? 0), limit = budget.milliseconds;
-    const least = time => Math.min(time.low ?? time.value, time.value / spread),
-          most = time => Math.max(time.high ?? time.value, time.value * spread);
-    const best = timed.find(p => p.time.value <= limit), sure = timed.find(p => most(p.time) <= limit);
-    const doubtful =
-        timed.filter(p => p.time.value > limit && least(p.time) <= limit && !(p.badness > best?.badness));
+    const limit = budget.milliseconds;
+    const best = timed.find(p => p.time.value <= limit), sure = timed.find(p => p.time.fitsFromMs <= limit);
+    const doubtful = timed.filter(
+        p => p.time.value > limit && p.time.mayFitFromMs <= limit && !(p.badness > best?.badness));
     if (!best && !doubtful.length) return [`By ${metric}: nothing that was timed fits. `];
     return [
         ...(best ? [`By ${metric} `, ...parts(best)] : [`By ${metric}: nothing that was timed surely fits`]),
         ...(best && best !== sure ? [", which may not fit", ...(sure ? ["; surely fits ", ...parts(sure)] : [])] : []),
         ". ",
-        ...(doubtful.length ? ["It cannot be told whether ",
+        ...(doubtful.length ? ["It is open whether ",
                                ...doubtful.flatMap((p, i) => [i ? "; " : "", ...parts(p)]), " fits. "] : [])
     ];
 }

@@ -210,8 +210,8 @@ function floorNote(shot) {
         `Two interleaved copies of the same point differed by ${
             pairs.length > 1 ? `${percent(Math.min(...floors))} to ` : ""}`,
         ...one(most),
-        `. A/A floor of the study: ${
-            percent(report.manifest.clock.aa_floor)}; smaller differences between times say nothing.`
+        `. A/A floor of this shot: ${
+            percent(aaFloor(shot))}; smaller differences between times say nothing.`
     ];
     const rest = () => folded("The copies of each point", h("ul", {}, pairs.map(p => h("li", {}, one(p)))));
     return h("div", {class: "note"}, text, pairs.length > 1 ? rest() : "");

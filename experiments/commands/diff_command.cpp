@@ -1,0 +1,98 @@
+// ssrlab diff: which numbers changed from one results folder to another.
+#include "core/error.h"
+#include "experiments/commands/commands.h"
+#include "experiments/evaluation/study_diff.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <map>
+
+namespace {
+
+constexpr size_t most_named = 12;  // changes, unless all are asked for
+
+void print_techniques(const std::vector<NumberChange>& errors) {
+    const char* verdicts[] = {change::equal, change::not_distinguishable, change::changed, change::not_judged};
+    std::map<std::string, std::vector<NumberChange>> by_technique;
+    for (const NumberChange& c : errors) by_technique[c.variant].push_back(c);
+    std::cout << std::left << std::setw(32) << "" << std::right << std::setw(8) << "numbers";
+    for (const char* verdict : verdicts) std::cout << std::setw(int(std::string(verdict).size()) + 3) << verdict;
+    std::cout << '\n';
+    for (const auto& [technique, own] : by_technique) {
+        std::cout << std::left << std::setw(32) << technique << std::right << std::setw(8) << own.size();
+        for (const char* verdict : verdicts)
+            std::cout << std::setw(int(std::string(verdict).size()) + 3) << count_of(own, verdict);
+        std::cout << '\n';
+    }
+}
+
+/// How far a number moved, whichever way.
+double size_of(const NumberChange& c) {
+    const double ratio = *c.after / *c.before;
+    return ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : HUGE_VAL;
+}
+
+void print_changes(const std::vector<NumberChange>& all, bool shows_all) {
+    std::vector<const NumberChange*> changed;
+    for (const NumberChange& c : all)
+        if (c.verdict == change::changed) changed.push_back(&c);
+    std::ranges::stable_sort(changed, std::greater{}, [](const NumberChange* c) { return size_of(*c); });
+    const size_t count = shows_all ? changed.size() : std::min(changed.size(), most_named);
+    for (size_t i = 0; i < count; ++i) {
+        const NumberChange& c = *changed[i];
+        std::cout << "  " << c.shot << (c.frame.empty() ? "" : " frame " + c.frame) << ": " << c.variant << ' '
+                  << c.point << ": " << c.metric;
+        if (!c.target.empty()) std::cout << " of " << c.target << ", " << c.mask << " pixels";
+        std::cout << ": " << std::setprecision(4) << *c.before << " -> " << *c.after << " (x" << *c.after / *c.before
+                  << ", " << c.how << ")\n";
+    }
+    if (count < changed.size()) std::cout << "  and " << changed.size() - count << " more; --all names them\n";
+}
+
+void print_alone(const std::filesystem::path& folder, const std::vector<std::array<std::string, 3>>& points) {
+    if (points.empty()) return;
+    const auto& [shot, variant, point] = points.front();
+    std::cout << "\nIn " << folder.string() << " alone, and not compared: " << points.size() << " points of shots, as "
+              << shot << ' ' << variant << ' ' << point << '\n';
+}
+
+void print_times(const StudyDiff& diff, const DiffOptions& options) {
+    if (!diff.moved.empty()) {
+        std::cout << "\nTimes of " << diff.moved.size() << " shots are of different machines and are not compared:\n";
+        for (const MovedShot& m : diff.moved)
+            std::cout << "  " << m.shot << ": " << m.before << " / " << m.after << '\n';
+    }
+    if (diff.times.empty()) return;
+    const size_t changed = count_of(diff.times, change::changed);
+    std::cout << '\n' << changed << " of " << diff.times.size() << " times changed";
+    std::map<std::string, size_t> why;
+    for (const NumberChange& c : diff.times)
+        if (c.verdict == change::not_judged) ++why[c.how];
+    for (const auto& [reason, count] : why) std::cout << "; " << count << " are not judged (" << reason << ")";
+    std::cout << (changed > 0 ? ":\n" : ".\n");
+    print_changes(diff.times, options.shows_all);
+}
+
+}  // namespace
+
+int diff_command(const DiffOptions& options) {
+    const StudyDiff diff =
+        diff_studies(read_study_tables(options.before), read_study_tables(options.after), options.judges_times);
+    if (diff.errors.empty())
+        fail(options.before.string(), " and ", options.after.string(),
+             " have no number in common: no shot and point that both have");
+    print_techniques(diff.errors);
+    const size_t changed = count_of(diff.errors, change::changed);
+    std::cout << '\n' << changed << " of " << diff.errors.size() << " errors changed" << (changed > 0 ? ":\n" : ".\n");
+    print_changes(diff.errors, options.shows_all);
+    print_alone(options.before, diff.only_before), print_alone(options.after, diff.only_after);
+    print_times(diff, options);
+    if (!options.csv.empty()) {
+        std::vector<NumberChange> all = diff.errors;
+        all.insert(all.end(), diff.times.begin(), diff.times.end());
+        write_rows(options.csv, all);
+    }
+    return changed > 0 || (options.judges_times && count_of(diff.times, change::changed) > 0) ? 1 : 0;
+}

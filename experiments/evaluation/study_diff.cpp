@@ -1,0 +1,233 @@
+#include "experiments/evaluation/study_diff.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/evaluation/evaluation.h"
+#include "experiments/evaluation/standings.h"
+#include "experiments/results/manifest.h"
+#include "experiments/results/study_points.h"
+#include "metrics/quantiles.h"
+#include "metrics/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double family_error_rate = 0.05;    // of all changes that are said of two runs of one program
+constexpr double rounding = 1e-6;             // relative: other compilers add in another order
+constexpr double most_disturbed_share = 0.5;  // of the frames that a time is the median of
+
+using Number = std::tuple<std::string, std::string, std::string, std::string, std::string, std::string, std::string>;
+template <class Row>
+Number number_of(const Row& r) {
+    return {r.shot, r.frame, r.variant, r.point, r.target, r.metric, r.mask};
+}
+
+using PointOfShot = std::array<std::string, 3>;  // shot, variant, point
+
+/// One study's numbers by what they are of.
+struct Side {
+    explicit Side(const StudyTables& tables)
+        : manifest(tables.manifest),
+          not_repeatable(points_not_repeatable(manifest)),
+          without_seeds(points_without_seeds(manifest)) {
+        for (const MetricSummary& e : tables.errors)
+            if (e.speaks_for_shot) errors[number_of(e)] = &e, points.insert({e.shot, e.variant, e.point});
+        for (const ResultRow& r : tables.seeds)
+            if (r.speaks_for_shot && r.value) values[number_of(r)][r.seed] = *r.value;
+        for (const TimeSummary& t : tables.times)
+            if (t.stage == "total" && !t.variant.empty()) times[{t.shot, t.variant, t.point}] = &t;
+    }
+
+    const json& manifest;
+    PointSet not_repeatable, without_seeds;
+    std::map<Number, const MetricSummary*> errors;
+    std::map<Number, std::map<unsigned, double>> values;  ///< by seed
+    std::map<PointOfShot, const TimeSummary*> times;
+    std::set<PointOfShot> points;
+};
+
+/// What the pixels of a shot's references are known by: how they were made, and what their noise came out as.
+json truth_of(const json& manifest, const std::string& shot) {
+    json found = json::array();
+    for (const json& entry : manifest.value("shots", json::array()))
+        if (entry.value("shot", "") == shot)
+            for (const json& r : entry.value("references", json::array()))
+                found.push_back({r.value("hash", ""), r.value("relative_error", json()), r.value("rays", json())});
+    return found;
+}
+
+bool is_rounding(double a, double b) { return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b)); }
+
+/// Two-sided p of "the mean difference is 0"; none where no seed differs but by rounding.
+std::optional<double> paired_p(const std::map<unsigned, double>& before, const std::map<unsigned, double>& after) {
+    std::vector<double> differences;
+    bool is_equal = true;
+    double mean = 0, squares = 0;
+    for (const auto& [seed, value] : before) {
+        differences.push_back(after.at(seed) - value);
+        mean += differences.back() / double(before.size());
+        is_equal = is_equal && is_rounding(value, after.at(seed));
+    }
+    if (is_equal) return {};
+    for (const double d : differences) squares += (d - mean) * (d - mean);
+    const double n = double(differences.size()), error = std::sqrt(squares / (n - 1) / n);
+    return error > 0 ? 2 * student_t_cdf(-std::abs(mean) / error, n - 1) : 0.0;
+}
+
+bool has_same_seeds(const std::map<unsigned, double>& a, const std::map<unsigned, double>& b) {
+    return !a.empty() && std::ranges::equal(
+                             a, b, {}, [](const auto& v) { return v.first; }, [](const auto& v) { return v.first; });
+}
+
+void settle(NumberChange& c, const char* verdict, std::string how) { c.verdict = verdict, c.how = std::move(how); }
+
+/// Gives a verdict where chance has no part, else a p.
+void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary& b, const Side& before,
+                    const Side& after) {
+    const auto is_in = [&](PointSet Side::*set) {
+        return (before.*set).contains({c.variant, c.point}) || (after.*set).contains({c.variant, c.point});
+    };
+    if (!a.value || !b.value) return settle(c, a.value || b.value ? change::not_judged : change::equal, "no value");
+    if (*a.value == *b.value) return settle(c, change::equal, "");
+    if (is_in(&Side::not_repeatable)) return settle(c, change::not_judged, "not repeatable");
+    const auto seeds_before = before.values.find(number_of(a)), seeds_after = after.values.find(number_of(b));
+    const bool has_seeds = seeds_before != before.values.end() && seeds_after != after.values.end();
+    if (has_seeds && has_same_seeds(seeds_before->second, seeds_after->second) &&
+        truth_of(before.manifest, c.shot) == truth_of(after.manifest, c.shot)) {
+        if (seeds_before->second.size() > 1 && !is_in(&Side::without_seeds)) {
+            c.p = paired_p(seeds_before->second, seeds_after->second), c.how = "paired by seed";
+            if (!c.p) settle(c, change::equal, "rounding");
+            return;
+        }
+        return is_rounding(*a.value, *b.value) ? settle(c, change::equal, "rounding")
+                                               : settle(c, change::changed, "same seed and truth");
+    }
+    if (is_rounding(*a.value, *b.value)) return settle(c, change::equal, "rounding");
+    for (const MetricSummary* e : {&a, &b})
+        if (!e->holds_all_noise || !e->low || !e->high)
+            return settle(c, change::not_judged, e->interval.starts_with("none") ? e->interval : "not ranked");
+    c.p = p_by_intervals(a, b), c.how = "by intervals";
+}
+
+/// How many pairs of copies were timed in a shot.
+size_t aa_pairs(const json& manifest, const std::string& shot) {
+    const json pairs = manifest.at("clock").value("aa_pairs", json::array());
+    return size_t(std::ranges::count_if(pairs, [&](const json& p) { return p.value("shot", "") == shot; }));
+}
+
+void compare_times(NumberChange& c, const TimeSummary& a, const TimeSummary& b, const json& before, const json& after) {
+    if (std::max(a.disturbed_share, b.disturbed_share) >= most_disturbed_share)
+        return settle(c, change::not_judged, "disturbed");
+    const auto floor_before = aa_floor(before, c.shot), floor_after = aa_floor(after, c.shot);
+    if (!floor_before || !floor_after) return settle(c, change::not_judged, "no point was timed twice");
+    if (!(a.low > 0 && b.low > 0)) return settle(c, change::not_judged, "a time of 0");
+    if (a.median == b.median) return settle(c, change::equal, "");
+    const double of_intervals = std::hypot(std::log(a.high / a.low) / 2, std::log(b.high / b.low) / 2),
+                 of_copies = std::hypot(std::log1p(*floor_before), std::log1p(*floor_after)),
+                 half_width = std::hypot(of_intervals, of_copies);
+    if (!(half_width > 0)) return settle(c, change::changed, "times do not scatter");
+    const size_t degrees = std::max<size_t>(1, std::min(aa_pairs(before, c.shot), aa_pairs(after, c.shot)));
+    const double t = std::abs(std::log(b.median / a.median)) / half_width * normal_quantile(0.975);
+    c.p = 2 * student_t_cdf(-t, double(degrees)), c.how = "by intervals and copies";
+}
+
+/// The machine that took a shot's times, and its device.
+std::string machine_of(const json& manifest, const std::string& shot) {
+    std::set<std::string> hosts, devices;
+    const auto add = [&](const json& host) {
+        hosts.insert(host.value("name", "?") + " (" + host.value("cpu", "?") + ")");
+    };
+    for (const json& load : manifest.at("clock").value("load", json::array()))
+        if (load.value("shot", "") == shot && load.contains("host")) add(load["host"]);
+    for (const json& maker : manifest.value("provenance", json::array())) {
+        if (hosts.empty() && maker.contains("host")) add(maker["host"]);
+        if (maker.contains("device")) devices.insert(maker["device"].value("name", "?"));
+    }
+    std::string text;
+    for (const auto& names : {hosts, devices})
+        for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+/// Decides those that have a p, all as one family.
+void decide(const std::vector<NumberChange*>& family) {
+    std::vector<double> p;
+    for (const NumberChange* c : family) p.push_back(*c->p);
+    const std::vector<double> adjusted = holm_adjusted(p);
+    for (size_t i = 0; i < family.size(); ++i) {
+        family[i]->p_holm = adjusted[i];
+        family[i]->verdict = adjusted[i] < family_error_rate ? change::changed : change::not_distinguishable;
+    }
+}
+
+std::vector<PointOfShot> points_in_first(const Side& first, const Side& second) {
+    std::vector<PointOfShot> found;
+    std::ranges::set_difference(first.points, second.points, std::back_inserter(found));
+    return found;
+}
+
+}  // namespace
+
+StudyTables read_study_tables(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "manifest.json";
+    if (!std::filesystem::exists(file))
+        fail(folder.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
+    StudyTables tables;
+    try {
+        tables.manifest = json::parse(read_text(file));
+    } catch (const json::exception& e) {
+        fail(file.string(), " is no valid JSON: ", e.what());
+    }
+    require_evaluation(folder, tables.manifest);
+    tables.errors = read_rows<MetricSummary>(folder / "summary.csv");
+    tables.seeds = read_rows<ResultRow>(folder / "results.csv");
+    tables.times = read_rows<TimeSummary>(folder / "time_summary.csv");
+    return tables;
+}
+
+StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& after_tables, bool judges_times) {
+    const Side before(before_tables), after(after_tables);
+    StudyDiff diff{.errors = {},
+                   .times = {},
+                   .moved = {},
+                   .only_before = points_in_first(before, after),
+                   .only_after = points_in_first(after, before)};
+    for (const auto& [number, a] : before.errors)
+        if (const auto b = after.errors.find(number); b != after.errors.end()) {
+            NumberChange c{a->shot,   a->frame, a->variant, a->point,        a->target,
+                           a->metric, a->mask,  a->value,   b->second->value};
+            compare_errors(c, *a, *b->second, before, after);
+            diff.errors.push_back(c);
+        }
+    std::set<std::string> moved;
+    for (const auto& [point, a] : before.times) {
+        const auto b = after.times.find(point);
+        if (b == after.times.end()) continue;
+        const std::string machines[] = {machine_of(before.manifest, a->shot), machine_of(after.manifest, a->shot)};
+        if (machines[0] != machines[1]) {
+            if (moved.insert(a->shot).second) diff.moved.push_back({a->shot, machines[0], machines[1]});
+            continue;
+        }
+        NumberChange c{a->shot, "", a->variant, a->point, "", "total_ms", "", a->median, b->second->median};
+        compare_times(c, *a, *b->second, before.manifest, after.manifest);
+        diff.times.push_back(c);
+    }
+    std::vector<NumberChange*> of_errors, of_times;
+    for (NumberChange& c : diff.errors)
+        if (c.p) of_errors.push_back(&c);
+    for (NumberChange& c : diff.times)
+        if (c.p) (judges_times ? of_errors : of_times).push_back(&c);
+    decide(of_errors), decide(of_times);
+    return diff;
+}
+
+size_t count_of(const std::vector<NumberChange>& changes, const std::string& verdict) {
+    return size_t(std::ranges::count(changes, verdict, &NumberChange::verdict));
+}

@@ -1,0 +1,79 @@
+#pragma once
+#include "experiments/results/columns.h"
+#include "experiments/results/summary.h"
+
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+/// The tables of a results folder that two studies are compared by.
+struct StudyTables {
+    nlohmann::json manifest;
+    std::vector<MetricSummary> errors;  ///< summary.csv
+    std::vector<ResultRow> seeds;       ///< results.csv
+    std::vector<TimeSummary> times;     ///< time_summary.csv
+};
+
+/// Fails with Error on what is no results folder, or one of another version or half of one (require_evaluation()).
+StudyTables read_study_tables(const std::filesystem::path& folder);
+
+/// NumberChange::verdict.
+namespace change {
+inline constexpr const char* equal = "equal";  ///< but for rounding
+inline constexpr const char* changed = "changed";
+inline constexpr const char* not_distinguishable = "not distinguishable";
+inline constexpr const char* not_judged = "not judged";  ///< `how` says why
+}  // namespace change
+
+/// What became of one number that both studies have: an error, or the median time of a point's frame.
+struct NumberChange {
+    std::string shot, frame, variant, point, target, metric,
+        mask;  ///< of a time: metric "total_ms", no target, no mask
+    std::optional<double> before, after;
+    std::optional<double> p;       ///< two-sided, of "nothing changed"; none where that is not a matter of chance
+    std::optional<double> p_holm;  ///< p adjusted for its family, see diff_studies()
+    std::string verdict;
+    std::string how;  ///< by what it was judged, or why it was not
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &NumberChange::shot}, Column{"frame", &NumberChange::frame},
+                          Column{"variant", &NumberChange::variant}, Column{"point", &NumberChange::point},
+                          Column{"target", &NumberChange::target}, Column{"metric", &NumberChange::metric},
+                          Column{"mask", &NumberChange::mask}, Column{"before", &NumberChange::before},
+                          Column{"after", &NumberChange::after}, Column{"p", &NumberChange::p},
+                          Column{"p_holm", &NumberChange::p_holm}, Column{"verdict", &NumberChange::verdict},
+                          Column{"how", &NumberChange::how});
+    }
+};
+
+/// A shot whose times are of another machine in each study.
+struct MovedShot {
+    std::string shot, before, after;
+};
+
+struct StudyDiff {
+    std::vector<NumberChange> errors, times;
+    std::vector<MovedShot> moved;                                     ///< their times are not compared
+    std::vector<std::array<std::string, 3>> only_before, only_after;  ///< shot, variant, point that one study has
+};
+
+/// Compares the errors that speak for their shots, and the medians of all stages' times.
+///
+/// Where both studies have the same seeds against the same pixels of the truth, errors are paired by seed: what no edit
+/// touched is equal, but for the order of sums. A pair that differs has changed with certainty if chance has no part in
+/// it (one seed, or a point that does not depend on it); else by Student's t of the differences. Other pairs are
+/// compared by both intervals (p_by_intervals()) if both hold all that is random; such as are not ranked, as those of
+/// points that are not repeatable, are not judged.
+///
+/// Times are compared on one machine, by their intervals and by what two copies of a point differ by in each study
+/// (aa_floor()), as normal deviations with as many degrees of freedom as there were pairs of copies. Not judged are
+/// times where no point was timed twice, or where other programs disturbed half of the frames or more.
+///
+/// All p-values of the errors are adjusted together (Holm 1979); those of times with them if `judges_times`, and else
+/// by themselves. Of two runs of one program at most 5 % have a change: simulated in tests/experiments/evaluation.
+StudyDiff diff_studies(const StudyTables& before, const StudyTables& after, bool judges_times);
+
+/// How many of them have this verdict.
+size_t count_of(const std::vector<NumberChange>& changes, const std::string& verdict);
