@@ -7,4 +7,6 @@
 /// 2: relative errors weighted by a guide, intervals by pixels and not by tiles
 /// 3: intervals of rungs by the variance of what tells them from the truth; of frame differences and ghosts by the
 ///    variances of both references and their squares; the noise of the lit colour in effects and splits
+///
+/// Not raised where an interval is given that was not there before (those of FLIP and SSIM: metrics/extrapolation.h).
 inline constexpr int estimator_version = 3;

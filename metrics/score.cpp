@@ -1,6 +1,7 @@
 #include "metrics/score.h"
 
 #include "core/error.h"
+#include "metrics/extrapolation.h"
 #include "metrics/pooling.h"
 
 #include <cmath>
@@ -78,6 +79,50 @@ NoiseTerms scaled(const NoiseTerms& terms, const Mask& inside, double slope, dou
     return scaled;
 }
 
+/// The test image against references of more noise, for metrics that are extrapolated.
+struct NoisierPairs {
+    std::vector<ImagePair> halves;    ///< against A and B: twice the variance of the reference's noise
+    std::vector<ImagePair> moved_on;  ///< against R +- sqrt(3) (A - B) / 2: four times
+};
+
+NoisierPairs noisier_pairs(const MetricReference& reference, const HostImage& test) {
+    const ReferenceHalves& h = *reference.halves;
+    NoisierPairs pairs;
+    for (const HostImage* half : {&h.a, &h.b}) pairs.halves.push_back(image_pair(*half, test, reference.settings));
+    for (const double sign : {1.0, -1.0}) {
+        HostImage moved = reference.image;
+        for (size_t i = 0; i < moved.values.size(); ++i)
+            moved.values[i] += float(sign * extrapolation_step * (double(h.a.values[i]) - h.b.values[i]) / 2);
+        pairs.moved_on.push_back(image_pair(blackened(std::move(moved), reference.finite), test, reference.settings));
+    }
+    return pairs;
+}
+
+/// Means over pixels of a map that are no means of squares: FLIP, SSIM, absolute differences.
+bool is_extrapolated(const Metric& metric) {
+    return !metric.squared_error_weight && metric.pool == pooled_mean && metric.name != "bias";
+}
+
+/// Maps of one metric against references of more noise.
+struct NoisierMaps {
+    std::vector<Plane> halves, moved_on;
+};
+
+NoisierMaps noisier_maps(const Metric& metric, const NoisierPairs& pairs) {
+    NoisierMaps maps;
+    for (const ImagePair& pair : pairs.halves) maps.halves.push_back(metric.layers(pair).front());
+    for (const ImagePair& pair : pairs.moved_on) maps.moved_on.push_back(metric.layers(pair).front());
+    return maps;
+}
+
+/// The value stays what everyone computes from both images; the interval reaches to where it would lie without the
+/// reference's noise.
+void set_extrapolated(Score& row, const Plane& own, const NoisierMaps& maps, const Mask& inside) {
+    const MapInterval found = extrapolated_interval(own, maps.halves, maps.moved_on, inside);
+    row.low = found.low, row.high = found.high;
+    if (row.low && row.metric->better == Better::lower) row.low = std::max(*row.low, 0.0);
+}
+
 /// Corrects the row where it can be, and gives it its interval; returns how noise moves its value.
 NoiseTerms set_noise(Score& row, const NoiseMaps& maps, std::span<const Plane> layers, const Mask& inside,
                      bool wants_terms) {
@@ -123,10 +168,16 @@ std::vector<Score> score(const MetricReference& reference, const HostImage& test
     if (counts) *counts = pair.test_counts;
     const Mask finite = intersection(pair.finite, reference.finite);
     std::vector<Score> scores;
+    std::optional<NoisierPairs> noisier;
     for (size_t m = 0; m < reference.metrics.size(); ++m) {
         const Metric& metric = *reference.metrics[m];
         const std::vector<Plane> layers = layers_of(metric, pair, reference.halves);
         const NoiseMaps maps = reference.halves ? noise_maps(metric, *reference.halves, pair.test) : NoiseMaps{};
+        std::optional<NoisierMaps> extrapolated;
+        if (reference.halves && is_extrapolated(metric)) {
+            if (!noisier) noisier = noisier_pairs(reference, test);
+            extrapolated = noisier_maps(metric, *noisier);
+        }
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, finite);
             const double value = metric.pool(layers, inside);
@@ -141,6 +192,7 @@ std::vector<Score> score(const MetricReference& reference, const HostImage& test
             const bool has_noise = reference.halves && row.pixels > 0;
             if (has_noise) row.floor = metric.pool(reference.floor_layers[m], inside);
             NoiseTerms terms = has_noise ? set_noise(row, maps, layers, inside, noise != nullptr) : NoiseTerms{};
+            if (has_noise && extrapolated) set_extrapolated(row, layers.front(), *extrapolated, inside);
             if (noise) noise->push_back(std::move(terms));
         }
     }

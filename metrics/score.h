@@ -42,7 +42,8 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
 /// of several scores can be told: 0 outside of the mask; empty where that cannot be said.
 ///
 /// Intervals: of metrics that are corrected (means of weighted squares, and rmse, the root of one), `bias` and
-/// `energy_ratio`, the ratio of a fixed mean to that of the reference. All others carry the reference's noise as it
-/// comes, which `floor` tells the size of, and have none.
+/// `energy_ratio`, the ratio of a fixed mean to that of the reference. Other means of a map (flip, hdr_flip, ssim, mae)
+/// carry the reference's noise in their value, and their intervals reach to where it would lie without
+/// (metrics/extrapolation.h). The rest, which `floor` tells the size of the noise of, have none.
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
                          PixelCounts* counts = nullptr, std::vector<NoiseTerms>* noise = nullptr);

@@ -3,6 +3,7 @@
 #include "core/scene/load_scene.h"
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/rung_errors.h"
+#include "experiments/results/summary.h"
 #include "groundtruth/reference_guide.h"
 #include "groundtruth/reference_passes.h"
 
@@ -174,6 +175,93 @@ std::vector<CoverageRow> coverage(const CoverageSetting& setting) {
             row.test = r.variant, row.target = r.target, row.mask = r.mask, row.metric = r.metric;
             add(row, r, truth[i].value.value_or(NAN));
         }
+    }
+    std::vector<CoverageRow> rows;
+    for (auto& [key, row] : sums) {
+        for (double* sum : {&row.truth, &row.mean, &row.deviation, &row.half_width}) *sum /= row.intervals;
+        row.deviation = std::sqrt(row.deviation);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+namespace {
+
+HostImage box_blurred(const HostImage& image) {
+    constexpr int radius = 2;
+    HostImage blurred(image.extent, 3);
+    const int width = int(image.extent.x), height = int(image.extent.y);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            glm::vec3 sum(0);
+            float count = 0;
+            for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
+                for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width - 1); ++u)
+                    sum += image.rgb(size_t(v) * width + u), ++count;
+            blurred.set_rgb(size_t(y) * width + x, sum / count);
+        }
+    return blurred;
+}
+
+/// Images of each technique by seed; a single one where it has none.
+std::map<std::string, std::vector<CompositedImages>> technique_images(const View& view, unsigned seeds) {
+    constexpr unsigned other_seed = 0x7e57;
+    const HostImage confidence(view.extent, 1);
+    std::map<std::string, std::vector<CompositedImages>> images;
+    const Reference shown = view.reference(16, other_seed);
+    const HostImage& fallback = shown.ladder.fallback;
+    images["fallback"].push_back({product(shown.ladder.reflectance, fallback), fallback, confidence, {}});
+    for (unsigned seed = 1; seed <= seeds; ++seed) {
+        const Reference noisy = view.reference(16, other_seed + seed),
+                        poor = view.reference(16, other_seed + 1000 + seed);
+        images["noisy"].push_back({noisy.specular.mean, noisy.incident.mean, confidence, {}});
+        const HostImage blurred = box_blurred(poor.specular.mean);
+        images["denoised"].push_back({blurred, blurred, confidence, {}});
+    }
+    return images;
+}
+
+}  // namespace
+
+std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsigned technique_seeds) {
+    constexpr unsigned known_seeds = 64, truth_factor = 128;
+    const View view(setting.scene, setting.extent);
+    const auto images = technique_images(view, known_seeds);
+    const Reference best = view.reference(truth_factor * setting.samples, setting.seeds + 1);
+    std::vector<Mask> inside = masks(view, best, 0);
+    inside.resize(2);
+    Config config;
+    config.targets = setting.targets, config.metrics = setting.metrics;
+    const auto rows_of = [&](const PoseTruth& truth, const std::string& name, unsigned first, unsigned count) {
+        std::vector<ResultRow> rows;
+        const std::vector<CompositedImages>& own = images.at(name);
+        for (unsigned seed = first; seed < first + std::min<size_t>(count, own.size()); ++seed)
+            for (ResultRow& row :
+                 measure_targets(truth, own[seed % own.size()], inside, {.variant = name, .seed = seed}))
+                rows.push_back(std::move(row));
+        return rows;
+    };
+    const PointSet without_seeds = {{"fallback", ""}};
+    using Key = std::tuple<std::string, std::string, std::string, std::string>;
+    std::map<Key, double> truths;
+    const PoseTruth exact = pose_truth(best, config, 0, {.has_targets = true});
+    for (const auto& [name, own] : images)
+        for (const MetricSummary& s : summarise(rows_of(exact, name, 0, known_seeds), without_seeds))
+            truths[{name, s.target, s.mask, s.metric}] = s.value.value_or(NAN);
+    std::map<Key, CoverageRow> sums;
+    for (unsigned r = 0; r < setting.seeds; ++r) {
+        const PoseTruth truth = pose_truth(view.reference(setting.samples, r), config, 0, {.has_targets = true});
+        for (const auto& [name, own] : images)
+            for (const MetricSummary& s :
+                 summarise(rows_of(truth, name, r * technique_seeds, technique_seeds), without_seeds)) {
+                CoverageRow& row = sums[{name, s.target, s.mask, s.metric}];
+                row.scene = setting.scene, row.samples = setting.samples;
+                row.test = name, row.target = s.target, row.mask = s.mask, row.metric = s.metric;
+                ResultRow result;
+                result.value = s.value, result.low = s.low, result.high = s.high;
+                if (!s.holds_all_noise) result.low = result.high = std::nullopt;
+                add(row, result, truths.at({name, s.target, s.mask, s.metric}));
+            }
     }
     std::vector<CoverageRow> rows;
     for (auto& [key, row] : sums) {

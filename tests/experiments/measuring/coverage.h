@@ -32,3 +32,9 @@ struct CoverageRow {
 /// Masks: `all`, `reflective`, `edge`; reflective pixels at random: `ten`, `hundred`; `dominant`: the noisiest pixels,
 /// each with 40 of the quieter half.
 std::vector<CoverageRow> coverage(const CoverageSetting& setting);
+
+/// The same of intervals over the seeds of a technique (summary.csv): `setting.seeds` references, `technique_seeds` of
+/// each technique against each. Tests: `fallback`, which has no seed; `noisy` (the truth with the noise of 16 samples);
+/// `denoised` (that of 4 samples, means of 5x5 pixels). The truth is the mean over 64 seeds against a reference of 128
+/// times the samples. Masks: `all` and `reflective`.
+std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsigned technique_seeds);
