@@ -23,7 +23,7 @@ from analysis.points import ResultsError, Study
 SHOT = ("shot", "scene", "machine", "variant", "label")
 FILES = {
     "front.csv": (*SHOT[:3], "variant", "point", "label", "error", "error_low", "error_high", "cost", "cost_low", "cost_high", "unit", "is_nominal_front", "verdict", "dominated_by", "undecided_with"),
-    "error_at_cost.csv": (*SHOT, "cost", "unit", "status", "error", "low", "high", "fits", "start", "end", "point", "point_error"),
+    "error_at_cost.csv": (*SHOT, "cost", "unit", "status", "error", "low", "high", "fits", "start", "end", "point", "point_error", "point_low", "point_high", "chosen_on"),
     "cost_to_error.csv": (*SHOT, "factor", "error", "unit", "status", "cost", "low", "high", "share_that_reach", "start", "end"),
     "fits.csv": (*SHOT, "parameter", "fixed", "points", "point_names", "cost_from", "cost_to", "unit", "floor", "floor_low", "floor_high", "a", "b", "b_low", "b_high", "misfit", "status", "rung", "rung_error", "rung_low", "rung_high", "floor_over_rung", "floor_over_rung_low", "floor_over_rung_high"),
     "limits.csv": (*SHOT[:3], "rung", "rung_error", "rung_low", "rung_high", "variant", "point", "label", "error", "error_low", "error_high", "over_rung", "over_rung_low", "over_rung_high", "cost", "unit"),

@@ -1,6 +1,9 @@
 """Tables within Markdown files: between `<!-- table STUDY NAME -->` and `<!-- end of table -->`, made from the committed
 summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "caption": "..."} -->` shows an excerpt: the
-named rows and columns in that order (all, where a key is left out)."""
+named rows and columns in that order (all, where a key is left out).
+
+Numbers in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell() and cells() of kept tables (Numbers),
+fixed(value, places), min, max, sum, len and abs."""
 
 import json
 import os
@@ -10,6 +13,41 @@ from paper_figures.results import ResultsError
 from paper_tables import formats, summary_file
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
+
+
+NUMBER = re.compile(r"(?P<head><!--= (?P<expression>[^\n]+?) -->)(?P<text>[^\n]*?)(?P<end><!--/-->)")
+
+
+class Numbers:
+    """What an expression in prose may name; tables by the name of their study's summary and their own."""
+
+    def __init__(self, summaries, file):
+        self.summaries, self.file = summaries, file
+
+    def cells(self, study, table, rows=None, columns=None, with_interval=False):
+        """The values of a kept table: of the rows and of the columns whose names hold all of these whole words (None: all), where they
+        have one (and, if asked, an interval)."""
+        _, tables = summary_file.read(os.path.join(self.summaries, study + ".csv"))
+        if table not in tables:
+            raise ResultsError(f"{self.file}: {study} has no table '{table}'; it has: {', '.join(tables)}")
+        holds = lambda words, name: all(re.search(rf"(?<!\w){re.escape(w)}(?!\w)", name) for w in ([words] if isinstance(words, str) else words or []))
+        found = [c for c in tables[table][1] if holds(rows, c.row) and holds(columns, c.column) and c.value is not None]
+        return [c.value for c in found if c.low is not None or not with_interval]
+
+    def cell(self, study, table, row, column):
+        """The one value of a row and a column, by words as above."""
+        found = self.cells(study, table, row, column)
+        if len(found) != 1:
+            raise ResultsError(f"{self.file}: {len(found)} cells of {study} {table} are of '{row}' and '{column}'; one was meant")
+        return found[0]
+
+    def text(self, expression):
+        names = {"cell": self.cell, "cells": self.cells, "fixed": lambda value, places: f"{value:.{places}f}"}
+        names |= {"min": min, "max": max, "sum": sum, "len": len, "abs": abs}
+        try:
+            return str(eval(expression, {"__builtins__": {}} | names))  # of our own documents
+        except (SyntaxError, NameError, TypeError, ValueError, ZeroDivisionError) as e:
+            raise ResultsError(f"{self.file}: `{expression}` makes no number: {e}") from e
 
 
 def markdown_files(root):
@@ -40,7 +78,7 @@ def _excerpt(table, cells, text, where):
 
 
 def filled(text, summaries, file):
-    """The text with each table made anew. Fails on a table that no summary holds."""
+    """The text with each table, and each number in prose, made anew. Fails on one that no summary holds."""
 
     def made(block):
         path = os.path.join(summaries, block["study"] + ".csv")
@@ -52,7 +90,8 @@ def filled(text, summaries, file):
             table, cells = _excerpt(table, cells, block["excerpt"], f"{file}: table {block['name']}")
         return block["head"] + formats.markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
 
-    return BLOCK.sub(made, text)
+    numbers = Numbers(summaries, file)
+    return NUMBER.sub(lambda n: n["head"] + numbers.text(n["expression"]) + n["end"], BLOCK.sub(made, text))
 
 
 def rewrite(root, summaries):
@@ -78,7 +117,7 @@ def mistakes(root, summaries, estimators):
             text = stream.read()
         shown.update(block["study"] for block in BLOCK.finditer(text))
         if filled(text, summaries, file) != text:
-            found.append(f"{file}: its tables differ from {summaries}; `ssrlab tables --fill` makes them anew")
+            found.append(f"{file}: its tables or numbers differ from {summaries}; `ssrlab tables --fill` makes them anew")
     for name in sorted(os.listdir(summaries)) if os.path.isdir(summaries) else []:
         if not name.endswith(".csv"):
             continue

@@ -164,7 +164,7 @@ class Answers:
         if not others:
             return text + "; nothing else fits in all of them."
         if near:
-            text += f"; over these scenes it cannot be told from {listed(r['label'] for r in near)}"
+            text += f"; over these scenes it is not distinguishable from {listed(r['label'] for r in near)}"
         if beaten:
             text += f"; it errs less than {listed(r['label'] for r in beaten)} (Holm's test at 0.05)"
         if first["scenes"] < scenes.LEAST_SCENES:
@@ -181,7 +181,7 @@ class Answers:
     def _shots(self):
         lines = []
         if self.analysis.machines():
-            lines = ["## Each shot", "", "A technique is its variant: all of its points make its front. Between two of them lies what logarithmic interpolation tells, where nothing was run.", ""]
+            lines = ["## Each shot", "", "A technique is its variant: all of its points make its front. Curves between two of them are interpolated (logarithmic): nothing was run there.", ""]
         for shot in self.study.shots:
             if not self.analysis.curves[shot.name]:
                 continue
@@ -197,7 +197,7 @@ class Answers:
         beaten = [r for r in rows if r["verdict"] == "dominated"]
         text = f"Certainly on the front: {', '.join(at(r) for r in sure)}. " if sure else "No point is certainly on the front. "
         if maybe:
-            text += f"Cannot be told: {', '.join(r['label'] for r in maybe)}. "
+            text += f"Undecided: {', '.join(r['label'] for r in maybe)}. "
         return text + f"{len(beaten)} points are dominated." if beaten else text.strip()
 
     def _costs_table(self, shot):

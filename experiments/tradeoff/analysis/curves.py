@@ -105,10 +105,6 @@ class Curve:
         value, low, high, share = self._read(cost_to, error)
         return value, low, high if share >= 0.975 else None, share
 
-    def best_within(self, cost):
-        """The measured point of least error whose median cost is at most `cost`; None without one."""
-        return min((p for p in self.points if p.cost <= cost), key=lambda p: p.error, default=None)
-
 
 def curves_of(shot, draws_of):
     """Variant to Curve, of the shot's judged points; `draws_of`: makes draws of a list of points."""

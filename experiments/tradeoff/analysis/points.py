@@ -240,8 +240,8 @@ class Study:
     def _add_effects(self):
         shots = {s.name: s for s in self.shots}
         for row in self.results.effects:
-            if self.is_error(row) and row["shot"] in shots and row["ratio"] and row["low"] and row["high"]:
-                measured = tuple(float(row[c]) for c in ("ratio", "low", "high"))
+            if self.is_error(row) and row["shot"] in shots and row["ratio"] and row["low_holm"] and row["high_holm"]:
+                measured = tuple(float(row[c]) for c in ("ratio", "low_holm", "high_holm"))
                 pair = (row["variant"], row["point"]), (row["against_variant"], row["against_point"])
                 effects = shots[row["shot"]].error_effects
                 effects[pair] = measured

@@ -1,6 +1,7 @@
 """The rows of the CSV files (README.md), from the analyses."""
 
 import csv
+import math
 import os
 import zlib
 
@@ -73,20 +74,34 @@ class Analysis:
             for cost in self.costs:
                 row = self._curve_columns(shot, variant, curve) | {"cost": cost}
                 error, low, high, _ = curve.error_at(cost)
-                best = curve.best_within(cost)
-                row["status"] = _place(cost, curve) if best else "before start"
-                row["fits"] = self._fits(curve, cost)
-                if best:
-                    row |= {"error": error, "low": low, "high": high}
-                    row |= {"point": best.point, "point_error": best.error}
+                chosen, row["chosen_on"] = self._chosen(shot, curve, cost)
+                row["status"] = _place(cost, curve) if chosen else "before start"
+                row["fits"] = _fits(chosen or min(curve.points, key=lambda p: p.cost), cost)
+                if chosen:
+                    row |= {"error": error, "low": low, "high": high, "point": chosen.point}
+                    row |= {"point_error": chosen.error, "point_low": chosen.error_low, "point_high": chosen.error_high}
                 yield row
 
-    def _fits(self, curve, cost):
-        """Whether the cheapest of the front's points costs so little (time_summary.csv)."""
-        first = min(curve.points, key=lambda p: p.cost)
-        if first.fits_from <= cost:
-            return "surely"
-        return "maybe" if first.may_fit_from <= cost else "no"
+    def _chosen(self, shot, curve, cost):
+        """(the point that somebody would take for the shot who knows what everything costs there and errs elsewhere, where that was
+        told): of those whose median fits, the one of least error in the other scenes (geometric mean over scenes of the ratio to the
+        baseline, over the shots that all have an error in). Where there is no other scene, the one of least error in the shot itself,
+        which is flattered by the choice."""
+        fitting = [p for p in curve.points if p.cost <= cost]
+        if not fitting:
+            return None, None
+        judged = {s.name: {p.key: p for p in s.points if p.is_ranked and p.error > 0} for s in self.study.shots}
+        others = [s for s in self.study.shots if s.scene != shot.scene and s.divisor(self.baseline)]
+        common = [s for s in others if all(p.key in judged[s.name] for p in fitting)]
+        if not common:
+            return min(fitting, key=lambda p: p.error), "this shot"
+
+        def mean(p):
+            logs = [(s.scene, math.log(judged[s.name][p.key].error / s.divisor(self.baseline))) for s in common]
+            means = scenes.scene_means(logs)
+            return sum(means.values()) / len(means)
+
+        return min(fitting, key=mean), "other scenes"
 
     def _cost_to_error_rows(self, shot):
         base = shot.divisor(self.baseline)
@@ -148,15 +163,18 @@ class Analysis:
             yield self._named(row) | {"variant": variant, "point": point, "label": self.study.label_of((variant, point))}
 
     def _across_rows(self, machine, cost):
-        """Variants at a cost, over the shots of one machine."""
+        """Variants at a cost, over the shots of one machine: each by the point that _chosen() takes in each shot, as it ran there."""
         shots = [s for s in self.study.shots if s.machine == machine and self.curves[s.name]]
-        names, table = {s.name for s in shots}, {}
+        names, table, chosen = {s.name for s in shots}, {}, {}
         for row in self.error_at_cost:
             if row["shot"] in names and row["cost"] == cost and row.get("error") and row["fits"] != "no":
-                table.setdefault(row["variant"], {})[row["shot"]] = (row["error"], row["low"], row["high"])
+                table.setdefault(row["variant"], {})[row["shot"]] = (row["point_error"], row["point_low"], row["point_high"])
+                chosen[row["variant"], row["shot"]] = (row["variant"], row["point"])
+        of_name = {s.name: s for s in shots}
 
         def certainly_less(a, b, shot):
-            return table[a][shot][2] < table[b][shot][1]
+            s = of_name[shot]
+            return dominance.error_ratio(s, s.point_of(chosen[a, shot]), s.point_of(chosen[b, shot]))[1] < 1
 
         fitting = {}
         for row in self.error_at_cost:
@@ -187,6 +205,11 @@ def _rung_columns(rung, error, measured, name):
         upper = measured[2] / low if low and low > 0 else None
         columns |= {name: measured[0] / value, name + "_low": measured[1] / (high or value), name + "_high": upper}
     return columns
+
+
+def _fits(point, cost):
+    """As time_summary.csv has it."""
+    return "surely" if point.fits_from <= cost else "maybe" if point.may_fit_from <= cost else "no"
 
 
 def _place(cost, curve):

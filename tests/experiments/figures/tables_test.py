@@ -154,7 +154,7 @@ def test_what_intervals_hold(folder):
     write_results(folder, [TABLES[0], single], RATIOS | one_seed)
     root = os.path.join(folder, "tree")
     block = "<!-- table made_up {} -->\n<!-- end of table -->\n"
-    write(os.path.join(root, "README.md"), block.format("single") + block.format("changes"))
+    write(os.path.join(root, "README.md"), block.format("single") + block.format("changes") + 'At most <!--= fixed(max(cells("made_up", "single")), 2) -->?<!--/-->.\n')
     result = tables(folder, "--keep", "--root", root)
     check(result.returncode == 0, result.stderr)
     text = read(os.path.join(folder, "tables", "single.md"))
@@ -164,6 +164,13 @@ def test_what_intervals_hold(folder):
     mean = read(os.path.join(folder, "tables", "changes.md"))
     check("| 1.00 (0.50 to 2.00; 1 seed) | 0.8100 [0.8030, 0.8171]\N{DAGGER} |" in mean, mean)
     check(text in read(os.path.join(root, "README.md")) and mean in read(os.path.join(root, "README.md")), "marks are lost where they are kept")
+    document = os.path.join(root, "README.md")
+    number = "-->2.00<!--/-->"
+    check(number in read(document), "a number in prose is made with the tables")
+    write(document, read(document).replace(number, "-->2.01<!--/-->"))
+    check("tables or numbers differ" in tables("--check", "3", "--root", root).stderr, "a number that was edited is found")
+    write(document, read(document).replace('"single")), 2', '"absent")), 2'))
+    check("made_up has no table 'absent'" in tables("--fill", "--root", root).stderr, "a number of no table")
     latex = read(os.path.join(folder, "tables", "single.tex"))
     # Too wide for a page's text: values in one line, all else in the next.
     check(r"taps = 4 & \textbf{0.500} & 2.00 & 0.8100 & 0.8100 \\[-2.5pt]" in latex, latex)
@@ -343,7 +350,7 @@ def test_documents(temporary):
     check(stale.returncode == 2 and "made with estimators 7, but today's are 8" in stale.stderr, stale.stderr)
     write(document, filled.replace("0.250 [", "0.251 [", 1))
     stale = tables("--check", "7", "--root", root)
-    check(stale.returncode == 2 and "README.md: its tables differ" in stale.stderr, stale.stderr)
+    check(stale.returncode == 2 and "README.md: its tables or numbers differ" in stale.stderr, stale.stderr)
     check(tables("--fill", "--root", root).returncode == 0 and read(document) == filled, "--fill")
     write(document, "nothing")
     unshown = tables("--check", "7", "--root", root)
