@@ -5,7 +5,7 @@ build_packages=(
     g++ cmake ninja-build ccache pkg-config git ca-certificates
     libvulkan-dev mesa-vulkan-drivers glslang-dev spirv-tools
     libembree-dev libtbb-dev libopenexr-dev libpng-dev libglm-dev libtinygltf-dev
-    libboost-dev  # Sobol's sequence, for designs of studies
+    libboost-dev  # Sobol's sequence, for designs of studies; distribution functions
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil
     python3-scipy  # distributions and intervals of `ssrlab tradeoff` and `ssrlab tune`

@@ -42,11 +42,13 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
         if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
     set_standings(errors, paired_errors(rows.results, variants, not_repeatable, rows.reference_noise),
                   points_using_scene_data(manifest));
-    write_rows(folder / "summary.csv", errors);
     std::map<std::string, double> floors;
     for (const TimeRow& t : rows.times)
         if (const auto floor = aa_floor(manifest, t.shot)) floors[t.shot] = *floor;
-    write_rows(folder / "time_summary.csv", summarise(rows.times, floors));
+    const std::vector<TimeSummary> times = summarise(rows.times, floors);
+    set_fronts(errors, times);
+    write_rows(folder / "summary.csv", errors);
+    write_rows(folder / "time_summary.csv", times);
 }
 
 void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest) {

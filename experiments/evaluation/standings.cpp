@@ -84,6 +84,28 @@ double p_by_intervals(const MetricSummary& a, const MetricSummary& b) {
     return degrees > 0 ? 2 * student_t_cdf(-statistic, degrees) : std::erfc(statistic / std::sqrt(2.0));
 }
 
+void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times) {
+    std::map<std::tuple<std::string, std::string, std::string>, double> totals;
+    for (const TimeSummary& t : times)
+        if (t.stage == "total") totals[{t.shot, t.variant, t.point}] = t.median;
+    std::map<std::tuple<std::string, std::string, std::string, std::string>,
+             std::vector<std::tuple<double, double, MetricSummary*>>>
+        contests;
+    for (MetricSummary& e : errors) {
+        e.is_on_front = false;
+        const auto time = totals.find({e.shot, e.variant, e.point});
+        if (!e.standing.empty() && time != totals.end())
+            contests[{e.shot, e.target, e.metric, e.mask}].push_back(
+                {time->second, shortfall(*direction_of(e.metric), *e.value), &e});
+    }
+    for (auto& [name, points] : contests) {
+        std::ranges::sort(points);
+        double least = INFINITY;
+        for (const auto& [time, error, e] : points)
+            if (error < least) e->is_on_front = true, least = error;
+    }
+}
+
 void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired, const PointSet& without_part) {
     std::map<std::tuple<std::string, std::string, std::string, std::string>, std::vector<MetricSummary*>> contests;
     for (MetricSummary& e : errors) {

@@ -25,6 +25,10 @@ inline constexpr const char* behind = "behind";  ///< significantly worse than t
 /// Multiple Comparisons with the Best", by adjusted p-values. Simulated in tests/experiments/evaluation.
 void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired = {}, const PointSet& without_part = {});
 
+/// Marks the front of error against time of each shot, by medians and means alone: the points with a standing that none
+/// other with one beats in both. A hint of where to look: `ssrlab tradeoff` says which of them are certain.
+void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times);
+
 /// Two-sided p of "both are equal" by their 95 % intervals, of which the ends that face each other count; the
 /// half-widths are Student's of the lesser number of seeds, or a normal's of points that do not depend on seeds.
 double p_by_intervals(const MetricSummary& a, const MetricSummary& b);

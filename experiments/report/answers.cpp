@@ -1,8 +1,8 @@
 #include "experiments/report/answers.h"
 
 #include "experiments/evaluation/standings.h"
-#include "experiments/results/manifest.h"
 #include "experiments/results/interval.h"
+#include "experiments/results/manifest.h"
 #include "experiments/results/study_points.h"
 #include "metrics/temporal.h"
 
@@ -103,11 +103,10 @@ std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& sho
 std::vector<AnswerPoint> front_of(const std::vector<Scored>& scored) {
     std::vector<const Scored*> timed;
     for (const Scored& s : scored)
-        if (s.time && s.is_ranked()) timed.push_back(&s);
+        if (s.time && s.error->is_on_front) timed.push_back(&s);
     std::ranges::stable_sort(timed, {}, [](const Scored* s) { return s->time->median; });
     std::vector<AnswerPoint> front;
-    for (const Scored* s : timed)
-        if (front.empty() || s->point.value < front.back().value) front.push_back(s->point);
+    for (const Scored* s : timed) front.push_back(s->point);
     return front;
 }
 

@@ -138,6 +138,7 @@ std::vector<EffectRow> effects_of_rows(const Side& point, const Side& baseline) 
     if (!row.ratio) return {row};
     const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;
     row.interval = has_seeds ? (has_noise ? interval::reference_and_seeds : interval::seeds) : interval::reference;
+    row.holds_all_noise = has_noise || !(first.floor > 0.0);  // without halves it has none to hold
     if (has_seeds && row.seeds < 2)
         withhold_interval(row, interval::one_seed);
     else if (!has_seeds && is_exact && !row.low)  // nor has its light any noise
@@ -297,7 +298,11 @@ void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primar
         const bool is_primary = e.metric == primary.metric && e.mask == primary.mask && e.target == primary.target;
         e.family = is_primary ? "primary" : "exploratory", e.verdict.clear();
         e.p_holm = e.low_holm = e.high_holm = std::nullopt;
-        if (e.p && e.ratio) families[{e.target, e.metric, e.mask}].push_back(&e);
+        if (!e.p || !e.ratio) continue;
+        if (e.holds_all_noise)
+            families[{e.target, e.metric, e.mask}].push_back(&e);
+        else
+            e.low_holm = e.low, e.high_holm = e.high;
     }
     for (const auto& [error, family] : families) {
         std::vector<double> p;

@@ -22,6 +22,7 @@ struct EffectRow {
     std::optional<double> low_holm, high_holm;  ///< interval that leaves out 1 where p_holm is below 0.05
     std::string verdict;                        ///< see set_verdicts(); empty without a p
     RatioEstimate estimate{};                   ///< what all of these are made of; no column
+    bool holds_all_noise = true;                ///< false where the reference's noise is not in the interval; no column
 
     static constexpr auto columns() {
         return std::tuple(
@@ -73,9 +74,11 @@ inline constexpr const char* more = "more";
 inline constexpr const char* not_distinguishable = "not distinguishable";
 }  // namespace verdict
 
-/// Decides `verdict` of all effects that have a p, at 0.05. The effects on one error (target, metric, mask), of all
-/// points and shots, are a family, whose p-values are adjusted together (holm_adjusted()): among many comparisons some
-/// come out small by chance. `low_holm` and `high_holm` are intervals at the level that each is judged at, so that they
-/// agree with the verdict: 0.05 over the factor by which p was adjusted. The `primary` family is what the study was
-/// made to compare; in `exploratory` ones what is significant is so among the effects on that error alone.
+/// Decides `verdict` of all effects that have a p and whose interval holds all that is random, at 0.05; others (FLIP
+/// and SSIM against a noisy reference) keep the interval of their seeds and have no verdict. The effects on one error
+/// (target, metric, mask), of all points and shots, are a family, whose p-values are adjusted together
+/// (holm_adjusted()): among many comparisons some come out small by chance. `low_holm` and `high_holm` are intervals at
+/// the level that each is judged at, so that they agree with the verdict: 0.05 over the factor by which p was adjusted.
+/// The `primary` family is what the study was made to compare; in `exploratory` ones what is significant is so among
+/// the effects on that error alone.
 void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary);

@@ -75,6 +75,7 @@ const std::map<std::string, Meaning>& meanings() {
         {"median_ms", {"ms", "median time over the frames"}},
         {"low_ms", {"ms", "low end of its 95 % interval"}},
         {"high_ms", {"ms", "high end of its 95 % interval"}},
+        {"on_front", {"", "1: no ranked point of the shot has less error and takes less time"}},
         {"fits_from_ms", {"ms", "least budget that the time certainly fits into"}},
         {"may_fit_from_ms", {"ms", "least budget that it may fit into"}},
         {"frames", {"", "how many frames were timed"}},

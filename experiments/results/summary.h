@@ -27,6 +27,7 @@ struct MetricSummary {
     std::string standing = {};  ///< among the points of its shot, see evaluation/standings.h; empty: not ranked
     std::optional<double> over_best, over_best_low, over_best_high;  ///< value / the least ranked one, where paired
     std::optional<double> p_best;  ///< Holm-adjusted p of "no worse than the best measured"
+    bool is_on_front = false;      ///< of error against time, see set_fronts()
 
     static constexpr auto columns() {
         return std::tuple(
@@ -43,7 +44,8 @@ struct MetricSummary {
             Column{"negative", &MetricSummary::negative}, Column{"speaks", &MetricSummary::speaks_for_shot},
             Column{"standing", &MetricSummary::standing}, Column{"over_best", &MetricSummary::over_best},
             Column{"over_best_low", &MetricSummary::over_best_low},
-            Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best});
+            Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},
+            Column{"on_front", &MetricSummary::is_on_front});
     }
 };
 

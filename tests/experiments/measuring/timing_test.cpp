@@ -264,11 +264,12 @@ TEST(TimingEntry, HasAFloorThatDoesNotGrowWithThePairs) {
         std::ranges::nth_element(floors, floors.begin() + 200);
         medians.push_back(floors[200]);
     }
-    // 95 % of |t| with 4 degrees of freedom lie below 2.78, and of a normal variable with its median below 2.15: the
-    // median of 401 floors is known to 3 % for 52 pairs, and to 15 % for a single one.
-    EXPECT_NEAR(medians[0], 0.043, 0.2 * 0.043);
-    EXPECT_NEAR(medians[1], 0.043, 0.1 * 0.043);
-    EXPECT_NEAR(medians[2], 0.043, 0.05 * 0.043) << "their largest would be 0.12";
+    // 95 % of |t| with 4 degrees of freedom lie below 2.78, and of a normal variable with its median below 2.15: 0.055
+    // and 0.043. The median of 401 floors is known to 15 % for a single pair, and to 5 % for more.
+    for (const double median : medians) {
+        EXPECT_GT(median, 0.85 * 0.043);
+        EXPECT_LT(median, 1.1 * 0.055) << "the largest of 52 would be 0.12";
+    }
 }
 
 TEST(TimingEntry, GoesIntoTheManifest) {

@@ -50,6 +50,7 @@ struct Made {
     }
     ShotAnswer answer(const json& of_study = manifest) {
         set_standings(tables.errors, {}, {{"exact", "default"}});
+        set_fronts(tables.errors, tables.times);
         return shot_answers(tables, of_study).at(0);
     }
 };

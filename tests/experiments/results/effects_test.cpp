@@ -118,6 +118,22 @@ TEST(Effects, PairSeedsByTheirNumber) {
     EXPECT_NEAR(*effects[0].ratio, 0.5, 1e-12) << "rounding of logarithms";
 }
 
+TEST(Effects, AreNotJudgedWhereTheReferencesNoiseIsNotKnown) {
+    std::vector<ResultRow> rows;
+    for (unsigned seed = 0; seed < 4; ++seed)
+        for (const char* point : {"base", "better"}) {
+            ResultRow r = row("0", point, seed, "flip", (point == std::string("base") ? 1 : 0.5) * (1 + 0.01 * seed));
+            r.floor = 0.1;
+            rows.push_back(r);
+        }
+    std::vector<EffectRow> effects = effects_of(rows, two_points);
+    ASSERT_EQ(effects.size(), 1u);
+    set_verdicts(effects, {});
+    EXPECT_EQ(effects[0].interval, interval::seeds);
+    EXPECT_EQ(effects[0].verdict, "") << "another reference may tell otherwise, however well the seeds agree";
+    EXPECT_EQ(effects[0].low_holm, effects[0].low);
+}
+
 TEST(Effects, OnOneErrorAreOneFamily) {
     std::vector<ResultRow> rows;
     // The scatter over three seeds, and so p, is another for each shot and target.
@@ -129,7 +145,7 @@ TEST(Effects, OnOneErrorAreOneFamily) {
                 for (const char* metric : {"mse", "relmse"}) {
                     ResultRow r = row("0", point, seed, metric, point == std::string("base") ? 1 : 0.5);
                     if (point == std::string("better")) r.value = *r.value * std::pow(scatter, double(seed) - 1);
-                    r.shot = key.first, r.target = key.second;
+                    r.shot = key.first, r.target = key.second, r.floor = 0;
                     rows.push_back(r);
                 }
     std::vector<EffectRow> effects = effects_of(rows, two_points);

@@ -6,14 +6,8 @@ const costAxis = {
 };
 const costOf = row => costAxis.kind === "time" ? totalTime(row) : totalCost(row, costAxis.kind);
 
-/// Those that none other beats in both: a hint, by medians and means alone. Single seeds may stand anywhere by chance.
-function paretoFront(all) {
-    const timed = all.filter(p => !isOneSeed(p.row));
-    const isBeaten = p => timed.some(
-        q => q !== p && q.time.value <= p.time.value && q.row.value <= p.row.value &&
-            (q.time.value < p.time.value || q.row.value < p.row.value));
-    return timed.filter(p => !isBeaten(p)).sort((a, b) => a.time.value - b.time.value);
-}
+/// The points that summary.csv has on the front of error against time, in the order of their times.
+const frontOf = timed => timed.filter(p => p.row.onFront).sort((a, b) => a.time.value - b.time.value);
 
 const rowText = row => `${row.metric} ${number(row.value)} ${interval(row)}${unitText(row.metric)}`;
 
@@ -54,7 +48,7 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
         limit ? level("limit of one frame", limit, y, {stroke: "var(--accent)", strokeDasharray: "1 3"}) : null
     ].filter(Boolean);
     const under = [
-        ...(hasTimes && !cost ? budgetLine(x) : []), ...(isLog && hasTimes ? [frontLine(paretoFront(timed))] : []),
+        ...(hasTimes && !cost ? [...budgetLine(x), frontLine(frontOf(timed))] : []),
         ...levels.flatMap(l => levelLayers(l, x, y))
     ];
     const frames = framesText(rows[0]);
