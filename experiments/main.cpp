@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
-#include "experiments/results/host_info.h"
+#include "experiments/store/host_info.h"
 #include "metrics/tone_map.h"
 
 #include <CLI/CLI.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Names how numbers are made of images: raised by one with every change of a metric, a mask, a correction or an interval
-/// after which the same images would give other numbers. Results carry it, and summaries that are kept must have been made
-/// by today's.
+/// Names how numbers are made of images: raised by one with every change of a metric, a mask, a correction or an
+/// interval after which the same images would give other numbers. Results carry it, and summaries that are kept must
+/// have been made by today's.
 ///
 /// 2: relative errors weighted by a guide, intervals by pixels and not by tiles
 /// 3: intervals of rungs by the variance of what tells them from the truth; of frame differences and ghosts by the

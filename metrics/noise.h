@@ -71,4 +71,4 @@ NoiseTerms mean_noise(const ReferenceHalves& halves);
 std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask);
 
 inline constexpr double least_noise_pixels = 2, least_difference_pixels = 8;  ///< nu
-inline constexpr double least_noise_samples = 480;  ///< of all noisy pixels under the mask
+inline constexpr double least_noise_samples = 480;                            ///< of all noisy pixels under the mask

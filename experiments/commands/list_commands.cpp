@@ -3,7 +3,7 @@
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
-#include "experiments/study/config/config_schema.h"
+#include "experiments/config/config_schema.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/registry.h"

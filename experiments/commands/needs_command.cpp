@@ -3,9 +3,9 @@
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
-#include "experiments/measuring/needs.h"
-#include "experiments/results/csv.h"
-#include "experiments/study/progress.h"
+#include "experiments/run/needs.h"
+#include "experiments/run/progress.h"
+#include "experiments/tables/csv.h"
 
 #include <algorithm>
 #include <cstdio>

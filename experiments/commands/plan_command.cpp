@@ -3,9 +3,9 @@
 #include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
-#include "experiments/study/folder/cell_store.h"
-#include "experiments/study/plan/estimate.h"
-#include "experiments/study/progress.h"
+#include "experiments/run/plan/estimate.h"
+#include "experiments/run/progress.h"
+#include "experiments/store/cell_store.h"
 
 #include <unistd.h>
 #include <algorithm>

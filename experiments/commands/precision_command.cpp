@@ -3,8 +3,8 @@
 #include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
+#include "experiments/run/progress.h"
 #include "experiments/stability/precision/precision.h"
-#include "experiments/study/progress.h"
 
 #include <algorithm>
 #include <cstdio>

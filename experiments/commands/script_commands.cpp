@@ -3,8 +3,8 @@
 #include "core/files.h"
 #include "experiments/commands/child_process.h"
 #include "experiments/commands/commands.h"
-#include "experiments/study/config/config.h"
-#include "experiments/study/config/config_schema.h"
+#include "experiments/config/config.h"
+#include "experiments/config/config_schema.h"
 #include "metrics/estimators.h"
 
 #include <nlohmann/json.hpp>

@@ -4,9 +4,9 @@
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
+#include "experiments/run/progress.h"
 #include "experiments/stability/stability.h"
 #include "experiments/stability/stability_report.h"
-#include "experiments/study/progress.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -5,9 +5,9 @@
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
-#include "experiments/study/config/shot.h"
-#include "experiments/study/run.h"
-#include "experiments/study/shots/capture.h"
+#include "experiments/config/shot.h"
+#include "experiments/measuring/frames/capture.h"
+#include "experiments/run/run.h"
 #include "groundtruth/reference_cache.h"
 
 #include <cstdio>

@@ -3,9 +3,9 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/evaluation/standings.h"
-#include "experiments/results/columns.h"
-#include "experiments/results/manifest.h"
-#include "experiments/results/study_points.h"
+#include "experiments/evaluation/study_points.h"
+#include "experiments/store/manifest.h"
+#include "experiments/tables/columns.h"
 
 namespace {
 

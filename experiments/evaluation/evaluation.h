@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/results/results.h"
-#include "experiments/study/config/config.h"
+#include "experiments/config/config.h"
+#include "experiments/store/study_rows.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "experiments/evaluation/standings.h"
 
-#include "experiments/results/interval.h"
+#include "experiments/evaluation/interval.h"
 #include "metrics/quantiles.h"
 #include "metrics/statistics.h"
 #include "metrics/temporal.h"
@@ -11,8 +11,6 @@
 #include <tuple>
 
 namespace {
-
-constexpr double significance = 0.05;
 
 /// Half the width of the interval of a row's shortfall on its worse or its better side.
 double half_width(const MetricSummary& e, Better better, bool is_worse_side) {

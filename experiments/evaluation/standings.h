@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/results/effects.h"
-#include "experiments/results/summary.h"
+#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/summary.h"
 
 #include <span>
 

@@ -3,9 +3,10 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/evaluation/evaluation.h"
+#include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/standings.h"
-#include "experiments/results/manifest.h"
-#include "experiments/results/study_points.h"
+#include "experiments/evaluation/study_points.h"
+#include "experiments/store/manifest.h"
 #include "metrics/quantiles.h"
 #include "metrics/statistics.h"
 
@@ -19,7 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double family_error_rate = 0.05;    // of all changes that are said of two runs of one program
 constexpr double rounding = 1e-6;             // relative: other compilers add in another order
 constexpr double most_disturbed_share = 0.5;  // of the frames that a time is the median of
 
@@ -32,8 +32,8 @@ Number number_of(const Row& r) {
 using PointOfShot = std::array<std::string, 3>;  // shot, variant, point
 
 /// One study's numbers by what they are of.
-struct Side {
-    explicit Side(const StudyTables& tables)
+struct ComparedFolder {
+    explicit ComparedFolder(const StudyTables& tables)
         : manifest(tables.manifest),
           not_repeatable(points_not_repeatable(manifest)),
           without_seeds(points_without_seeds(manifest)) {
@@ -89,19 +89,19 @@ bool has_same_seeds(const std::map<unsigned, double>& a, const std::map<unsigned
 void settle(NumberChange& c, const char* verdict, std::string how) { c.verdict = verdict, c.how = std::move(how); }
 
 /// Gives a verdict where chance has no part, else a p.
-void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary& b, const Side& before,
-                    const Side& after) {
-    const auto is_in = [&](PointSet Side::*set) {
+void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary& b, const ComparedFolder& before,
+                    const ComparedFolder& after) {
+    const auto is_in = [&](PointSet ComparedFolder::*set) {
         return (before.*set).contains({c.variant, c.point}) || (after.*set).contains({c.variant, c.point});
     };
     if (!a.value || !b.value) return settle(c, a.value || b.value ? change::not_judged : change::equal, "no value");
     if (*a.value == *b.value) return settle(c, change::equal, "");
-    if (is_in(&Side::not_repeatable)) return settle(c, change::not_judged, "not repeatable");
+    if (is_in(&ComparedFolder::not_repeatable)) return settle(c, change::not_judged, "not repeatable");
     const auto seeds_before = before.values.find(number_of(a)), seeds_after = after.values.find(number_of(b));
     const bool has_seeds = seeds_before != before.values.end() && seeds_after != after.values.end();
     if (has_seeds && has_same_seeds(seeds_before->second, seeds_after->second) &&
         truth_of(before.manifest, c.shot) == truth_of(after.manifest, c.shot)) {
-        if (seeds_before->second.size() > 1 && !is_in(&Side::without_seeds)) {
+        if (seeds_before->second.size() > 1 && !is_in(&ComparedFolder::without_seeds)) {
             c.p = paired_p(seeds_before->second, seeds_after->second), c.how = "paired by seed";
             if (!c.p) settle(c, change::equal, "rounding");
             return;
@@ -163,11 +163,11 @@ void decide(const std::vector<NumberChange*>& family) {
     const std::vector<double> adjusted = holm_adjusted(p);
     for (size_t i = 0; i < family.size(); ++i) {
         family[i]->p_holm = adjusted[i];
-        family[i]->verdict = adjusted[i] < family_error_rate ? change::changed : change::not_distinguishable;
+        family[i]->verdict = adjusted[i] < significance ? change::changed : change::not_distinguishable;
     }
 }
 
-std::vector<PointOfShot> points_in_first(const Side& first, const Side& second) {
+std::vector<PointOfShot> points_in_first(const ComparedFolder& first, const ComparedFolder& second) {
     std::vector<PointOfShot> found;
     std::ranges::set_difference(first.points, second.points, std::back_inserter(found));
     return found;
@@ -193,7 +193,7 @@ StudyTables read_study_tables(const std::filesystem::path& folder) {
 }
 
 StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& after_tables, bool judges_times) {
-    const Side before(before_tables), after(after_tables);
+    const ComparedFolder before(before_tables), after(after_tables);
     StudyDiff diff{.errors = {},
                    .times = {},
                    .moved = {},

@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/results/columns.h"
-#include "experiments/results/summary.h"
+#include "experiments/evaluation/summary.h"
+#include "experiments/tables/columns.h"
 
 #include <array>
 #include <filesystem>

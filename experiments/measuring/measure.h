@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer_file.h"
-#include "experiments/results/cell.h"
-#include "experiments/study/config/config.h"
+#include "experiments/config/config.h"
+#include "experiments/measuring/cell.h"
 #include "groundtruth/reference.h"
 #include "metrics/masks.h"
 #include "metrics/score.h"

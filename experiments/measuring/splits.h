@@ -1,6 +1,6 @@
 #pragma once
+#include "experiments/measuring/cell.h"
 #include "experiments/measuring/lit_noise.h"
-#include "experiments/results/cell.h"
 #include "metrics/score.h"
 
 /// One target's images of all seeds, added one after the other.

@@ -1,9 +1,9 @@
 #include "experiments/report/answers.h"
 
+#include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/standings.h"
-#include "experiments/results/interval.h"
-#include "experiments/results/manifest.h"
-#include "experiments/results/study_points.h"
+#include "experiments/evaluation/study_points.h"
+#include "experiments/store/manifest.h"
 #include "metrics/temporal.h"
 
 #include <algorithm>

@@ -3,12 +3,12 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "experiments/evaluation/summary.h"
 #include "experiments/report/answers.h"
 #include "experiments/report/html_template.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
-#include "experiments/results/summary.h"
 #include "experiments/stability/stability_report.h"
 
 #include <algorithm>

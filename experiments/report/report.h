@@ -5,8 +5,8 @@
 
 /// Reads manifest.json, results.csv, splits.csv, effects.csv, times.csv (these three may be absent) and the EXR images
 /// of a results folder (experiments/RESULTS.md), and writes summary.csv, time_summary.csv and report.html into it, each
-/// atomically. The page needs no network. It is one file with its images in it as long as it stays below 30 MB; else, or
-/// if `links_images`, they lie in report_images/ beside it. Where the folder also holds the tables of `ssrlab
+/// atomically. The page needs no network. It is one file with its images in it as long as it stays below 30 MB; else,
+/// or if `links_images`, they lie in report_images/ beside it. Where the folder also holds the tables of `ssrlab
 /// stability`, the page shows them; where it holds these alone, it shows nothing else. Fails with Error, naming the
 /// file, if one is missing or malformed. Returns what the page says of each shot first.
 std::vector<ShotAnswer> write_report(const std::filesystem::path& results_folder, bool links_images = false);

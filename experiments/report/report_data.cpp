@@ -2,7 +2,7 @@
 
 #include "core/gpu/pass_cost.h"
 #include "experiments/evaluation/evaluation.h"
-#include "experiments/results/manifest.h"
+#include "experiments/store/manifest.h"
 
 #include <algorithm>
 #include <map>

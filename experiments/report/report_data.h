@@ -1,8 +1,8 @@
 #pragma once
-#include "experiments/results/effects.h"
-#include "experiments/results/study_points.h"
-#include "experiments/results/summary.h"
-#include "experiments/results/time_effects.h"
+#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/study_points.h"
+#include "experiments/evaluation/summary.h"
+#include "experiments/evaluation/time_effects.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/results/summary.h"
+#include "experiments/evaluation/summary.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

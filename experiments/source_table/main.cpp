@@ -1,6 +1,6 @@
 // usage: source_table ROOT OUT: writes OUT, C++ that tells the program which sources it was compiled from.
 #include "core/files.h"
-#include "experiments/results/source_code.h"
+#include "experiments/store/source_code.h"
 
 #include <cstdio>
 #include <exception>

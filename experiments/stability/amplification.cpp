@@ -68,8 +68,8 @@ double relative_step_of(const Perturbation& perturbation, const HostGBuffer& g, 
     return std::max(std::abs(there - here) / here, double(std::numeric_limits<float>::epsilon()) / 2);
 }
 
-Amplification amplification(const Perturbation& perturbation, const CaseFrames& frames, const CaseRun& run,
-                            const CaseRun& perturbed) {
+Amplification amplification(const Perturbation& perturbation, const CaseFrames& frames, const CaseResult& run,
+                            const CaseResult& perturbed) {
     const double magnitude = run.means.back();
     std::vector<double> ratios;
     for (size_t i = 0; i < run.specular.pixel_count(); ++i) {

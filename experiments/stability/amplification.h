@@ -22,8 +22,8 @@ std::vector<Perturbation> perturbations();
 /// By pixel.
 double relative_step_of(const Perturbation& perturbation, const HostGBuffer& gbuffer, size_t pixel);
 
-Amplification amplification(const Perturbation& perturbation, const CaseFrames& frames, const CaseRun& run,
-                            const CaseRun& perturbed);
+Amplification amplification(const Perturbation& perturbation, const CaseFrames& frames, const CaseResult& run,
+                            const CaseResult& perturbed);
 
 /// The value that the share `share`, in [0, 1], of `values` lies below; changes their order. At least one value.
 double quantile(std::vector<double>& values, double share);

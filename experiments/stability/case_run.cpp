@@ -2,9 +2,9 @@
 
 #include "core/error.h"
 #include "core/gbuffer/composite.h"
+#include "experiments/config/config.h"
+#include "experiments/config/point_name.h"
 #include "experiments/measuring/render_variant.h"
-#include "experiments/study/config/config.h"
-#include "experiments/study/config/point_name.h"
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 
@@ -30,7 +30,7 @@ float brightest(const HostGBuffer& gbuffer) {
     return most;
 }
 
-void judge(CaseRun& run, const FrameImages& frame, const HostGBuffer& gbuffer, float most, bool is_after_faults) {
+void judge(CaseResult& run, const FrameImages& frame, const HostGBuffer& gbuffer, float most, bool is_after_faults) {
     size_t spread = 0;
     for (size_t i = 0; i < frame.specular.pixel_count(); ++i) {
         if (!is_sound(gbuffer, i)) continue;
@@ -72,8 +72,8 @@ double mean_of_judged(const CaseFrames& frames, const HostImage& specular) {
     return count ? sum / double(count) : 0.0;
 }
 
-void render_all(CaseRun& run, Device& device, Variant& variant, const CaseFrames& frames, const StabilityCase& what,
-                const CaseRunOptions& options) {
+void render_all(CaseResult& run, Device& device, Variant& variant, const CaseFrames& frames, const StabilityCase& what,
+                const CaseOptions& options) {
     const glm::uvec2 extent = frames.steps.front().host->extent();
     PassGraph graph(device, extent);
     std::optional<StageScan> scan;
@@ -135,15 +135,15 @@ std::vector<StabilityPoint> stability_points() {
     return points;
 }
 
-CaseRun run_case(Device& device, const StabilityPoint& point, const StabilityCase& what, const CaseFrames& frames,
-                 const CaseRunOptions& options, const CaseFrames* before) {
-    CaseRun run;
+CaseResult run_case(Device& device, const StabilityPoint& point, const StabilityCase& what, const CaseFrames& frames,
+                    const CaseOptions& options, const CaseFrames* before) {
+    CaseResult run;
     try {
         const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
         RayProbe probe;
         variant->ray_probe = &probe;
         if (before) {
-            CaseRun smaller;
+            CaseResult smaller;
             render_all(smaller, device, *variant, *before, what, {});
         }
         render_all(run, device, *variant, frames, what, options);

@@ -15,7 +15,7 @@ struct StabilityPoint {
 std::vector<StabilityPoint> stability_points();
 
 /// What one point made of one case.
-struct CaseRun {
+struct CaseResult {
     HostImage specular;  ///< of the last frame
     std::vector<StageFinding> stages;
     size_t non_finite = 0;         ///< values of all stages
@@ -32,14 +32,14 @@ struct CaseRun {
     std::string refusal;        ///< why it could not be rendered
 };
 
-struct CaseRunOptions {
+struct CaseOptions {
     unsigned seed = stability_seed;
     bool is_scanned = false;  ///< every image of every stage is looked at, which takes the most of the time
 };
 
 /// Renders the frames of `what`, after those of `before`, if there are any, in which the technique saw another size.
-CaseRun run_case(Device& device, const StabilityPoint& point, const StabilityCase& what, const CaseFrames& frames,
-                 const CaseRunOptions& options = {}, const CaseFrames* before = nullptr);
+CaseResult run_case(Device& device, const StabilityPoint& point, const StabilityCase& what, const CaseFrames& frames,
+                    const CaseOptions& options = {}, const CaseFrames* before = nullptr);
 
 /// Squared error over squared truth, of judged pixels that are finite: free of the scale of radiance. None where the
 /// truth is black.

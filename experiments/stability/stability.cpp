@@ -186,7 +186,8 @@ private:
         const unsigned most = frames_.truth.pixel_count() < 1000 ? 9 : 3;
         double error = *row.error, benign_error = *row.benign_error;
         for (unsigned seed = 2; seed <= most; ++seed) {
-            const CaseRun run = run_case(device_, point, what_, frames_, {.seed = seed}, before_ ? &*before_ : nullptr);
+            const CaseResult run =
+                run_case(device_, point, what_, frames_, {.seed = seed}, before_ ? &*before_ : nullptr);
             const std::optional<double> own = relative_error(frames_, run.specular);
             const std::optional<double> own_benign = benign_run(point, seed).error;
             if (!own || !own_benign || (*own == *row.error && *own_benign == *row.benign_error)) return;
@@ -200,7 +201,7 @@ private:
             benign_runs_.try_emplace(point.variant + ":" + point.label() + " " + std::to_string(seed));
         if (is_new) {
             const StabilityCase plain{.scene = what_.benign};
-            const CaseRun run = run_case(device_, point, plain, benign_, {.seed = seed});
+            const CaseResult run = run_case(device_, point, plain, benign_, {.seed = seed});
             if (run.refusal.empty()) entry->second = {relative_error(benign_, run.specular), run.milliseconds};
         }
         return entry->second;

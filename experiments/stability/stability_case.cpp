@@ -1,7 +1,7 @@
 #include "experiments/stability/stability_case.h"
 
 #include "core/error.h"
-#include "experiments/study/config/point_name.h"
+#include "experiments/config/point_name.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
 #include "experiments/stability/stability_report.h"
 
 #include "core/error.h"
-#include "experiments/results/csv.h"
 #include "experiments/stability/known_failures.h"
 #include "experiments/stability/stability_rows.h"
+#include "experiments/tables/csv.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "experiments/stability/stability_rows.h"
 
-#include "experiments/results/csv.h"
+#include "experiments/tables/csv.h"
 
 #include <cmath>
 

@@ -23,7 +23,7 @@ struct StabilityRow {
     std::optional<double>
         gain;  ///< of a fed back image: by how much each change of the mean is smaller than the one before
     std::vector<Amplification> amplifications;
-    CaseRun run;
+    CaseResult run;
 
     std::optional<double> error_ratio() const;
 };

@@ -9,7 +9,7 @@ import time
 from paper_figures.results import Results, ResultsError
 from race import NORMAL
 
-DEFAULT_SEEDS = 8  # experiments/study/config/config.h
+DEFAULT_SEEDS = 8  # experiments/config/config.h
 NOT_OF_STUDIES = ("tune", "tables", "variants", "shots", "seeds", "timing", "costs", "$schema")
 
 

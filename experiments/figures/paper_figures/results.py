@@ -13,7 +13,7 @@ class ResultsError(Exception):
     """A mistake in the results folder or in what was asked of it: one sentence."""
 
 
-ONE_SEED = "none: 1 seed"  # experiments/results/interval.h
+ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
 BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
 EVALUATED = {"summary.csv": ("speaks", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
 OVER_FRAMES = ("", "all")  # `frame` of a row that speaks for all measured frames of its shot

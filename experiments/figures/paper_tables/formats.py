@@ -7,7 +7,7 @@ from paper_figures import numbers
 from paper_figures.results import BEST, TIED
 from paper_tables.cell import BOTH
 
-# What intervals hold (experiments/results/interval.h) that is less than the scatter over the seeds and the reference's noise, where
+# What intervals hold (experiments/evaluation/interval.h) that is less than the scatter over the seeds and the reference's noise, where
 # there are such: its mark, and what the mark says.
 LESSER = {
     "seeds": ("\N{DAGGER}", "the interval holds the seeds alone, not the reference's noise"),

@@ -44,7 +44,7 @@ function number(x, digits = 4) {
     return String(Number(x.toPrecision(digits)));
 }
 
-/// Why a value has no interval, as experiments/results/interval.h has it; empty where that is not told.
+/// Why a value has no interval, as experiments/evaluation/interval.h has it; empty where that is not told.
 const whyNoInterval = row => row.value !== null && row.interval?.startsWith("none: ") ?
     `${row.interval.slice("none: ".length)}: no interval` :
     "";

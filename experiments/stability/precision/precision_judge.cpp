@@ -1,7 +1,7 @@
 #include "experiments/stability/precision/precision_judge.h"
 
 #include "core/error.h"
-#include "experiments/measuring/judged_hits.h"
+#include "experiments/measuring/rays/judged_hits.h"
 #include "experiments/stability/changed_scene.h"
 #include "variants/common/repaired_inputs.h"
 #include "variants/tracers/outcome.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/measuring/exact_rays.h"
+#include "experiments/measuring/rays/exact_rays.h"
 #include "experiments/stability/precision/precision.h"
 
 /// A case as drawn, and its scene, which is asked where rays truly end.

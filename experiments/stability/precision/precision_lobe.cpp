@@ -13,7 +13,10 @@ public:
         graph_.set_precision({.format_of = {}, .is_double = [=](const std::string&) { return is_double; }});
     }
     HostImage drawn_directions() {
-        graph_.compute("experiments/stability/precision/lobe_draws.comp").write(image("direction")).set("alpha", alpha_).run();
+        graph_.compute("experiments/stability/precision/lobe_draws.comp")
+            .write(image("direction"))
+            .set("alpha", alpha_)
+            .run();
         return graph_.download(image("direction"));
     }
     /// Density, weight and BRDF.

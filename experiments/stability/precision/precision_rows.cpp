@@ -1,5 +1,5 @@
-#include "experiments/results/csv.h"
 #include "experiments/stability/precision/precision.h"
+#include "experiments/tables/csv.h"
 
 const char* name_of(PrecisionKind kind) {
     constexpr const char* names[] = {"method", "own", "half", "input", "arithmetic", "rays", "march"};

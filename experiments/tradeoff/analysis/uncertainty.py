@@ -5,13 +5,13 @@ import math
 import numpy as np
 from scipy import stats
 
-NORMAL = 1.959964  # of 95 %, as experiments/results/median_interval.cpp
+NORMAL = 1.959964  # of 95 %, as metrics/median_interval.cpp
 LEVELS = (2.5, 97.5)
 
 
 def sign_factor(values):
     """By how much more than those of independent rounds the signs about the median scatter, at least 2: as
-    experiments/results/median_interval.h has it. `values` in order of time."""
+    metrics/median_interval.h has it. `values` in order of time."""
     values = np.asarray(values, float)
     signs, n = np.sign(values - np.median(values)), len(values)
     factor = 1.0
@@ -24,7 +24,7 @@ def sign_factor(values):
 
 
 def median_interval(values):
-    """(median, low, high) of values in order of time, as experiments/results/median_interval.h has it."""
+    """(median, low, high) of values in order of time, as metrics/median_interval.h has it."""
     ordered, n = np.sort(values), len(values)
     rank = int(max(0.0, math.floor(n / 2 - NORMAL * math.sqrt(sign_factor(values) * n) / 2)))
     return float(np.median(ordered)), float(ordered[rank]), float(ordered[n - 1 - rank])

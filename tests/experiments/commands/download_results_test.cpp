@@ -1,5 +1,5 @@
 #include "core/gpu/device.h"
-#include "experiments/results/result_images.h"
+#include "experiments/store/result_images.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What is best, tied or behind: made-up errors, and simulated seeds of heavy-tailed noise.
 #include "experiments/evaluation/standings.h"
 
-#include "experiments/results/interval.h"
+#include "experiments/evaluation/interval.h"
 
 #include <gtest/gtest.h>
 #include <random>

@@ -5,9 +5,9 @@
 #include "core/files.h"
 #include "experiments/commands/commands.h"
 #include "experiments/evaluation/evaluation.h"
-#include "experiments/results/manifest.h"
-#include "experiments/results/results.h"
-#include "experiments/results/study_points.h"
+#include "experiments/evaluation/study_points.h"
+#include "experiments/store/manifest.h"
+#include "experiments/store/study_rows.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "experiments/measuring/clock_proofs.h"
+#include "experiments/measuring/times/clock_proofs.h"
 #include "core/files.h"
 #include "core/json.h"
 

@@ -1,9 +1,9 @@
 #include "tests/experiments/measuring/coverage.h"
 
 #include "core/scene/load_scene.h"
+#include "experiments/evaluation/summary.h"
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/rung_errors.h"
-#include "experiments/results/summary.h"
 #include "groundtruth/reference_guide.h"
 #include "groundtruth/reference_passes.h"
 

@@ -1,5 +1,5 @@
 // Where the error of made-up images lies, by made-up rays.
-#include "experiments/measuring/error_causes.h"
+#include "experiments/measuring/rays/error_causes.h"
 #include "variants/tracers/outcome.h"
 
 #include <gtest/gtest.h>

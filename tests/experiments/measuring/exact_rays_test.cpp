@@ -1,5 +1,5 @@
 // What rays truly meet, by rays made by hand in a scene of a few rectangles.
-#include "experiments/measuring/exact_rays.h"
+#include "experiments/measuring/rays/exact_rays.h"
 #include "core/error.h"
 #include "variants/tracers/outcome.h"
 

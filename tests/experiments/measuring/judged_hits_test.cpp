@@ -1,5 +1,5 @@
 // Verdicts of rays made by hand, and the rows made of them.
-#include "experiments/measuring/judged_hits.h"
+#include "experiments/measuring/rays/judged_hits.h"
 #include "metrics/statistics.h"
 #include "variants/tracers/outcome.h"
 

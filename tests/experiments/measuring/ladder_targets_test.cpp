@@ -3,7 +3,7 @@
 #include "core/json.h"
 #include "experiments/measuring/rung_errors.h"
 #include "groundtruth/reference_file.h"
-#include "tests/experiments/study/study_fixture.h"
+#include "tests/experiments/run/study_fixture.h"
 
 #include <cmath>
 #include <random>

@@ -1,9 +1,9 @@
 // What the noise of the path-traced light that techniques read adds to their errors.
 #include "experiments/measuring/lit_noise.h"
 #include "core/gpu/device.h"
-#include "experiments/study/shots/point_run.h"
+#include "experiments/run/shots/point_renders.h"
 #include "groundtruth/reference_cache.h"
-#include "tests/experiments/study/study_fixture.h"
+#include "tests/experiments/run/study_fixture.h"
 
 #include <random>
 
@@ -113,8 +113,9 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
         std::vector<Result> all;
         for (const VariantConfig& variant : config.variants) {
             SpentTime unused;
-            const Cell cell = run_point(device, shot, truth, lit, config, variant,
-                                        {.out = folder, .image_suffix = "x", .report = [](double) {}, .spent = unused});
+            const Cell cell =
+                render_point(device, shot, truth, lit, config, variant,
+                             {.out = folder, .image_suffix = "x", .report = [](double) {}, .spent = unused});
             Result& mean = all.emplace_back();
             for (const ResultRow& r : cell.rows) {
                 mean.value += *r.value / double(cell.rows.size());

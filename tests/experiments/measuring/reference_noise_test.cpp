@@ -1,7 +1,7 @@
 // Effects hold the noise of the reference that both of their errors are made with.
-#include "experiments/results/effects.h"
-#include "experiments/results/interval.h"
-#include "experiments/results/results.h"
+#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/interval.h"
+#include "experiments/store/study_rows.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 constexpr float deviation_of_halves = 0.4f;
 
 /// Two points of `seeds` seeds each against a reference of noisy halves, of 600 pixels, of which one has the deviation
-/// `of_one`; as run_point() measures them. Without seeds the points have no scatter.
+/// `of_one`; as render_point() measures them. Without seeds the points have no scatter.
 EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, bool has_noise = true) {
     const glm::uvec2 extent(30, 20);
     std::normal_distribution<float> normal;

@@ -1,4 +1,4 @@
-#include "experiments/measuring/timing_lock.h"
+#include "experiments/measuring/times/timing_lock.h"
 #include "core/files.h"
 
 #include <fcntl.h>

@@ -1,9 +1,9 @@
 // What is timed and how: order, frames, pairs, and what leaving out saved. No test here looks at how long anything
 // took.
-#include "experiments/measuring/timing.h"
+#include "experiments/measuring/times/timing.h"
 #include "core/gpu/device.h"
-#include "experiments/results/host_info.h"
-#include "experiments/results/summary.h"
+#include "experiments/evaluation/summary.h"
+#include "experiments/store/host_info.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

@@ -1,8 +1,8 @@
 // What a study says of a shot at first sight, of made-up tables.
 #include "experiments/report/answers.h"
 
+#include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/standings.h"
-#include "experiments/results/interval.h"
 
 #include <gtest/gtest.h>
 

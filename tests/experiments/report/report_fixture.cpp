@@ -3,8 +3,8 @@
 #include "core/exr.h"
 #include "core/files.h"
 #include "experiments/evaluation/evaluation.h"
-#include "experiments/results/manifest.h"
-#include "experiments/results/results.h"
+#include "experiments/store/manifest.h"
+#include "experiments/store/study_rows.h"
 
 #include <cmath>
 #include <random>

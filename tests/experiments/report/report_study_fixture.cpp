@@ -2,12 +2,12 @@
 
 #include "core/exr.h"
 #include "core/files.h"
+#include "experiments/evaluation/effects.h"
 #include "experiments/evaluation/evaluation.h"
-#include "experiments/results/effects.h"
-#include "experiments/results/interval.h"
-#include "experiments/results/manifest.h"
-#include "experiments/results/results.h"
-#include "experiments/results/time_effects.h"
+#include "experiments/evaluation/interval.h"
+#include "experiments/evaluation/time_effects.h"
+#include "experiments/store/manifest.h"
+#include "experiments/store/study_rows.h"
 
 #include <random>
 #include <vector>

@@ -4,11 +4,11 @@
 #include "core/exr.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "experiments/evaluation/interval.h"
+#include "experiments/evaluation/summary.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
-#include "experiments/results/csv.h"
-#include "experiments/results/interval.h"
-#include "experiments/results/summary.h"
+#include "experiments/tables/csv.h"
 #include "tests/experiments/report/report_fixture.h"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
-#include "experiments/measuring/exact_rays.h"
-#include "experiments/measuring/judged_hits.h"
+#include "experiments/measuring/rays/exact_rays.h"
+#include "experiments/measuring/rays/judged_hits.h"
 #include "experiments/measuring/render_variant.h"
 #include "variants/registry.h"
 

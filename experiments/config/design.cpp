@@ -1,0 +1,225 @@
+#include "experiments/config/design.h"
+
+#include "core/error.h"
+#include "core/near_miss.h"
+#include "experiments/config/unit_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace {
+
+using nlohmann::json;
+
+const Parameter& find_parameter(const ParameterSet& declared, const std::string& name, const std::string& where) {
+    std::vector<std::string> names;
+    for (const Parameter& p : declared) {
+        if (p.name == name) return p;
+        names.push_back(p.name);
+    }
+    fail(where, ": unknown parameter '", shortened(name), "'",
+         names.empty() ? "; this variant has none" : suggestion(name, names));
+}
+
+bool is_number(const Parameter& p) { return p.choices.empty() && p.glsl_type != "bool"; }
+
+/// The number as the parameter holds it: in whole steps, or as a float32.
+json rounded(const Parameter& p, double value) {
+    if (p.glsl_type == "float") return json_number(float(value));
+    return std::llround(value);
+}
+
+/// {"lin": [a, b]} or {"log": [a, b]}.
+struct Range {
+    double from, to;
+    bool is_log;
+
+    double at(double share) const {  // share in [0, 1]
+        return is_log ? from * std::pow(to / from, share) : from + (to - from) * share;
+    }
+};
+
+/// The range of an axis with `more` numbers behind its ends.
+Range read_range(const json& axis, const Parameter& p, const std::string& where, size_t more) {
+    const std::string form = more ? "[from, to, count]" : "[from, to]";
+    const bool is_pair = axis.size() == 1 && (axis.contains("lin") || axis.contains("log"));
+    if (!is_pair)
+        fail(where, " must be an array of values, or {\"lin\": ", form, "} or {\"log\": ", form, "}, not ",
+             shown(axis));
+    if (!is_number(p)) fail(where, " is no number: name its values in an array; allowed are ", p.range_text());
+    const bool is_log = axis.contains("log");
+    const json& numbers = axis.front();
+    const auto is_a_number = [](const json& v) { return v.is_number(); };
+    if (!numbers.is_array() || numbers.size() != 2 + more || !std::ranges::all_of(numbers, is_a_number))
+        fail(where, ": '", is_log ? "log" : "lin", "' must be ", form, ", not ", shown(numbers));
+    const Range range{numbers[0].get<double>(), numbers[1].get<double>(), is_log};
+    if (range.from == range.to) fail(where, ": both ends of the range are ", shown(numbers[0]));
+    if (is_log && !(range.from > 0 && range.to > 0))
+        fail(where, ": 'log' needs ends above 0, not ", shown(numbers), "; give 0 a point of its own");
+    return range;
+}
+
+std::vector<json> axis_values(JsonObject& axes, const std::string& name, const ParameterSet& declared) {
+    const std::string at = axes.at(name), where = at + ": '" + name + "'";
+    const Parameter& p = find_parameter(declared, name, at);
+    const json& axis = axes.any(name);
+    if (axis.is_array() && axis.empty()) fail(where, " has no values");
+    if (!axis.is_array() && !axis.is_object())
+        fail(where, " must be an array of values, or {\"lin\": [from, to, count]}, or {\"log\": ...}, not ",
+             shown(axis));
+    std::vector<json> values;
+    if (axis.is_array()) {
+        values = axis.get<std::vector<json>>();
+    } else {
+        const Range range = read_range(axis, p, where, 1);
+        const json& count = axis.front()[2];
+        if (!count.is_number_integer() || count < 2 || count > most_points)
+            fail(where, ": the count must be a whole number in [2, ", most_points, "], not ", shown(count));
+        const size_t n = count.get<size_t>();
+        for (size_t i = 0; i < n; ++i) values.push_back(rounded(p, range.at(double(i) / double(n - 1))));
+        values.erase(std::unique(values.begin(), values.end()), values.end());  // whole numbers that lie close
+    }
+    if (!axis.is_array()) {  // the others lie between
+        for (const json& end : {values.front(), values.back()}) check_parameter(declared, name, end, at);
+    } else {
+        for (const json& value : values) check_parameter(declared, name, value, at);
+    }
+    return values;
+}
+
+void refuse_too_many(double points, const std::string& design, const std::string& where) {
+    if (points > double(most_points))
+        fail(where, ": '", design, "' makes ", points, " points; allowed are ", most_points);
+}
+
+using Axes = std::vector<std::pair<std::string, std::vector<json>>>;
+
+/// In the order of the names, as JSON objects have them.
+Axes read_axes(JsonObject& object, const std::vector<std::string>& names, const ParameterSet& declared) {
+    Axes axes;
+    for (const std::string& name : names) axes.emplace_back(name, axis_values(object, name, declared));
+    return axes;
+}
+
+std::vector<json> all_combinations(const Axes& axes, const std::string& where) {
+    double count = 1;
+    for (const auto& [name, values] : axes) count *= double(values.size());
+    refuse_too_many(count, "sweep", where);
+    std::vector<json> points = {json::object()};
+    for (const auto& [name, values] : axes) {
+        std::vector<json> longer;
+        for (const json& point : points)
+            for (const json& value : values) {
+                longer.push_back(point);
+                longer.back()[name] = value;
+            }
+        points = std::move(longer);
+    }
+    return points;
+}
+
+std::vector<json> zipped(const Axes& axes, const std::string& where) {
+    std::vector<json> points(axes.front().second.size(), json::object());
+    for (const auto& [name, values] : axes) {
+        if (values.size() != points.size())
+            fail(where, ": 'zip' pairs values, but '", axes.front().first, "' has ", points.size(), " and '", name,
+                 "' has ", values.size());
+        for (size_t i = 0; i < points.size(); ++i) points[i][name] = values[i];
+    }
+    return points;
+}
+
+std::vector<json> single_values(const Axes& axes, const ParameterSet& declared) {
+    std::vector<json> points;
+    for (const Parameter& p : declared)
+        for (const auto& [name, values] : axes)
+            if (name == p.name)
+                for (const json& value : values) points.push_back({{name, value}});
+    return points;
+}
+
+/// What an axis of a sample makes of a number in [0, 1). Whole numbers and listed values get equal shares.
+json sampled_value(const json& axis, const Parameter& p, const std::optional<Range>& range, double u) {
+    if (!range) return axis[size_t(u * double(axis.size()))];
+    if (p.glsl_type == "float") return rounded(p, range->at(u));
+    const double low = std::min(range->from, range->to), high = std::max(range->from, range->to);
+    return int64_t(std::min(std::floor(Range{low, high + 1, range->is_log}.at(u)), high));
+}
+
+/// The range of a sample's axis, whose ends the parameter may have; none of one that lists values.
+std::optional<Range> read_sample_axis(const json& axis, const ParameterSet& declared, const std::string& name,
+                                      const std::string& at) {
+    const std::string where = at + ": '" + name + "'";
+    const Parameter& p = find_parameter(declared, name, at);
+    std::optional<Range> range;
+    if (axis.is_array() && axis.empty()) fail(where, " has no values");
+    if (!axis.is_array()) range = read_range(axis, p, where, 0);
+    const std::vector<json> extremes =
+        range ? std::vector{rounded(p, range->from), rounded(p, range->to)} : axis.get<std::vector<json>>();
+    for (const json& value : extremes) check_parameter(declared, name, value, at);
+    return range;
+}
+
+std::vector<json> sampled(JsonObject design, const std::string& kind, const ParameterSet& declared) {
+    const auto count = size_t(design.integer("count", 1, int(most_points)));
+    const auto seed = uint32_t(design.integer("seed", 0, 1 << 30, 0));
+    JsonObject object = design.object("axes");
+    const json& axes = design.any("axes");
+    design.finish();
+    if (axes.empty()) fail(object.where(), ": is empty; name parameters and their ranges");
+    const size_t dimensions = axes.size();
+    const UnitSamples samples = kind == "random"  ? random_samples(count, dimensions, seed)
+                                : kind == "sobol" ? sobol_samples(count, dimensions, seed)
+                                                  : latin_hypercube_samples(count, dimensions, seed);
+    std::vector<json> points(count, json::object());
+    size_t dimension = 0;
+    for (const auto& [name, axis] : axes.items()) {
+        const std::optional<Range> range = read_sample_axis(axis, declared, name, object.at(name));
+        const Parameter& p = find_parameter(declared, name, object.at(name));
+        for (size_t i = 0; i < count; ++i) points[i][name] = sampled_value(axis, p, range, samples[i][dimension]);
+        ++dimension;
+    }
+    std::set<json> seen;
+    std::erase_if(points, [&](const json& point) { return !seen.insert(point).second; });
+    return points;
+}
+
+}  // namespace
+
+std::vector<json> read_design(JsonObject& entry, const ParameterSet& declared) {
+    std::string design;
+    for (const std::string name : {"sweep", "zip", "each", "random", "latin_hypercube", "sobol"}) {
+        if (!entry.has(name)) continue;
+        if (!design.empty())
+            fail(entry.at(name), ": '", design, "' and '", name, "' exclude one another; write two entries");
+        design = name;
+    }
+    if (design.empty()) return {json::object()};
+    JsonObject object = entry.object(design);
+    if (design == "random" || design == "latin_hypercube" || design == "sobol")
+        return sampled(std::move(object), design, declared);
+    std::vector<std::string> names;
+    for (const auto& [name, values] : entry.any(design).items()) names.push_back(name);
+    if (names.empty() && design == "sweep") return {json::object()};
+    if (names.empty()) fail(entry.at(design), ": '", design, "' is empty; name parameters with the values to try");
+    const Axes axes = read_axes(object, names, declared);
+    if (design == "sweep") return all_combinations(axes, entry.at(design));
+    return design == "zip" ? zipped(axes, entry.at(design)) : single_values(axes, declared);
+}
+
+void check_sample_axis(const json& axis, const ParameterSet& declared, const std::string& name, const std::string& at) {
+    read_sample_axis(axis, declared, name, at);
+}
+
+void check_parameter(const ParameterSet& declared, const std::string& name, const json& value,
+                     const std::string& where) {
+    find_parameter(declared, name, where);
+    ParameterSet copy = declared;
+    try {
+        copy.assign({{name, value}});
+    } catch (const Error& e) {
+        fail(where, ": ", e.what());
+    }
+}

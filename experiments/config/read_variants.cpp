@@ -1,0 +1,140 @@
+#include "experiments/config/read_variants.h"
+
+#include "core/error.h"
+#include "experiments/config/conditions.h"
+#include "experiments/config/config_values.h"
+#include "experiments/config/design.h"
+#include "experiments/config/point_name.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace {
+
+/// A variant's own are obeyed to the letter. Of those that a study names for all, a point that does not depend on them
+/// needs one.
+std::vector<unsigned> seeds_of(const std::optional<std::vector<unsigned>>& own,
+                               const std::optional<std::vector<unsigned>>& of_study, bool depends_on_seed) {
+    if (own) return *own;
+    if (of_study) return depends_on_seed ? *of_study : std::vector{of_study->front()};
+    std::vector<unsigned> seeds(depends_on_seed ? default_seeds : 1);
+    std::iota(seeds.begin(), seeds.end(), 0u);
+    return seeds;
+}
+
+/// The variant; fails with the place in the file if there is none such.
+std::unique_ptr<Variant> make_checked(const std::string& where, const std::string& name,
+                                      const nlohmann::json& parameters = nlohmann::json::object(),
+                                      const std::string& preset = "") {
+    try {
+        return make_variant(name, parameters, preset);
+    } catch (const Error& e) {
+        fail(where, ": ", e.what());
+    }
+}
+
+/// An object of parameter values; null if the key is absent.
+nlohmann::json read_values(JsonObject& entry, const std::string& key, const ParameterSet& declared) {
+    if (!entry.has(key)) return {};
+    JsonObject values = entry.object(key);
+    for (const auto& [name, value] : entry.any(key).items()) check_parameter(declared, name, value, values.at(name));
+    return entry.any(key);
+}
+
+nlohmann::json with_values(nlohmann::json parameters, const nlohmann::json& changed) {
+    parameters.update(changed);
+    return parameters;
+}
+
+/// What the points of an entry have in common.
+struct Shared {
+    std::string where, label, group;
+    std::optional<std::vector<unsigned>> own_seeds, study_seeds;
+    bool is_timed = true;
+    std::vector<PointCondition> conditions;
+};
+
+/// The rest of a point that has its variant, preset and values. False if a condition leaves it out.
+bool complete_point(VariantConfig& point, const Shared& shared, JsonObject& object) {
+    const auto made = make_checked(shared.where, point.variant, point.parameters, point.preset);
+    nlohmann::json values = made->params.values();
+    point.conditions = shared.conditions;
+    if (!is_wanted(point.conditions, values)) return false;
+    point.point = point_name(point.preset, point.swept);
+    values["preset"] = point.preset;
+    point.label = fill_in(shared.label, values, object.at("label") + ": 'label'");
+    point.group = fill_in(shared.group, values, object.at("group") + ": 'group'");
+    point.depends_on_seed = made->depends_on_seed();
+    point.is_timed = shared.is_timed && !made->asks_scene();
+    point.seeds = seeds_of(shared.own_seeds, shared.study_seeds, point.depends_on_seed);
+    if (!point.against.is_null())
+        make_checked(object.at("against"), point.variant, with_values(point.parameters, point.against), point.preset);
+    return true;
+}
+
+void read_entry(JsonObject object, const std::optional<std::vector<unsigned>>& study_seeds,
+                std::vector<VariantConfig>& variants) {
+    const std::string name = object.text("variant");
+    const auto plain = make_checked(object.at("variant"), name);
+    const std::vector<std::string> presets = one_or_more(object, "preset", "");
+    for (const std::string& preset : presets) make_checked(object.at("preset"), name, {}, preset);
+    nlohmann::json parameters = read_values(object, "parameters", plain->params);
+    if (parameters.is_null()) parameters = nlohmann::json::object();
+    const std::vector<nlohmann::json> points = read_design(object, plain->params);
+    const nlohmann::json against = read_values(object, "against", plain->params);
+    if (object.has("against") && against.empty())
+        fail(object.at("against"), ": 'against' must be an object of parameter values, not ", shown(against));
+    const bool is_baseline = object.boolean("baseline", false);
+    const Shared shared{.where = object.where(),
+                        .label = object.text("label", ""),
+                        .group = object.text("group", ""),
+                        .own_seeds = read_seeds(object),
+                        .study_seeds = study_seeds,
+                        .is_timed = object.boolean("timing", true),
+                        .conditions = read_conditions(object, plain->params)};
+    object.finish();
+    if (variants.size() + presets.size() * points.size() > most_points)
+        fail(object.where(), ": with it the study has ", variants.size() + presets.size() * points.size(),
+             " points; allowed are ", most_points);
+    const size_t before = variants.size();
+    for (const std::string& preset : presets)
+        for (const nlohmann::json& values : points) {
+            VariantConfig point{.variant = name,
+                                .preset = preset,
+                                .parameters = with_values(parameters, values),
+                                .swept = values,
+                                .point = "",
+                                .seeds = {},
+                                .is_baseline = is_baseline,
+                                .against = against};
+            if (complete_point(point, shared, object)) variants.push_back(std::move(point));
+        }
+    if (variants.size() == before) fail(object.where(), ": its conditions leave none of its points");
+}
+
+/// The pairs (variant, point) name cells and rows, so they must differ, and one label for two would hide which is
+/// which.
+void refuse_repetition(const std::vector<VariantConfig>& variants, const std::string& where) {
+    std::set<std::pair<std::string, std::string>> points;
+    std::set<std::string> labels;
+    for (const VariantConfig& v : variants) {
+        if (!points.insert({v.variant, v.point}).second)
+            fail(where, ": variants: '", v.variant, "' comes twice with the point '", v.point,
+                 "'; give the second a preset or a sweep that tells them apart");
+        if (!v.label.empty() && !labels.insert(v.label).second)
+            fail(where, ": variants: two points have the label '", v.label,
+                 "'; tell them apart by {preset} or the name of a parameter in braces");
+    }
+}
+
+}  // namespace
+
+std::vector<VariantConfig> read_variants(JsonObject& study) {
+    const std::optional<std::vector<unsigned>> seeds = read_seeds(study);
+    std::vector<VariantConfig> variants;
+    for (JsonObject& entry : study.objects("variants")) read_entry(std::move(entry), seeds, variants);
+    refuse_repetition(variants, study.where());
+    return variants;
+}

@@ -1,0 +1,51 @@
+#include "experiments/config/shot.h"
+
+#include "core/scene/load_scene.h"
+
+#include <algorithm>
+
+std::vector<FrameStep> timeline(const ShotConfig& config) {
+    std::vector<FrameStep> steps;
+    const auto render = [&](unsigned frame) -> FrameStep& {
+        FrameStep step{.index = unsigned(steps.size()), .frame = frame};
+        if (!steps.empty()) step.previous_frame = steps.back().frame;
+        return steps.emplace_back(step);
+    };
+    for (unsigned i = 0; i < config.warm_up; ++i) render(config.frames.front()).is_warm_up = true;
+    for (const unsigned frame : config.frames) {
+        const bool is_last = frame == config.frames.back();
+        for (unsigned i = 0; i < (is_last ? config.repeat : 1); ++i)
+            render(frame).is_held = is_last && config.repeat > 1;
+        steps.back().is_measured = is_last || (!config.measures_last_only && frame >= config.measure_from);
+    }
+    return steps;
+}
+
+std::string Shot::name() const {
+    const unsigned first = config.frames.front(), last = config.frames.back();
+    std::string name =
+        scene.name + "." + camera.name + "." + std::to_string(config.extent.x) + "x" + std::to_string(config.extent.y);
+    if (last > 0) name += ".f" + std::to_string(first);
+    if (last > first) name += "-" + std::to_string(last);
+    if (config.frames.size() != last - first + 1) name += ".n" + std::to_string(config.frames.size());
+    if (config.warm_up > 0) name += ".w" + std::to_string(config.warm_up);
+    if (config.repeat > 1) name += ".r" + std::to_string(config.repeat);
+    return name + config.name_suffix;
+}
+
+Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
+    Shot shot{.config = config,
+              .scene = load_scene(config.scene, search_path),
+              .camera = {},
+              .facts = {},
+              .steps = timeline(config)};
+    shot.camera = shot.scene.camera(config.camera);
+    shot.facts = derive_facts(shot.scene, shot.camera, config.frames);
+    return shot;
+}
+
+ShotFrame shot_frame(const Shot& shot, unsigned frame) {
+    ShotFrame now{.frame = frame, .scene = pose_scene(shot.scene, float(frame)), .camera = {}};
+    now.camera = pose_camera(shot.camera, now.scene, float(frame));
+    return now;
+}

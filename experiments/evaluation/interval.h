@@ -1,0 +1,25 @@
+#pragma once
+
+/// The false-alarm rate of every verdict ("better", "worse", "behind", "changed"), for a family of comparisons (Holm).
+inline constexpr double significance = 0.05;
+
+/// What a 95 % interval holds, or why there is none: the column `interval` of summary.csv and effects.csv, which
+/// report and figures print.
+namespace interval {
+
+inline constexpr const char* reference_and_seeds = "reference and seeds";
+inline constexpr const char* reference = "reference";
+inline constexpr const char* seeds = "seeds";  ///< what the reference's noise adds is not known, or there is none
+inline constexpr const char* pixels_and_seeds = "pixels and seeds";
+inline constexpr const char* pixels = "pixels";  ///< of sequences of frames: the choice of pixels
+
+inline constexpr const char* no_value = "none: no value";
+inline constexpr const char* one_seed = "none: 1 seed";
+inline constexpr const char* too_few_seeds = "none: too few seeds";
+inline constexpr const char* open_end = "none: no upper end";
+inline constexpr const char* no_end = "none: lost in the reference's noise";
+inline constexpr const char* unknown_reference = "none: reference's noise not known";
+inline constexpr const char* not_repeatable = "none: not repeatable";
+inline constexpr const char* not_positive = "none: an error is not above 0";
+
+}  // namespace interval

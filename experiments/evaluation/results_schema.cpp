@@ -1,0 +1,198 @@
+#include "experiments/evaluation/results_schema.h"
+
+#include "core/files.h"
+#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/summary.h"
+#include "experiments/evaluation/time_effects.h"
+#include "experiments/measuring/cell.h"
+#include "variants/registry.h"
+
+#include <map>
+
+namespace {
+
+using nlohmann::json;
+
+struct Meaning {
+    const char *unit, *text;
+    const char* type = nullptr;  ///< where it is not that of the member which holds it
+};
+
+/// By the name of a column, which means the same in all files, or by file and name where it does not. RESULTS.md says
+/// more.
+const std::map<std::string, Meaning>& meanings() {
+    static const std::map<std::string, Meaning> all = {
+        {"shot", {"", "name of the shot; manifest.json has its label and all else"}},
+        {"scene", {"", "name of the scene"}},
+        {"camera", {"", "name of the camera"}},
+        {"frame", {"", "number of the frame; empty: over all frames of the shot", "integer"}},
+        {"times.frame", {"", "number of the timed frame, after the warm-up"}},
+        {"width", {"pixel", "width of the image"}},
+        {"height", {"pixel", "height of the image"}},
+        {"variant", {"", "name of the technique; in times.csv and time_summary.csv empty: of the G-buffer"}},
+        {"point", {"", "name of the parameter point; parameters.csv has its values"}},
+        {"label", {"", "how report, tables and figures name the point; empty: by variant and point"}},
+        {"group", {"", "what the point belongs to; empty: nothing"}},
+        {"preset", {"", "the variant's preset that the point starts from; empty: none"}},
+        {"seed", {"", "of the variant's random numbers"}},
+        {"seeds", {"", "how many seeds were averaged or are common to both"}},
+        {"target", {"", "what is compared: specular, image, incident, camera_radiance or on_screen"}},
+        {"metric", {"", "name of the metric"}},
+        {"formula", {"", "id of the metric's formula"}},
+        {"mask", {"", "which pixels count"}},
+        {"value", {"", "value of the metric; empty where it is not finite or cannot be told"}},
+        {"hits.value",
+         {"", "mean over the seeds: a share of the rays, of distance_error the median, of fetches per ray"}},
+        {"low", {"", "low end of the 95 % interval of value or ratio; empty where none can be given"}},
+        {"high", {"", "high end of that interval"}},
+        {"interval", {"", "what the interval holds, or none and why"}},
+        {"ranked", {"", "whether the interval holds all that is random"}},
+        {"seed_deviation", {"", "standard deviation over the seeds"}},
+        {"corrected", {"", "whether the reference's noise was subtracted"}},
+        {"uncorrected", {"", "the value before that correction"}},
+        {"floor", {"", "what the reference's own noise scores"}},
+        {"lit_noise", {"", "what the noise of the lit colour adds to value"}},
+        {"lit_half_width", {"", "half the width of the 95 % interval that it leaves beside that"}},
+        {"pixels", {"pixel", "finite pixels under the mask; over frames their sum"}},
+        {"non_finite", {"pixel", "pixels of the result that are NaN or infinite"}},
+        {"negative", {"pixel", "pixels of the result below zero"}},
+        {"speaks", {"", "whether the row speaks for its shot"}},
+        {"standing", {"", "best, tied or behind among the points of its shot; empty: not ranked"}},
+        {"over_best", {"", "value over that of the best measured point of its shot, paired by seed"}},
+        {"over_best_low", {"", "low end of its 95 % interval"}},
+        {"over_best_high", {"", "high end of its 95 % interval"}},
+        {"p_best", {"", "p-value of: no worse than the best measured point; adjusted for the points of the shot"}},
+        {"mse", {"", "bias_squared + variance"}},
+        {"bias_squared", {"", "squared error that would remain over infinitely many seeds"}},
+        {"bias_squared_low", {"", "low end of its 95 % interval"}},
+        {"bias_squared_high", {"", "high end of its 95 % interval"}},
+        {"variance", {"", "variance over the seeds"}},
+        {"variance_low", {"", "low end of its 95 % interval"}},
+        {"variance_high", {"", "high end of its 95 % interval"}},
+        {"stage", {"", "name of the pass; total: all of the variant's"}},
+        {"hits.stage", {"", "the pass that traced the rays; error: of the whole technique"}},
+        {"milliseconds", {"ms", "time of the stage in this frame"}},
+        {"median_ms", {"ms", "median time over the frames"}},
+        {"low_ms", {"ms", "low end of its 95 % interval"}},
+        {"high_ms", {"ms", "high end of its 95 % interval"}},
+        {"on_front", {"", "1: no ranked point of the shot has less error and takes less time"}},
+        {"fits_from_ms", {"ms", "least budget that the time certainly fits into"}},
+        {"may_fit_from_ms", {"ms", "least budget that it may fit into"}},
+        {"frames", {"", "how many frames were timed"}},
+        {"clock", {"", "what took the time: host_fence or gpu_timestamp"}},
+        {"foreign_load", {"", "share of the machine's CPU time that others took meanwhile"}},
+        {"disturbed", {"", "whether that was above 0.05"}},
+        {"disturbed_share", {"", "share of the frames that others disturbed"}},
+        {"quantity", {"", "what became of the rays"}},
+        {"costs.quantity", {"", "what is counted of the stage's passes"}},
+        {"costs.value", {"", "how many; bytes of the quantities that are called so"}},
+        {"rays", {"ray", "rays of one seed, on average; of the stage error pixels"}},
+        {"against", {"", "baseline, or the value in which the point differs from what it is compared with"}},
+        {"against_variant", {"", "variant of what the point is compared with"}},
+        {"against_point", {"", "point of what the point is compared with"}},
+        {"ratio", {"", "of the point's value to the other's"}},
+        {"rounds", {"", "frames in which both were timed"}},
+        {"p", {"", "two-sided p-value of: the ratio is 1"}},
+        {"family", {"", "primary, or exploratory"}},
+        {"p_holm", {"", "p adjusted for all effects on the same error"}},
+        {"low_holm", {"", "low end of the interval at the level that p_holm is judged at"}},
+        {"high_holm", {"", "high end of that interval"}},
+        {"verdict", {"", "less, more or not distinguishable, by p_holm at 0.05; empty without a p"}},
+    };
+    return all;
+}
+
+const char* type_of(const std::string&) { return "string"; }
+const char* type_of(bool) { return "boolean"; }
+const char* type_of(unsigned) { return "integer"; }
+const char* type_of(size_t) { return "integer"; }
+const char* type_of(double) { return "number"; }
+const char* type_of(const std::optional<double>&) { return "number"; }
+
+json field(const std::string& name, const std::string& type, const std::string& unit, const std::string& text) {
+    json entry = {{"name", name}, {"type", type}, {"description", text}};
+    if (!unit.empty()) entry["unit"] = unit;
+    if (type == "boolean") entry["trueValues"] = {"1"}, entry["falseValues"] = {"0"};
+    return entry;
+}
+
+json known_field(const std::string& file, const std::string& name, const char* type) {
+    const auto own = meanings().find(file + "." + name);
+    const Meaning& meaning = own == meanings().end() ? meanings().at(name) : own->second;
+    return field(name, meaning.type ? meaning.type : type, meaning.unit, meaning.text);
+}
+
+json resource(const std::string& file, json fields) {
+    return {
+        {"name", file}, {"path", file + ".csv"}, {"schema", {{"fields", std::move(fields)}, {"missingValues", {""}}}}};
+}
+
+template <class Row>
+json table(const std::string& file) {
+    const Row row{};
+    json fields = json::array();
+    for_each_column<Row>(
+        [&](const auto& column) { fields.push_back(known_field(file, column.name, type_of(row.*column.member))); });
+    return resource(file, std::move(fields));
+}
+
+/// A parameter that some of the study's variants have. Two may have one of the same name.
+struct ParameterColumn {
+    std::string type, unit, doc;
+};
+
+std::map<std::string, ParameterColumn> parameter_columns(const std::vector<VariantConfig>& variants) {
+    std::map<std::string, ParameterColumn> columns;
+    for (const VariantConfig& v : variants)
+        for (const auto made = make_variant(v.variant); const Parameter& p : made->params) {
+            const std::string type = !p.choices.empty()       ? "string"
+                                     : p.glsl_type == "bool"  ? "boolean"
+                                     : p.glsl_type == "float" ? "number"
+                                                              : "integer";
+            const auto [at, is_new] = columns.try_emplace(p.name, ParameterColumn{type, p.unit, p.doc});
+            if (!is_new && at->second.type != type) at->second = {"string", "", "differs from variant to variant"};
+        }
+    return columns;
+}
+
+const char* const names_of_points[] = {"variant", "point", "label", "group", "preset"};
+
+json parameters_table(const std::vector<VariantConfig>& variants) {
+    json fields = json::array();
+    for (const char* name : names_of_points) fields.push_back(known_field("parameters", name, "string"));
+    for (const auto& [name, column] : parameter_columns(variants))
+        fields.push_back(field(name, column.type, column.unit, column.doc));
+    return resource("parameters", std::move(fields));
+}
+
+std::string csv_value(const json& value) {
+    if (value.is_boolean()) return csv_field(value.get<bool>());
+    return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+}  // namespace
+
+nlohmann::json results_schema(const std::vector<VariantConfig>& variants) {
+    return {{"name", "results"},
+            {"resources",
+             {table<ResultRow>("results"), table<SplitRow>("splits"), table<EffectRow>("effects"),
+              table<TimeEffectRow>("time_effects"), table<TimeRow>("times"), table<MetricSummary>("summary"),
+              table<TimeSummary>("time_summary"), table<HitRow>("hits"), table<CostRow>("costs"),
+              parameters_table(variants)}}};
+}
+
+void write_parameters(const std::filesystem::path& folder, const std::vector<VariantConfig>& variants) {
+    const std::map<std::string, ParameterColumn> columns = parameter_columns(variants);
+    std::string text;
+    for (const char* name : names_of_points) text += std::string(name) + ",";
+    for (const auto& [name, column] : columns) text += csv_field(name) + ",";
+    text.back() = '\n';
+    for (const VariantConfig& v : variants) {
+        const json values = make_variant(v.variant, v.parameters, v.preset)->params.values();
+        for (const std::string& name : {v.variant, v.point, v.label, v.group, v.preset}) text += csv_field(name) + ",";
+        for (const auto& [name, column] : columns) text += (values.contains(name) ? csv_value(values[name]) : "") + ",";
+        text.back() = '\n';
+    }
+    write_text(folder / "parameters.csv", text);
+    write_text(folder / "schema.json", results_schema(variants).dump(1) + "\n");
+}

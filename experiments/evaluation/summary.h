@@ -1,0 +1,85 @@
+#pragma once
+#include "experiments/evaluation/effects.h"
+#include "experiments/measuring/cell.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+/// One metric of one variant point over all its seeds.
+struct MetricSummary {
+    std::string shot, frame, variant, point, target, metric, formula, mask;
+    unsigned seeds = 0;
+    std::optional<double> value;           ///< mean over the seeds; none if one of them has none
+    std::optional<double> low, high;       ///< 95 % interval, see summarise()
+    std::string interval = {};             ///< what it holds, or why there is none (interval.h)
+    bool holds_all_noise = false;          ///< so that it can be told from those of other points: only such are ranked
+    std::optional<double> seed_deviation;  ///< standard deviation over the seeds; none for a single one
+    std::optional<double> floor;           ///< what the reference's own noise scores
+    std::optional<double> lit_noise;       ///< what the noise of the lit colour adds to the value (LitNoise)
+    bool is_corrected = false;
+    size_t pixels = 0, non_finite = 0, negative = 0;  ///< the last two are the worst seed's
+    bool speaks_for_shot = false;                     ///< see mark_what_speaks()
+    std::string standing = {};  ///< among the points of its shot, see evaluation/standings.h; empty: not ranked
+    std::optional<double> over_best, over_best_low, over_best_high;  ///< value / the least ranked one, where paired
+    std::optional<double> p_best;  ///< Holm-adjusted p of "no worse than the best measured"
+    bool is_on_front = false;      ///< of error against time, see set_fronts()
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &MetricSummary::shot}, Column{"frame", &MetricSummary::frame},
+            Column{"variant", &MetricSummary::variant}, Column{"point", &MetricSummary::point},
+            Column{"target", &MetricSummary::target}, Column{"metric", &MetricSummary::metric},
+            Column{"formula", &MetricSummary::formula}, Column{"mask", &MetricSummary::mask},
+            Column{"seeds", &MetricSummary::seeds}, Column{"value", &MetricSummary::value},
+            Column{"low", &MetricSummary::low}, Column{"high", &MetricSummary::high},
+            Column{"interval", &MetricSummary::interval}, Column{"ranked", &MetricSummary::holds_all_noise},
+            Column{"seed_deviation", &MetricSummary::seed_deviation}, Column{"floor", &MetricSummary::floor},
+            Column{"lit_noise", &MetricSummary::lit_noise}, Column{"corrected", &MetricSummary::is_corrected},
+            Column{"pixels", &MetricSummary::pixels}, Column{"non_finite", &MetricSummary::non_finite},
+            Column{"negative", &MetricSummary::negative}, Column{"speaks", &MetricSummary::speaks_for_shot},
+            Column{"standing", &MetricSummary::standing}, Column{"over_best", &MetricSummary::over_best},
+            Column{"over_best_low", &MetricSummary::over_best_low},
+            Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},
+            Column{"on_front", &MetricSummary::is_on_front});
+    }
+};
+
+/// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same
+/// reference for all seeds, so the mean of the rows' intervals) and Student's t interval of the seeds, t(0.975, n-1) s
+/// / sqrt(n). Metrics whose rows have no interval, since what the reference's noise adds to them is not known, get that
+/// of the seeds alone: what another run with other seeds would give against the same reference; `floor` bounds the
+/// rest. Points in `without_seeds` do not depend on seeds: the reference's noise is all of their interval. Of the
+/// others a single seed has none. Where the noise of the lit colour is known, what it leaves of the value joins, too,
+/// and the lower end reaches down by what it adds: `value` still holds that, as it may be less. Intervals of errors end
+/// at 0.
+std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds = {});
+
+/// One stage of one variant point: the median over the measured frames of all seeds of its time in a frame, with its
+/// median_interval().
+struct TimeSummary {
+    std::string shot, variant, point, stage, clock;
+    size_t frames = 0;
+    double median = 0, low = 0, high = 0;  ///< ms
+    double fits_from = 0;                  ///< ms: the point fits into budgets from here on ...
+    double may_fit_from = 0;               ///< ... and not into those below this; in between it may fit
+    double disturbed_share = 0;            ///< of the frames: other work took too much of the machine meanwhile
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &TimeSummary::shot}, Column{"variant", &TimeSummary::variant},
+                          Column{"point", &TimeSummary::point}, Column{"stage", &TimeSummary::stage},
+                          Column{"clock", &TimeSummary::clock}, Column{"frames", &TimeSummary::frames},
+                          Column{"median_ms", &TimeSummary::median}, Column{"low_ms", &TimeSummary::low},
+                          Column{"high_ms", &TimeSummary::high}, Column{"fits_from_ms", &TimeSummary::fits_from},
+                          Column{"may_fit_from_ms", &TimeSummary::may_fit_from},
+                          Column{"disturbed_share", &TimeSummary::disturbed_share});
+    }
+};
+
+/// `floors`: shot to aa_floor(). A point fits into a budget if neither its interval's end nor the difference of two
+/// copies of one point exceeds it.
+std::vector<TimeSummary> summarise(std::span<const TimeRow> rows, const std::map<std::string, double>& floors = {});

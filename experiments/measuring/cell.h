@@ -1,0 +1,143 @@
+#pragma once
+#include "experiments/measuring/reference_noise.h"
+#include "experiments/tables/columns.h"
+#include "metrics/seed_pairs.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// One row of results.csv; the columns are explained in experiments/RESULTS.md.
+struct ResultRow {
+    std::string shot, scene, camera;
+    std::string frame;  ///< its number, or over_frames
+    unsigned width = 0, height = 0;
+    std::string variant, point;
+    unsigned seed = 0;
+    std::string target, metric, formula, mask;
+    std::optional<double> value;  ///< none where it is not finite, e.g. the PSNR of equal images
+    bool is_corrected = false;
+    std::optional<double> uncorrected, low, high, floor;
+    std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
+    size_t pixels = 0, non_finite = 0, negative = 0;
+    bool speaks_for_shot = false;  ///< see mark_what_speaks(); false in cells
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &ResultRow::shot}, Column{"scene", &ResultRow::scene}, Column{"camera", &ResultRow::camera},
+            Column{"frame", &ResultRow::frame}, Column{"width", &ResultRow::width},
+            Column{"height", &ResultRow::height}, Column{"variant", &ResultRow::variant},
+            Column{"point", &ResultRow::point}, Column{"seed", &ResultRow::seed}, Column{"target", &ResultRow::target},
+            Column{"metric", &ResultRow::metric}, Column{"formula", &ResultRow::formula},
+            Column{"mask", &ResultRow::mask}, Column{"value", &ResultRow::value},
+            Column{"corrected", &ResultRow::is_corrected}, Column{"uncorrected", &ResultRow::uncorrected},
+            Column{"low", &ResultRow::low}, Column{"high", &ResultRow::high}, Column{"floor", &ResultRow::floor},
+            Column{"lit_noise", &ResultRow::lit_noise}, Column{"lit_half_width", &ResultRow::lit_half_width},
+            Column{"pixels", &ResultRow::pixels}, Column{"non_finite", &ResultRow::non_finite},
+            Column{"negative", &ResultRow::negative}, Column{"speaks", &ResultRow::speaks_for_shot});
+    }
+};
+
+/// One row of splits.csv: what of an error is the same for all seeds, and what differs.
+struct SplitRow {
+    std::string shot, frame, variant, point, target, mask;
+    unsigned seeds = 0;
+    double mse = 0, bias_squared = 0, variance = 0;
+    std::optional<double> variance_low, variance_high;
+    size_t pixels = 0;
+    std::optional<double> bias_squared_low, bias_squared_high;
+    // Kept in cells, for effects, but not in splits.csv.
+    std::vector<unsigned> seed_numbers;  ///< of `pairs`
+    SeedPairs pairs;
+    std::vector<float> reference_noise;  ///< of bias_squared, see ReferenceNoise::sums
+    /// In bias_squared, as ResultRow has them; empty where `mse` is not measured.
+    std::optional<double> lit_noise, lit_half_width;
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &SplitRow::shot}, Column{"frame", &SplitRow::frame}, Column{"variant", &SplitRow::variant},
+            Column{"point", &SplitRow::point}, Column{"target", &SplitRow::target}, Column{"mask", &SplitRow::mask},
+            Column{"seeds", &SplitRow::seeds}, Column{"mse", &SplitRow::mse},
+            Column{"bias_squared", &SplitRow::bias_squared}, Column{"variance", &SplitRow::variance},
+            Column{"variance_low", &SplitRow::variance_low}, Column{"variance_high", &SplitRow::variance_high},
+            Column{"pixels", &SplitRow::pixels}, Column{"bias_squared_low", &SplitRow::bias_squared_low},
+            Column{"bias_squared_high", &SplitRow::bias_squared_high});
+    }
+};
+
+/// One row of times.csv.
+struct TimeRow {
+    std::string shot, variant, point;
+    unsigned seed = 0;
+    std::string stage;
+    unsigned frame = 0;
+    double milliseconds = 0;
+    std::string clock;
+    std::optional<double> foreign_load = {};  ///< see CpuTimes; none where the system does not tell
+    bool is_disturbed = false;                ///< other work took too much of the machine meanwhile
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &TimeRow::shot}, Column{"variant", &TimeRow::variant},
+                          Column{"point", &TimeRow::point}, Column{"seed", &TimeRow::seed},
+                          Column{"stage", &TimeRow::stage}, Column{"frame", &TimeRow::frame},
+                          Column{"milliseconds", &TimeRow::milliseconds}, Column{"clock", &TimeRow::clock},
+                          Column{"foreign_load", &TimeRow::foreign_load}, Column{"disturbed", &TimeRow::is_disturbed});
+    }
+};
+
+/// One row of hits.csv: what became of the rays that one pass traced.
+struct HitRow {
+    std::string shot, frame, variant, point;
+    std::string stage;     ///< the pass
+    std::string mask;      ///< of the pixels that they start from
+    std::string quantity;  ///< a verdict of judged_hits.h; "correct": the sum of right ones; "miss: " and the outcome
+                           ///< that the tracer gave for an avoidable one; "distance_error"; "fetches"
+    unsigned seeds = 0;
+    double rays = 0;  ///< mean over the seeds
+    double value = 0;
+    std::optional<double> low, high;  ///< over the seeds; none with a single one
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &HitRow::shot}, Column{"frame", &HitRow::frame}, Column{"variant", &HitRow::variant},
+            Column{"point", &HitRow::point}, Column{"stage", &HitRow::stage}, Column{"mask", &HitRow::mask},
+            Column{"quantity", &HitRow::quantity}, Column{"seeds", &HitRow::seeds}, Column{"rays", &HitRow::rays},
+            Column{"value", &HitRow::value}, Column{"low", &HitRow::low}, Column{"high", &HitRow::high});
+    }
+};
+
+/// One row of costs.csv: what the passes of a stage do in the shot's last frame.
+struct CostRow {
+    std::string shot, variant, point, stage;
+    std::string quantity;  ///< a name of cost_quantities, core/gpu/pass_cost.h
+    size_t value = 0;
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &CostRow::shot}, Column{"variant", &CostRow::variant},
+                          Column{"point", &CostRow::point}, Column{"stage", &CostRow::stage},
+                          Column{"quantity", &CostRow::quantity}, Column{"value", &CostRow::value});
+    }
+};
+
+/// What a run makes of one shot and variant point with all its seeds, of the times of a shot, or of its references: the
+/// unit of work that is done once, kept, and never done again.
+struct Cell {
+    std::vector<ResultRow> rows;
+    std::vector<SplitRow> splits;
+    std::vector<ReferenceNoise> reference_noise;
+    std::vector<TimeRow> times;
+    std::vector<HitRow> hits;
+    std::vector<CostRow> costs;
+    nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
+    nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
+    std::vector<std::string> notes;                   ///< sentences for the manifest: what could not be told, and why
+    std::string truth;    ///< ShotTruth::content_hash() of what its numbers were measured against
+    nlohmann::json shot;  ///< what the manifest says of the shot once its references are there; null in other cells
+    nlohmann::json provenance;  ///< what made it, where and when, see experiments/store/provenance.h
+    std::string name;           ///< as CellStore knows it
+};
+
+/// Fails with nlohmann::json::exception if a member is missing or of another type.
+void to_json(nlohmann::json& json, const Cell& cell);
+void from_json(const nlohmann::json& json, Cell& cell);

@@ -1,0 +1,129 @@
+#include "experiments/measuring/frames/frame_source.h"
+
+#include "core/error.h"
+#include "core/gbuffer/environment_images.h"
+#include "core/gbuffer/gbuffer_transfer.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+
+namespace {
+
+bool needs_depth_layers(const VariantConfig& variant) {
+    return make_variant(variant.variant, variant.parameters, variant.preset)->needs_depth_layers();
+}
+
+class SceneSource final : public FrameSource {
+public:
+    SceneSource(Device& device, const Shot& shot, const Config& config, bool keep_all)
+        : shot_(shot),
+          rasterizer_(device, shot.scene,
+                      {.extent = shot.config.extent,
+                       .depth_format = shot.config.depth_format,
+                       .normal_bits = shot.config.normal_bits,
+                       .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
+                       .is_still = shot.facts.is_still(),
+                       .keep_all = keep_all}) {}
+
+    GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
+        const GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,
+                                                                  .depth_direction = shot_.config.depth_direction,
+                                                                  .frame = step.frame,
+                                                                  .seed = seed,
+                                                                  .index = step.index,
+                                                                  .previous_frame = step.previous_frame});
+        if (shot_.config.direct_lit)
+            rasterizer_.light_directly(gbuffer);
+        else
+            rasterizer_.upload_lit(gbuffer, lit);
+        return gbuffer;
+    }
+    const CameraData& camera() const override { return rasterizer_.camera(); }
+    PassGraph& graph() override { return rasterizer_.graph(); }
+
+private:
+    const Shot& shot_;
+    Rasterizer rasterizer_;
+};
+
+class CaptureSource final : public FrameSource {
+public:
+    CaptureSource(Device& device, Capture& capture, const Shot& shot, bool reads_own_lit)
+        : capture_(capture), reads_own_lit_(reads_own_lit), graph_(device, shot.config.extent) {
+        if (capture.environment()) environment_.emplace(graph_, *capture.environment(), false);
+    }
+
+    GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
+        HostGBuffer host = capture_.played(step.frame, step.previous_frame);
+        if (!reads_own_lit_) {
+            if (lit.values.empty())
+                fail(
+                    capture_.folder_of(step.frame).string(),
+                    ": the G-buffer has no lit colour, and no reference provides one: give it the layer 'lit', or name "
+                    "a 'reference'");
+            host.lit = HostImage(lit.extent, 4, 1.0f);
+            for (size_t i = 0; i < lit.pixel_count(); ++i) host.lit.set_rgb(i, lit.rgb(i));
+        }
+        camera_ = host.camera;
+        camera_.frame.x = step.index, camera_.frame.y = seed;
+        GBuffer gbuffer = upload_gbuffer(graph_, host);
+        if (environment_) gbuffer.environment = &*environment_;
+        return gbuffer;
+    }
+    const CameraData& camera() const override { return camera_; }
+    PassGraph& graph() override { return graph_; }
+
+private:
+    Capture& capture_;
+    bool reads_own_lit_;
+    CameraData camera_{};
+    PassGraph graph_;
+    std::optional<EnvironmentImages> environment_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all) {
+    return std::make_unique<SceneSource>(device, shot, config, keep_all);
+}
+std::unique_ptr<FrameSource> capture_source(Device& device, Capture& capture, const Shot& shot, bool reads_own_lit) {
+    return std::make_unique<CaptureSource>(device, capture, shot, reads_own_lit);
+}
+
+struct FrameStore::Stored {
+    PassGraph graph;  ///< owns the images
+    GBuffer gbuffer;
+    CameraData camera;
+
+    Stored(Device& device, const HostGBuffer& host)
+        : graph(device, host.extent()), gbuffer(upload_gbuffer(graph, host)), camera(host.camera) {}
+};
+
+FrameStore::FrameStore(FrameSource& source, DepthFormat depth_format, size_t max_bytes)
+    : source_(source), depth_format_(depth_format), max_bytes_(max_bytes) {}
+FrameStore::~FrameStore() = default;
+
+bool FrameStore::keeps_all() const {
+    return std::ranges::none_of(stored_, [](const auto& frame) { return frame.second == nullptr; });
+}
+
+FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit) {
+    constexpr size_t bytes_per_pixel = 140;  // of the formats in gbuffer.h, with both depth layers
+    const auto key = std::pair(step.frame, step.previous_frame);
+    auto found = stored_.find(key);
+    if (found == stored_.end() || !found->second) {
+        const GBuffer rendered = source_.render(step, 0, lit);
+        if (found != stored_.end()) return {rendered, source_.camera()};
+        const HostGBuffer host = download_gbuffer(source_.graph(), rendered, source_.camera(), depth_format_);
+        for (const auto& [layer, count] : count_non_finite(host)) non_finite_[layer] += count;
+        found = stored_.emplace(key, nullptr).first;
+        const size_t bytes = bytes_per_pixel * host.depth.pixel_count();
+        if (bytes_ + bytes > max_bytes_) return {rendered, source_.camera()};
+        bytes_ += bytes;
+        found->second = std::make_unique<Stored>(source_.graph().device(), host);
+        found->second->gbuffer.environment = rendered.environment;
+    }
+    Frame frame{found->second->gbuffer, found->second->camera};
+    frame.camera.frame.x = step.index;
+    return frame;
+}

@@ -1,0 +1,21 @@
+#include "experiments/measuring/left_out_by.h"
+
+#include "core/gbuffer/rasterizer.h"
+#include "groundtruth/path_tracer.h"
+#include "variants/registry.h"
+
+std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantConfig>& variants) {
+    std::vector<LeftOutBy> all;
+    if (shot.config.gbuffer.empty()) {
+        const ShotFrame now = shot_frame(shot, shot.config.frames.back());
+        const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
+        for (const LeftOut& part : tracer.left_out()) all.push_back({"path tracer", part});
+        for (const LeftOut& part : left_out_of_rasterizer(shot.facts)) all.push_back({"rasteriser", part});
+    }
+    for (const VariantConfig& v : variants) {
+        const std::string who = v.point == "default" ? v.variant : v.variant + " " + v.point;
+        for (const LeftOut& part : make_variant(v.variant, v.parameters, v.preset)->leave_out(shot.facts))
+            all.push_back({who, part});
+    }
+    return all;
+}

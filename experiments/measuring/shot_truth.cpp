@@ -1,0 +1,112 @@
+#include "experiments/measuring/shot_truth.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/gbuffer/gbuffer_transfer.h"
+
+#include <algorithm>
+
+namespace {
+
+bool is_capture(const Shot& shot) { return !shot.config.gbuffer.empty(); }
+
+/// Whether anything of the frame is compared with the truth, or lit by it.
+bool needs_reference(const Shot& shot, const FrameStep& step) {
+    if (!shot.config.direct_lit) return true;
+    return step.is_measured || step.is_held || measures_difference(shot, step) || is_after_change(shot, step);
+}
+
+/// Equal for poses that look alike.
+std::string look_of(const Shot& shot, unsigned frame, const ReferenceSettings& settings) {
+    if (is_capture(shot)) return capture_reference_file(shot.config, frame).string();
+    const ShotFrame now = shot_frame(shot, frame);
+    return reference_stream(shot.scene, now.scene, now.camera, shot.config.extent, settings);
+}
+
+void check_change(const Shot& shot, const std::map<unsigned, std::string>& looks) {
+    if (!shot.config.change) return;
+    for (const FrameStep& step : shot.steps)
+        if (is_after_change(shot, step) && looks.at(step.frame) != looks.at(*shot.config.change))
+            fail("shot ", shot.name(), ": 'change' = ", *shot.config.change, ", but frame ", step.frame,
+                 " looks different from it; how long a change ghosts can only be told where all stands still after it");
+}
+
+}  // namespace
+
+bool measures_difference(const Shot& shot, const FrameStep& step) {
+    return !shot.config.measures_last_only && !step.is_warm_up && step.frame != step.previous_frame &&
+           step.frame > std::max(shot.config.frames.front(), shot.config.measure_from);
+}
+
+bool is_after_change(const Shot& shot, const FrameStep& step) {
+    return shot.config.change && step.frame >= *shot.config.change;
+}
+
+const FrameTruth* ShotTruth::frame(const FrameStep& step) const {
+    const auto found = frames.find({step.frame, step.previous_frame});
+    return found == frames.end() ? nullptr : &found->second;
+}
+
+const HostImage& ShotTruth::lit(const FrameStep& step) const {
+    static const HostImage none;
+    const auto found = poses.find(step.frame);
+    return found == poses.end() ? none : found->second->diffuse;
+}
+
+std::string ShotTruth::content_hash() const {
+    ContentHash hash;
+    for (const auto& [frame, pose] : poses) hash.add(frame), hash.add(pose->content_hash);
+    return hash.hex();
+}
+
+ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
+                     const std::function<Reference(unsigned frame, ReferenceUse use)>& obtain) {
+    std::map<unsigned, std::string> looks;
+    for (const FrameStep& step : shot.steps)
+        if (!looks.contains(step.frame)) looks[step.frame] = look_of(shot, step.frame, config.reference);
+    check_change(shot, looks);
+
+    ShotTruth truth;
+    std::map<std::string, std::shared_ptr<const PoseTruth>> by_look;
+    const bool has_several = shot.steps.size() > shot.config.warm_up + 1;
+    for (const FrameStep& step : shot.steps) {
+        if (truth.poses.contains(step.frame) || !needs_reference(shot, step)) continue;
+        std::shared_ptr<const PoseTruth>& pose = by_look[looks[step.frame]];
+        const std::string& look = looks[step.frame];
+        const ReferenceUse use{.is_of_last = look == looks[shot.config.frames.back()],
+                               .is_of_measured = std::ranges::any_of(shot.steps, [&](const FrameStep& s) {
+                                   return s.is_measured && looks[s.frame] == look;
+                               })};
+        if (!pose)
+            pose = std::make_shared<PoseTruth>(
+                pose_truth(obtain(step.frame, use), config, shot.camera.exposure_ev,
+                           {.has_targets = use.is_of_last, .has_frame_reference = has_several}));
+        truth.poses[step.frame] = pose;
+    }
+    for (const FrameStep& step : shot.steps) {
+        if (!step.is_measured && !measures_difference(shot, step)) continue;
+        const FrameStore::Frame frame = store.frame(step, truth.lit(step));
+        const HostGBuffer gbuffer = download_gbuffer(graph, frame.gbuffer, frame.camera, shot.config.depth_format);
+        truth.frames.emplace(std::pair(step.frame, step.previous_frame),
+                             frame_truth(truth.poses.at(step.frame), gbuffer, config));
+    }
+    return truth;
+}
+
+ShotTruth truth_of_lit(const Shot& shot, const std::function<HostImage(unsigned frame)>& lit) {
+    ShotTruth truth;
+    for (const unsigned frame : shot.config.frames) {
+        const HostImage of_frame = lit(frame);
+        truth.poses[frame] = std::make_shared<PoseTruth>(PoseTruth{.diffuse = of_frame,
+                                                                   .lit_halves = {},
+                                                                   .direct = of_frame,
+                                                                   .targets = {},
+                                                                   .rungs = {},
+                                                                   .view_depth = {},
+                                                                   .normal = {},
+                                                                   .material_id = {},
+                                                                   .flip_exposures = {},
+                                                                   .content_hash = "none"});
+    }
+    return truth;
+}

@@ -1,0 +1,38 @@
+#pragma once
+#include "experiments/measuring/frames/frame_source.h"
+#include "experiments/measuring/measure.h"
+
+#include <functional>
+
+/// Everything that the frames of a shot are measured against. Poses that look alike share one reference, so a static
+/// shot has one, whatever the number of its frames.
+struct ShotTruth {
+    std::map<unsigned, std::shared_ptr<const PoseTruth>> poses;                 ///< by frame
+    std::map<std::pair<unsigned, std::optional<unsigned>>, FrameTruth> frames;  ///< by frame and the one before
+
+    const PoseTruth& pose(const FrameStep& step) const { return *poses.at(step.frame); }
+    const HostImage& lit(const FrameStep& step) const;     ///< empty where no truth is needed
+    const FrameTruth* frame(const FrameStep& step) const;  ///< nullptr: nothing of this frame is measured
+    bool is_measured() const { return !frames.empty(); }
+    std::string content_hash() const;  ///< of all pixels that results depend on
+};
+
+/// True for the steps whose change since the step before is compared with the truth's: the first rendering of each pose
+/// after the first that is measured, unless only the last is.
+bool measures_difference(const Shot& shot, const FrameStep& step);
+
+/// The frames from Shot::config.change on.
+bool is_after_change(const Shot& shot, const FrameStep& step);
+
+/// Which frames look as a reference does.
+struct ReferenceUse {
+    bool is_of_last = false, is_of_measured = false;
+};
+
+/// What is to be measured in a shot. `obtain` gives the reference of a frame; it is called once per pose that looks
+/// different (of a capture, per file). Fails if the shot names a change after which the scene still moves.
+ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
+                     const std::function<Reference(unsigned frame, ReferenceUse use)>& obtain);
+
+/// Where there is no reference nothing is measured: the lit colour alone, for the frames of `shot`.
+ShotTruth truth_of_lit(const Shot& shot, const std::function<HostImage(unsigned frame)>& lit);

@@ -1,0 +1,37 @@
+#include "experiments/measuring/times/costs.h"
+
+#include "core/gpu/device.h"
+#include "experiments/measuring/render_variant.h"
+#include "variants/registry.h"
+
+std::vector<CostRow> count_costs(Device& device, const Shot& shot, FrameStore& store,
+                                 const std::function<const HostImage&(const FrameStep&)>& lit,
+                                 const VariantConfig& config, bool keep_all,
+                                 const std::function<void(double)>& report) {
+    const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
+    if (variant->asks_scene()) return {};
+    if (!keep_all) variant->leave_out(shot.facts);
+    PassGraph graph(device, shot.config.extent);
+    for (const FrameStep& step : shot.steps) {
+        graph.count_costs(&step == &shot.steps.back());
+        const FrameStore::Frame frame = store.frame(step, lit(step));
+        render_variant(graph, *variant, frame.camera, config.seeds.front(), frame.gbuffer);
+        graph.times();  // waits: the frame's images are gone with the next one
+        report(double(&step - shot.steps.data() + 1) / double(shot.steps.size()));
+    }
+
+    std::vector<PassCost> costs = graph.costs();
+    PassCost total{.stage = "total"};
+    for (const PassCost& cost : costs) total.add(cost);
+    costs.push_back(total);
+    std::vector<CostRow> rows;
+    for (const PassCost& cost : costs)
+        for (const CostQuantity& quantity : cost_quantities)
+            rows.push_back({.shot = shot.name(),
+                            .variant = config.variant,
+                            .point = config.point,
+                            .stage = cost.stage,
+                            .quantity = quantity.name,
+                            .value = cost.*quantity.member});
+    return rows;
+}

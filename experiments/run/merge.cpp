@@ -1,0 +1,95 @@
+#include "core/error.h"
+#include "experiments/measuring/times/timing.h"
+#include "experiments/run/run.h"
+#include "experiments/run/study_results.h"
+#include "experiments/store/folder_owner.h"
+
+#include <algorithm>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A cell of one of the folders.
+struct FoundCell {
+    Cell cell;
+    fs::path folder;
+};
+
+/// The best that any folder holds of a cell.
+std::optional<FoundCell> find_cell(const PlannedCell& planned, const std::vector<fs::path>& folders,
+                                   const std::function<void(const std::string&)>& say) {
+    std::optional<FoundCell> best;
+    for (const fs::path& folder : folders)
+        if (std::optional<Cell> cell = CellStore(folder, say).load(planned.name)) {
+            if (best && best->cell.truth != cell->truth)
+                fail("the truth of ", planned.shot, " is not the same pixels in ", best->folder.string(), " and ",
+                     folder.string(), " (cell ", planned.name, ", ", planned.what,
+                     "): references differ between processors and libraries. Run them once, with `--cells references`, "
+                     "and let all other processes use that --cache");
+            if (!best || disturbed_frames(cell->timing) < disturbed_frames(best->cell.timing))
+                best = {std::move(*cell), folder};
+        }
+    return best;
+}
+
+/// Puts a file of another folder into this one, as a link where the file system can.
+void take_over(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::create_directories(to.parent_path());
+    fs::remove(to, error);
+    fs::create_hard_link(from, to, error);
+    if (!error) return;
+    error.clear();
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+    if (error) fail_machine("cannot copy ", from.string(), " to ", to.string(), ": ", error.message());
+}
+
+void take_over(const FoundCell& found, const fs::path& out) {
+    std::error_code error;
+    if (fs::equivalent(found.folder, out, error)) return;
+    for (const nlohmann::json& image : found.cell.images)
+        for (const char* kind : {"exr", "png"}) {
+            const std::string file = image.at(kind);
+            take_over(found.folder / file, out / file);
+        }
+    const fs::path file = fs::path("cells") / (found.cell.name + ".json");
+    take_over(found.folder / file, out / file);
+}
+
+}  // namespace
+
+size_t merge_study(const Config& config, const RunSettings& settings, const std::vector<fs::path>& folders) {
+    for (const fs::path& folder : folders) check_owner(folder, config, settings.keep_all);
+    StudySession study(config, settings);
+    const auto say = [&](const std::string& text) { study.progress.say(text); };
+    study.plan = plan_study(config, study.device.info(), settings.search_path, settings.keep_all);
+    const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
+    std::vector<std::string> missing;
+    for (const PlannedShot& shot : study.plan.shots) {
+        std::optional<std::string> truth;  // of the shot's references, which come first: without them no cell counts
+        for (const PlannedCell& planned : shot.cells) {
+            std::optional<FoundCell> found = find_cell(planned, folders, say);
+            if (found && planned.kind == CellKind::references) truth = found->cell.truth;
+            if (found && truth && found->cell.truth != truth)
+                say("note: " + planned.what + " in " + found->folder.string() +
+                    " was measured against another truth than the shot's references are; it is not used");
+            if (!found || found->cell.truth != truth) {
+                missing.push_back(planned.what);
+                continue;
+            }
+            take_over(*found, settings.out);
+            study.finished.push_back(std::move(found->cell));
+        }
+    }
+    if (study.finished.empty())
+        fail("none of the ", study.plan.cell_count(), " cells of this study is in ", folders.front().string(),
+             folders.size() > 1 ? " or the folders beside it" : "",
+             "; were they made by this version of ssrlab, on a device like ", study.device.info().name, "?");
+    write_results(study, missing.empty(), {});
+    say(std::to_string(study.finished.size()) + " cells merged, " + std::to_string(missing.size()) + " missing");
+    for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);
+    if (!missing.empty())
+        say("`ssrlab run " + config.file.string() + " --out " + settings.out.string() + "` does them");
+    return missing.size();
+}

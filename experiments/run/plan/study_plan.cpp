@@ -1,0 +1,210 @@
+#include "experiments/run/plan/study_plan.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/config/conditions.h"
+#include "experiments/config/shot.h"
+#include "experiments/measuring/frames/capture.h"
+#include "experiments/store/manifest.h"
+#include "experiments/store/source_code.h"
+#include "variants/registry.h"
+#include "variants/tracers/tracers.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace {
+
+/// A point as cells are named by it.
+struct PointIdentity {
+    std::string parameters;            ///< all values
+    std::vector<std::string> sources;  ///< the folders of its technique and of the tracers that it has chosen
+};
+
+PointIdentity identity_of(const VariantConfig& config) {
+    const nlohmann::json values = make_variant(config.variant, config.parameters, config.preset)->params.values();
+    PointIdentity identity{.parameters = values.dump(), .sources = {"variants/" + config.variant + "/"}};
+    for (const auto& [name, value] : values.items())
+        for (const TracerEntry& tracer : tracer_table())
+            if (value == tracer.name)
+                identity.sources.push_back("variants/" + tracer.shader.substr(0, tracer.shader.rfind('/') + 1));
+    return identity;
+}
+
+/// Names the cells of a study.
+class CellNames {
+public:
+    CellNames(const Config& config, const DeviceInfo& device, bool keep_all, std::vector<SourceFile> sources)
+        : config_(config), device_(device.name + device.driver), keep_all_(keep_all), code_(std::move(sources)) {
+        for (const VariantConfig& variant : config.variants) points_.push_back(identity_of(variant));
+    }
+
+    std::string of_references(const std::string& request) {
+        return name({"experiments/run/shots/open_shot.cpp"}, request, with_images({}));
+    }
+    std::string of_renders(const std::string& request, size_t variant) {
+        const PointIdentity& point = points_[variant];
+        std::vector<std::string> sources = point.sources;
+        sources.push_back("experiments/run/shots/point_renders.cpp"),
+            sources.push_back("experiments/run/shots/open_shot.cpp");
+        const VariantConfig& v = config_.variants[variant];
+        std::vector<std::string> what = {v.variant, v.point, point.parameters};
+        for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
+        return name(sources, request, with_images(what));
+    }
+    std::string of_costs(const std::string& request, size_t variant) {
+        const PointIdentity& point = points_[variant];
+        std::vector<std::string> sources = point.sources;
+        sources.push_back("experiments/measuring/times/costs.cpp"),
+            sources.push_back("experiments/run/shots/open_shot.cpp");
+        const VariantConfig& v = config_.variants[variant];
+        return name(sources, request, {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())});
+    }
+    /// `runs`: by variant, whether it runs on the shot.
+    std::string of_times(const std::string& request, const std::vector<bool>& runs) {
+        std::vector<std::string> sources = {"experiments/measuring/times/timing.cpp",
+                                            "experiments/run/shots/open_shot.cpp"};
+        std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up)};
+        if (!config_.timing.has_copies) what.push_back("alone");
+        for (size_t i = 0; i < points_.size(); ++i) {
+            const VariantConfig& v = config_.variants[i];
+            if (!v.is_timed || !runs[i]) continue;
+            sources.insert(sources.end(), points_[i].sources.begin(), points_[i].sources.end());
+            what.insert(what.end(), {v.variant, v.point, points_[i].parameters, std::to_string(v.seeds.front())});
+        }
+        return name(sources, request, what);
+    }
+
+private:
+    /// Times do not depend on which images are kept.
+    std::vector<std::string> with_images(std::vector<std::string> what) const {
+        if (config_.keeps_all_images) what.push_back("all images");
+        return what;
+    }
+    std::string name(const std::vector<std::string>& sources, const std::string& request,
+                     const std::vector<std::string>& what) {
+        const Config& c = config_;
+        ContentHash hash;
+        auto [code, is_new] = hashes_.try_emplace(sources);
+        if (is_new) code->second = code_.hash_of(sources);
+        for (const std::string& part : {code->second, device_, request}) hash.add(part);
+        for (const auto& list : {what, c.metrics, c.masks, c.targets, c.frame_metrics, c.frame_masks}) {
+            hash.add(list.size());
+            for (const std::string& text : list) hash.add(text);
+        }
+        hash.add(int(keep_all_)), hash.add(int(c.composite));
+        hash.add(c.hits ? int(c.hits->every) : 0), hash.add(c.hits ? int(c.hits->seeds) : 0);
+        hash.add(c.reflective_max_roughness), hash.add(c.reflective_min_reflectance);
+        return hash.hex();
+    }
+
+    const Config& config_;
+    std::string device_;
+    bool keep_all_;
+    SourceCode code_;
+    std::vector<PointIdentity> points_;                       ///< as Config::variants
+    std::map<std::vector<std::string>, std::string> hashes_;  ///< of sources
+};
+
+Shot load(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
+    if (config.gbuffer.empty()) return load_shot(config, search_path);
+    Capture capture(config.gbuffer);
+    Shot shot = capture_shot(config, capture);
+    shot.facts = inspect_capture(shot, capture).facts;
+    return shot;
+}
+
+/// What a shot shows and how it is played: all that its cells depend on, but for what is rendered.
+std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
+    ReferenceSettings settings = config.reference;
+    settings.keep_all = keep_all;
+    ContentHash hash;
+    hash.add(shot.scene.content_hash), hash.add(shot.name()), hash.add(shot.camera.exposure_ev);
+    for (const unsigned frame : shot.config.frames) {
+        hash.add(frame);
+        if (!shot.config.reference.empty()) hash.add(read_text(capture_reference_file(shot.config, frame)));
+        if (!shot.config.gbuffer.empty()) continue;
+        const ShotFrame now = shot_frame(shot, frame);
+        settings.ladder = frame == shot.config.frames.back() && needs_ladder(config);
+        hash.add(reference_key(reference_request(shot.scene, now.scene, now.camera, shot.config.extent, settings),
+                               settings));
+    }
+    for (const unsigned number :
+         {shot.config.warm_up, shot.config.repeat, shot.config.change.value_or(0),
+          unsigned(shot.config.measures_last_only), shot.config.measure_from, unsigned(config.has_reference),
+          unsigned(shot.config.direct_lit), unsigned(shot.config.depth_format), unsigned(shot.config.depth_direction),
+          shot.config.normal_bits})
+        hash.add(number);
+    return hash.hex();
+}
+
+}  // namespace
+
+const std::vector<std::string>& cell_kind_names() {
+    static const std::vector<std::string> names = {"references", "renders", "costs", "times"};
+    return names;
+}
+
+const std::string& name_of(CellKind kind) { return cell_kind_names()[size_t(kind)]; }
+
+size_t StudyPlan::cell_count() const {
+    return std::accumulate(shots.begin(), shots.end(), size_t(0),
+                           [](size_t sum, const PlannedShot& shot) { return sum + shot.cells.size(); });
+}
+
+StudyPlan plan_study(const Config& config, const DeviceInfo& device,
+                     const std::vector<std::filesystem::path>& search_path, bool keep_all,
+                     std::vector<SourceFile> sources) {
+    CellNames names(config, device, keep_all, std::move(sources));
+    StudyPlan plan;
+    std::set<std::string> known;
+    for (const ShotConfig& of_shot : config.shots) {
+        const Shot shot = load(of_shot, search_path);
+        if (!known.insert(shot.name()).second)
+            fail("two shots are called '", shot.name(),
+                 "': they differ in nothing that results are named by; give them other frames, another camera or "
+                 "another resolution");
+        const std::string request = request_of(shot, config, keep_all);
+        PlannedShot& planned = plan.shots.emplace_back();
+        planned.config = shot.config, planned.name = shot.name();
+        planned.entry = shot_entry(shot, config, keep_all);
+        const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
+            return planned.cells.emplace_back(PlannedCell{.kind = kind,
+                                                          .name = std::move(name),
+                                                          .what = planned.name + ": " + what,
+                                                          .shot = planned.name,
+                                                          .units = units});
+        };
+        std::vector<bool> runs;
+        for (const VariantConfig& variant : config.variants) {
+            const std::string why = why_skipped(variant, shot);
+            runs.push_back(why.empty());
+            if (!why.empty())
+                plan.skipped.push_back({{"shot", planned.name},
+                                        {"variant", variant.variant},
+                                        {"point", variant.point},
+                                        {"condition", why}});
+        }
+        add(CellKind::references, names.of_references(request), "references", double(shot.config.frames.size()));
+        for (size_t i = 0; i < config.variants.size(); ++i) {
+            const VariantConfig& variant = config.variants[i];
+            if (!runs[i]) continue;
+            add(CellKind::renders, names.of_renders(request, i), variant.variant + " " + variant.point,
+                double(shot.steps.size() * variant.seeds.size()))
+                .variant = &variant;
+        }
+        for (size_t i = 0; i < config.variants.size() && config.counts_costs; ++i) {
+            const VariantConfig& variant = config.variants[i];
+            if (!runs[i]) continue;
+            add(CellKind::costs, names.of_costs(request, i), "costs of " + variant.variant + " " + variant.point,
+                double(shot.steps.size()))
+                .variant = &variant;
+        }
+        const Config on_shot = config_on(config, shot);
+        if (config.timing.frames > 0 && std::ranges::any_of(on_shot.variants, &VariantConfig::is_timed))
+            add(CellKind::times, names.of_times(request, runs), "times", 1);
+    }
+    return plan;
+}

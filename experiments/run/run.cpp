@@ -1,0 +1,104 @@
+#include "experiments/run/run.h"
+
+#include "core/error.h"
+#include "core/json.h"
+#include "experiments/run/shots/shot_cells.h"
+#include "experiments/run/study_results.h"
+#include "experiments/store/folder_owner.h"
+#include "experiments/store/manifest.h"
+
+namespace {
+
+// First guesses of seconds per unit, for a small study; what is measured replaces them (workload.h).
+const std::map<CellKind, double> guessed_seconds = {
+    {CellKind::references, 20}, {CellKind::renders, 0.2}, {CellKind::costs, 0.2}, {CellKind::times, 5}};
+
+/// What a run before left, which may be of any version; null if it cannot be read.
+nlohmann::json read_manifest_before(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) return {};
+    try {
+        return read_json(file);
+    } catch (const MachineError&) {
+        throw;
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+/// What a reader wants to know first.
+void say_answers(StudySession& study, const std::vector<ShotAnswer>& answers) {
+    for (const ShotAnswer& answer : answers)
+        study.progress.say("\n" + answer.shot + ": " + answer.sentence +
+                           (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence));
+    study.progress.say("\nReport: " +
+                       std::filesystem::absolute(study.settings.out / "report.html").lexically_normal().string());
+}
+
+/// The selected cells of all shots, and the work that they are.
+void plan_work(StudySession& study, const CellSelection& selection) {
+    const SpentTime::Span span(study.spent, "planning");
+    study.plan = plan_study(study.config, study.device.info(), study.settings.search_path, study.settings.keep_all);
+    size_t selected = 0;
+    for (const PlannedShot& shot : study.plan.shots)
+        for (const PlannedCell& cell : shot.cells) {
+            if (!selection.holds(cell)) continue;
+            ++selected;
+            study.work.plan(name_of(cell.kind), cell.units, guessed_seconds.at(cell.kind));
+        }
+    if (selected == 0 && selection.is_shard())
+        study.progress.say("note: this part of the study has no cell");
+    else if (selected == 0)
+        fail("--cells selects none of the ", study.plan.cell_count(), " cells of this study; `ssrlab plan ",
+             study.config.file.string(), " --list` names them");
+}
+
+/// Runs the cells of one study after another, and lets results be read meanwhile.
+class Runner {
+public:
+    Runner(StudySession& study, const CellSelection& selection)
+        : study_(study), selection_(selection), before_(read_manifest_before(study.settings.out / "manifest.json")) {}
+
+    void run() {
+        for (const PlannedShot& shot : study_.plan.shots) {
+            do_cells(study_, shot, selection_);
+            if (selection_.is_all() && &shot != &study_.plan.shots.back() && are_results_due()) write(false);
+        }
+        if (selection_.is_all()) return say_answers(study_, write(true));
+        study_.progress.say(std::to_string(study_.made) + " cells done, " +
+                            std::to_string(study_.finished.size() - study_.made) +
+                            " found done before; `ssrlab merge` makes tables and report once all are there");
+    }
+
+private:
+    /// Tables and report are of all shots so far: of a long study's time half a hundredth goes into those that
+    /// it does not end with.
+    bool are_results_due() const { return std::chrono::steady_clock::now() - written_ > 200 * took_; }
+
+    std::vector<ShotAnswer> write(bool is_complete) {
+        const auto start = std::chrono::steady_clock::now();
+        std::vector<ShotAnswer> answers = write_results(study_, is_complete, before_);
+        written_ = std::chrono::steady_clock::now(), took_ = written_ - start;
+        return answers;
+    }
+
+    StudySession& study_;
+    const CellSelection& selection_;
+    nlohmann::json before_;
+    std::chrono::steady_clock::time_point written_ = {};  ///< when results were last written ...
+    std::chrono::steady_clock::duration took_ = {};       ///< ... and how long that took
+};
+
+}  // namespace
+
+void run_study(const Config& config, const RunSettings& settings) {
+    const CellSelection selection(settings.cells);
+    StudySession study(config, settings);
+    const auto say = [&](const std::string& text) { study.progress.say(text); };
+    const SpentTime::Span span(study.spent, "else");
+    const nlohmann::json entry = study_entry(config);
+    for (const auto& warning : entry["warnings"]) say("warning: " + warning.get<std::string>());
+    plan_work(study, selection);
+    const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
+    Runner(study, selection).run();
+}

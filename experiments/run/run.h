@@ -1,0 +1,31 @@
+#pragma once
+#include "experiments/config/config.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+struct RunSettings {
+    std::filesystem::path out;                       ///< results folder; a study that was stopped continues in it
+    std::string device;                              ///< as Device takes it
+    std::filesystem::path cache;                     ///< of references
+    std::vector<std::filesystem::path> search_path;  ///< of scenes
+    bool keep_all = false;
+    bool replaces = false;           ///< gives a folder with the results of another study to this one
+    bool prunes = false;             ///< removes what earlier versions of the study left in the folder
+    bool takes_times_here = false;   ///< in place of times that another machine took
+    std::vector<std::string> cells;  ///< which are done, as CellSelection takes them; empty: all
+};
+
+/// Runs a study and fills the results folder (experiments/RESULTS.md). What is finished can be read while it runs:
+/// tables and report are written after the first shot, then as often as a two hundredth of the time allows, and at the
+/// end. Of a part of the cells nothing but these is written: merge_study() makes the tables once all are there.
+void run_study(const Config& config, const RunSettings& settings);
+
+/// Fills settings.out with the cells that folders of the same study hold, and makes tables and report of all that
+/// are there; nothing is rendered. `folders` may be settings.out itself alone. Of cells that several have (times, on
+/// several machines) the least disturbed counts, else that of the folder named first. Returns how many cells are
+/// missing: cells of a shot whose references are missing count as missing, too. Fails with Error if a folder holds
+/// another study, or if what was measured in two folders was measured against other pixels of the truth.
+size_t merge_study(const Config& config, const RunSettings& settings,
+                   const std::vector<std::filesystem::path>& folders);

@@ -1,0 +1,39 @@
+#pragma once
+#include "core/ray_probe.h"
+#include "experiments/measuring/rays/error_causes.h"
+#include "experiments/measuring/rays/exact_rays.h"
+#include "experiments/measuring/rays/judged_hits.h"
+#include "experiments/run/shots/point_in_shot.h"
+
+/// A point's rays, as they were recorded, against what they truly meet in the scene, over the seeds whose rays the
+/// study judges.
+class PointRays {
+public:
+    explicit PointRays(const PointInShot& point) : point_(point) {}
+
+    /// Answers the tracer exact_scene in this step; a capture has no scene to ask.
+    void plug_in_scene(RayProbe& probe, const FrameStep& step, const CameraData& camera);
+    bool judges(unsigned seed, const FrameStep& step) const;
+
+    /// Where rays of one stage are judged: a picture of the verdicts.
+    struct VerdictMap {
+        std::string stage;
+        HostImage map;
+    };
+    /// Judges what `recorded` holds of a step, and the error (of `specular`) that lies on the rays' pixels. Gives the
+    /// verdicts as pictures, if `has_maps` and every pixel's rays are judged.
+    std::vector<VerdictMap> judge(unsigned seed, const std::vector<RecordedRays>& recorded, const FrameStep& step,
+                                  const CameraData& camera, const HostImage& specular, std::span<const Mask> masks,
+                                  bool has_maps);
+    std::vector<HitRow> rows() const;
+
+private:
+    const ExactRays& exact_rays(const FrameStep& step, const CameraData& camera) {
+        return exact_.try_emplace(step.frame, point_.shot, step.frame, camera).first->second;
+    }
+
+    const PointInShot& point_;
+    std::map<unsigned, ExactRays> exact_;     ///< by frame
+    std::map<unsigned, JudgedHits> judged_;   ///< by frame
+    std::map<unsigned, ErrorCauses> causes_;  ///< by frame
+};

@@ -1,0 +1,260 @@
+#include "experiments/run/shots/shot_cells.h"
+#include "core/error.h"
+#include "experiments/config/conditions.h"
+#include "experiments/measuring/rehearsal.h"
+#include "experiments/measuring/times/clock_proofs.h"
+#include "experiments/measuring/times/costs.h"
+#include "experiments/measuring/times/timing.h"
+#include "experiments/measuring/times/timing_lock.h"
+#include "experiments/run/shots/open_shot.h"
+#include "experiments/run/shots/point_renders.h"
+#include "experiments/store/host_info.h"
+#include "experiments/store/provenance.h"
+
+#include <algorithm>
+#include <map>
+
+namespace {
+
+/// A cell that is to be done.
+struct CellTask {
+    const PlannedCell& planned;
+    std::function<Cell(const std::function<void(double)>& report)> make;
+    /// Why a cell that is there is tried once more; "" if it is not. The better of both is kept.
+    std::function<std::string(const Cell&)> why_again = [](const Cell&) { return ""; };
+    std::function<bool(const Cell& again, const Cell& before)> is_better = [](const Cell&, const Cell&) {
+        return true;
+    };
+};
+
+/// A result while the study runs: one number that matters, over the seeds.
+void say_result(StudySession& study, const Cell& cell) {
+    const PrimaryComparisons& shown = study.config.primary;
+    std::map<std::string, std::vector<double>> values;  // by frame
+    size_t non_finite = 0;                              // pixels, of the worst seed
+    for (const ResultRow& r : cell.rows)
+        if (r.target == shown.target && r.metric == shown.metric && r.mask == shown.mask && r.value)
+            values[r.frame].push_back(*r.value), non_finite = std::max(non_finite, size_t(r.non_finite));
+    if (values.empty()) return;
+    const auto& [frame, seeds] = values.contains(over_frames) ? *values.find(over_frames) : *values.rbegin();
+    double sum = 0;
+    for (const double value : seeds) sum += value;
+    char line[240];
+    std::snprintf(line, sizeof line, "  %-56s %s of %s pixels %.4g (%s, %zu seed%s)",
+                  display_name(study.config, cell.rows.front().variant, cell.rows.front().point).c_str(),
+                  shown.metric.c_str(), shown.mask.c_str(), sum / double(seeds.size()),
+                  frame == over_frames ? "over all frames" : ("frame " + frame).c_str(), seeds.size(),
+                  seeds.size() == 1 ? "" : "s");
+    const std::string left_out =
+        non_finite > 0 ? ", without " + std::to_string(non_finite) + " that are not finite" : "";
+    study.progress.say(line + left_out);
+}
+
+bool is_of_another_machine(const StudySession& study, const Cell& cell) {
+    return cell.provenance.at("host") != study.maker.at("host");
+}
+
+/// Why times that are there are taken once more; "" if they are not.
+std::string why_timed_again(const StudySession& study, const Cell& cell) {
+    if (study.settings.takes_times_here && is_of_another_machine(study, cell))
+        return "its times are another machine's; they are taken here";
+    return is_disturbed(cell.timing) ? "its times were disturbed by other programs; they are taken again" : "";
+}
+
+/// Times are kept whatever machine took them, which nobody is to overlook.
+void say_whose_times(StudySession& study, const PlannedCell& planned, const Cell& cell) {
+    if (planned.kind == CellKind::times && is_of_another_machine(study, cell))
+        study.progress.say(
+            "note: " + planned.what + " are those of " + cell.provenance["host"]["name"].get<std::string>() + " (" +
+            cell.provenance["host"]["cpu"].get<std::string>() + "); --times-here takes them on this machine");
+}
+
+/// The cell if it was done before, of this truth (of any, if none is given).
+std::optional<Cell> load_cell(const StudySession& study, const PlannedCell& planned,
+                              const std::optional<std::string>& truth) {
+    std::optional<Cell> cell = study.cells.load(planned.name);
+    if (cell && truth && cell->truth != *truth) return {};
+    return cell;
+}
+
+/// Loads the cell if it was done before, else does it and keeps it. Nothing if another process is at it, unless
+/// `waits`.
+std::optional<Cell> do_cell(StudySession& study, const CellTask& task, const std::optional<std::string>& truth,
+                            bool waits) {
+    const PlannedCell& planned = task.planned;
+    // References were rendered when the shot was opened.
+    study.work.start(name_of(planned.kind), planned.kind == CellKind::references ? 0 : planned.units);
+    study.report(0, planned.what);
+    std::optional<Cell> found = load_cell(study, planned, truth);
+    const bool is_tried_again = found && !task.why_again(*found).empty();
+    if (found && !is_tried_again) {
+        study.work.skip();
+        say_whose_times(study, planned, *found);
+        return found;
+    }
+    const auto claim = study.cells.claim(planned.name, waits);
+    if (!claim) return {};
+    found = load_cell(study, planned, truth);  // another may have made it since
+    const std::string why = found ? task.why_again(*found) : "";
+    if (found && why.empty()) {
+        study.work.skip();
+        return found;
+    }
+    if (found) study.progress.say("note: " + planned.what + ": " + why);
+    const std::string started = time_stamp();
+    const SpentTime::Span span(study.spent, name_of(planned.kind));
+    Cell cell = task.make([&](double share) { study.report(share, planned.what); });
+    cell.name = planned.name;
+    cell.provenance = cell_provenance(study.maker, planned.what, started);
+    const bool is_kept = !found || task.is_better(cell, *found);
+    if (is_kept) {
+        const SpentTime::Span saving(study.spent, "cells");
+        study.cells.save(planned.name, cell);
+    }
+    ++study.made;
+    study.work.finish();
+    return is_kept ? std::move(cell) : std::move(*found);
+}
+
+/// The proof of the clock, made or loaded once in a process.
+const ClockProof& proven_clock(StudySession& study) {
+    if (study.clock) return *study.clock;
+    study.clock = kept_clock_proof(study.settings.cache, study.maker, [&] { return prove_clock(study.device); });
+    if (study.clock->verdict() == ClockVerdict::failed)
+        study.progress.say(
+            "warning: the clock did not prove itself: passes of 1 : 10 : 100 work took other times on a quiet machine, "
+            "so no time of this run can be trusted");
+    if (study.clock->verdict() == ClockVerdict::not_judged)
+        study.progress.say(
+            "warning: the clock could not be judged: passes of 1 : 10 : 100 work took other times while other programs "
+            "were at work on this machine");
+    return *study.clock;
+}
+
+/// All times of a shot, while no other ssrlab takes any on this machine.
+Cell timing_cell(StudySession& study, OpenShot& open, const std::function<void(double)>& report) {
+    const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
+    const ClockProof& clock = proven_clock(study);
+    const auto lit = [&](unsigned frame) -> const HostImage& { return open.truth.lit({.frame = frame}); };
+    const ShotTimes times = time_variants(*open.source, open.shot, config_on(study.config, open.shot), lit,
+                                          study.settings.keep_all, report);
+    if (times.load.disturbed > 0)
+        study.progress.say("warning: " + open.shot.name() + ": other programs disturbed " +
+                           std::to_string(times.load.disturbed) + " of " + std::to_string(study.config.timing.frames) +
+                           " timed frames; the next run takes these times again");
+    return Cell{.times = times.rows, .timing = timing_entry(times, open.shot.name(), clock)};
+}
+
+Cell renders_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
+                  const std::function<void(double)>& report) {
+    return render_point(study.device, open.shot, open.truth, *open.store, study.config, *planned.variant,
+                        {.out = study.settings.out,
+                         .image_suffix = planned.name.substr(0, 8),
+                         .keep_all = study.settings.keep_all,
+                         .report = report,
+                         .spent = study.spent});
+}
+
+Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
+                const std::function<void(double)>& report) {
+    const auto lit = [&](const FrameStep& step) -> const HostImage& { return open.truth.lit(step); };
+    return {.costs = count_costs(study.device, open.shot, *open.store, lit, *planned.variant, study.settings.keep_all,
+                                 report)};
+}
+
+Cell make_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
+               const std::function<void(double)>& report) {
+    switch (planned.kind) {
+        case CellKind::references:
+            return references_cell(open);
+        case CellKind::renders:
+            return renders_cell(study, open, planned, report);
+        case CellKind::costs:
+            return costs_cell(study, open, planned, report);
+        case CellKind::times:
+            return timing_cell(study, open, report);
+    }
+    fail("no cell is made of kind ", int(planned.kind));
+}
+
+/// How a cell of an open shot is made.
+CellTask task_of(StudySession& study, OpenShot& open, const PlannedCell& planned) {
+    CellTask task{.planned = planned, .make = {}};
+    const auto make = [&study, &open, &planned](const auto& report) {
+        Cell cell = make_cell(study, open, planned, report);
+        cell.truth = open.truth.content_hash();
+        return cell;
+    };
+    task.make = make;
+    if (planned.kind != CellKind::times) return task;
+    task.why_again = [&study](const Cell& cell) { return why_timed_again(study, cell); };
+    task.is_better = [&study](const Cell& again, const Cell& before) {
+        return disturbed_frames(again.timing) < disturbed_frames(before.timing) ||
+               (study.settings.takes_times_here && is_of_another_machine(study, before));
+    };
+    return task;
+}
+
+/// The cells if all of them were done before and none is to be tried again.
+std::optional<std::vector<Cell>> load_finished(StudySession& study, const std::vector<const PlannedCell*>& planned) {
+    const SpentTime::Span span(study.spent, "loading cells");
+    std::vector<Cell> cells;
+    for (const PlannedCell* p : planned) {
+        std::optional<Cell> cell = study.cells.load(p->name);
+        if (!cell || (p->kind == CellKind::times && !why_timed_again(study, *cell).empty())) return {};
+        if (!cells.empty() && cell->truth != cells.front().truth) return {};
+        cells.push_back(std::move(*cell));
+    }
+    for (size_t i = 0; i < planned.size(); ++i) {
+        study.work.start(name_of(planned[i]->kind), planned[i]->units), study.work.skip();
+        say_whose_times(study, *planned[i], cells[i]);
+    }
+    return cells;
+}
+
+std::unique_ptr<OpenShot> opened(StudySession& study, const PlannedShot& shot) {
+    const SpentTime::Span span(study.spent, name_of(CellKind::references));
+    study.work.start(name_of(CellKind::references), shot.cells.front().units);
+    std::unique_ptr<OpenShot> open =
+        open_shot(study.device, shot.config, study.config,
+                  {.out = study.settings.out,
+                   .cache = study.settings.cache,
+                   .search_path = study.settings.search_path,
+                   .keep_all = study.settings.keep_all,
+                   .say = [&](const std::string& text) { study.progress.say(text); },
+                   .report = [&](double share, const std::string& what) { study.report(share, what); }});
+    open->has_rendered_references ? study.work.finish() : study.work.skip();
+    return open;
+}
+
+/// Compiles all that the study renders, so that a mistake in a shader is told before hours of work. Once in a process.
+void rehearse_once(StudySession& study) {
+    if (study.is_rehearsed) return;
+    const SpentTime::Span span(study.spent, compiling);
+    rehearse(study.device, study.config.variants);
+    study.is_rehearsed = true;
+}
+
+}  // namespace
+
+void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection& selection) {
+    std::vector<const PlannedCell*> planned;
+    for (const PlannedCell& cell : shot.cells)
+        if (selection.holds(cell)) planned.push_back(&cell);
+    if (planned.empty()) return;
+    if (std::optional<std::vector<Cell>> all = load_finished(study, planned)) {
+        std::ranges::move(*all, std::back_inserter(study.finished));
+        return;
+    }
+    rehearse_once(study);
+    const std::unique_ptr<OpenShot> open = opened(study, shot);
+    const std::string truth = open->truth.content_hash();
+    std::vector<std::optional<Cell>> cells(planned.size());
+    for (const bool waits : {false, true})
+        for (size_t i = 0; i < planned.size(); ++i) {
+            if (cells[i]) continue;
+            cells[i] = do_cell(study, task_of(study, *open, *planned[i]), truth, waits);
+            if (cells[i]) say_result(study, *cells[i]);
+        }
+    for (std::optional<Cell>& cell : cells) study.finished.push_back(std::move(*cell));
+}

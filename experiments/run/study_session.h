@@ -1,0 +1,42 @@
+#pragma once
+#include "core/gpu/clock.h"
+#include "core/gpu/device.h"
+#include "experiments/run/plan/study_plan.h"
+#include "experiments/run/progress.h"
+#include "experiments/run/run.h"
+#include "experiments/run/spent_time.h"
+#include "experiments/run/workload.h"
+#include "experiments/store/cell_store.h"
+#include "experiments/store/provenance.h"
+
+/// What SpentTime calls the compilation of all points' shaders before the first cell.
+inline constexpr const char* compiling = "compiling";
+
+/// A study on its way: all that it needs. `config` and `settings` must outlive it.
+struct StudySession {
+    StudySession(const Config& config, const RunSettings& settings)
+        : config(config),
+          settings(settings),
+          device(settings.device),
+          cells(settings.out, [this](const std::string& text) { progress.say(text); }),
+          maker(maker_of_cells(device)) {}
+
+    const Config& config;
+    const RunSettings& settings;
+    Progress progress{1.0};
+    Device device;
+    CellStore cells;
+    nlohmann::json maker;  ///< of cells, see provenance.h
+    StudyPlan plan;
+    Workload work;
+    SpentTime spent;
+    std::optional<ClockProof> clock;  ///< made when first needed
+    std::vector<Cell> finished;       ///< in the order of the plan
+    size_t made = 0;                  ///< cells that were not found done
+    bool is_rehearsed = false;
+
+    void report(double share, const std::string& what) {
+        work.update(share);
+        progress.update(work.share_done(), what);
+    }
+};

@@ -1,0 +1,176 @@
+#include "experiments/store/manifest.h"
+
+#include "experiments/config/comparisons.h"
+#include "experiments/config/read_shots.h"
+#include "experiments/measuring/left_out_by.h"
+#include "experiments/store/shot_facts.h"
+#include "metrics/temporal.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+#include <set>
+
+namespace {
+
+nlohmann::json variant_entries(const Config& config) {
+    nlohmann::json entries = nlohmann::json::array();
+    const std::vector<SingleChange> changes = single_changes(config.variants);
+    for (const VariantConfig& v : config.variants) {
+        const VariantEntry& entry = find_variant(v.variant);
+        const auto variant = make_variant(v.variant, v.parameters, v.preset);
+        entries.push_back({{"variant", v.variant},
+                           {"point", v.point},
+                           {"title", entry.title},
+                           {"source", entry.source},
+                           {"parameters", variant->params.values()},
+                           {"depends_on_seed", variant->depends_on_seed()}});
+        if (!v.label.empty()) entries.back()["label"] = v.label;
+        if (!v.group.empty()) entries.back()["group"] = v.group;
+        if (!v.swept.empty()) entries.back()["swept"] = v.swept;
+        if (variant->asks_scene()) entries.back()["asks_scene"] = true;
+        if (v.is_baseline) entries.back()["baseline"] = true;
+        for (const SingleChange& c : changes)
+            if (c.variant == v.variant && c.point == v.point)
+                entries.back()["single_change"] = {{"parameter", c.parameter}, {"value", c.value}};
+        if (variant->limits != Limits::none) entries.back()["limits"] = name_of(variant->limits);
+        if (const std::string why = variant->not_repeatable(); !why.empty()) entries.back()["not_repeatable"] = why;
+    }
+    return entries;
+}
+
+const char* name_of(Better better) {
+    switch (better) {
+        case Better::lower:
+            return "lower";
+        case Better::higher:
+            return "higher";
+        case Better::near_zero:
+            return "near_zero";
+        case Better::near_one:
+            return "near_one";
+    }
+    return "";
+}
+
+/// Within the source tree relative to it, as documents name it.
+std::string shown_path(const std::filesystem::path& file) {
+    const std::filesystem::path inside = std::filesystem::proximate(file, SSRLAB_SOURCE_DIR);
+    return (inside.empty() || inside.begin()->string() == ".." ? file : inside).string();
+}
+
+/// What the parameters of the study's variants mean: {variant: {parameter: meaning}}.
+nlohmann::json parameter_docs(const Config& config) {
+    nlohmann::json docs = nlohmann::json::object();
+    for (const VariantConfig& v : config.variants)
+        for (const auto variant = make_variant(v.variant); const Parameter& p : variant->params)
+            docs[v.variant][p.name] = p.doc;
+    return docs;
+}
+
+/// What is said of what was left out.
+nlohmann::json left_out_entry(const LeftOut& part) {
+    return {{"what", full_name(part)},
+            {"stage", part.stage.empty() ? part.what : part.stage},
+            {"fact", part.fact},
+            {"why", part.why},
+            {"keeps_bits", part.keeps_bits},
+            {"saved_ms", nullptr}};
+}
+
+/// What path tracer, rasteriser and variants leave out, each once.
+nlohmann::json left_out_entries(const Shot& shot, const Config& config) {
+    nlohmann::json entries = nlohmann::json::array();
+    for (const auto& [who, part] : left_out_of(shot, config.variants)) {
+        nlohmann::json entry = left_out_entry(part);
+        const bool says_whose = part.what.find('/') != std::string::npos || !part.stage.empty();
+        if (!says_whose) entry["what"] = who + ": " + part.what;
+        if (std::ranges::find(entries, entry) == entries.end()) entries.push_back(entry);
+    }
+    return entries;
+}
+
+}  // namespace
+
+nlohmann::json metric_descriptions() {
+    nlohmann::json all = nlohmann::json::object();
+    const auto describe = [&](const auto& m) {
+        all[m.name] = {{"formula", m.formula}, {"unit", m.unit}, {"better", name_of(m.better)}, {"doc", m.doc}};
+    };
+    for (const Metric& m : all_metrics()) describe(m);
+    for (const TemporalMetric& m : temporal_metrics()) describe(m);
+    for (const auto& [name, doc] : {std::pair("bias_squared", "what of the squared error all seeds share"),
+                                    std::pair("variance", "what of the squared error differs from seed to seed")})
+        all[name] = {
+            {"formula", "seed_pairs"}, {"unit", "radiance^2"}, {"better", name_of(Better::lower)}, {"doc", doc}};
+    return all;
+}
+
+std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string& shot) {
+    const nlohmann::json::json_pointer place("/clock/aa_floors");
+    if (!manifest.contains(place) || !manifest[place].is_object()) return {};
+    const auto found = manifest[place].find(shot);
+    return found == manifest[place].end() || !found->is_number() ? std::nullopt : std::optional(found->get<double>());
+}
+
+nlohmann::json study_entry(const Config& config) {
+    nlohmann::json warnings = nlohmann::json::array();
+    if (std::ranges::any_of(config.shots, &ShotConfig::direct_lit))
+        warnings.push_back(
+            "SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
+    if (config.composite == CompositeFormula::additive_fresnel)
+        warnings.push_back(
+            "reflections were added to an image that holds the environment's already, as an engine's document prints "
+            "it: "
+            "where both are found, both count");
+    std::set<unsigned> bits;
+    for (const ShotConfig& shot : config.shots) bits.insert(shot.normal_bits);
+    for (const unsigned count : bits)
+        if (count > 0)
+            warnings.push_back("techniques and composite read normals of 2 x " + std::to_string(count) +
+                               " bits; the truth has its own");
+    return {{"study", {{"name", config.file.stem().string()}, {"config", shown_path(config.file)}}},
+            {"title", config.title},
+            {"config", config.source},
+            {"clock", nlohmann::json::object()},
+            {"warnings", warnings},
+            {"shots", nlohmann::json::array()},
+            {"variants", variant_entries(config)},
+            {"primary",
+             {{"metric", config.primary.metric}, {"mask", config.primary.mask}, {"target", config.primary.target}}},
+            {"metrics", metric_descriptions()},
+            {"parameter_docs", parameter_docs(config)},
+            {"images", nlohmann::json::array()}};
+}
+
+void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered) {
+    for (const auto& [key, value] : rendered.items())
+        if (key == "needs" || key == "warnings")
+            entry[key].insert(entry[key].end(), value.begin(), value.end());
+        else
+            entry[key] = value;
+}
+
+nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all) {
+    const nlohmann::json needs =
+        shot.config.gbuffer.empty() ? fact_entries(list_facts(shot.scene, shot.facts)) : nlohmann::json::array();
+    nlohmann::json entry = {{"shot", shot.name()},
+                            {"scene", shot.scene.name},
+                            {"camera", shot.camera.name},
+                            {"width", shot.config.extent.x},
+                            {"height", shot.config.extent.y},
+                            {"frame", shot.config.frames.back()},
+                            {"frames", shot.config.frames},
+                            {"warm_up", shot.config.warm_up},
+                            {"repeat", shot.config.repeat},
+                            {"measure", shot.config.measures_last_only ? "last" : "all"},
+                            {"measure_from", std::max(shot.config.measure_from, shot.config.frames.front())},
+                            {"exposure_ev", shot.camera.exposure_ev},
+                            {"warnings", shot.scene.warnings},
+                            {"needs", needs},
+                            {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, config)}};
+    if (shot.config.change) entry["change"] = *shot.config.change;
+    if (!shot.config.label.empty()) entry["label"] = shot.config.label;
+    if (!shot.config.group.empty()) entry["group"] = shot.config.group;
+    entry.update(shot_settings(shot.config));
+    return entry;
+}

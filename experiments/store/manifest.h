@@ -1,0 +1,25 @@
+#pragma once
+#include "experiments/config/shot.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+// The parts of manifest.json, as experiments/RESULTS.md describes them.
+
+/// {name: {"formula", "unit", "better", "doc"}} of all metrics, and of both parts of a squared error: the one source of
+/// which values are good, for report, tables and figures.
+nlohmann::json metric_descriptions();
+
+/// What holds for the whole study, before any cell is done.
+nlohmann::json study_entry(const Config& config);
+
+/// By how much two copies of one point may differ in time in a shot, relative to their mean; none where no point was
+/// timed twice.
+std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string& shot);
+
+/// All that can be said of a shot before anything of it is rendered.
+nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all);
+/// Adds to a shot_entry() what is known once its references are there: members replace those of the same name, but
+/// `needs` and `warnings` are joined.
+void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered);

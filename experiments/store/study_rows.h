@@ -1,0 +1,26 @@
+#pragma once
+#include "experiments/measuring/cell.h"
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+/// The rows of a study's cells, in their order.
+struct StudyRows {
+    std::vector<ResultRow> results;
+    std::vector<SplitRow> splits;
+    std::vector<TimeRow> times;
+    std::vector<HitRow> hits;
+    std::vector<CostRow> costs;
+    std::vector<ReferenceNoise> reference_noise;
+};
+/// With mark_what_speaks() done.
+StudyRows rows_of(const std::vector<Cell>& cells);
+
+/// Decides which frames speak for a shot, for tables, effects, report and figures: of each quantity (target, metric,
+/// mask) the rows over its frames where a point has such, else those of its last frame.
+void mark_what_speaks(std::span<ResultRow> rows);
+
+/// Writes results.csv, splits.csv and times.csv, hits.csv if rays were judged, and costs.csv if costs were counted; the
+/// columns are explained in experiments/RESULTS.md.
+void write_tables(const std::filesystem::path& folder, const StudyRows& rows);

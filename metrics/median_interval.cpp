@@ -1,0 +1,38 @@
+#include "metrics/median_interval.h"
+
+#include "core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace {
+
+/// By how much more than independent signs those of d - median scatter over n of them.
+double sign_variance_factor(std::span<const double> values, double median) {
+    const size_t n = values.size();
+    const auto sign = [&](size_t i) { return double(values[i] > median) - double(values[i] < median); };
+    double factor = 1;
+    for (size_t lag = 1; lag < n / 2; ++lag) {
+        double sum = 0;
+        for (size_t i = lag; i < n; ++i) sum += sign(i) * sign(i - lag);
+        const double correlation = (sum + 1) / double(n);  // signs about their own median are anticorrelated by 1 / n
+        if (correlation <= 0) break;
+        factor += 2 * correlation;
+    }
+    return std::max(factor, 2.0);
+}
+
+}  // namespace
+
+MedianInterval median_interval(std::span<const double> in_order_of_time) {
+    if (in_order_of_time.empty()) fail("no values to take a median of");
+    std::vector<double> sorted(in_order_of_time.begin(), in_order_of_time.end());
+    std::ranges::sort(sorted);
+    const size_t n = sorted.size();
+    MedianInterval m{.median = n % 2 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2])};
+    const double half_width = 1.96 * std::sqrt(sign_variance_factor(in_order_of_time, m.median) * double(n)) / 2;
+    const double rank = std::max(0.0, std::floor(double(n) / 2 - half_width));
+    m.low = sorted[size_t(rank)], m.high = sorted[n - 1 - size_t(rank)];
+    return m;
+}
