@@ -14,7 +14,7 @@ import statistics
 import sys
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../figures"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../figures"))
 
 from paper_tables.agreement import kendall_tau  # noqa: E402
 
