@@ -49,6 +49,12 @@ void add_shot(CLI::App& command, ShotOptions& shot) {
         ->type_name("N");
 }
 
+/// A command whose options a script declares, --help among them.
+void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), int& status) {
+    command.prefix_command()->set_help_flag();
+    command.callback([&command, call, &status] { status = call(command.remaining()); });
+}
+
 /// CLI11 reports its own mistakes; they exit with 2 as all mistakes of the user do.
 int parse_and_run(int argc, char** argv) {
     CLI::App app{
@@ -135,19 +141,8 @@ int parse_and_run(int argc, char** argv) {
                              "Keep all images beside the page, in report_images/, however small they are together");
     report_command_.callback([&] { write_report(report_folder, links_images); });
 
-    FiguresOptions figures;
-    CLI::App& figures_command_ =
-        *app.add_subcommand("figures", "Make paper figures (PDF, SVG, PNG) from a results folder");
-    figures_command_.add_option("results", figures.results, "A folder that `ssrlab run` filled")
-        ->required()
-        ->type_name("DIR");
-    figures_command_
-        .add_option("choice", figures.choice,
-                    "Which figures, and how they look (experiments/README.md), or the crops that the report's viewer "
-                    "collected; default: all that there are results for")
-        ->type_name("figures.json");
-    figures_command_.add_option("--out", figures.out, "Default: figures in the results folder")->type_name("DIR");
-    figures_command_.callback([&] { status = figures_command(figures); });
+    hand_on(*app.add_subcommand("figures", "Draw the figures of a paper (PDF, SVG, PNG) from a results folder"),
+            figures_command, status);
 
     DiffOptions diff;
     CLI::App& diff_command_ = *app.add_subcommand("diff",
@@ -164,22 +159,8 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("FILE.csv");
     diff_command_.callback([&] { status = diff_command(diff); });
 
-    TablesOptions tables;
-    CLI::App& tables_command_ =
-        *app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder");
-    tables_command_.add_option("results", tables.results, "A folder that `ssrlab run` filled")->type_name("DIR");
-    tables_command_.add_option("--out", tables.out, "Default: tables in the results folder")->type_name("DIR");
-    CLI::Option* keep_option = tables_command_.add_flag(
-        "--keep", tables.keeps, "Also keep their numbers in experiments/summaries, and fill them into documents");
-    CLI::Option* fill_option =
-        tables_command_.add_flag("--fill", tables.fills, "Fill the tables of all documents from what is kept");
-    tables_command_
-        .add_flag(
-            "--check", tables.checks,
-            "Fail if a document differs from what is kept, or what is kept from what today's estimators would give")
-        ->excludes(keep_option)
-        ->excludes(fill_option);
-    tables_command_.callback([&] { status = tables_command(tables); });
+    hand_on(*app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),
+            tables_command, status);
 
     TradeoffOptions tradeoff;
     CLI::App& tradeoff_command_ = *app.add_subcommand(
@@ -190,15 +171,16 @@ int parse_and_run(int argc, char** argv) {
     tradeoff_command_.add_option("--out", tradeoff.out, "Default: tradeoff in the results folder")->type_name("DIR");
     tradeoff_command_
         .add_option("--baseline", tradeoff.baseline,
-                    "Errors are told as multiples of its; default: none, else the study's first baseline")
+                    "Errors are given as multiples of its; default: none, else the study's first baseline")
         ->type_name("VARIANT:POINT");
-    tradeoff_command_.add_option("--times", tradeoff.times, "Default: 5 10 20 40; with --cost as much of that")
+    tradeoff_command_.add_option("--times", tradeoff.times, "Or as much of what --cost names")
         ->check(CLI::PositiveNumber)
+        ->capture_default_str()
         ->type_name("MS");
     tradeoff_command_
-        .add_option("--factors", tradeoff.factors,
-                    "Of the baseline's error, for the time to reach them; default: 0.5 0.25 0.1")
+        .add_option("--factors", tradeoff.factors, "Of the baseline's error, for the time to reach them")
         ->check(CLI::PositiveNumber)
+        ->capture_default_str()
         ->type_name("F");
     tradeoff_command_.add_option("--leave-out", tradeoff.left_out, "Scenes or shots that nothing is said of")
         ->type_name("SCENE");

@@ -46,10 +46,10 @@ struct MergeOptions {
 };
 int merge_command(const MergeOptions& options, const CommonOptions& common);  ///< 1 if cells are missing, else 0
 
-struct FiguresOptions {
-    std::filesystem::path results, out, choice;
-};
-int figures_command(const FiguresOptions& options);  ///< the exit code: 0, 2 or 3
+/// The commands that Python answers and whose options it declares: their arguments are handed on. Each returns the exit
+/// code: 0, 2 or 3.
+int figures_command(const std::vector<std::string>& arguments);
+int tables_command(const std::vector<std::string>& arguments);
 
 struct DiffOptions {
     std::filesystem::path before, after, csv;
@@ -57,17 +57,11 @@ struct DiffOptions {
 };
 int diff_command(const DiffOptions& options);  ///< the exit code: 0, or 1 if a number changed
 
-struct TablesOptions {
-    std::filesystem::path results, out;
-    bool keeps = false, fills = false, checks = false;
-};
-int tables_command(const TablesOptions& options);  ///< the exit code: 0, 2 or 3
-
 struct TradeoffOptions {
     std::filesystem::path results, out;
-    std::string baseline, metric, mask, target, cost;  ///< empty: the study's own, and time
-    std::vector<double> times, factors;                ///< empty: the script's
-    std::vector<std::string> left_out;                 ///< scenes or shots
+    std::string baseline, metric, mask, target, cost;               ///< empty: the study's own, and time
+    std::vector<double> times{5, 10, 20, 40}, factors{0.5, 0.25, 0.1};  ///< ms or counts; of the baseline's error
+    std::vector<std::string> left_out;                              ///< scenes or shots
 };
 int tradeoff_command(const TradeoffOptions& options);  ///< the exit code: 0, 2 or 3
 

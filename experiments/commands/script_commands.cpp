@@ -5,6 +5,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
 #include "experiments/config/config_schema.h"
+#include "experiments/evaluation/pairs.h"
 #include "metrics/estimators.h"
 
 #include <nlohmann/json.hpp>
@@ -19,56 +20,41 @@ int run_script(const std::string& name, const std::vector<std::string>& argument
     return code == 0 || code == 2 ? code : 3;
 }
 
-void check_results(const std::filesystem::path& results) {
-    if (!std::filesystem::exists(results / "manifest.json"))
-        fail(results.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
-}
-
 }  // namespace
 
-int figures_command(const FiguresOptions& options) {
-    check_results(options.results);
-    const std::filesystem::path out = options.out.empty() ? options.results / "figures" : options.out;
-    std::vector<std::string> arguments = {"--out=" + out.string()};
-    if (!options.choice.empty()) arguments.push_back("--choice=" + options.choice.string());
-    arguments.insert(arguments.end(), {"--", options.results.string()});
-    return run_script("figures/figures.py", arguments);
-}
+int figures_command(const std::vector<std::string>& arguments) { return run_script("figures/figures.py", arguments); }
 
 int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure) {
     return run_script("figures/stability_figure.py", {"--out=" + figure.string(), "--", csv.string()});
 }
 
-int tables_command(const TablesOptions& options) {
-    if (options.checks) return run_script("figures/tables.py", {"--check=" + std::to_string(estimator_version)});
-    if (options.results.empty()) {
-        if (!options.fills) fail("tables of what? Name a results folder, or --fill or --check");
-        return run_script("figures/tables.py", {"--fill"});
-    }
-    check_results(options.results);
-    std::vector<std::string> arguments;
-    if (options.keeps) arguments.push_back("--keep");
-    if (!options.out.empty()) arguments.push_back("--out=" + options.out.string());
-    arguments.insert(arguments.end(), {"--", options.results.string()});
-    return run_script("figures/tables.py", arguments);
+int tables_command(const std::vector<std::string>& arguments) {
+    std::vector<std::string> handed_on = arguments;
+    for (std::string& argument : handed_on)  // the script compares what is kept with the estimators of this program
+        if (argument == "--check") argument += "=" + std::to_string(estimator_version);
+    return run_script("figures/tables.py", handed_on);
 }
 
 int tradeoff_command(const TradeoffOptions& options) {
-    check_results(options.results);
-    std::vector<std::string> arguments = {options.results.string()};
-    const auto add = [&](const std::string& name, const std::string& value) {
-        if (!value.empty()) arguments.push_back("--" + name + "=" + value);
+    const StudyTables tables = read_study_tables(options.results);
+    const nlohmann::json own = tables.manifest.value("primary", nlohmann::json::object());
+    const auto chosen = [&](const std::string& asked, const char* key, const std::string& fallback) {
+        return asked.empty() ? own.value(key, fallback) : asked;
     };
-    add("out", options.out.string()), add("baseline", options.baseline), add("metric", options.metric);
-    add("mask", options.mask), add("target", options.target), add("cost", options.cost);
-    const auto add_list = [&](const std::string& name, const std::vector<double>& values) {
-        if (!values.empty()) arguments.push_back("--" + name);
-        for (const double value : values) arguments.push_back(nlohmann::json(value).dump());
-    };
-    add_list("times", options.times), add_list("factors", options.factors);
-    if (!options.left_out.empty()) arguments.push_back("--leave-out");
-    arguments.insert(arguments.end(), options.left_out.begin(), options.left_out.end());
-    return run_script("tradeoff/tradeoff.py", arguments);
+    const PrimaryComparisons plain,
+        error{.metric = chosen(options.metric, "metric", plain.metric),
+              .mask = chosen(options.mask, "mask", plain.mask),
+              .target = chosen(options.target, "target", plain.target)};
+    const std::filesystem::path out = options.out.empty() ? options.results / "tradeoff" : options.out;
+    std::filesystem::create_directories(out);
+    write_rows(out / "pairs.csv", pairs_of(tables, error, options.cost));
+    const nlohmann::json asked = {
+        {"results", options.results.string()}, {"out", out.string()},        {"baseline", options.baseline},
+        {"times", options.times},              {"factors", options.factors}, {"target", error.target},
+        {"metric", error.metric},              {"mask", error.mask},         {"cost", options.cost},
+        {"left_out", options.left_out}};
+    write_text(out / "asked.json", asked.dump(1) + "\n");
+    return run_script("tradeoff/tradeoff.py", {(out / "asked.json").string()});
 }
 
 int tune_command(const TuneOptions& options, const std::vector<std::string>& run_options) {

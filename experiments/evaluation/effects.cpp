@@ -206,9 +206,7 @@ std::vector<EffectRow> effects_of_splits(const SeedsOfPoint& point, const SeedsO
 
 /// `count`: of its family, which no p is multiplied by more than.
 void judge(EffectRow& e, double p_holm, size_t count) {
-    e.p_holm = p_holm;
-    const bool is_significant = p_holm < significance;
-    e.verdict = !is_significant ? verdict::not_distinguishable : *e.ratio < 1 ? verdict::less : verdict::more;
+    e.p_holm = p_holm, e.verdict = verdict_of(p_holm, *e.ratio);
     const double factor = *e.p > 0 && p_holm < 1 ? p_holm / *e.p : double(count);
     const bool is_exact = e.estimate.standard_error == 0;
     const auto [low, high] = is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor);
@@ -291,17 +289,19 @@ std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::
     return effects_in(table, variants, not_repeatable, effects_of_splits);
 }
 
-void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary) {
+void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary, const DecidedP& decided) {
     std::map<std::tuple<std::string, std::string, std::string>, std::vector<EffectRow*>> families;
     for (EffectRow& e : effects) {
         const bool is_primary = e.metric == primary.metric && e.mask == primary.mask && e.target == primary.target;
         e.family = is_primary ? "primary" : "exploratory", e.verdict.clear();
         e.p_holm = e.low_holm = e.high_holm = std::nullopt;
         if (!e.p || !e.ratio) continue;
-        if (e.holds_all_noise)
-            families[{e.target, e.metric, e.mask}].push_back(&e);
-        else
+        if (!e.holds_all_noise)
             e.low_holm = e.low, e.high_holm = e.high;
+        else if (const auto p_holm = decided ? decided(e) : std::nullopt)
+            judge(e, *p_holm, 1);
+        else
+            families[{e.target, e.metric, e.mask}].push_back(&e);
     }
     for (const auto& [error, family] : families) {
         std::vector<double> p;

@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/config/comparisons.h"
+#include "experiments/evaluation/interval.h"
 #include "experiments/measuring/cell.h"
 #include "metrics/statistics.h"
 
@@ -72,7 +73,16 @@ namespace verdict {
 inline constexpr const char* less = "less";
 inline constexpr const char* more = "more";
 inline constexpr const char* not_distinguishable = "not distinguishable";
+inline constexpr const char* equal = "equal";  ///< to the last digit, of pairs (pairs.h)
 }  // namespace verdict
+
+/// By the adjusted p of "the ratio is 1".
+inline const char* verdict_of(double p_holm, double ratio) {
+    return !(p_holm < significance) ? verdict::not_distinguishable : ratio < 1 ? verdict::less : verdict::more;
+}
+
+/// The adjusted p of a comparison that another family has decided; none of all others.
+using DecidedP = std::function<std::optional<double>(const EffectRow&)>;
 
 /// Decides `verdict` of all effects that have a p and whose interval holds all that is random, at 0.05; others (FLIP
 /// and SSIM against a noisy reference) keep the interval of their seeds and have no verdict. The effects on one error
@@ -80,5 +90,6 @@ inline constexpr const char* not_distinguishable = "not distinguishable";
 /// (holm_adjusted()): among many comparisons some come out small by chance. `low_holm` and `high_holm` are intervals at
 /// the level that each is judged at, so that they agree with the verdict: 0.05 over the factor by which p was adjusted.
 /// The `primary` family is what the study was made to compare; in `exploratory` ones what is significant is so among
-/// the effects on that error alone.
-void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary);
+/// the effects on that error alone. A pair has one verdict: what `decided` knows (decided_by_standings()) is in no
+/// family here, and keeps its p.
+void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary, const DecidedP& decided = {});

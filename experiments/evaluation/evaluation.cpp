@@ -4,8 +4,11 @@
 #include "core/files.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
+#include "experiments/evaluation/time_effects.h"
 #include "experiments/store/manifest.h"
 #include "experiments/tables/columns.h"
+
+#include <algorithm>
 
 namespace {
 
@@ -34,7 +37,7 @@ std::string writer_of(const nlohmann::json& manifest) {
 }  // namespace
 
 void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows, const nlohmann::json& manifest,
-                      const std::vector<VariantConfig>& variants) {
+                      const std::vector<VariantConfig>& variants, const PrimaryComparisons& primary) {
     const PointSet not_repeatable = points_not_repeatable(manifest);
     std::vector<MetricSummary> errors = summarise(rows.results, points_without_seeds(manifest));
     // No interval holds how they scatter from run to run.
@@ -49,10 +52,20 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
     set_fronts(errors, times);
     write_rows(folder / "summary.csv", errors);
     write_rows(folder / "time_summary.csv", times);
+
+    std::vector<EffectRow> effects = paired_effects(rows.results, variants, not_repeatable, rows.reference_noise);
+    std::ranges::move(split_effects(rows.splits, variants, not_repeatable), std::back_inserter(effects));
+    set_verdicts(effects, primary, decided_by_standings(errors));
+    write_rows(folder / "effects.csv", effects);
+    std::vector<TimeEffectRow> of_times = time_effects(rows.times, variants);
+    set_time_verdicts(of_times, manifest);
+    write_rows(folder / "time_effects.csv", of_times);
 }
 
 void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest) {
     const std::string writer = writer_of(manifest);
     require_table<MetricSummary>(folder / "summary.csv", writer);
     require_table<TimeSummary>(folder / "time_summary.csv", writer);
+    require_table<EffectRow>(folder / "effects.csv", writer);
+    require_table<TimeEffectRow>(folder / "time_effects.csv", writer);
 }

@@ -94,7 +94,7 @@ const std::map<std::string, Meaning>& meanings() {
         {"rounds", {"", "frames in which both were timed"}},
         {"p", {"", "two-sided p-value of: the ratio is 1"}},
         {"family", {"", "primary, or exploratory"}},
-        {"p_holm", {"", "p adjusted for all effects on the same error"}},
+        {"p_holm", {"", "p adjusted for its family: all effects on the same error, or on times"}},
         {"low_holm", {"", "low end of the interval at the level that p_holm is judged at"}},
         {"high_holm", {"", "high end of that interval"}},
         {"verdict", {"", "less, more or not distinguishable, by p_holm at 0.05; empty without a p"}},

@@ -115,3 +115,18 @@ void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired, 
     }
     for (const auto& [name, points] : contests) rank(points, paired);
 }
+
+DecidedP decided_by_standings(std::span<const MetricSummary> errors) {
+    using Name = std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
+    std::map<Name, const MetricSummary*> ranked;
+    for (const MetricSummary& e : errors)
+        if (!e.standing.empty()) ranked[{e.shot, e.target, e.metric, e.mask, e.variant, e.point}] = &e;
+    return [ranked](const EffectRow& e) -> std::optional<double> {
+        const auto a = ranked.find({e.shot, e.target, e.metric, e.mask, e.variant, e.point}),
+                   b = ranked.find({e.shot, e.target, e.metric, e.mask, e.against_variant, e.against_point});
+        if (a == ranked.end() || b == ranked.end()) return {};
+        // The best measured one is compared with none, and has no p.
+        if (!a->second->p_best) return b->second->p_best;
+        return b->second->p_best ? std::nullopt : a->second->p_best;
+    };
+}

@@ -32,3 +32,7 @@ void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> ti
 /// Two-sided p of "both are equal" by their 95 % intervals, of which the ends that face each other count; the
 /// half-widths are Student's of the lesser number of seeds, or a normal's of points that do not depend on seeds.
 double p_by_intervals(const MetricSummary& a, const MetricSummary& b);
+
+/// The adjusted p of a point and the best measured one of its shot, as their standing has it (MetricSummary::p_best).
+/// Refers to `errors`, which have standings and must outlive it.
+DecidedP decided_by_standings(std::span<const MetricSummary> errors);

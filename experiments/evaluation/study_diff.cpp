@@ -116,12 +116,6 @@ void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary
     c.p = p_by_intervals(a, b), c.how = "by intervals";
 }
 
-/// How many pairs of copies were timed in a shot.
-size_t aa_pairs(const json& manifest, const std::string& shot) {
-    const json pairs = manifest.at("clock").value("aa_pairs", json::array());
-    return size_t(std::ranges::count_if(pairs, [&](const json& p) { return p.value("shot", "") == shot; }));
-}
-
 void compare_times(NumberChange& c, const TimeSummary& a, const TimeSummary& b, const json& before, const json& after) {
     if (std::max(a.disturbed_share, b.disturbed_share) >= most_disturbed_share)
         return settle(c, change::not_judged, "disturbed");
@@ -130,12 +124,12 @@ void compare_times(NumberChange& c, const TimeSummary& a, const TimeSummary& b, 
     if (!(a.low > 0 && b.low > 0)) return settle(c, change::not_judged, "a time of 0");
     if (a.median == b.median) return settle(c, change::equal, "");
     const double of_intervals = std::hypot(std::log(a.high / a.low) / 2, std::log(b.high / b.low) / 2),
-                 of_copies = std::hypot(std::log1p(*floor_before), std::log1p(*floor_after)),
-                 half_width = std::hypot(of_intervals, of_copies);
-    if (!(half_width > 0)) return settle(c, change::changed, "times do not scatter");
-    const size_t degrees = std::max<size_t>(1, std::min(aa_pairs(before, c.shot), aa_pairs(after, c.shot)));
-    const double t = std::abs(std::log(b.median / a.median)) / half_width * normal_quantile(0.975);
-    c.p = 2 * student_t_cdf(-t, double(degrees)), c.how = "by intervals and copies";
+                 of_copies = std::hypot(std::log1p(*floor_before), std::log1p(*floor_after));
+    const TimeRatio ratio{.log_ratio = std::log(b.median / a.median),
+                          .half_width = std::hypot(of_intervals, of_copies),
+                          .degrees = std::min(aa_pair_count(before, c.shot), aa_pair_count(after, c.shot))};
+    if (!(ratio.half_width > 0)) return settle(c, change::changed, "times do not scatter");
+    c.p = ratio.p_value(), c.how = "by intervals and copies";
 }
 
 /// The machine that took a shot's times, and its device.
@@ -174,23 +168,6 @@ std::vector<PointOfShot> points_in_first(const ComparedFolder& first, const Comp
 }
 
 }  // namespace
-
-StudyTables read_study_tables(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "manifest.json";
-    if (!std::filesystem::exists(file))
-        fail(folder.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
-    StudyTables tables;
-    try {
-        tables.manifest = json::parse(read_text(file));
-    } catch (const json::exception& e) {
-        fail(file.string(), " is no valid JSON: ", e.what());
-    }
-    require_evaluation(folder, tables.manifest);
-    tables.errors = read_rows<MetricSummary>(folder / "summary.csv");
-    tables.seeds = read_rows<ResultRow>(folder / "results.csv");
-    tables.times = read_rows<TimeSummary>(folder / "time_summary.csv");
-    return tables;
-}
 
 StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& after_tables, bool judges_times) {
     const ComparedFolder before(before_tables), after(after_tables);

@@ -1,23 +1,10 @@
 #pragma once
-#include "experiments/evaluation/summary.h"
+#include "experiments/evaluation/study_tables.h"
 #include "experiments/tables/columns.h"
 
 #include <array>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-/// The tables of a results folder that two studies are compared by.
-struct StudyTables {
-    nlohmann::json manifest;
-    std::vector<MetricSummary> errors;  ///< summary.csv
-    std::vector<ResultRow> seeds;       ///< results.csv
-    std::vector<TimeSummary> times;     ///< time_summary.csv
-};
-
-/// Fails with Error on what is no results folder, or one of another version or half of one (require_evaluation()).
-StudyTables read_study_tables(const std::filesystem::path& folder);
 
 /// NumberChange::verdict.
 namespace change {

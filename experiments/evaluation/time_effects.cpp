@@ -1,9 +1,9 @@
 #include "experiments/evaluation/time_effects.h"
 
-#include "core/error.h"
-#include "core/files.h"
-#include "experiments/tables/csv.h"
-#include "metrics/median_interval.h"
+#include "experiments/evaluation/interval.h"
+#include "experiments/store/manifest.h"
+#include "metrics/quantiles.h"
+#include "metrics/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,4 +44,44 @@ std::vector<TimeEffectRow> time_effects(std::span<const TimeRow> times, const st
                                timed.clock, ratios.size(), m.median, m.low, m.high});
         }
     return effects;
+}
+
+double TimeRatio::p_value() const {
+    if (!(half_width > 0)) return log_ratio == 0 ? 1 : 0;
+    const double t = std::abs(log_ratio) / half_width * normal_quantile(0.975);
+    return 2 * student_t_cdf(-t, double(std::max<size_t>(degrees, 1)));
+}
+
+std::pair<double, double> TimeRatio::interval(double level) const {
+    const double quantile = student_t_quantile(1 - level / 2, double(std::max<size_t>(degrees, 1)));
+    const double half = half_width * quantile / normal_quantile(0.975);
+    return {std::exp(log_ratio - half), std::exp(log_ratio + half)};
+}
+
+TimeRatio time_ratio(const MedianInterval& rounds, double aa_floor, size_t aa_pairs) {
+    return {.log_ratio = std::log(rounds.median),
+            .half_width = std::hypot(std::log(rounds.high / rounds.low) / 2, std::log1p(aa_floor)),
+            .degrees = aa_pairs};
+}
+
+void set_time_verdicts(std::span<TimeEffectRow> effects, const nlohmann::json& manifest) {
+    std::vector<TimeEffectRow*> family;
+    std::vector<TimeRatio> ratios;
+    std::vector<double> p;
+    for (TimeEffectRow& e : effects) {
+        e.p = e.p_holm = e.low_holm = e.high_holm = std::nullopt, e.verdict.clear();
+        const std::optional<double> floor = aa_floor(manifest, e.shot);
+        if (e.stage != "total" || !floor || !(e.low > 0)) continue;
+        family.push_back(&e);
+        ratios.push_back(time_ratio({e.ratio, e.low, e.high}, *floor, aa_pair_count(manifest, e.shot)));
+        p.push_back(ratios.back().p_value());
+    }
+    const std::vector<double> adjusted = holm_adjusted(p);
+    for (size_t i = 0; i < family.size(); ++i) {
+        TimeEffectRow& e = *family[i];
+        e.p = p[i], e.p_holm = adjusted[i];
+        const double factor = p[i] > 0 && adjusted[i] < 1 ? adjusted[i] / p[i] : double(family.size());
+        std::tie(e.low_holm, e.high_holm) = ratios[i].interval(significance / factor);
+        e.verdict = verdict_of(adjusted[i], e.ratio);
+    }
 }

@@ -65,7 +65,7 @@ UNMEASURED = ("stage_times", "stage_costs", "fetches")  # of studies without a r
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description="Paper figures (PDF, SVG, PNG) from a results folder.")
+    parser = argparse.ArgumentParser(prog="ssrlab figures", description="Paper figures (PDF, SVG, PNG) from a results folder.")
     parser.add_argument("results", help="a folder that `ssrlab run` filled")
     parser.add_argument("--out", help="default: figures in the results folder")
     parser.add_argument("--choice", metavar="figures.json", help="which figures, and how they look; crops that the report's viewer collected")

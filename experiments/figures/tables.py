@@ -18,12 +18,12 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description="Tables (Markdown, LaTeX, CSV) from a results folder.")
+    parser = argparse.ArgumentParser(prog="ssrlab tables", description="Tables (Markdown, LaTeX, CSV) from a results folder.")
     parser.add_argument("results", nargs="?", help="a folder that `ssrlab run` filled")
     parser.add_argument("--out", help="default: tables in the results folder")
-    parser.add_argument("--keep", action="store_true", help="also write the summary that is committed, and the documents")
-    parser.add_argument("--fill", action="store_true", help="make the tables of all documents anew")
-    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="compare them, and the version of the estimators")
+    parser.add_argument("--keep", action="store_true", help="also keep their numbers in experiments/summaries, and fill them into documents")
+    parser.add_argument("--fill", action="store_true", help="fill the tables of all documents from what is kept")
+    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="fail if a document differs from what is kept, or what is kept from what estimators of this version give (`ssrlab tables --check` fills it in)")
     parser.add_argument("--root", default=ROOT, help=argparse.SUPPRESS)  # tests use a tree of their own
     arguments = parser.parse_args()
     if sum([arguments.results is not None, arguments.fill, arguments.check is not None]) != 1:

@@ -1,11 +1,8 @@
 #include "experiments/run/study_results.h"
 
 #include "core/files.h"
-#include "experiments/evaluation/effects.h"
 #include "experiments/evaluation/evaluation.h"
 #include "experiments/evaluation/results_schema.h"
-#include "experiments/evaluation/study_points.h"
-#include "experiments/evaluation/time_effects.h"
 #include "experiments/measuring/times/timing.h"
 #include "experiments/store/host_info.h"
 #include "experiments/store/manifest.h"
@@ -74,16 +71,6 @@ void handle_stale_files(StudySession& study, nlohmann::json& manifest, const nlo
                        out.string() + "; --prune removes them");
 }
 
-void write_effects(const StudySession& study, const nlohmann::json& manifest, const StudyRows& rows) {
-    const auto not_repeatable = points_not_repeatable(manifest);
-    const std::vector<VariantConfig>& variants = study.config.variants;
-    std::vector<EffectRow> effects = paired_effects(rows.results, variants, not_repeatable, rows.reference_noise);
-    std::ranges::move(split_effects(rows.splits, variants, not_repeatable), std::back_inserter(effects));
-    set_verdicts(effects, study.config.primary);
-    write_rows(study.settings.out / "effects.csv", effects);
-    write_rows(study.settings.out / "time_effects.csv", time_effects(rows.times, variants));
-}
-
 }  // namespace
 
 std::vector<ShotAnswer> write_results(StudySession& study, bool is_complete, const nlohmann::json& before) {
@@ -97,8 +84,7 @@ std::vector<ShotAnswer> write_results(StudySession& study, bool is_complete, con
         const StudyRows rows = rows_of(study.finished);
         write_tables(study.settings.out, rows);
         write_parameters(study.settings.out, study.config.variants);
-        write_effects(study, manifest, rows);
-        write_evaluation(study.settings.out, rows, manifest, study.config.variants);
+        write_evaluation(study.settings.out, rows, manifest, study.config.variants, study.config.primary);
     }
     std::vector<ShotAnswer> answers;
     {

@@ -112,6 +112,12 @@ std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string
     return found == manifest[place].end() || !found->is_number() ? std::nullopt : std::optional(found->get<double>());
 }
 
+size_t aa_pair_count(const nlohmann::json& manifest, const std::string& shot) {
+    const nlohmann::json none = nlohmann::json::object();
+    const nlohmann::json pairs = manifest.value("clock", none).value("aa_pairs", nlohmann::json::array());
+    return size_t(std::ranges::count_if(pairs, [&](const nlohmann::json& p) { return p.value("shot", "") == shot; }));
+}
+
 nlohmann::json study_entry(const Config& config) {
     nlohmann::json warnings = nlohmann::json::array();
     if (std::ranges::any_of(config.shots, &ShotConfig::direct_lit))

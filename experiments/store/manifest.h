@@ -18,6 +18,9 @@ nlohmann::json study_entry(const Config& config);
 /// timed twice.
 std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string& shot);
 
+/// How many pairs of copies were timed in a shot.
+size_t aa_pair_count(const nlohmann::json& manifest, const std::string& shot);
+
 /// All that can be said of a shot before anything of it is rendered.
 nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all);
 /// Adds to a shot_entry() what is known once its references are there: members replace those of the same name, but

@@ -14,7 +14,7 @@ import warnings
 import numpy as np
 from scipy import stats
 
-from analysis import curves, dominance, fits, points, scenes, uncertainty
+from analysis import curves, fits, points, scenes, uncertainty
 
 ROUNDS = 15
 PLACES = (0.25, 0.5, 0.75)  # along the true front, logarithmic
@@ -41,6 +41,13 @@ class Tally:
 def students(values):
     half = stats.t.ppf(0.975, len(values) - 1) * values.std(ddof=1) / math.sqrt(len(values)) if len(values) > 1 else 0.0
     return float(values.mean()), float(values.mean() - half), float(values.mean() + half)
+
+
+def median_interval(values):
+    """(median, low, high) of values in order of time: metrics/median_interval.h in small, since thousands are simulated here."""
+    ordered, n = np.sort(values), len(values)
+    rank = int(max(0.0, math.floor(n / 2 - uncertainty.NORMAL * math.sqrt(uncertainty.sign_factor(values) * n) / 2)))
+    return float(np.median(ordered)), float(ordered[rank]), float(ordered[n - 1 - rank])
 
 
 class World:
@@ -71,7 +78,7 @@ class World:
         error, low, high = students(seeds)
         made = points.Point(p.variant, p.point, p.label, error, max(low, 0.0), high, dict(enumerate(seeds)), True)
         made.rounds = {(0, i): float(ms) for i, ms in enumerate(rounds)}
-        cost, low, high = uncertainty.median_interval(rounds)
+        cost, low, high = median_interval(rounds)
         made.set_cost(cost, low, high, high, low, 0.0)
         return made
 
@@ -133,29 +140,6 @@ def study_curves(worlds, trials, tally):
                             tally.add((kind + "cost to an error", count), low, high, cost)
 
 
-def truly_dominates(a, b):
-    return a.cost <= b.cost and a.error <= b.error and (a.cost < b.cost or a.error < b.error)
-
-
-def study_verdicts(worlds, trials):
-    """{count: (certain statements, wrong ones)}: that a point is dominated, and that it is on the front."""
-    generator, counts = np.random.default_rng(4), {}
-    for world in worlds:
-        truth = world.truth()
-        beaten = {p.key: any(truly_dominates(q, p) for q in truth) for p in truth}
-        for _ in range(trials):
-            for count in (4, 8):
-                shot = world.shot
-                shot.points, shot.error_effects, shot.floor = world.trial(generator, count), {}, 0.0
-                for key, (verdict, by, _) in dominance.judge(shot).items():
-                    if verdict == "undecided":
-                        continue
-                    wrong = beaten[key] != (verdict == "dominated")
-                    said, false = counts.get((verdict, count), (0, 0))
-                    counts[verdict, count] = said + 1, false + wrong
-    return counts
-
-
 def study_fits(worlds, trials, tally):
     """A known law with the relative scatter of real seeds and rounds."""
     generator = np.random.default_rng(5)
@@ -173,7 +157,7 @@ def study_fits(worlds, trials, tally):
                 law.append(value), deviations.append(fits._log_deviation(value, low, high))
                 of = rounds[generator.integers(len(rounds))]
                 start = generator.integers(0, len(of) - ROUNDS + 1)
-                median, low, high = uncertainty.median_interval(c * of[start : start + ROUNDS])
+                median, low, high = median_interval(c * of[start : start + ROUNDS])
                 found_costs.append(median), cost_deviations.append(fits._log_deviation(median, low, high))
             fit = fits.fit_law(found_costs, law, deviations, cost_deviations)
             tally.add(("floor of a fit", count), fit.floor_low, fit.floor_high, floor)
@@ -232,9 +216,6 @@ def main():
     names = ["error", "median cost", "error at a cost", "error past the front's end", "cost to an error"]
     names += ["resampled: " + n for n in names[2:]]
     print_table(tally, names, (4, 8), "seeds")
-    for (verdict, count), (said, wrong) in sorted(study_verdicts(worlds, arguments.trials).items()):
-        print(f"{count} seeds, said to be {verdict}: {100 * wrong / said:.2f} % of {said} wrongly")
-    print()
     study_fits(worlds, arguments.trials, tally)
     print_table(tally, ["floor of a fit", "exponent of a fit"], (4, 5, 6, 8), "points")
     counts = (4, 5, 6, 8, 12, 20)

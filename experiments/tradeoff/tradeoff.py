@@ -1,12 +1,12 @@
 """Error against run time, answered: fronts that heed intervals, the error that a time buys, what no time can buy, what holds over scenes, and
 what each stage is worth. Writes CSV files and answers.md; README.md beside this file says what is in them and by which rules.
 
-usage: tradeoff.py RESULTS [--baseline VARIANT:POINT] [--times MS ...] [--factors F ...] [--metric M --mask M --target T] [--cost QUANTITY] [--out DIR]
+usage: tradeoff.py ASKED.json, which `ssrlab tradeoff` writes beside the pairs of points that it judged (pairs.csv)
 
 Needs Debian's python3-numpy and python3-scipy.
 """
 
-import argparse
+import json
 import os
 import sys
 
@@ -32,35 +32,14 @@ FILES = {
 }  # fmt: skip
 
 
-def positive(text):
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is not above 0")
-    return value
-
-
-def parse_arguments():
-    parser = argparse.ArgumentParser(description="Error against run time, answered from a results folder.")
-    parser.add_argument("results", help="a folder that `ssrlab run` filled")
-    parser.add_argument("--out", help="default: tradeoff in the results folder")
-    parser.add_argument("--baseline", metavar="VARIANT:POINT", help="errors are told as multiples of its; default: `none`, else the study's first baseline")
-    parser.add_argument("--times", nargs="+", type=positive, default=[5, 10, 20, 40], metavar="MS", help="or counted costs, with --cost; default: 5 10 20 40")
-    parser.add_argument("--factors", nargs="+", type=positive, default=[0.5, 0.25, 0.1], help="of the baseline's error, for the time to reach them; default: 0.5 0.25 0.1")
-    for name in ("metric", "mask", "target"):
-        parser.add_argument("--" + name, help="default: that of the study's primary error")
-    parser.add_argument("--leave-out", nargs="+", default=[], metavar="SCENE", help="scenes or shots that nothing is said of")
-    parser.add_argument("--cost", metavar="QUANTITY", help="of costs.csv, in place of time: fetches, for one")
-    return parser.parse_args()
-
-
 def main():
-    arguments = parse_arguments()
+    with open(sys.argv[1], encoding="utf-8") as stream:
+        asked = json.load(stream)
+    out = asked["out"]
     try:
-        study = Study(arguments.results, arguments.target, arguments.metric, arguments.mask, arguments.cost, arguments.leave_out)
-        baseline = study.baseline(arguments.baseline)
-        analysis = rows.Analysis(study, baseline, sorted(arguments.times), sorted(arguments.factors, reverse=True))
-        out = arguments.out or os.path.join(arguments.results, "tradeoff")
-        os.makedirs(out, exist_ok=True)
+        study = Study(asked["results"], asked["target"], asked["metric"], asked["mask"], asked["cost"], asked["left_out"], os.path.join(out, "pairs.csv"))
+        baseline = study.baseline(asked["baseline"])
+        analysis = rows.Analysis(study, baseline, sorted(asked["times"]), sorted(asked["factors"], reverse=True))
         of_file = {
             "front.csv": analysis.front,
             "error_at_cost.csv": analysis.error_at_cost,

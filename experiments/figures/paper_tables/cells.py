@@ -178,7 +178,10 @@ def _cell(selection, row, name):
     table = selection.table
     if table.of == "costs":
         return Cell(table.name, *name, _count(row), interval=EXACT)
-    value, low, high = (_number(row, c) for c in SOURCES[table.of][1] or ("value", "low", "high"))
+    columns = SOURCES[table.of][1] or ("value", "low", "high")
+    if table.of == "time_effects" and row["verdict"]:
+        columns = SOURCES["effects"][1]  # of totals, which have verdicts: the interval that agrees with it
+    value, low, high = (_number(row, c) for c in columns)
     if table.of in SHARES and row["quantity"] not in NOT_SHARES:
         low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
     seeds = _number(row, "seeds")

@@ -1,6 +1,6 @@
 """The points of a study, each with its error and its cost in every shot."""
 
-import math
+import csv
 import os
 import sys
 from dataclasses import dataclass, field
@@ -54,6 +54,15 @@ class Point:
 
 
 @dataclass
+class Pair:
+    """What ssrlab decided of two points of a shot (pairs.csv, experiments/evaluation/pairs.h)."""
+
+    errs_less: bool  # significantly
+    dominates: str  # "yes", "maybe", "no", or empty without costs
+    is_dominated: str
+
+
+@dataclass
 class Shot:
     name: str
     label: str
@@ -63,11 +72,16 @@ class Shot:
     is_clock_proven: bool
     points: list
     ladder: dict  # rung to (error, low, high)
-    error_effects: dict = field(default_factory=dict)  # (key, key of the other) to (ratio, low, high), both ways round
-    compared: list = field(default_factory=list)  # (key, key of the baseline) as the study asked for them
+    error_effects: dict = field(default_factory=dict)  # (key, key of the baseline), as the study asked for them, to (ratio, low, high)
+    cost_effects: dict = field(default_factory=dict)  # the same of costs: (ratio, low, high, is significant)
+    pairs: dict = field(default_factory=dict)  # (key, key of the other) to a Pair, both ways round
 
     def judged(self):
         return [p for p in self.points if not p.why_not_judged()]
+
+    def errs_less(self, a, b):
+        """Whether the point with key a errs significantly less than that with key b."""
+        return (a, b) in self.pairs and self.pairs[a, b].errs_less
 
     def divisor(self, key):
         """The error of a baseline; None where any error would be a huge multiple of it: it cannot be told from 0, is not twice
@@ -102,7 +116,8 @@ def _machines(manifest):
 class Study:
     """A results folder's shots, of one error (target, metric, mask), by time or by a counted quantity."""
 
-    def __init__(self, folder, target=None, metric=None, mask=None, cost=None, left_out=()):
+    def __init__(self, folder, target=None, metric=None, mask=None, cost=None, left_out=(), pairs=None):
+        """`pairs`: the file of pairs; None: no verdicts are needed."""
         self.results = Results(folder)
         manifest = self.results.manifest
         self.commits = commits_of(manifest)
@@ -121,6 +136,8 @@ class Study:
             raise ResultsError(f"{folder} has no errors of {self.error_name()}; it has: {', '.join(found) or 'none'}")
         self._add_costs()
         self._add_effects()
+        if pairs:
+            self._add_pairs(pairs)
 
     def error_name(self):
         return f"{self.target} {self.metric} {self.mask}"
@@ -239,11 +256,26 @@ class Study:
 
     def _add_effects(self):
         shots = {s.name: s for s in self.shots}
+
+        def pair_of(row):
+            return (row["variant"], row["point"]), (row["against_variant"], row["against_point"])
+
         for row in self.results.effects:
             if self.is_error(row) and row["shot"] in shots and row["ratio"] and row["low_holm"] and row["high_holm"]:
-                measured = tuple(float(row[c]) for c in ("ratio", "low_holm", "high_holm"))
-                pair = (row["variant"], row["point"]), (row["against_variant"], row["against_point"])
-                effects = shots[row["shot"]].error_effects
-                effects[pair] = measured
-                shots[row["shot"]].compared.append(pair)
-                effects.setdefault(pair[::-1], tuple(1 / v if v > 0 else math.inf for v in (measured[0], measured[2], measured[1])))
+                shots[row["shot"]].error_effects[pair_of(row)] = tuple(float(row[c]) for c in ("ratio", "low_holm", "high_holm"))
+        for row in () if self.counted else self.results.read_csv("time_effects.csv", is_optional=True):
+            if row["shot"] in shots and row["stage"] == TOTAL:
+                ends = ("low_holm", "high_holm") if row["verdict"] else ("low", "high")
+                ratios = tuple(float(row[c]) for c in ("ratio", *ends))
+                shots[row["shot"]].cost_effects[pair_of(row)] = (*ratios, row["verdict"] in ("less", "more"))
+
+    def _add_pairs(self, file):
+        shots = {s.name: s for s in self.shots}
+        with open(file, newline="", encoding="utf-8") as stream:
+            for row in csv.DictReader(stream):
+                if row["shot"] not in shots:
+                    continue
+                a, b = (row["variant"], row["point"]), (row["other_variant"], row["other_point"])
+                pairs, verdict = shots[row["shot"]].pairs, row["error_verdict"]
+                pairs[a, b] = Pair(verdict == "less", row["dominates"], row["is_dominated"])
+                pairs[b, a] = Pair(verdict == "more", row["is_dominated"], row["dominates"])

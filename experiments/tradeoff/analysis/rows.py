@@ -156,7 +156,7 @@ class Analysis:
 
         def certainly_less(a, b, shot):
             s = shots[shot]
-            return dominance.error_ratio(s, s.point_of(a), s.point_of(b))[1] < 1
+            return s.errs_less(a, b)
 
         for row in self._comparison(table, self.study.shots, certainly_less, LACKING):
             variant, point = row.pop("method")
@@ -174,7 +174,7 @@ class Analysis:
 
         def certainly_less(a, b, shot):
             s = of_name[shot]
-            return dominance.error_ratio(s, s.point_of(chosen[a, shot]), s.point_of(chosen[b, shot]))[1] < 1
+            return s.errs_less(chosen[a, shot], chosen[b, shot])
 
         fitting = {}
         for row in self.error_at_cost:

@@ -7,7 +7,6 @@ import numpy as np
 from scipy import stats
 
 from analysis import scenes
-from analysis.dominance import cost_ratio
 from analysis.uncertainty import NORMAL, interval
 
 DRAWS = 4000
@@ -61,9 +60,9 @@ def _worth(error_draws, cost_draws):
 
 def _shot_change(study, shot, a, b, text):
     error = shot.error_effects[b.key, a.key]
-    ratio, low, high = cost_ratio(b, a)
+    exact = b.cost / a.cost  # of counted costs, which have no effects
+    ratio, low, high, is_told = shot.cost_effects.get((b.key, a.key), (exact, exact, exact, exact != 1))
     costs = tuple((v - 1) * a.cost for v in (ratio, low, high))
-    is_told = (low > 1 and ratio > 1 + shot.floor) or (high < 1 and ratio * (1 + shot.floor) < 1)
     change = Change(shot.name, shot.scene, shot.machine, a.key, b.key, text, error, costs, is_told)
     if change.verdict() in ("buys error", "saves cost"):
         generator = np.random.default_rng(1)
@@ -83,7 +82,7 @@ def shot_changes(study):
     """All changes of one parameter that the study compared and timed."""
     found = []
     for shot in study.shots:
-        for b_key, a_key in shot.compared:
+        for b_key, a_key in shot.error_effects:
             a, b = shot.point_of(a_key), shot.point_of(b_key)
             if a is None or b is None or a_key[0] != b_key[0] or not a.cost or not b.cost:
                 continue

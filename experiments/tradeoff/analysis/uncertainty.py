@@ -1,4 +1,4 @@
-"""What chance may have made of errors and costs: intervals of medians, and draws of all points of a shot at once."""
+"""What chance may have made of errors and costs: draws of all points of a shot at once."""
 
 import math
 
@@ -15,19 +15,12 @@ def sign_factor(values):
     values = np.asarray(values, float)
     signs, n = np.sign(values - np.median(values)), len(values)
     factor = 1.0
-    for lag in range(1, (n + 1) // 2):
+    for lag in range(1, n // 2):
         correlation = (float(signs[lag:] @ signs[:-lag]) + 1) / n
         if correlation <= 0:
             break
         factor += 2 * correlation
     return max(factor, 2.0)
-
-
-def median_interval(values):
-    """(median, low, high) of values in order of time, as metrics/median_interval.h has it."""
-    ordered, n = np.sort(values), len(values)
-    rank = int(max(0.0, math.floor(n / 2 - NORMAL * math.sqrt(sign_factor(values) * n) / 2)))
-    return float(np.median(ordered)), float(ordered[rank]), float(ordered[n - 1 - rank])
 
 
 class ShotDraws:

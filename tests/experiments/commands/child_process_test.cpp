@@ -34,7 +34,7 @@ TEST(ChildProcess, FiguresOfAFolderOfAnyName) {
         const fs::path results = folder / name;
         write_text(results / "manifest.json", "{}");
         testing::internal::CaptureStderr();
-        EXPECT_EQ(figures_command({.results = results, .out = {}}), 2) << "it has no tables: a mistake of the user";
+        EXPECT_EQ(figures_command({results.string()}), 2) << "it has no tables: a mistake of the user";
         const std::string said = testing::internal::GetCapturedStderr();
         EXPECT_NE(said.find((results / "summary.csv").string()), std::string::npos) << said;
         EXPECT_FALSE(fs::exists(made)) << "a path was run as a command";

@@ -55,11 +55,11 @@ struct MadeUpStudy {
     }
 
     void write(const std::filesystem::path& folder) const {
-        write_rows(folder / "results.csv", rows);
+        write_rows(folder / "results.csv", rows), write_rows(folder / "times.csv", times);
         write_text(folder / "manifest.json", manifest.dump());
         StudyRows all;
         all.results = rows, all.times = times;
-        write_evaluation(folder, all, manifest, {});
+        write_evaluation(folder, all, manifest, {}, {});
     }
 };
 

@@ -305,6 +305,6 @@ void write_report_fixture(const std::filesystem::path& folder) {
     }
     const StudyRows rows = rows_of(cells);
     write_tables(folder, rows);
-    write_evaluation(folder, rows, manifest, {});
+    write_evaluation(folder, rows, manifest, {}, {});
     write_text(folder / "manifest.json", manifest.dump(1));
 }

@@ -341,16 +341,10 @@ void write_study_fixture(const std::filesystem::path& folder) {
     }
     const StudyRows rows = rows_of(cells);
     write_tables(folder, rows);
-    std::vector<EffectRow> effects = paired_effects(rows.results, variants);
-    for (EffectRow& e : split_effects(rows.splits, variants)) effects.push_back(std::move(e));
-    for (EffectRow& e : effects)
-        if (e.point == "first race=true") e.low = e.high = e.p = std::nullopt, e.interval = interval::not_repeatable;
-    set_verdicts(effects, {.metric = "relmse", .mask = "reflective", .target = "specular"});
-    write_rows(folder / "effects.csv", effects);
-    write_rows(folder / "time_effects.csv", time_effects(rows.times, variants));
     json manifest = study_manifest(shots);
     add_rung_images(folder, shots.front().name, manifest["images"]);
     add_frame_images(folder, study_moving_shot, manifest["images"]);
-    write_evaluation(folder, rows, manifest, variants);
+    write_evaluation(folder, rows, manifest, variants,
+                     {.metric = "relmse", .mask = "reflective", .target = "specular"});
     write_text(folder / "manifest.json", manifest.dump(1));
 }

@@ -23,57 +23,25 @@ def point(name, error, half_width=0.0, cost=10.0, spread=0.0, seeds=None):
     variant, _, rest = name.partition(":")
     made = points.Point(variant, rest or "default", name, error, error - half_width, error + half_width, seeds or {"0": error}, True)
     made.rounds = {(0, f): cost * (1 + spread * ((7 * f) % FRAMES - 7) / 7) for f in range(FRAMES)}
-    _, low, high = uncertainty.median_interval(list(made.rounds.values()))
+    ordered = sorted(made.rounds.values())
+    low, high = ordered[2], ordered[12]  # of 15 rounds in turn
     made.set_cost(cost, low, high, high, low, 0.0)
     return made
 
 
-def shot(*of_points, floor=0.0, effects=None):
-    return points.Shot("s", "s", "scene", "machine", floor, True, list(of_points), {}, effects or {})
-
-
-def verdicts(a_shot):
-    """Variant to (verdict, undecided with), which do not depend on the order of the points."""
-    found = []
-    for of_points in (a_shot.points, a_shot.points[::-1]):
-        a_shot.points = of_points
-        found.append({key[0]: (verdict, sorted(p.variant for p in rivals)) for key, (verdict, _, rivals) in dominance.judge(a_shot).items()})
-    if found[0] != found[1]:
-        raise AssertionError(found)
-    return found[0]
+def shot(*of_points, floor=0.0):
+    return points.Shot("s", "s", "scene", "machine", floor, True, list(of_points), {})
 
 
 class Dominance(unittest.TestCase):
-    def test_certain_in_one_and_no_worse_in_the_other(self):
-        found = verdicts(shot(point("a", 1, 0.1, 10), point("b", 2, 0.1, 10), point("c", 1, 0.1, 20), point("d", 0.5, 0.1, 20)))
-        self.assertEqual({v: f[0] for v, f in found.items()}, {"a": "front", "b": "dominated", "c": "dominated", "d": "front"})
-
-    def test_overlapping_errors_cannot_be_told(self):
-        found = verdicts(shot(point("a", 1, 0.3, 10), point("b", 1.2, 0.3, 20)))
-        self.assertEqual(found, {"a": ("front", []), "b": ("undecided", ["a"])})
-
-    def test_seeds_that_agree_are_the_same_error(self):
-        seeds = {"0": 0.9, "1": 1.1}
-        found = verdicts(shot(point("a", 1, 0.3, 10, seeds=seeds), point("b", 1, 0.3, 20, seeds=dict(seeds))))
-        self.assertEqual(found["b"][0], "dominated")
-
-    def test_paired_effects_tell_more_than_two_intervals(self):
-        effects = {(("b", "default"), ("a", "default")): (1.2, 1.1, 1.3), (("a", "default"), ("b", "default")): (1 / 1.2, 1 / 1.3, 1 / 1.1)}
-        found = verdicts(shot(point("a", 1, 0.3, 10), point("b", 1.2, 0.3, 20), effects=effects))
-        self.assertEqual(found["b"][0], "dominated")
-
-    def test_costs_nearer_than_copies_differ_are_the_same(self):
-        slower = (point("a", 1, 0.1, 11), point("b", 2, 0.1, 10))
-        self.assertEqual(verdicts(shot(*slower))["b"][0], "front")
-        self.assertEqual(verdicts(shot(*slower, floor=0.2))["b"], ("undecided", ["a"]))
-        same_error = (point("a", 1, 0, 11), point("b", 1, 0, 10))
-        self.assertEqual(verdicts(shot(*same_error))["a"][0], "dominated")
-        self.assertEqual(verdicts(shot(*same_error, floor=0.2))["a"][0], "undecided")
-
-    def test_frames_that_are_slow_for_both_cancel(self):
-        # Each by itself scatters by 40 %, their ratio not at all.
-        found = verdicts(shot(point("a", 1, 0, 10, 0.4), point("b", 1, 0, 10.5, 0.4)))
-        self.assertEqual(found["b"][0], "dominated")
+    def test_points_are_as_their_pairs_say(self):
+        made = shot(point("a", 1, cost=10), point("b", 2, cost=20), point("c", 0.9, cost=30))
+        for one, other, dominates, is_dominated in (("a", "b", "yes", "no"), ("a", "c", "maybe", "no"), ("b", "c", "no", "no")):
+            keys = (one, "default"), (other, "default")
+            made.pairs[keys] = points.Pair(False, dominates, is_dominated)
+            made.pairs[keys[::-1]] = points.Pair(False, is_dominated, dominates)
+        found = {key[0]: (verdict, [p.variant for p in by], [p.variant for p in rivals]) for key, (verdict, by, rivals) in dominance.judge(made).items()}
+        self.assertEqual(found, {"a": ("front", [], []), "b": ("dominated", ["a"], []), "c": ("undecided", [], ["a"])})
 
     def test_the_nominal_front_has_no_point_that_is_beaten(self):
         front = dominance.nominal_front([point("a", 2, 0, 1), point("b", 1, 0, 2), point("c", 1.5, 0, 3), point("d", 0.5, 0, 4)])
@@ -81,13 +49,9 @@ class Dominance(unittest.TestCase):
 
 
 class Medians(unittest.TestCase):
-    def test_interval_is_that_of_the_study(self):
-        # 15 independent signs count as if twice as scattered: ranks 7.5 -+ 1.96 sqrt(2 * 15) / 2, as time_effects_test.cpp has it.
-        values = [float(v) for v in (8, 1, 15, 4, 11, 2, 14, 6, 9, 3, 13, 5, 12, 7, 10)]
-        self.assertEqual(uncertainty.median_interval(values), (8, 3, 13))
-        slow_half = [float(v) for v in range(15)]
-        self.assertGreater(uncertainty.sign_factor(slow_half), 4)
-        self.assertEqual(uncertainty.median_interval(slow_half), (7, 0, 14))
+    def test_slow_halves_scatter_more_than_rounds_in_turn(self):
+        self.assertEqual(uncertainty.sign_factor([float(v) for v in (8, 1, 15, 4, 11, 2, 14, 6, 9, 3, 13, 5, 12, 7, 10)]), 2)
+        self.assertGreater(uncertainty.sign_factor([float(v) for v in range(15)]), 4)
 
 
 class Draws(unittest.TestCase):

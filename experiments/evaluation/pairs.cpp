@@ -1,0 +1,229 @@
+#include "experiments/evaluation/pairs.h"
+
+#include "experiments/evaluation/standings.h"
+#include "experiments/store/manifest.h"
+#include "metrics/statistics.h"
+#include "metrics/temporal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace {
+
+using PointName = std::pair<std::string, std::string>;  // variant, point
+using PairName = std::tuple<std::string, PointName, PointName>;
+using Rounds = std::map<std::pair<unsigned, unsigned>, double>;  // by seed and frame, ms
+
+PointName name_of(const MetricSummary& e) { return {e.variant, e.point}; }
+
+/// What comparisons say, found whichever way round they are asked for.
+template <class Row>
+class Decided {
+public:
+    void add(const Row& row) {
+        rows_[{row.shot, {row.variant, row.point}, {row.against_variant, row.against_point}}] = &row;
+    }
+    /// The row, and whether it is of b / a.
+    std::pair<const Row*, bool> find(const std::string& shot, const PointName& a, const PointName& b) const {
+        if (const auto found = rows_.find({shot, a, b}); found != rows_.end()) return {found->second, false};
+        if (const auto found = rows_.find({shot, b, a}); found != rows_.end()) return {found->second, true};
+        return {nullptr, false};
+    }
+
+private:
+    std::map<PairName, const Row*> rows_;
+};
+
+/// The cost of every point of a shot.
+struct Costs {
+    std::map<PointName, double> values;
+    std::map<PointName, Rounds> rounds;  ///< of times
+    bool is_counted = false;             ///< exact
+    double floor = 0;                    ///< see aa_floor(); 0 of counts
+    size_t aa_pairs = 0;
+    bool is_judged = true;  ///< false of times where nothing tells their noise
+};
+
+Costs costs_of(const StudyTables& tables, const std::string& shot, const std::string& quantity) {
+    Costs costs;
+    if (quantity.empty()) {
+        for (const TimeSummary& t : tables.times)
+            if (t.shot == shot && t.stage == "total") costs.values[{t.variant, t.point}] = t.median;
+        for (const TimeRow& t : tables.rounds)
+            if (t.shot == shot && t.stage == "total")
+                costs.rounds[{t.variant, t.point}][{t.seed, t.frame}] = t.milliseconds;
+        const std::optional<double> floor = aa_floor(tables.manifest, shot);
+        costs.is_judged = floor.has_value(), costs.floor = floor.value_or(0);
+        costs.aa_pairs = aa_pair_count(tables.manifest, shot);
+        return costs;
+    }
+    costs.is_counted = true;
+    std::map<PointName, double> totals;  // a stage of that name has the sum of all
+    for (const CostRow& c : tables.costs)
+        if (c.shot == shot && c.quantity == quantity)
+            (c.stage == "total" ? totals : costs.values)[{c.variant, c.point}] += double(c.value);
+    for (const auto& [point, total] : totals) costs.values[point] = total;
+    return costs;
+}
+
+/// A pair on its way to a verdict.
+struct OpenPair {
+    PairRow row;
+    const MetricSummary *a, *b;
+    double p = 1;                     ///< of the error, not adjusted
+    MedianInterval cost = {1, 1, 1};  ///< of the costs' ratio
+    double cost_p = 1;
+    bool has_cost = false;
+};
+
+double error_of(const MetricSummary& e) { return shortfall(*direction_of(e.metric), *e.value); }
+
+/// As a ratio that is below 1 where a errs less, also of metrics whose best value is not the least.
+double direction_between(const MetricSummary& a, const MetricSummary& b) { return error_of(a) < error_of(b) ? 0.5 : 2; }
+
+void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const DecidedP& standings) {
+    const MetricSummary &a = *pair.a, &b = *pair.b;
+    PairRow& row = pair.row;
+    if (*a.value > 0 && *b.value > 0) row.error_ratio = *a.value / *b.value;
+    const auto same = [](const MetricSummary& x) { return std::tuple(x.value, x.low, x.high, x.seed_deviation); };
+    if (same(a) == same(b)) {
+        row.error_verdict = verdict::equal;
+        return;
+    }
+    EffectRow asked{.shot = a.shot, .variant = a.variant, .point = a.point};
+    asked.against_variant = b.variant, asked.against_point = b.point;
+    asked.target = a.target, asked.metric = a.metric, asked.mask = a.mask;
+    if (const auto p_holm = standings(asked)) {
+        row.error_p_holm = *p_holm, row.decided_by = "standings";
+        row.error_verdict = verdict_of(*p_holm, direction_between(a, b));
+        return;
+    }
+    if (const auto [effect, is_reversed] = effects.find(a.shot, name_of(a), name_of(b));
+        effect && !effect->verdict.empty()) {
+        row.error_p_holm = effect->p_holm, row.decided_by = "effects";
+        row.error_ratio = is_reversed ? 1 / *effect->ratio : *effect->ratio;
+        row.error_verdict = verdict_of(*effect->p_holm, *row.error_ratio);
+        return;
+    }
+    row.decided_by = "pairs", pair.p = p_by_intervals(a, b);
+}
+
+void compare_costs(OpenPair& pair, const Costs& costs, const Decided<TimeEffectRow>& effects) {
+    const PointName a = name_of(*pair.a), b = name_of(*pair.b);
+    const auto of_a = costs.values.find(a), of_b = costs.values.find(b);
+    if (of_a == costs.values.end() || of_b == costs.values.end() || !(of_a->second > 0 && of_b->second > 0)) return;
+    PairRow& row = pair.row;
+    pair.has_cost = true;
+    const double ratio = of_a->second / of_b->second;
+    pair.cost = {ratio, ratio, ratio};
+    row.cost_ratio = ratio;
+    if (costs.is_counted) {
+        row.cost_verdict = ratio < 1 ? verdict::less : ratio > 1 ? verdict::more : verdict::equal;
+        return;
+    }
+    std::vector<double> ratios;
+    const auto rounds_a = costs.rounds.find(a), rounds_b = costs.rounds.find(b);
+    if (rounds_a != costs.rounds.end() && rounds_b != costs.rounds.end())
+        for (const auto& [round, ms] : rounds_a->second)
+            if (const auto found = rounds_b->second.find(round);
+                found != rounds_b->second.end() && found->second > 0 && ms > 0)
+                ratios.push_back(ms / found->second);
+    pair.has_cost = costs.is_judged && !ratios.empty();
+    if (!pair.has_cost) return;
+    pair.cost = median_interval(ratios);
+    row.cost_ratio = pair.cost.median;
+    const auto [effect, is_reversed] = effects.find(pair.a->shot, a, b);
+    if (effect && effect->p_holm) {
+        row.cost_p_holm = *effect->p_holm;
+        row.cost_verdict = verdict_of(*effect->p_holm, is_reversed ? 1 / effect->ratio : effect->ratio);
+        return;
+    }
+    pair.cost_p = time_ratio(pair.cost, costs.floor, costs.aa_pairs).p_value();
+}
+
+/// Holm over the pairs that nobody has decided yet.
+void decide(std::vector<OpenPair>& pairs) {
+    std::vector<double> errors, costs;
+    for (const OpenPair& pair : pairs) {
+        if (pair.row.error_verdict.empty()) errors.push_back(pair.p);
+        if (pair.has_cost && pair.row.cost_verdict.empty()) costs.push_back(pair.cost_p);
+    }
+    const std::vector<double> adjusted_errors = holm_adjusted(errors), adjusted_costs = holm_adjusted(costs);
+    size_t error = 0, cost = 0;
+    for (OpenPair& pair : pairs) {
+        PairRow& row = pair.row;
+        if (row.error_verdict.empty()) {
+            row.error_p_holm = adjusted_errors[error++];
+            row.error_verdict = verdict_of(*row.error_p_holm, direction_between(*pair.a, *pair.b));
+        }
+        if (pair.has_cost && row.cost_verdict.empty()) {
+            row.cost_p_holm = adjusted_costs[cost++];
+            row.cost_verdict = verdict_of(*row.cost_p_holm, pair.cost.median);
+        }
+    }
+}
+
+void set_dominance(OpenPair& pair, double floor) {
+    if (!pair.has_cost) return;
+    PairRow& row = pair.row;
+    const bool is_same_error = row.error_verdict == verdict::equal;
+    const bool errs_less = row.error_verdict == verdict::less, errs_more = row.error_verdict == verdict::more;
+    const bool is_cheaper = row.cost_verdict == verdict::less, is_dearer = row.cost_verdict == verdict::more;
+    // A difference that two copies of one point may have is none.
+    const bool costs_no_more = pair.cost.median <= 1 && pair.cost.high <= 1 + floor,
+               costs_no_less = pair.cost.median >= 1 && pair.cost.low * (1 + floor) >= 1;
+    const auto says = [](bool is_certain, bool is_possible) {
+        return is_certain ? "yes" : is_possible ? "maybe" : "no";
+    };
+    row.dominates =
+        says((costs_no_more && errs_less) || (is_cheaper && (errs_less || is_same_error)), !is_dearer && !errs_more);
+    row.is_dominated =
+        says((costs_no_less && errs_more) || (is_dearer && (errs_more || is_same_error)), !is_cheaper && !errs_less);
+}
+
+}  // namespace
+
+std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparisons& error, const std::string& cost) {
+    const auto is_of_error = [&](const auto& row) {
+        return row.target == error.target && row.metric == error.metric && row.mask == error.mask;
+    };
+    std::vector<std::string> shots;
+    std::map<std::string, std::vector<const MetricSummary*>> ranked;
+    for (const MetricSummary& e : tables.errors) {
+        if (!is_of_error(e) || e.standing.empty()) continue;
+        if (!ranked.contains(e.shot)) shots.push_back(e.shot);
+        ranked[e.shot].push_back(&e);
+    }
+    Decided<EffectRow> effects;
+    for (const EffectRow& e : tables.effects)
+        if (is_of_error(e)) effects.add(e);
+    Decided<TimeEffectRow> time_effects;
+    for (const TimeEffectRow& e : tables.time_effects)
+        if (e.stage == "total") time_effects.add(e);
+    const DecidedP standings = decided_by_standings(tables.errors);
+    std::vector<PairRow> rows;
+    for (const std::string& shot : shots) {
+        const Costs costs = costs_of(tables, shot, cost);
+        const std::vector<const MetricSummary*>& points = ranked[shot];
+        std::vector<OpenPair> pairs;
+        for (size_t i = 0; i < points.size(); ++i)
+            for (size_t k = i + 1; k < points.size(); ++k) {
+                OpenPair& pair = pairs.emplace_back(OpenPair{.row = {.shot = shot,
+                                                                     .variant = points[i]->variant,
+                                                                     .point = points[i]->point,
+                                                                     .other_variant = points[k]->variant,
+                                                                     .other_point = points[k]->point},
+                                                             .a = points[i],
+                                                             .b = points[k]});
+                compare_errors(pair, effects, standings);
+                compare_costs(pair, costs, time_effects);
+            }
+        decide(pairs);
+        for (OpenPair& pair : pairs) {
+            set_dominance(pair, costs.floor);
+            rows.push_back(std::move(pair.row));
+        }
+    }
+    return rows;
+}

@@ -1,0 +1,21 @@
+#pragma once
+#include "experiments/evaluation/summary.h"
+#include "experiments/evaluation/time_effects.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+/// The tables of a results folder that studies and their points are compared by.
+struct StudyTables {
+    nlohmann::json manifest;
+    std::vector<MetricSummary> errors;        ///< summary.csv
+    std::vector<ResultRow> seeds;             ///< results.csv
+    std::vector<TimeSummary> times;           ///< time_summary.csv
+    std::vector<TimeRow> rounds;              ///< times.csv
+    std::vector<EffectRow> effects;           ///< effects.csv
+    std::vector<TimeEffectRow> time_effects;  ///< time_effects.csv
+    std::vector<CostRow> costs;               ///< costs.csv; empty where none were counted
+};
+
+/// Fails with Error on what is no results folder, or one of another version or half of one (require_evaluation()).
+StudyTables read_study_tables(const std::filesystem::path& folder);

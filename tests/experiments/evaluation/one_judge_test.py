@@ -1,0 +1,178 @@
+"""Every tool says the same of two points of a study: standings, effects, pairs, report, tables, tradeoff and diff.
+
+usage: one_judge_test.py REPORT_PAGE_PROGRAM SSRLAB [RESULTS ...]
+
+Of a made-up study with ties, and of each folder that is named, which is copied. A pair of points has as many witnesses as there are
+places that compare it: what they say must be one.
+"""
+
+import csv
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+REPORT_PAGE, SSRLAB, *FOLDERS = sys.argv[1:]
+SAME, LESS, MORE = "not distinguishable", "less", "more"
+OPPOSITE = {SAME: SAME, LESS: MORE, MORE: LESS, "equal": "equal"}
+
+
+def read(folder, name):
+    with open(os.path.join(folder, name), newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def run(*command, code=0):
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == code, (command, done.returncode, done.stdout, done.stderr)
+    return done.stdout
+
+
+class Witnesses:
+    """What is said of each pair of a shot, whichever way round it is said."""
+
+    def __init__(self):
+        self.said = {}  # (shot, a, b) to {witness: verdict of a beside b}
+
+    def add(self, witness, shot, a, b, verdict):
+        if a > b:
+            a, b, verdict = b, a, OPPOSITE[verdict]
+        self.said.setdefault((shot, a, b), {})[witness] = verdict
+
+    def contradictions(self):
+        """Pairs of which two witnesses say other things; numbers that are equal are not distinguishable."""
+        return {pair: said for pair, said in self.said.items() if len({SAME if v == "equal" else v for v in said.values()}) > 1}
+
+
+def of_standings(witnesses, name, shot, standing_of):
+    """`standing_of`: point to standing, of those that are ranked; none is compared but with the best measured, which comes first."""
+    best, *others = standing_of
+    for point in others:
+        witnesses.add(name, shot, point, best, SAME if standing_of[point] == "tied" else MORE)
+
+
+def judge(folder):
+    with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as stream:
+        manifest = json.load(stream)
+    primary = manifest["primary"]
+    names = {"target": primary["target"], "metric": primary["metric"], "mask": primary["mask"]}
+    add_tables(folder, manifest, names)
+
+    def rows(file):
+        return [r for r in read(folder, file) if all(r[k] == v for k, v in names.items())]
+
+    witnesses = Witnesses()
+    errors = {}
+    for r in rows("summary.csv"):
+        if r["standing"]:
+            errors.setdefault(r["shot"], {})[r["variant"], r["point"]] = r
+    for shot, points in errors.items():
+        ordered = sorted(points, key=lambda p: (points[p]["p_best"] != "", float(points[p]["value"])))
+        of_standings(witnesses, "summary.csv", shot, {p: points[p]["standing"] for p in ordered})
+    for r in rows("effects.csv"):
+        if r["verdict"]:
+            witnesses.add("effects.csv", r["shot"], (r["variant"], r["point"]), (r["against_variant"], r["against_point"]), r["verdict"])
+    report(witnesses, folder, errors)
+    tables(witnesses, folder, errors, rows("effects.csv"))
+    tradeoff(witnesses, folder)
+    contradictions = witnesses.contradictions()
+    assert not contradictions, contradictions
+    run(SSRLAB, "diff", folder, folder)  # exit code 0: no number of a study differs from itself
+    return witnesses
+
+
+def report(witnesses, folder, errors):
+    """The page's answers: the best, and those that are tied with it."""
+    run(SSRLAB, "report", folder)
+    with open(os.path.join(folder, "report.html"), encoding="utf-8") as stream:
+        page = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', stream.read(), re.S)[1])
+    found = 0
+    for answer in page["answers"]:
+        if not answer["best"]:
+            continue
+        best = (answer["best"]["variant"], answer["best"]["point"])
+        tied = {(t["variant"], t["point"]) for t in answer["tied"]}
+        for point in errors.get(answer["shot"], ()):
+            if point != best:
+                witnesses.add("report", answer["shot"], point, best, SAME if point in tied else MORE)
+                found += 1
+    assert found, "the report says nothing of any pair"
+
+
+def add_tables(folder, manifest, names):
+    """Asks for a table of all errors and one of all effects."""
+    levels = {"name": "levels", "caption": "c", "of": "results", "where": names, "rows": ["variant", "point"], "columns": "shot", "best": "column"}
+    changes = {"name": "changes", "caption": "c", "of": "effects", "where": names, "rows": ["variant", "point", "against_variant", "against_point", "against"], "columns": "shot"}
+    manifest["config"] = (manifest.get("config") or {}) | {"tables": [levels, changes]}
+    maker = {"ssrlab": {"commit": "abc1234", "dirty": False, "code": "00ff", "estimators": 7}, "device": {"name": "d"}, "finished": "2026-01-31T12:05:00Z"}
+    manifest.setdefault("provenance", [maker | {"cells": []}])
+    manifest.setdefault("study", {"name": "made_up", "config": "made_up.json"})
+    for proof in manifest["clock"]["proofs"]:
+        proof.setdefault("shots", [])
+    for shot in manifest["shots"]:
+        shot.update({"width": shot.get("width", 64), "height": shot.get("height", 36)})
+    for entry in manifest["variants"]:  # rows are named by variant and point, not by labels
+        entry.pop("label", None)
+    with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
+        json.dump(manifest, stream)
+
+
+def tables(witnesses, folder, errors, effects):
+    """Bold is the best or a tied one in `levels`, and a significant change in `changes`."""
+    run(SSRLAB, "tables", folder)
+    with open(os.path.join(folder, "tables", "levels.csv"), newline="", encoding="utf-8") as stream:
+        levels = {r.pop(""): r for r in csv.DictReader(stream)}
+    shots = {re.sub(r" standing$", "", c) for r in levels.values() for c in r if c.endswith(" standing")}
+    for shot in shots & set(errors):
+        marked = {p: levels[", ".join(p)][shot + " standing"] for p in errors[shot]}
+        best = next(p for p in errors[shot] if not errors[shot][p]["p_best"])
+        assert marked[best] in ("best", "tied"), (shot, best, marked)
+        for point, standing in marked.items():
+            if point != best:
+                witnesses.add("tables", shot, point, best, SAME if standing == "tied" else MORE)
+    with open(os.path.join(folder, "tables", "changes.md"), encoding="utf-8") as stream:
+        lines = [[c.strip() for c in line.strip("| \n").split("|")] for line in stream if line.startswith("|")]
+    head, rows = lines[0][1:], {line[0].replace("\\", ""): line[1:] for line in lines[2:]}
+    for r in effects:
+        name = ", ".join(r[k] for k in ("variant", "point", "against_variant", "against_point", "against"))
+        if r["verdict"] and name in rows and r["shot"] in head:
+            cell = rows[name][head.index(r["shot"])]
+            verdict = SAME if "**" not in cell else LESS if float(r["ratio"]) < 1 else MORE
+            witnesses.add("table of effects", r["shot"], (r["variant"], r["point"]), (r["against_variant"], r["against_point"]), verdict)
+
+
+def tradeoff(witnesses, folder):
+    """Pairs, and the front that is made of them."""
+    run(SSRLAB, "tradeoff", folder)
+    out = os.path.join(folder, "tradeoff")
+    dominated, undecided = set(), set()
+    for r in read(out, "pairs.csv"):
+        a, b = (r["variant"], r["point"]), (r["other_variant"], r["other_point"])
+        witnesses.add("pairs.csv", r["shot"], a, b, r["error_verdict"])
+        for key, first in (("dominates", b), ("is_dominated", a)):
+            {"yes": dominated, "maybe": undecided}.get(r[key], set()).add((r["shot"], *first))
+    for r in read(out, "front.csv"):
+        point = (r["shot"], r["variant"], r["point"])
+        if r["verdict"] in ("front", "undecided", "dominated"):
+            verdict = "dominated" if point in dominated else "undecided" if point in undecided else "front"
+            assert r["verdict"] == verdict, (point, r["verdict"], verdict)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as temporary:
+        made_up = os.path.join(temporary, "made_up")
+        run(REPORT_PAGE, "--study", made_up)
+        copies = [shutil.copytree(f, os.path.join(temporary, str(i)), ignore=shutil.ignore_patterns("cells")) for i, f in enumerate(FOLDERS)]
+        for folder in [made_up, *copies]:
+            said = judge(folder).said
+            verdicts = {v for of_pair in said.values() for v in of_pair.values()}
+            witnesses = sorted({w for of_pair in said.values() for w in of_pair})
+            several = sum(len(of_pair) > 2 for of_pair in said.values())
+            print(f"{os.path.basename(folder)}: {len(said)} pairs, {several} with three witnesses or more; {', '.join(witnesses)}; {', '.join(sorted(verdicts))}")
+            assert several and {SAME, MORE} <= verdicts or folder != made_up, "the made-up study has ties and differences"
+
+
+main()
