@@ -23,7 +23,8 @@ function readData() {
     /// With the interval that agrees with the verdict.
     const effect = e =>
         ({...e, value: e.ratio, low: e.lowHolm, high: e.highHolm, holm: e.pHolm, isPrimary: e.family === "primary"});
-    const timeEffect = e => ({...e, value: e.ratio});
+    const timeEffect = e =>
+        ({...e, value: e.ratio, low: e.lowHolm ?? e.low, high: e.highHolm ?? e.high, holm: e.pHolm});
     const time = t => ({...t, value: t.medianMs, low: t.lowMs, high: t.highMs});
     /// As experiments/stability/stability_report.h has it; its lists become objects.
     const stability = raw.stability && {

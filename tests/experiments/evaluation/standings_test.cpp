@@ -118,3 +118,27 @@ TEST(Standings, KeepTheTrueBestAmongBestAndTiedOnHeavyTails) {
         EXPECT_LT(double(lost) / studies, 0.067) << seeds << " seeds";
     }
 }
+
+/// Of twenty comparisons with p = 0.01 none is significant (Holm), but a point that is behind the best measured one by
+/// its standing is so in the effects, too, whichever way round the study asked for it.
+TEST(Standings, DecideTheirPairsAmongEffects) {
+    std::vector<MetricSummary> errors = {error_of("a", 1, 0.1), error_of("b", 2, 0.1), error_of("c", 3, 0.1)};
+    set_standings(errors);
+    ASSERT_EQ(errors[1].standing, standing::behind);
+    const auto effect = [](const std::string& variant, const std::string& against) {
+        EffectRow e{.shot = "s", .variant = variant, .point = "default", .against_variant = against};
+        e.against_point = "default", e.target = "specular", e.metric = "mse", e.mask = "reflective";
+        e.ratio = 1.5, e.low = 1.4, e.high = 1.6, e.p = 0.01;
+        return e;
+    };
+    std::vector<EffectRow> effects = {effect("b", "a"), effect("a", "b"), effect("c", "b")};
+    effects[1].ratio = 0.5;
+    for (int i = 0; i < 17; ++i) effects.push_back(effect("other" + std::to_string(i), "a"));
+    set_verdicts(effects, {});
+    EXPECT_EQ(effects[0].verdict, verdict::not_distinguishable);
+    set_verdicts(effects, {}, decided_by_standings(errors));
+    EXPECT_EQ(effects[0].verdict, verdict::more);
+    EXPECT_EQ(effects[0].p_holm, errors[1].p_best);
+    EXPECT_EQ(effects[1].verdict, verdict::less);
+    EXPECT_EQ(effects[2].verdict, verdict::not_distinguishable) << "neither is the best";
+}

@@ -155,6 +155,19 @@ void add(CoverageRow& row, const ResultRow& result, double truth) {
     row.half_width += (*result.high - *result.low) / 2;
 }
 
+using CoverageKey = std::tuple<std::string, std::string, std::string, std::string>;  // test, target, mask, metric
+
+/// Sums over trials as means.
+std::vector<CoverageRow> finished(std::map<CoverageKey, CoverageRow> sums) {
+    std::vector<CoverageRow> rows;
+    for (auto& [key, row] : sums) {
+        for (double* sum : {&row.truth, &row.mean, &row.deviation, &row.half_width}) *sum /= row.intervals;
+        row.deviation = std::sqrt(row.deviation);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
 }  // namespace
 
 std::vector<CoverageRow> coverage(const CoverageSetting& setting) {
@@ -165,7 +178,7 @@ std::vector<CoverageRow> coverage(const CoverageSetting& setting) {
     const auto tested = tests(view);
     const std::vector<Mask> inside = masks(view, view.reference(256, setting.seeds), setting.draws);
     const std::vector<ResultRow> truth = results(all, tested, inside, setting);
-    std::map<std::tuple<std::string, std::string, std::string, std::string>, CoverageRow> sums;
+    std::map<CoverageKey, CoverageRow> sums;
     for (const Reference& seed : seeds) {
         const std::vector<ResultRow> rows = results(seed, tested, inside, setting);
         for (size_t i = 0; i < rows.size(); ++i) {
@@ -176,13 +189,7 @@ std::vector<CoverageRow> coverage(const CoverageSetting& setting) {
             add(row, r, truth[i].value.value_or(NAN));
         }
     }
-    std::vector<CoverageRow> rows;
-    for (auto& [key, row] : sums) {
-        for (double* sum : {&row.truth, &row.mean, &row.deviation, &row.half_width}) *sum /= row.intervals;
-        row.deviation = std::sqrt(row.deviation);
-        rows.push_back(std::move(row));
-    }
-    return rows;
+    return finished(std::move(sums));
 }
 
 namespace {
@@ -242,13 +249,12 @@ std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsi
         return rows;
     };
     const PointSet without_seeds = {{"fallback", ""}};
-    using Key = std::tuple<std::string, std::string, std::string, std::string>;
-    std::map<Key, double> truths;
+    std::map<CoverageKey, double> truths;
     const PoseTruth exact = pose_truth(best, config, 0, {.has_targets = true});
     for (const auto& [name, own] : images)
         for (const MetricSummary& s : summarise(rows_of(exact, name, 0, known_seeds), without_seeds))
             truths[{name, s.target, s.mask, s.metric}] = s.value.value_or(NAN);
-    std::map<Key, CoverageRow> sums;
+    std::map<CoverageKey, CoverageRow> sums;
     for (unsigned r = 0; r < setting.seeds; ++r) {
         const PoseTruth truth = pose_truth(view.reference(setting.samples, r), config, 0, {.has_targets = true});
         for (const auto& [name, own] : images)
@@ -263,11 +269,5 @@ std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsi
                 add(row, result, truths.at({name, s.target, s.mask, s.metric}));
             }
     }
-    std::vector<CoverageRow> rows;
-    for (auto& [key, row] : sums) {
-        for (double* sum : {&row.truth, &row.mean, &row.deviation, &row.half_width}) *sum /= row.intervals;
-        row.deviation = std::sqrt(row.deviation);
-        rows.push_back(std::move(row));
-    }
-    return rows;
+    return finished(std::move(sums));
 }
