@@ -20,9 +20,9 @@ except ImportError as missing:
     sys.exit(f"error: {missing}: install python3-numpy and python3-pil, and run this with Debian's python3")
 
 SCENES = Path(__file__).resolve().parent
-sys.path.insert(0, str(SCENES.parent / "experiments/figures"))
+sys.path.insert(0, str(SCENES.parent / "experiments/python"))
 sys.dont_write_bytecode = True
-from paper_figures.exr import read_exr_rgb  # noqa: E402  (found by the path above)
+from ssrlab.exr import read_exr_rgb  # noqa: E402  (found by the path above)
 
 SIZE = (320, 180)
 SAMPLES = 256

@@ -49,9 +49,9 @@ struct Material {
     TextureSlot emission_texture;
     float specular = 1.0f;  ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;  ///< a hit counts where alpha >= cutoff (AlphaMode::mask)
+    float alpha_cutoff = 0.5f;     ///< a hit counts where alpha >= cutoff (AlphaMode::mask)
     bool is_double_sided = false;  ///< all surfaces are drawn from both sides; this decides whether the back emits
-    bool is_unlit = false;  ///< KHR_materials_unlit: radiates its base colour and reflects nothing
+    bool is_unlit = false;         ///< KHR_materials_unlit: radiates its base colour and reflects nothing
 };
 
 struct Vertex {
@@ -145,7 +145,8 @@ struct AnimationChannel {
 };
 
 struct Scene {
-    std::string name;  ///< that of its folder
+    std::string name;   ///< that of its folder
+    std::string asset;  ///< the glTF that it shows, where others may show it, too; else its own name
     std::vector<Texture> textures;
     std::vector<Material> materials;
     std::vector<Mesh> meshes;

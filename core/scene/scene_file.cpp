@@ -122,7 +122,9 @@ Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_
     const JsonDocument document = read_json_document(file);
     JsonObject object(document, file.string());
     Scene scene;
-    if (object.has("gltf")) scene = load_gltf(find_file(object.text("gltf"), file, search_path, file.string()));
+    const fs::path gltf =
+        object.has("gltf") ? find_file(object.text("gltf"), file, search_path, file.string()) : fs::path();
+    if (!gltf.empty()) scene = load_gltf(gltf);
     if (object.has("also")) {
         const nlohmann::json& also = object.any("also");
         const bool is_list = also.is_array() && std::ranges::all_of(also, [](const auto& v) { return v.is_string(); });
@@ -131,6 +133,8 @@ Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_
             merge(scene, load_gltf(find_file(name.get<std::string>(), file, search_path, file.string())));
     }
     scene.name = fs::absolute(file).parent_path().filename().string();
+    const bool is_own = gltf.empty() || fs::absolute(gltf).parent_path() == fs::absolute(file).parent_path();
+    scene.asset = is_own ? scene.name : gltf.filename().string();
     if (object.has("environment"))
         scene.environment = read_environment(object.object("environment"), file, search_path);
     for (JsonObject& light : object.objects("lights")) scene.lights.push_back(read_light(light));

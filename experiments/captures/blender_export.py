@@ -16,10 +16,10 @@ import numpy as np
 from mathutils import Matrix
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "figures")]
+sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from blender_passes import PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
 from capture_files import write_environment, write_frame  # noqa: E402
-from paper_figures.exr import read_exr_planes  # noqa: E402
+from ssrlab.exr import read_exr_planes  # noqa: E402
 
 COLOR_AOVS = ("base_color", "true_normal", "emission")
 VALUE_AOVS = ("roughness", "metallic", "specular")

@@ -16,6 +16,8 @@ from dataclasses import replace
 
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into its files
 
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+
 try:
     import matplotlib
     import numpy  # noqa: F401  (named here so that a missing one is explained below)
@@ -41,7 +43,7 @@ from paper_figures import (
     temporal,
 )
 from paper_figures.crop_choice import read_crops
-from paper_figures.results import Results, ResultsError
+from ssrlab.results import Results, ResultsError
 
 # Kind of figure to what draws it: of one shot at a time, or of all that are asked for.
 SHOT_FIGURES = {"stage_times": stages.draw_times, "stage_costs": stages.draw_costs, "crops": crops.draw}

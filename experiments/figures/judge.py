@@ -22,10 +22,12 @@ try:
 except ImportError as missing:
     sys.exit(f"error: {missing}: install python3-numpy and python3-pil, and run this with Debian's python3")
 
-from paper_figures.crops import display
-from paper_figures.exr import read_exr_rgb
-from paper_figures.results import Results, ResultsError
-from paper_tables.agreement import JUDGEMENTS
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+
+from paper_figures.crops import display  # noqa: E402
+from ssrlab.exr import read_exr_rgb  # noqa: E402
+from ssrlab.results import Results, ResultsError  # noqa: E402
+from paper_tables.agreement import JUDGEMENTS  # noqa: E402
 
 METRICS = ("mse", "relmse", "flip")
 COLUMNS = ("shot", "first", "first_point", "second", "second_point", "nearer", "judge")

@@ -29,10 +29,12 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how it draws
 from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+
 from paper_figures import crops, style  # noqa: E402
 from paper_figures.crop_choice import read_crops  # noqa: E402
-from paper_figures.request import Request, read_json
-from paper_figures.results import Results, ResultsError, label  # noqa: E402
+from paper_figures.request import Request, read_json  # noqa: E402
+from ssrlab.results import Results, ResultsError, label  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent

@@ -18,7 +18,9 @@ except ImportError as missing:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from paper_figures import style
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+
+from paper_figures import style  # noqa: E402
 
 # From the best to the worst: mark and colour (Okabe & Ito 2008), so that either alone tells them apart.
 VERDICTS = {

@@ -10,9 +10,11 @@ import argparse
 import os
 import sys
 
-from paper_figures.results import Results, ResultsError
-from paper_tables import documents, formats, latex, summary_file
-from paper_tables.cells import Table, cells_of
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+
+from ssrlab.results import Results, ResultsError  # noqa: E402
+from paper_tables import documents, formats, latex, summary_file  # noqa: E402
+from paper_tables.cells import Table, cells_of  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
 

@@ -161,6 +161,7 @@ nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all)
         shot.config.gbuffer.empty() ? fact_entries(list_facts(shot.scene, shot.facts)) : nlohmann::json::array();
     nlohmann::json entry = {{"shot", shot.name()},
                             {"scene", shot.scene.name},
+                            {"asset", shot.scene.asset.empty() ? shot.scene.name : shot.scene.asset},
                             {"camera", shot.camera.name},
                             {"width", shot.config.extent.x},
                             {"height", shot.config.extent.y},

@@ -15,6 +15,7 @@ import numpy as np
 from scipy import stats
 
 from analysis import curves, fits, points, scenes, uncertainty
+from ssrlab import over_scenes
 
 ROUNDS = 15
 PLACES = (0.25, 0.5, 0.75)  # along the true front, logarithmic
@@ -175,7 +176,7 @@ def study_scenes(study, trials, tally, counts):
             continue
         for p in shot.points:
             if p.is_ranked and p.error > 0 and p.key != base:
-                table.setdefault(p.key, {}).setdefault(shot.scene, []).append(math.log(p.error / reference))
+                table.setdefault(p.key, {}).setdefault(shot.asset, []).append(math.log(p.error / reference))
     means = {m: {s: np.mean(v) for s, v in of.items()} for m, of in table.items()}
     most = max(len(v) for v in means.values())
     whole = [m for m, v in means.items() if len(v) == most]
@@ -186,7 +187,7 @@ def study_scenes(study, trials, tally, counts):
         for trial in range(trials):
             for count in counts:
                 drawn = values[generator.integers(0, len(values), count)]
-                _, low, high = scenes.mean_interval(drawn)
+                _, low, high = over_scenes.mean_interval(drawn)
                 tally.add(("over scenes, Student's t", count), low, high, values.mean())
                 if trial < 20:
                     tally.add(("over scenes, BCa", count), *scenes.bootstrap_interval(drawn, trial), values.mean())

@@ -6,10 +6,11 @@ import math
 import os
 
 from analysis import scenes
+from ssrlab import over_scenes
 from paper_figures import style
 from paper_figures.numbers import with_interval
 from paper_figures.placed_labels import place_labels
-from paper_figures.results import Measured
+from ssrlab.results import Measured
 
 FASTER = 1.1  # a point that is this much faster than the baseline is worth a name though it errs more
 
@@ -67,13 +68,13 @@ class Outcome:
         """(ratio of errors to the baseline's over the judging scenes, their number, ratio of times or None); None where nothing was judged."""
         if self.results is None or name == self.tuning.baseline:
             return None
-        logs = [(shot["scene"], math.log(row.value)) for shot, rows in self.unseen_rows(name) for row in rows.values() if row]
+        logs = [(shot.get("asset") or shot["scene"], math.log(row.value)) for shot, rows in self.unseen_rows(name) for row in rows.values() if row]
         if not logs:
             return None
-        value, low, high, count, _ = scenes.geometric_mean(logs)
-        scene_of = {shot["shot"]: shot["scene"] for shot in self.results.manifest["shots"]}
+        value, low, high, count, _ = over_scenes.geometric_mean(logs)
+        scene_of = {shot["shot"]: shot.get("asset") or shot["scene"] for shot in self.results.manifest["shots"]}
         taken = self.studies.times_of(self.results, self.point_of(name)).items()
-        time = scenes.geometric_mean([(scene_of[shot], math.log(ratio)) for shot, (ratio, _) in taken])[:3] if taken else None
+        time = over_scenes.geometric_mean([(scene_of[shot], math.log(ratio)) for shot, (ratio, _) in taken])[:3] if taken else None
         return Measured(value, low, high), count, Measured(*time) if time else None
 
     def point_of(self, name):
@@ -125,7 +126,7 @@ class Outcome:
             f"Error: {error}, as a multiple of that of `{tuning.baseline}`, geometric mean over scenes; {self.time_word()}: likewise "
             f"(that of `{tuning.baseline}`: {tuning.baseline_cost:.4g} {self.unit}; on the scenes of the search without an interval). In brackets 95 % intervals: of the scenes of the search by "
             "the seeds and the reference's noise, for these scenes as they are; of unseen ones by how they differ among each other, none below "
-            f"{scenes.LEAST_SCENES} scenes.",
+            f"{over_scenes.LEAST_SCENES} scenes.",
             "",
             f"{len(tuning.tried)} points were tried, {sum(not p.stopped for p in tuning.tried)} of them in full, in {tuning.runs()} runs of one seed in one "
             f"shot ({tuning.runs_of_a_point() * len(self.points)} without stopping any). The least of many measured errors looks smaller than it is; "

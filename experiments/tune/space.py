@@ -3,7 +3,7 @@
 import warnings
 
 import optuna
-from paper_figures.results import ResultsError
+from ssrlab.results import ResultsError
 
 DIGITS = 4  # of a number that was sampled: names of points and presets stay legible
 

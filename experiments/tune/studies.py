@@ -6,7 +6,7 @@ import os
 import subprocess
 import time
 
-from paper_figures.results import Results, ResultsError
+from ssrlab.results import Results, ResultsError
 from race import NORMAL
 
 DEFAULT_SEEDS = 8  # experiments/config/config.h

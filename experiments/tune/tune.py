@@ -15,13 +15,13 @@ import os
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, "../figures"), os.path.join(HERE, "../tradeoff")]
+sys.path[:0] = [HERE, *(os.path.join(HERE, os.pardir, room) for room in ("python", "figures", "tradeoff"))]
 try:
     import optuna  # noqa: F401
 except ImportError as missing:
     sys.exit(f"error: {missing}: install python3-optuna")
 from outcome import Outcome  # noqa: E402  (found by the path above)
-from paper_figures.results import ResultsError  # noqa: E402
+from ssrlab.results import ResultsError  # noqa: E402
 from race import Point, Race  # noqa: E402
 from space import Proposals, Space  # noqa: E402
 from studies import Studies, StudyFailed  # noqa: E402

@@ -7,7 +7,7 @@ from paper_figures import style, sweeps
 from paper_figures.error_time import TIME_AXIS, front
 from paper_figures.fetches import power_of
 from paper_figures.placed_labels import place_labels
-from paper_figures.results import Measured, ResultsError, frame_number, is_over_frames
+from ssrlab.results import Measured, ResultsError, frame_number, is_over_frames
 
 LEAST_POINTS = 3  # that a slope with an interval needs
 

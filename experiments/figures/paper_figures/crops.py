@@ -8,7 +8,7 @@ from matplotlib.patches import Rectangle
 
 from paper_figures import numbers, style
 from paper_figures.crop_choice import AUTO, TONE_CURVES as CURVE_NAMES, Crop, check_box, is_box, is_exposure
-from paper_figures.results import BEST, TIED, ResultsError, label
+from ssrlab.results import BEST, TIED, ResultsError, label
 
 REFERENCE = ("reference", "")
 MOST_POINTS = 6  # of those that nobody chose

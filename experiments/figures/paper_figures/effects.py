@@ -6,7 +6,7 @@ import json
 import matplotlib.pyplot as plt
 
 from paper_figures import style
-from paper_figures.results import label
+from ssrlab.results import label
 
 LONG_LABEL = 40  # characters, beyond which labels would leave the panels no room
 FARTHEST = 20.0  # ratios further from 1 would squeeze all others; they are written at the border of their panel

@@ -9,7 +9,7 @@ from paper_figures import numbers, style, sweeps, tradeoff
 from paper_figures.error_time import TIME_AXIS, draw_mark
 from paper_figures.ladder import LOOKS, RUNGS, rungs_of
 from paper_figures.placed_labels import place_labels
-from paper_figures.results import Measured, ResultsError
+from ssrlab.results import Measured, ResultsError
 
 FARTHEST = 10  # a rung below the least of the points by more than this factor is named, not drawn: it would flatten them
 FITTED = "fitted"  # `status` of a law; others say why there is none, or no exponent

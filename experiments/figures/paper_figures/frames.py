@@ -4,7 +4,7 @@ from matplotlib.ticker import MaxNLocator
 
 from paper_figures import style
 from paper_figures.lines import draw_points
-from paper_figures.results import frame_number, is_over_frames
+from ssrlab.results import frame_number, is_over_frames
 
 
 def draw(results, chosen):

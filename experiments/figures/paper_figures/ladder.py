@@ -1,7 +1,7 @@
 """Errors against the rungs of the truth ladder: how much of each a technique could avoid, and what one frame cannot tell."""
 
 from paper_figures import style
-from paper_figures.results import Measured
+from ssrlab.results import Measured
 
 RUNGS = {"on_screen": "limit of one frame", "camera_radiance": "camera's radiance"}  # groundtruth/truth_ladder.h
 LOOKS = {"on_screen": ("#000000", "--"), "camera_radiance": ("#666666", ":")}

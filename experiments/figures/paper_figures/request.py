@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
 from paper_figures import style
-from paper_figures.results import ResultsError, label
+from ssrlab.results import ResultsError, label
 
 TEXTS = ("target", "metric", "mask")
 EVERY = {"kind", "name", "shots", "points", "labels", "width", "height", *TEXTS}

@@ -3,7 +3,7 @@
 import json
 
 from paper_figures.request import near
-from paper_figures.results import ResultsError
+from ssrlab.results import ResultsError
 
 
 def _listed(value):

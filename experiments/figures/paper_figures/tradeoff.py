@@ -2,7 +2,7 @@
 
 import math
 
-from paper_figures.results import ResultsError, rows_that_speak
+from ssrlab.results import ResultsError, rows_that_speak
 
 FRONT, FITS, ACROSS, CHANGES = (f"tradeoff/{name}.csv" for name in ("front", "fits", "across", "stages"))
 

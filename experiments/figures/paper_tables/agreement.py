@@ -5,9 +5,8 @@ import itertools
 import math
 import os
 
-from paper_figures.results import ResultsError
+from ssrlab.results import ResultsError
 
-STUDENT = {3: 3.18245, 4: 2.77645, 5: 2.57058, 6: 2.44691, 7: 2.36462, 8: 2.30600, 9: 2.26216}  # t(0.975, degrees of freedom)
 # Pairs of images, without names and in an order drawn anew, of which somebody said which is nearer to the truth
 # (experiments/figures/judge.py).
 PAIR = ("shot", "first", "first_point", "second", "second_point")
@@ -74,20 +73,6 @@ def eye_rows(results, rows, judgements):
                 "what": "pairs ordered alike",
                 "value": repr(float((first < second) == (judged["nearer"] == "first"))),
             }
-
-
-def mean_over_shots(values):
-    """(mean, low, high): Student's 95 % interval, the shots taken as a sample; none below four of them."""
-    n = len(values)
-    mean = sum(values) / n
-    if n < 4:
-        return mean, None, None
-    degrees = n - 1
-    z = 1.959964  # from 10 degrees of freedom on by Cornish and Fisher's expansion (Abramowitz and Stegun 26.7.5)
-    expanded = z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2)
-    quantile = STUDENT.get(degrees, expanded)
-    half = quantile * math.sqrt(sum((v - mean) ** 2 for v in values) / degrees / n)
-    return mean, mean - half, mean + half
 
 
 def share_of_pairs(values):

@@ -6,10 +6,10 @@ import json
 import math
 
 from paper_figures import tradeoff
-from paper_figures.results import BEST, TIED, ResultsError, rows_that_speak
+from ssrlab.results import BEST, TIED, ResultsError, rows_that_speak
 from paper_tables import agreement, limits
 from paper_tables.cell import EXACT, Cell
-from paper_tables.means import SHARES, largest, mean
+from paper_tables.means import SAMPLED, SHARES, largest, mean
 
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low_holm", "high_holm")),  # intervals that agree with the verdict
@@ -251,6 +251,7 @@ def _about(selection, filled):
         "over_count": count,
         "clocks": sorted({_clock(selection, r) for r in filled if r.get("clock")}),
         "has_adjusted_intervals": table.of == "effects",
+        "samples_scenes": over in SAMPLED,
     }
 
 
@@ -279,7 +280,7 @@ def cells_of(results, table):
         _refuse_shared(selection, name, rows)
         parts = [_cell(selection, row, name) for row in rows]
         filled += [row for row, part in zip(rows, parts) if part.value is not None]
-        cells.append(parts[0] if table.over is None else mean(table, parts))
+        cells.append(parts[0] if table.over is None else mean(table, parts, [results.asset(row.get("shot")) for row in rows]))
     if table.best:
         _mark_best(selection, cells, groups)
     return _about(selection, filled), _sorted(cells, table.sort)

@@ -9,7 +9,7 @@ import json
 import os
 import re
 
-from paper_figures.results import ResultsError
+from ssrlab.results import ResultsError
 from paper_tables import formats, summary_file
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)

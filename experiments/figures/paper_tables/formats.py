@@ -4,7 +4,7 @@ import csv
 import io
 
 from paper_figures import numbers
-from paper_figures.results import BEST, TIED
+from ssrlab.results import BEST, TIED
 from paper_tables.cell import BOTH
 
 # What intervals hold (experiments/evaluation/interval.h) that is less than the scatter over the seeds and the reference's noise, where
@@ -12,6 +12,7 @@ from paper_tables.cell import BOTH
 LESSER = {
     "seeds": ("\N{DAGGER}", "the interval holds the seeds alone, not the reference's noise"),
     "pixels and seeds": ("\N{DOUBLE DAGGER}", "the interval holds the choice of pixels, not the reference's noise"),
+    "these shots": ("\N{PILCROW SIGN}", "the interval is of these shots alone, not of other scenes: fewer than four assets"),
     "pixels": ("\N{DOUBLE DAGGER}", "the interval holds the choice of pixels, not the reference's noise"),
 }
 DISTURBED = "\N{SECTION SIGN}"
@@ -60,12 +61,21 @@ def cell_text(table, cell):
     return text + marks + (f" ({'; '.join(words)})" if words else "")
 
 
+def _of_scenes(table):
+    """What intervals of means over shots are of."""
+    if table["over"] not in ("shot", "scene", "shot_group"):
+        return ""
+    if table.get("samples_scenes"):
+        return " of the mean over scenes like these (Student's t, scenes of one asset averaged first)"
+    return ", of these scenes as they are: over others they are wider"  # a summary of before they were the sample
+
+
 def notes(table, cells):
     """What brackets, parentheses and marks of the table mean; "" where it has none."""
     over = {"shot": "shots", "scene": "scenes"}.get(table["over"], f"all {table['over']}")
     found = []
     if any(_has_interval(c) for c in cells):
-        found.append("in brackets 95 % intervals")
+        found.append("in brackets 95 % intervals" + _of_scenes(table))
     if any(_has_range(c) for c in cells):
         found.append(f"in parentheses the range over {over}")
     if any(_is_part(table, c) and c.value is not None for c in cells):

@@ -2,14 +2,14 @@
 
 import re
 
-from paper_figures.results import TIED
+from ssrlab.results import TIED
 from paper_figures.texts import wrapped
 from paper_tables.formats import DISTURBED, NO_VALUE, cell_text, grid, is_bold, notes
 
 ESCAPES = str.maketrans(
     {c: "\\" + c for c in "_%&#${}"}
     | {"\\": r"\textbackslash{}", "^": r"\^{}", "~": r"\textasciitilde{}", "|": r"\textbar{}", "<": r"\textless{}", ">": r"\textgreater{}"}
-    | {"\N{DAGGER}": r"\dag{}", "\N{DOUBLE DAGGER}": r"\ddag{}", DISTURBED: r"\S{}", NO_VALUE: "--", "\N{NO-BREAK SPACE}": "~"}
+    | {"\N{DAGGER}": r"\dag{}", "\N{DOUBLE DAGGER}": r"\ddag{}", "\N{PILCROW SIGN}": r"\P{}", DISTURBED: r"\S{}", NO_VALUE: "--", "\N{NO-BREAK SPACE}": "~"}
 )
 # Widths in pt: of letters in 10 pt Computer Modern, about, the gap between columns, and what there is room for.
 LETTER, SMALL_LETTER, GAP = 4.9, 3.9, 8

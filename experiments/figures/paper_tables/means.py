@@ -1,10 +1,13 @@
-"""Means of a table's cells, over shots or what else its `over` names."""
+"""Means of a table's cells. Over shots they are means over scenes like these, which are the sample: scenes of one asset count once."""
 
 import math
 
 from paper_tables import agreement
+from ssrlab import over_scenes
 from paper_tables.cell import BOTH, NOT_POSITIVE, SOME_ZERO, Cell
 
+SAMPLED = ("shot", "scene", "shot_group")  # what `over` takes as a sample of scenes
+OVER_SCENES, THESE_ALONE = "scenes", "these shots"  # Cell.interval of means: as LESSER of formats.py has it
 SHARES = ("hits",)  # tables of what may be 0: their mean over shots is the arithmetic one
 
 
@@ -16,10 +19,22 @@ def _joined(texts):
     return BOTH.join(dict.fromkeys(t for t in texts if t)) or None
 
 
-def _geometric_mean(parts):
-    """Over shots, which are what they are and no sample: its interval holds what those of the single ones hold, taken as
-    independent (half-widths of logarithms, added in quadrature). Parts without a value are not in it."""
-    cells = [c for c in parts if c.value is not None]
+def _over_scenes(result, parts, mean_of_assets):
+    """Gives the mean the interval over scenes, of which these are a sample, if enough assets have a value; all that seeds and
+    references add scatters with them. `parts`: (Cell, asset). Else the mean keeps that of these shots, and says so."""
+    mean, low, high = mean_of_assets([(asset, c.value) for c, asset in parts])
+    result.value = mean
+    if low is not None:
+        result.low, result.high, result.interval = low, high, OVER_SCENES
+    elif result.low is not None:
+        result.interval = _joined([result.interval, THESE_ALONE])
+
+
+def _geometric_mean(parts, assets):
+    """`assets`: of each part, where the mean is over a sample of scenes; else None, and the interval holds what those of the
+    parts hold, taken as independent (half-widths of logarithms, added in quadrature). Parts without a value are not in it."""
+    filled = [i for i, c in enumerate(parts) if c.value is not None]
+    cells = [parts[i] for i in filled]
     result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
     result.interval = _joined(c.interval for c in cells or parts)
     result.clock = _joined(c.clock for c in cells)
@@ -39,12 +54,15 @@ def _geometric_mean(parts):
     if all(c.low and c.low > 0 and c.high for c in cells):
         half = math.sqrt(sum((math.log(c.high / c.low) / 2) ** 2 for c in cells)) / len(cells)
         result.low, result.high = result.value * math.exp(-half), result.value * math.exp(half)
+    if assets and not result.is_count():
+        _over_scenes(result, [(parts[i], assets[i]) for i in filled], lambda of: over_scenes.geometric_mean([(a, math.log(v)) for a, v in of])[:3])
     return result
 
 
-def _arithmetic_mean(parts):
-    """Of shares over shots, which are what they are and no sample; intervals as those of _geometric_mean()."""
-    cells = [c for c in parts if c.value is not None]
+def _arithmetic_mean(parts, assets):
+    """Of shares; intervals as those of _geometric_mean()."""
+    filled = [i for i, c in enumerate(parts) if c.value is not None]
+    cells = [parts[i] for i in filled]
     result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
     if not cells:
         return result
@@ -54,19 +72,31 @@ def _arithmetic_mean(parts):
     if all(c.low is not None and c.high is not None for c in cells):
         half = math.sqrt(sum(((c.high - c.low) / 2) ** 2 for c in cells)) / len(cells)
         result.low, result.high = result.value - half, result.value + half
+    if assets:
+        _over_scenes(result, [(parts[i], assets[i]) for i in filled], over_scenes.mean)
+        if result.low is not None:
+            result.low, result.high = max(result.low, 0.0), min(result.high, 1.0)
     return result
 
 
-def _mean_of_sample(table, parts):
-    """Of what has no interval by itself, over shots or pairs that are taken as a sample."""
-    estimate = agreement.mean_over_shots if table.of == "agreement" else agreement.share_of_pairs
-    result = Cell(parts[0].table, parts[0].row, parts[0].column, *estimate([c.value for c in parts]), mean_of=len(parts))
+def _mean_of_pairs(parts):
+    """The share of pairs, which are the sample."""
+    return Cell(parts[0].table, parts[0].row, parts[0].column, *agreement.share_of_pairs([c.value for c in parts]), mean_of=len(parts))
+
+
+def _mean_of_agreement(parts, assets):
+    """Of correlations, which have no interval by themselves."""
+    result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(parts))
+    result.least, result.most = min(c.value for c in parts), max(c.value for c in parts)
+    result.value, result.low, result.high = over_scenes.mean(list(zip(assets, (c.value for c in parts))))
+    return result
+
+
+def mean(table, parts, assets):
+    """Of the cells of one place of a table; `assets`: what the scene of each shows, see Results.asset()."""
+    if table.of == "eye":
+        return _mean_of_pairs(parts)
     if table.of == "agreement":
-        result.least, result.most = min(c.value for c in parts), max(c.value for c in parts)
-    return result
-
-
-def mean(table, parts):
-    if table.of in ("agreement", "eye"):
-        return _mean_of_sample(table, parts)
-    return _arithmetic_mean(parts) if table.of in SHARES else _geometric_mean(parts)
+        return _mean_of_agreement(parts, assets)
+    sampled = assets if table.over in SAMPLED else None
+    return _arithmetic_mean(parts, sampled) if table.of in SHARES else _geometric_mean(parts, sampled)

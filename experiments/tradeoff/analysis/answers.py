@@ -1,6 +1,7 @@
 """answers.md: what the rows say, as sentences and tables."""
 
 from analysis import scenes
+from ssrlab import over_scenes
 from analysis.rows import RUNGS
 
 MOST_LISTED = 4
@@ -167,7 +168,7 @@ class Answers:
             text += f"; over these scenes it is not distinguishable from {listed(r['label'] for r in near)}"
         if beaten:
             text += f"; it errs less than {listed(r['label'] for r in beaten)} (Holm's test at 0.05)"
-        if first["scenes"] < scenes.LEAST_SCENES:
+        if first["scenes"] < over_scenes.LEAST_SCENES:
             text += f"; {first['scenes']} scenes are too few for an interval"
         return text + "."
 
@@ -297,13 +298,13 @@ class Answers:
         lines.append("")
         for machine in dict.fromkeys(r["machine"] for r in rows):
             own = [r for r in rows if r["machine"] == machine]
-            pooled = [r for r in own if not r["shot"] and r["scenes"] >= scenes.LEAST_SCENES]
+            pooled = [r for r in own if not r["shot"] and r["scenes"] >= over_scenes.LEAST_SCENES]
             changes = {self._change_key(r) for r in pooled}
             single = [r for r in own if r["shot"] and self._change_key(r) not in changes]
             lines += [f"On {machine}{', over scenes: geometric mean of the ratios of errors, mean of the costs' if pooled else ''}:", ""]
             lines += self._stage_table("scenes", pooled)
             if single:
-                lines += [f"In each shot, since {scenes.LEAST_SCENES - 1} scenes or fewer are too few for an interval:", ""] + self._stage_table("shot", single)
+                lines += [f"In each shot, since {over_scenes.LEAST_SCENES - 1} scenes or fewer are too few for an interval:", ""] + self._stage_table("shot", single)
         return lines
 
     @staticmethod

@@ -2,12 +2,9 @@
 
 import csv
 import os
-import sys
 from dataclasses import dataclass, field
 
-sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "figures"))
-
-from paper_figures.results import Results, ResultsError, commits_of, rows_that_speak  # noqa: E402
+from ssrlab.results import Results, ResultsError, commits_of, rows_that_speak
 
 TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
 
@@ -67,6 +64,7 @@ class Shot:
     name: str
     label: str
     scene: str
+    asset: str  # what the scene shows: those of one are averaged, as they are no independent samples
     machine: str  # what costs must have in common to be compared
     floor: float  # relative difference of costs below which nothing is said
     is_clock_proven: bool
@@ -215,7 +213,7 @@ class Study:
         shown = self.results.shot_label(name)
         scene = entry.get("scene") or name.split(".")[0]
         floor = 0.0 if self.counted else clock.get("aa_floors", {}).get(name, 0.0)
-        return Shot(name, shown, scene, size, floor, bool(self.counted) or any(proofs), [], ladder)
+        return Shot(name, shown, scene, self.results.asset(name), size, floor, bool(self.counted) or any(proofs), [], ladder)
 
     def _add_costs(self):
         points = {(s.name, p.variant, p.point): p for s in self.shots for p in s.points}

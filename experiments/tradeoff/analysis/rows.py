@@ -6,6 +6,7 @@ import os
 import zlib
 
 from analysis import curves, dominance, fits, scenes, stages, uncertainty
+from ssrlab import over_scenes
 
 LACKING = 0.1  # of the shots: so many may a point lack an error above 0 in, and be ranked
 RUNGS = ("on_screen", "camera_radiance")  # the first that the study has
@@ -42,7 +43,7 @@ class Analysis:
         self.limits = [row for s in study.shots for row in self._limit_rows(s)]
         self.across = [*self._whole_rows(), *(row for m in self.machines() for c in costs for row in self._across_rows(m, c))]
         self.changes = stages.shot_changes(study)
-        self.stages = [self._stage_row(c) for c in [*self.changes, *stages.over_scenes(self.changes)]]
+        self.stages = [self._stage_row(c) for c in [*self.changes, *stages.pooled(self.changes)]]
 
     def machines(self):
         """Those that timed something; what they timed is never compared with what another did."""
@@ -91,14 +92,14 @@ class Analysis:
         if not fitting:
             return None, None
         judged = {s.name: {p.key: p for p in s.points if p.is_ranked and p.error > 0} for s in self.study.shots}
-        others = [s for s in self.study.shots if s.scene != shot.scene and s.divisor(self.baseline)]
+        others = [s for s in self.study.shots if s.asset != shot.asset and s.divisor(self.baseline)]
         common = [s for s in others if all(p.key in judged[s.name] for p in fitting)]
         if not common:
             return min(fitting, key=lambda p: p.error), "this shot"
 
         def mean(p):
-            logs = [(s.scene, math.log(judged[s.name][p.key].error / s.divisor(self.baseline))) for s in common]
-            means = scenes.scene_means(logs)
+            logs = [(s.asset, math.log(judged[s.name][p.key].error / s.divisor(self.baseline))) for s in common]
+            means = over_scenes.scene_means(logs)
             return sum(means.values()) / len(means)
 
         return min(fitting, key=mean), "other scenes"
@@ -144,7 +145,7 @@ class Analysis:
 
     def _comparison(self, table, shots, certainly_less, lacking=0.0):
         base = {s.name: s.divisor(self.baseline) for s in shots}
-        return scenes.Comparison(table, {s.name: s.scene for s in shots}, base, certainly_less, lacking).rows()
+        return scenes.Comparison(table, {s.name: s.asset for s in shots}, base, certainly_less, lacking).rows()
 
     def _whole_rows(self):
         """Points at whatever they cost, over all shots."""
@@ -179,11 +180,11 @@ class Analysis:
         fitting = {}
         for row in self.error_at_cost:
             if row["shot"] in names and row["cost"] == cost and row["fits"] == "surely":
-                fitting.setdefault(row["variant"], set()).add(row["scene"])
+                fitting.setdefault(row["variant"], set()).add(of_name[row["shot"]].asset)
         for row in self._comparison(table, shots, certainly_less):
             variant = row.pop("method")
             named = self._named(row) | {"variant": variant, "label": self.label(variant), "machine": machine, "cost": cost}
-            yield named | {"scenes_that_fit": len(fitting.get(variant, ())), "of_scenes": len({s.scene for s in shots})}
+            yield named | {"scenes_that_fit": len(fitting.get(variant, ())), "of_scenes": len({s.asset for s in shots})}
 
     def _named(self, row):
         return row | {"baseline": self.study.label_of(self.baseline), "unit": self.study.unit}

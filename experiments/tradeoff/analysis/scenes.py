@@ -4,40 +4,14 @@ import math
 
 import numpy as np
 from scipy import stats
-
-LEAST_SCENES = 4  # of fewer nothing is told but their mean
-
-
-def scene_means(logs):
-    """`logs`: (scene, ln ratio) pairs. Scene to the mean of its shots."""
-    grouped = {}
-    for scene, value in logs:
-        grouped.setdefault(scene, []).append(value)
-    return {scene: sum(values) / len(values) for scene, values in grouped.items()}
-
-
-def _students(values):
-    """(mean, standard error, degrees of freedom), one fewer than of normal values: logs of ratios are skewed, and with n - 1 intervals
-    of four to six scenes hold the truth in 92 % (README.md)."""
-    values = np.asarray(values, float)
-    n = len(values)
-    return float(values.mean()), float(values.std(ddof=1)) / math.sqrt(n), n - 2
-
-
-def mean_interval(values):
-    """(mean, low, high) by Student's t; no ends below LEAST_SCENES values."""
-    if len(values) < LEAST_SCENES:
-        return float(np.mean(values)), None, None
-    mean, error, degrees = _students(values)
-    half = float(stats.t.ppf(0.975, degrees)) * error
-    return mean, mean - half, mean + half
+from ssrlab.over_scenes import LEAST_SCENES, geometric_mean, scene_means, students
 
 
 def p_of_zero(values):
     """Two-sided p of "the mean is 0", by the same t; None where there is no interval, or none of the values differ."""
     if len(values) < LEAST_SCENES or np.std(values) == 0:
         return None
-    mean, error, degrees = _students(values)
+    mean, error, degrees = students(values)
     return float(2 * stats.t.sf(abs(mean) / error, degrees))
 
 
@@ -48,13 +22,6 @@ def bootstrap_interval(values, seed=1):
         return None, None
     found = stats.bootstrap((values,), np.mean, n_resamples=1999, method="BCa", random_state=np.random.default_rng(seed))
     return float(found.confidence_interval.low), float(found.confidence_interval.high)
-
-
-def geometric_mean(logs):
-    """(ratio, low, high, scenes, shots) of (scene, ln ratio) pairs."""
-    means = scene_means(logs)
-    ends = mean_interval(list(means.values()))
-    return (*(None if v is None else math.exp(v) for v in ends), len(means), len(logs))
 
 
 def holm(p_values):

@@ -7,6 +7,7 @@ import numpy as np
 from scipy import stats
 
 from analysis import scenes
+from ssrlab import over_scenes
 from analysis.uncertainty import NORMAL, interval
 
 DRAWS = 4000
@@ -17,7 +18,7 @@ class Change:
     """Point b in place of a, which differ in `text` alone, in one shot or, with an empty shot, over scenes."""
 
     shot: str
-    scene: str
+    asset: str
     machine: str
     a: tuple
     b: tuple
@@ -63,7 +64,7 @@ def _shot_change(study, shot, a, b, text):
     exact = b.cost / a.cost  # of counted costs, which have no effects
     ratio, low, high, is_told = shot.cost_effects.get((b.key, a.key), (exact, exact, exact, exact != 1))
     costs = tuple((v - 1) * a.cost for v in (ratio, low, high))
-    change = Change(shot.name, shot.scene, shot.machine, a.key, b.key, text, error, costs, is_told)
+    change = Change(shot.name, shot.asset, shot.machine, a.key, b.key, text, error, costs, is_told)
     if change.verdict() in ("buys error", "saves cost"):
         generator = np.random.default_rng(1)
         errors = _normal(generator, *(math.log(v) for v in error))
@@ -94,21 +95,21 @@ def shot_changes(study):
     return found
 
 
-def over_scenes(changes):
+def pooled(changes):
     """Each change over all scenes in which it was measured by one machine: geometric mean of the errors' ratios, mean of the costs."""
     groups = {}
     for c in changes:
         groups.setdefault((c.machine, c.a, c.b, c.text), []).append(c)
     found = []
     for (machine, a, b, text), members in groups.items():
-        error = scenes.geometric_mean([(c.scene, math.log(c.error[0])) for c in members])
-        costs = list(scenes.scene_means([(c.scene, c.costs[0]) for c in members]).values())
-        cost = scenes.mean_interval(costs)
+        error = over_scenes.geometric_mean([(c.asset, math.log(c.error[0])) for c in members])
+        costs = list(over_scenes.scene_means([(c.asset, c.costs[0]) for c in members]).values())
+        cost = over_scenes.mean_interval(costs)
         is_told = cost[1] is not None and (cost[1] > 0 or cost[2] < 0)
         change = Change("", "", machine, a, b, text, error[:3], cost, is_told, error[3])
         if change.verdict() in ("buys error", "saves cost"):
             generator = np.random.default_rng(1)
-            degrees = len(costs) - 2  # as scenes.mean_interval has them
+            degrees = len(costs) - 2  # as over_scenes.mean_interval has them
             drawn = []
             for value, low in ((math.log(error[0]), math.log(error[1])), cost[:2]):
                 drawn.append(value + (value - low) / stats.t.ppf(0.975, degrees) * generator.standard_t(degrees, DRAWS))

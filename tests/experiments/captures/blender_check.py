@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "experiments" / "figures"))
-from paper_figures.exr import read_exr_planes  # noqa: E402
+sys.path.insert(0, str(ROOT / "experiments" / "python"))
+from ssrlab.exr import read_exr_planes  # noqa: E402
 
 SCENES = (("moving_objects", "main"), ("disocclusion", "lateral"))  # and the camera
 SIZE = (192, 108)

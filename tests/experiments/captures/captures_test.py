@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 EXPERIMENTS = Path(__file__).resolve().parents[3] / "experiments"
-sys.path[:0] = [str(EXPERIMENTS / "captures"), str(EXPERIMENTS / "figures")]
+sys.path[:0] = [str(EXPERIMENTS / "captures"), str(EXPERIMENTS / "python")]
 from blender_passes import PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
 from capture_files import CaptureError, write_environment, write_exr, write_frame  # noqa: E402
-from paper_figures.exr import read_exr_planes  # noqa: E402
+from ssrlab.exr import read_exr_planes  # noqa: E402
 from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
 
 SSRLAB = sys.argv.pop(1)

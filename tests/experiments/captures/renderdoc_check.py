@@ -14,8 +14,8 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 EXPERIMENTS = HERE.parents[2] / "experiments"
-sys.path.insert(0, str(EXPERIMENTS / "figures"))
-from paper_figures.exr import read_exr_planes  # noqa: E402
+sys.path.insert(0, str(EXPERIMENTS / "python"))
+from ssrlab.exr import read_exr_planes  # noqa: E402
 
 
 def run(command, **more):

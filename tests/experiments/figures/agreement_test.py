@@ -1,15 +1,18 @@
 """How metrics agree with each other and with people, and errors over the limit of one frame: against numbers by hand."""
 
+import math
 import os
 import sys
 import tempfile
+import types
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/figures"))
+sys.path[:0] = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments", room) for room in ("figures", "python")]
 
-from paper_figures.results import ResultsError  # noqa: E402
-from paper_tables import agreement, documents, limits, summary_file  # noqa: E402
+from ssrlab import over_scenes  # noqa: E402
+from ssrlab.results import ResultsError  # noqa: E402
+from paper_tables import agreement, documents, limits, means, summary_file  # noqa: E402
 from paper_tables.cell import Cell  # noqa: E402
 
 
@@ -38,14 +41,29 @@ class Agreement(unittest.TestCase):
         self.assertEqual(taus[("mse", "ssim")], 1)
         self.assertEqual(len(taus), 4)
 
-    def test_shots_are_a_sample(self):
-        mean, low, high = agreement.mean_over_shots([1, 2, 3, 4])
+    def test_scenes_are_a_sample(self):
+        mean, low, high = over_scenes.mean([("a", 1), ("b", 2), ("c", 3), ("d", 4)])
         self.assertEqual(mean, 2.5)
-        self.assertAlmostEqual((high - low) / 2, 3.18245 * 1.2909944 / 2, places=4)  # Student's t(0.975, 3)
-        mean, low, high = agreement.mean_over_shots(list(range(31)))
-        # t(0.975, 30) = 2.04227; the expansion is right to 1e-4 there.
-        self.assertLess(abs((high - low) / 2 / (2.04227 * (31 * 32 / 12) ** 0.5 / 31**0.5) - 1), 1e-4)
-        self.assertEqual(agreement.mean_over_shots([1, 2, 3])[1:], (None, None))
+        self.assertAlmostEqual((high - low) / 2, 4.30265 * 1.2909944 / 2, places=4)  # Student's t(0.975, 2), see over_scenes.py
+        # Shots of one asset count once: their mean.
+        self.assertEqual(over_scenes.mean([("a", 0), ("a", 2), ("b", 2), ("c", 3), ("d", 4)]), (mean, low, high))
+        self.assertEqual(over_scenes.mean([("a", 1), ("a", 2), ("b", 3), ("c", 3)])[1:], (None, None))
+
+    def test_tables_take_scenes_as_the_sample(self):
+        """Logs 0, 1, 1, 2 of four assets, one of which has two shots, with hardly any noise of their own."""
+        logs = {"a": [-1, 1], "b": [1], "c": [1], "d": [2]}
+        parts = [(Cell("t", "r", "c", math.exp(v), 0.99 * math.exp(v), 1.01 * math.exp(v), interval="seeds"), a) for a, of in logs.items() for v in of]
+        table = types.SimpleNamespace(of="effects", over="shot")
+        found = means.mean(table, [c for c, _ in parts], [a for _, a in parts])
+        half = 4.30265 * math.sqrt(2 / 3) / 2  # Student's t(0.975, 2) times the standard error
+        self.assertAlmostEqual(found.value, math.e, places=5)
+        self.assertAlmostEqual(math.log(found.high), 1 + half, places=4)
+        self.assertEqual(found.interval, means.OVER_SCENES)
+        few = means.mean(table, [c for c, _ in parts[:4]], [a for _, a in parts[:4]])
+        self.assertLess(math.log(few.high), math.log(few.value) + 0.01)
+        self.assertIn(means.THESE_ALONE, few.interval)
+        over_parameter = means.mean(types.SimpleNamespace(of="effects", over="taps"), [c for c, _ in parts], [a for _, a in parts])
+        self.assertEqual(over_parameter.interval, "seeds")
 
     def test_shares_have_wilsons_interval(self):
         share, low, high = agreement.share_of_pairs([1.0] * 8 + [0.0] * 2)

@@ -11,7 +11,7 @@ from matplotlib.text import Text
 from paper_figures import crops, style
 from paper_figures.lines import draw_lines
 from paper_figures.placed_labels import place_labels
-from paper_figures.results import Measured
+from ssrlab.results import Measured
 from paper_tables.cell import Cell
 from paper_tables.latex import latex
 

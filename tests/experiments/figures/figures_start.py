@@ -4,7 +4,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/figures"))
+sys.path[:0] = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments", room) for room in ("figures", "python")]
 os.environ["MPLBACKEND"] = "Agg"
 
 try:

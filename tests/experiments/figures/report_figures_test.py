@@ -20,9 +20,9 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from paper_figures import crops  # noqa: E402
 from paper_figures.crop_choice import read_crops  # noqa: E402
-from paper_figures.exr import ExrError, read_exr_rgb  # noqa: E402
+from ssrlab.exr import ExrError, read_exr_rgb  # noqa: E402
 from paper_figures.request import read_colors, read_requests  # noqa: E402
-from paper_figures.results import Results, ResultsError  # noqa: E402
+from ssrlab.results import Results, ResultsError  # noqa: E402
 from report_crops import FIGURES_JSON, SHOT  # noqa: E402
 
 program, script = sys.argv[1:]

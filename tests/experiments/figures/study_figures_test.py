@@ -16,7 +16,7 @@ import numpy as np
 from figures import SHOT_FIGURES, STUDY_FIGURES
 from matplotlib.text import Text
 from paper_figures import effects, error_time, fetches, style
-from paper_figures.results import Measured, Results, ResultsError, is_over_frames
+from ssrlab.results import Measured, Results, ResultsError, is_over_frames
 
 
 def numbers(rows, column):

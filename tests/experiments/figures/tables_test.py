@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 script = sys.argv[1]
-sys.path.insert(0, os.path.dirname(script))
+sys.path[:0] = [os.path.dirname(script), os.path.join(os.path.dirname(script), "../python")]
 sys.dont_write_bytecode = True
 
 from paper_figures import numbers  # noqa: E402
@@ -39,11 +39,11 @@ def test_numbers(folder):
     half = math.sqrt(2) * math.log(1 / 0.9) / 2
     check(abs(math.exp(half) - 1.0773) < 1e-4, "the expectation itself")
     check(changes[2] == "| | mse | flip |", changes[2])
-    check(changes[4] == r"| sixteen \| taps | 0.250 [0.217, 0.289] |  |", changes[4])  # sorted by mse
-    check(changes[5] == "| taps = 4 | 1.000 [0.928, 1.077] (0.500 to 2.000) | 0.810 |", changes[5])
+    check(changes[4] == "| sixteen \\| taps | 0.250 [0.217, 0.289]\N{PILCROW SIGN} |  |", changes[4])  # sorted by mse
+    check(changes[5] == "| taps = 4 | 1.000 [0.928, 1.077]\N{PILCROW SIGN} (0.500 to 2.000) | 0.810 |", changes[5])
     origin, _, explained = changes[7].partition(". ")
     check(origin == "`ssrlab run configs/made_up.json`: commit abc1234, 2 shots at 320x180, 8 seeds, a device", origin)
-    check(explained == "In brackets 95 % intervals; in parentheses the range over shots; a number without brackets has no interval.", explained)
+    check(explained == "In brackets 95 % intervals of the mean over scenes like these (Student's t, scenes of one asset averaged first); in parentheses the range over shots; \N{PILCROW SIGN}: the interval is of these shots alone, not of other scenes: fewer than four assets; a number without brackets has no interval.", explained)
     levels = read(os.path.join(folder, "tables", "levels.md")).splitlines()
     check(levels[4].startswith("| sssr, taps=4 | 0.00234 | 0.00234 |"), levels[4])  # as listed; `all` speaks for the shot
     check(levels[5].startswith("| sssr, default | 0.0123 [0.0111, 0.0135] |"), levels[5])
@@ -51,7 +51,7 @@ def test_numbers(folder):
     check(parts[4] == "| default | 3.00 | 2.00 [1.50, 2.50] | 1.00 [0.90, 1.10] |", parts[4])
     latex = read(os.path.join(folder, "tables", "changes.tex"))
     check(r"\toprule" in latex and r"\caption{What each change does\_to \{the\} error}" in latex, latex)
-    check(r"taps = 4 & 1.000 {\scriptsize [0.928, 1.077] (0.500 to 2.000)} & 0.810 \\" in latex, latex)
+    check(r"taps = 4 & 1.000 {\scriptsize [0.928, 1.077]\P{} (0.500 to 2.000)} & 0.810 \\" in latex, latex)
     grid = list(csv.reader(open(os.path.join(folder, "tables", "changes.csv"))))
     check(grid[0] == ["", "mse", "mse low", "mse high", "flip", "flip low", "flip high"], grid[0])
     check(abs(float(grid[2][1]) - 1) < 1e-12 and abs(float(grid[2][2]) - math.exp(-half)) < 1e-9, grid[2])
@@ -125,7 +125,7 @@ def test_footers(folder):
     write_results(folder, TABLES, RATIOS | missing)
     check(tables(folder).returncode == 0, "missing values")
     lines = read(os.path.join(folder, "tables", "changes.md")).splitlines()
-    check(lines[4].startswith("| taps = 4 | 0.500 [0.450, 0.556] (1 of 2) | 0.810"), lines[4])
+    check(lines[4].startswith("| taps = 4 | 0.500 [0.450, 0.556]\N{PILCROW SIGN} (1 of 2) | 0.810"), lines[4])
     check(lines[5] == "| sixteen \\| taps | \N{EN DASH} |  |", lines[5])
     check("2 shots at" in lines[7] and "\"n of 2\": so many of the shots have a value" in lines[7], lines[7])
     check(lines[7].endswith("\N{EN DASH}: no value."), lines[7])
@@ -162,7 +162,7 @@ def test_what_intervals_hold(folder):
     check(marked in text, text)
     check("\N{DAGGER}: the interval holds the seeds alone" in text and '"1 seed": why there is no interval' in text, text)
     mean = read(os.path.join(folder, "tables", "changes.md"))
-    check("| 1.00 (0.50 to 2.00; 1 seed) | 0.8100 [0.8030, 0.8171]\N{DAGGER} |" in mean, mean)
+    check("| 1.00 (0.50 to 2.00; 1 seed) | 0.8100 [0.8030, 0.8171]\N{DAGGER}\N{PILCROW SIGN} |" in mean, mean)
     check(text in read(os.path.join(root, "README.md")) and mean in read(os.path.join(root, "README.md")), "marks are lost where they are kept")
     document = os.path.join(root, "README.md")
     number = "-->2.00<!--/-->"
@@ -192,7 +192,7 @@ def test_times(folder):
     lines = read(os.path.join(folder, "tables", "ratios.md")).splitlines()
     check(lines[4] == "| taps=4 | 1.00 [0.90, 1.10] | 1.00 [0.90, 1.10]\N{SECTION SIGN} |", lines[4])
     lines = read(os.path.join(folder, "tables", "mean.md")).splitlines()
-    check(lines[4].endswith("]\N{SECTION SIGN} |"), lines[4])
+    check(lines[4].endswith("]\N{PILCROW SIGN}\N{SECTION SIGN} |"), lines[4])
     file = os.path.join(folder, "time_summary.csv")
     write(file, read(file).replace("gpu_timestamp", "host_fence", 1))
     check(tables(folder).returncode == 0, "two clocks")

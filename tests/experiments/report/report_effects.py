@@ -75,7 +75,7 @@ def test_effects(page, folder, stepping_shot):
         times = rows_of(folder, "time_effects.csv", point=point, against_point="first", stage="total", shot=stepping_shot)
         if times:
             low, high = (float(x) for x in cells[6][0].split("[")[1].rstrip("]").split(","))
-            expected = [float(times[0][k]) for k in ("low", "high")]
+            expected = [float(times[0][k]) for k in ("low_holm", "high_holm")]
             check(
                 all(abs(a - b) <= 5.1e-4 * b for a, b in zip((low, high), expected)),
                 f"interval of the ratio of times: {cells[6][0]}, expected {expected}",

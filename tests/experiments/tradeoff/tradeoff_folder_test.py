@@ -14,10 +14,10 @@ import unittest
 
 sys.dont_write_bytecode = True
 TRADEOFF, SSRLAB = sys.argv.pop(1), sys.argv.pop(1)
-sys.path.insert(0, TRADEOFF)
+sys.path[:0] = [TRADEOFF, os.path.join(TRADEOFF, "../figures"), os.path.join(TRADEOFF, "../python")]
 
 from tradeoff import FILES  # noqa: E402  (before what it finds)
-from paper_figures.results import Results, ResultsError  # noqa: E402
+from ssrlab.results import Results, ResultsError  # noqa: E402
 from paper_tables.cells import Table, cells_of  # noqa: E402
 
 FRAMES = 15

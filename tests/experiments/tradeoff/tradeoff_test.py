@@ -13,7 +13,8 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, sys.argv.pop(1))
 
 import numpy as np  # noqa: E402
-from analysis import curves, dominance, fits, points, rows, scenes, stages, uncertainty  # noqa: E402
+from analysis import curves, dominance, fits, points, rows, scenes, stages, uncertainty  # noqa: E402  (before what it finds)
+from ssrlab import over_scenes  # noqa: E402
 
 FRAMES = 15
 
@@ -30,7 +31,7 @@ def point(name, error, half_width=0.0, cost=10.0, spread=0.0, seeds=None):
 
 
 def shot(*of_points, floor=0.0):
-    return points.Shot("s", "s", "scene", "machine", floor, True, list(of_points), {})
+    return points.Shot("s", "s", "scene", "asset", "machine", floor, True, list(of_points), {})
 
 
 class Dominance(unittest.TestCase):
@@ -173,13 +174,13 @@ class Fits(unittest.TestCase):
 class Scenes(unittest.TestCase):
     def test_shots_of_a_scene_count_once(self):
         logs = [("a", 0.0), ("a", 2.0), ("b", 1.0), ("c", 3.0), ("d", 3.0)]
-        ratio, low, high, count, shots = scenes.geometric_mean(logs)
+        ratio, low, high, count, shots = over_scenes.geometric_mean(logs)
         self.assertEqual((count, shots), (4, 5))
         self.assertAlmostEqual(math.log(ratio), 2)
         # Standard error 1.1547 / 2; t(0.975, 2) = 4.30265: one degree fewer than of normal values.
         self.assertAlmostEqual(math.log(high) - 2, 4.30265 * 1.1547005 / 2, places=4)
         self.assertAlmostEqual(2 - math.log(low), 4.30265 * 1.1547005 / 2, places=4)
-        self.assertEqual(scenes.geometric_mean(logs[:4])[1:3], (None, None))
+        self.assertEqual(over_scenes.geometric_mean(logs[:4])[1:3], (None, None))
 
     def test_holm(self):
         for found, by_hand in zip(scenes.holm([0.01, None, 0.04, 0.03]), (0.03, None, 0.06, 0.06)):
@@ -223,7 +224,6 @@ class Stages(unittest.TestCase):
         self.assertEqual(stages.change_between({"a": 1, "b": 1}, {"a": 2, "b": 2}), "")
 
 
-
 class ChosenPoints(unittest.TestCase):
     """Within a cost a technique is the point that errs least elsewhere, not the one that chance favours in the scene itself."""
 
@@ -234,7 +234,7 @@ class ChosenPoints(unittest.TestCase):
             own = [point(f"v:{k}", float(np.exp(random.normal(-0.02, 0.2))), 0.01) for k in range(points_of)]
             own.append(point("none", 2.0, 0.01, cost=1.0))
             made = shot(*own)
-            made.name = made.scene = f"s{i}"
+            made.name = made.scene = made.asset = f"s{i}"
             shots.append(made)
         study = types.SimpleNamespace(
             shots=shots, unit="ms", label_of=lambda key: ":".join(key), parameters_of=lambda key: {}, has_noise_of_times=True

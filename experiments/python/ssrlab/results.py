@@ -6,7 +6,21 @@ import json
 import os
 from dataclasses import dataclass
 
-from paper_figures.exr import ExrError, read_exr_rgb
+from ssrlab.exr import ExrError, read_exr_rgb
+
+
+def read_manifest(folder):
+    file = os.path.join(folder, "manifest.json")
+    try:
+        with open(file, encoding="utf-8") as text:
+            manifest = json.load(text)
+    except OSError as e:
+        raise ResultsError(f"cannot read {file}: {e.strerror}; is it a folder that `ssrlab run` filled?") from e
+    except ValueError as e:
+        raise ResultsError(f"{file} is not valid JSON: {e}") from e
+    if not isinstance(manifest, dict):
+        raise ResultsError(f"{file} must be a JSON object")
+    return manifest
 
 
 class ResultsError(Exception):
@@ -66,7 +80,7 @@ def commits_of(manifest):
 class Results:
     def __init__(self, folder):
         self.folder = folder
-        self.manifest = self._read_manifest()
+        self.manifest = read_manifest(folder)
         self.all_errors = self.read_csv("summary.csv")
         self.errors = rows_that_speak(self.all_errors)
         self.times = self.read_csv("time_summary.csv")
@@ -95,6 +109,11 @@ class Results:
 
     def shot_label(self, shot):
         return self.labels.get(shot) or self.shot_entries.get(shot, {}).get("label") or shot
+
+    def asset(self, shot):
+        """What a shot's scene shows: scenes of one asset are no independent samples."""
+        entry = self.shot_entries.get(shot, {})
+        return entry.get("asset") or entry.get("scene") or shot
 
     def shot_group(self, shot):
         """What a shot is counted with: its group's display name, else its scene."""
@@ -129,19 +148,6 @@ class Results:
             view.hidden = set()
             view.single_changes = {}
         return view
-
-    def _read_manifest(self):
-        file = os.path.join(self.folder, "manifest.json")
-        try:
-            with open(file, encoding="utf-8") as text:
-                manifest = json.load(text)
-        except OSError as e:
-            raise ResultsError(f"cannot read {file}: {e.strerror}; is it a folder that `ssrlab run` filled?") from e
-        except ValueError as e:
-            raise ResultsError(f"{file} is not valid JSON: {e}") from e
-        if not isinstance(manifest, dict):
-            raise ResultsError(f"{file} must be a JSON object")
-        return manifest
 
     def read_csv(self, name, is_optional=False):
         file = os.path.join(self.folder, name)

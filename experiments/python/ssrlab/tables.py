@@ -1,0 +1,60 @@
+"""The tables of a results folder as pandas DataFrames, with the types, units and meanings of its schema.json."""
+
+import json
+import os
+
+import pandas
+
+from ssrlab.results import ResultsError, read_manifest
+
+PANDAS_TYPES = {"integer": "Int64", "number": "float64", "boolean": "boolean", "string": "string"}
+
+
+def read(folder):
+    """A results folder; ResultsError, a sentence, where it is none."""
+    return Tables(folder)
+
+
+class Tables:
+    """`tables["summary"]` is summary.csv; `in` says whether the folder has a table."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.manifest = read_manifest(folder)
+        file = os.path.join(folder, "schema.json")
+        try:
+            with open(file, encoding="utf-8") as text:
+                self._fields = {r["name"]: r["schema"]["fields"] for r in json.load(text)["resources"]}
+        except OSError as e:
+            raise ResultsError(f"cannot read {file}: {e.strerror}; `ssrlab run` or `ssrlab merge` writes it") from e
+        self._read = {}
+
+    def names(self):
+        return [name for name in self._fields if name in self]
+
+    def __contains__(self, name):
+        return name in self._fields and os.path.exists(os.path.join(self.folder, name + ".csv"))
+
+    def __getitem__(self, name):
+        if name not in self:
+            raise ResultsError(f"{self.folder} has no table '{name}'; it has {', '.join(self.names())}")
+        if name not in self._read:
+            types = {f["name"]: PANDAS_TYPES[f["type"]] for f in self._fields[name]}
+            booleans = [c for c, t in types.items() if t == "boolean"]
+            own = types | dict.fromkeys(booleans, "Int64")  # which files write as 1 and 0
+            self._read[name] = pandas.read_csv(os.path.join(self.folder, name + ".csv"), dtype=own).astype(dict.fromkeys(booleans, "boolean"))
+        return self._read[name]
+
+    def units(self, name):
+        """Column to unit, of those that have one."""
+        return {f["name"]: f["unit"] for f in self._fields[name] if "unit" in f}
+
+    def meanings(self, name):
+        """Column to what it is."""
+        return {f["name"]: f["description"] for f in self._fields[name]}
+
+    def primary_errors(self):
+        """Rows of summary.csv of the error that the study is made to compare, of the frames that stand for their shot."""
+        summary, primary = self["summary"], self.manifest["primary"]
+        is_primary = (summary["metric"] == primary["metric"]) & (summary["mask"] == primary["mask"]) & (summary["target"] == primary["target"])
+        return summary[is_primary & summary["speaks"]]
