@@ -29,7 +29,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how it draws
 from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
-sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "python"))
 
 from paper_figures import crops, style  # noqa: E402
 from paper_figures.crop_choice import read_crops  # noqa: E402
@@ -41,7 +41,7 @@ FOLDER = Path(__file__).resolve().parent
 SUMMARY = FOLDER.parent / "summaries/quickstart.csv"
 OUT = FOLDER / "readme"
 FINDINGS = FOLDER.parent / "findings"
-SHOTS = ("roughness_gradient", "fence", "passing_pillars")  # all roughnesses, thin bars, in motion
+SHOTS = ("metal_corner", "fence", "normal_mapped")  # many roughnesses, thin bars, in motion
 DOTS_PER_INCH = 150  # 1050 pixels across: what hosts show of a README is narrower
 SCENE, DISCS = np.s_[34:172], np.s_[104:172]  # rows of the comparison's images, and of its error maps, which are 0 above
 COLOURS = 256  # of the palette: the files are a third as large as with all colours, and look the same

@@ -43,7 +43,7 @@ class Numbers:
 
     def text(self, expression):
         names = {"cell": self.cell, "cells": self.cells, "fixed": lambda value, places: f"{value:.{places}f}"}
-        names |= {"min": min, "max": max, "sum": sum, "len": len, "abs": abs}
+        names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}
         try:
             return str(eval(expression, {"__builtins__": {}} | names))  # of our own documents
         except (SyntaxError, NameError, TypeError, ValueError, ZeroDivisionError) as e:
