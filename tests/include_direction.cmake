@@ -1,12 +1,13 @@
-# Fails if a folder includes what it must not see: core <- {variants, groundtruth, metrics} <- experiments, and the rooms
+# Fails if a folder includes what it must not see: core <- {variants, groundtruth, metrics} <- experiments <- tests, and the rooms
 # of experiments in the order of their list below.
-set(core_must_not_see variants groundtruth metrics experiments)
-set(variants_must_not_see groundtruth metrics experiments)
-set(groundtruth_must_not_see variants metrics experiments)
-set(metrics_must_not_see variants groundtruth experiments)
+set(core_must_not_see variants groundtruth metrics experiments tests)
+set(variants_must_not_see groundtruth metrics experiments tests)
+set(groundtruth_must_not_see variants metrics experiments tests)
+set(metrics_must_not_see variants groundtruth experiments tests)
+set(experiments_must_not_see tests)
 
 set(found "")
-foreach(folder core variants groundtruth metrics)
+foreach(folder core variants groundtruth metrics experiments)
   file(GLOB_RECURSE files ${ROOT}/${folder}/*)
   list(LENGTH files count)
   if(count EQUAL 0)
