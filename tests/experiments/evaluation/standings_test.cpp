@@ -141,4 +141,15 @@ TEST(Standings, DecideTheirPairsAmongEffects) {
     EXPECT_EQ(effects[0].p_holm, errors[1].p_best);
     EXPECT_EQ(effects[1].verdict, verdict::less);
     EXPECT_EQ(effects[2].verdict, verdict::not_distinguishable) << "neither is the best";
+
+    // An adjusted p of 1: the interval agrees, though that of the effect alone leaves out 1.
+    errors[1].p_best = 1.0;
+    effects.resize(1);
+    effects[0].estimate = {.value = 1.5, .standard_error = 0.16, .degrees = 7};
+    std::tie(effects[0].low, effects[0].high) = effects[0].estimate.interval(significance);
+    effects[0].p = 0.04;
+    ASSERT_GT(*effects[0].low, 1.0);
+    set_verdicts(effects, {}, decided_by_standings(errors));
+    EXPECT_EQ(effects[0].verdict, verdict::not_distinguishable);
+    EXPECT_LT(*effects[0].low_holm, 1.0);
 }

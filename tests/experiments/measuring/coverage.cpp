@@ -1,6 +1,7 @@
 #include "tests/experiments/measuring/coverage.h"
 
 #include "core/scene/load_scene.h"
+#include "experiments/evaluation/effects.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/rung_errors.h"
@@ -230,6 +231,34 @@ std::map<std::string, std::vector<CompositedImages>> technique_images(const View
 
 }  // namespace
 
+namespace {
+
+/// The rows of all techniques against one reference, with what its noise leaves of effects.
+struct AgainstReference {
+    std::vector<ResultRow> rows;
+    std::vector<ReferenceNoise> noise;
+};
+
+void add_effects(std::map<CoverageKey, CoverageRow>& sums, const AgainstReference& against,
+                 const std::map<CoverageKey, double>& truths, const CoverageSetting& setting) {
+    std::vector<VariantConfig> points(3);
+    points[0].variant = "fallback", points[0].is_baseline = true, points[0].depends_on_seed = false;
+    points[1].variant = "noisy", points[2].variant = "denoised";
+    for (const EffectRow& e : paired_effects(against.rows, points, {}, against.noise)) {
+        if (!e.ratio || !e.holds_all_noise) continue;
+        const std::string metric = "effect on " + e.metric;
+        CoverageRow& row = sums[{e.variant, e.target, e.mask, metric}];
+        row.scene = setting.scene, row.samples = setting.samples;
+        row.test = e.variant, row.target = e.target, row.mask = e.mask, row.metric = metric;
+        ResultRow result;
+        result.value = e.ratio, result.low = e.low, result.high = e.high;
+        add(row, result,
+            truths.at({e.variant, e.target, e.mask, e.metric}) / truths.at({"fallback", e.target, e.mask, e.metric}));
+    }
+}
+
+}  // namespace
+
 std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsigned technique_seeds) {
     constexpr unsigned known_seeds = 64, truth_factor = 128;
     const View view(setting.scene, setting.extent);
@@ -244,8 +273,9 @@ std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsi
         const std::vector<CompositedImages>& own = images.at(name);
         for (unsigned seed = first; seed < first + std::min<size_t>(count, own.size()); ++seed)
             for (ResultRow& row :
-                 measure_targets(truth, own[seed % own.size()], inside, {.variant = name, .seed = seed}))
+                 measure_targets(truth, own[seed % own.size()], inside, {.frame = "0", .variant = name, .seed = seed}))
                 rows.push_back(std::move(row));
+        for (ResultRow& row : rows) row.speaks_for_shot = true;
         return rows;
     };
     const PointSet without_seeds = {{"fallback", ""}};
@@ -257,9 +287,10 @@ std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsi
     std::map<CoverageKey, CoverageRow> sums;
     for (unsigned r = 0; r < setting.seeds; ++r) {
         const PoseTruth truth = pose_truth(view.reference(setting.samples, r), config, 0, {.has_targets = true});
-        for (const auto& [name, own] : images)
-            for (const MetricSummary& s :
-                 summarise(rows_of(truth, name, r * technique_seeds, technique_seeds), without_seeds)) {
+        AgainstReference against;
+        for (const auto& [name, own] : images) {
+            const std::vector<ResultRow> rows = rows_of(truth, name, r * technique_seeds, technique_seeds);
+            for (const MetricSummary& s : summarise(rows, without_seeds)) {
                 CoverageRow& row = sums[{name, s.target, s.mask, s.metric}];
                 row.scene = setting.scene, row.samples = setting.samples;
                 row.test = name, row.target = s.target, row.mask = s.mask, row.metric = s.metric;
@@ -268,6 +299,17 @@ std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsi
                 if (!s.holds_all_noise) result.low = result.high = std::nullopt;
                 add(row, result, truths.at({name, s.target, s.mask, s.metric}));
             }
+            against.rows.insert(against.rows.end(), rows.begin(), rows.end());
+            ReferenceNoiseMeans noise;
+            for (size_t i = 0; i < std::min<size_t>(technique_seeds, own.size()); ++i) {
+                const CompositedImages& shown = own[(r * technique_seeds + i) % own.size()];
+                const HostImage image = composited_image(truth, shown);
+                for (const auto& [target, reference] : truth.targets)
+                    noise.add("0", target, reference, tested_image(target, shown, image), inside);
+            }
+            for (ReferenceNoise& n : noise.means({.variant = name})) against.noise.push_back(std::move(n));
+        }
+        add_effects(sums, against, truths, setting);
     }
     return finished(std::move(sums));
 }
