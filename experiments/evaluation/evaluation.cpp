@@ -49,7 +49,7 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
     for (const TimeRow& t : rows.times)
         if (const auto floor = aa_floor(manifest, t.shot)) floors[t.shot] = *floor;
     const std::vector<TimeSummary> times = summarise(rows.times, floors);
-    set_fronts(errors, times);
+    set_fronts(errors, times, rows.costs);
     write_rows(folder / "summary.csv", errors);
     write_rows(folder / "time_summary.csv", times);
 

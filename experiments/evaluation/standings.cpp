@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <sstream>
 #include <tuple>
 
 namespace {
@@ -66,6 +68,25 @@ void rank(const std::vector<MetricSummary*>& points, const PairedErrors& paired)
     best.standing = is_alone ? standing::best : standing::tied;
 }
 
+using Totals = std::map<std::tuple<std::string, std::string, std::string>, double>;  // by shot, variant, point
+
+/// Adds `cost` to the fronts of the rows that no other beats in both.
+void add_front(std::span<MetricSummary> errors, const std::string& cost, const Totals& totals) {
+    std::map<std::tuple<std::string, std::string, std::string, std::string>,
+             std::vector<std::tuple<double, double, MetricSummary*>>>
+        contests;
+    for (MetricSummary& e : errors)
+        if (const auto total = totals.find({e.shot, e.variant, e.point}); !e.standing.empty() && total != totals.end())
+            contests[{e.shot, e.target, e.metric, e.mask}].push_back(
+                {total->second, shortfall(*direction_of(e.metric), *e.value), &e});
+    for (auto& [name, points] : contests) {
+        std::ranges::sort(points);
+        double least = INFINITY;
+        for (const auto& [spent, error, e] : points)
+            if (error < least) e->fronts += (e->fronts.empty() ? "" : " ") + cost, least = error;
+    }
+}
+
 }  // namespace
 
 double p_by_intervals(const MetricSummary& a, const MetricSummary& b) {
@@ -82,26 +103,25 @@ double p_by_intervals(const MetricSummary& a, const MetricSummary& b) {
     return degrees > 0 ? 2 * student_t_cdf(-statistic, degrees) : std::erfc(statistic / std::sqrt(2.0));
 }
 
-void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times) {
-    std::map<std::tuple<std::string, std::string, std::string>, double> totals;
+void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times, std::span<const CostRow> counts) {
+    std::map<std::string, Totals> costs;
     for (const TimeSummary& t : times)
-        if (t.stage == "total") totals[{t.shot, t.variant, t.point}] = t.median;
-    std::map<std::tuple<std::string, std::string, std::string, std::string>,
-             std::vector<std::tuple<double, double, MetricSummary*>>>
-        contests;
-    for (MetricSummary& e : errors) {
-        e.is_on_front = false;
-        const auto time = totals.find({e.shot, e.variant, e.point});
-        if (!e.standing.empty() && time != totals.end())
-            contests[{e.shot, e.target, e.metric, e.mask}].push_back(
-                {time->second, shortfall(*direction_of(e.metric), *e.value), &e});
-    }
-    for (auto& [name, points] : contests) {
-        std::ranges::sort(points);
-        double least = INFINITY;
-        for (const auto& [time, error, e] : points)
-            if (error < least) e->is_on_front = true, least = error;
-    }
+        if (t.stage == "total") costs[front::time][{t.shot, t.variant, t.point}] = t.median;
+    const std::map<std::string, std::string> cost_of = {{"fetches", front::fetches},
+                                                        {"bytes_read", front::bytes},
+                                                        {"bytes_written", front::bytes},
+                                                        {"operations", front::operations}};
+    for (const CostRow& c : counts)
+        if (const auto cost = cost_of.find(c.quantity); cost != cost_of.end() && c.stage == "total")
+            costs[cost->second][{c.shot, c.variant, c.point}] += double(c.value);
+    for (MetricSummary& e : errors) e.fronts.clear();
+    for (const char* cost : {front::time, front::fetches, front::bytes, front::operations})
+        add_front(errors, cost, costs[cost]);
+}
+
+bool is_on_front(const MetricSummary& error, const std::string& cost) {
+    std::istringstream names(error.fronts);
+    return std::find(std::istream_iterator<std::string>(names), {}, cost) != std::istream_iterator<std::string>();
 }
 
 void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired, const PointSet& without_part) {

@@ -25,9 +25,20 @@ inline constexpr const char* behind = "behind";  ///< significantly worse than t
 /// Multiple Comparisons with the Best", by adjusted p-values. Simulated in tests/experiments/evaluation.
 void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired = {}, const PointSet& without_part = {});
 
-/// Marks the front of error against time of each shot, by medians and means alone: the points with a standing that none
-/// other with one beats in both. A hint of where to look: `ssrlab tradeoff` says which of them are certain.
-void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times);
+/// What a front of errors may be against: the median time of a frame, or counts of the last frame (pass_cost.h).
+namespace front {
+inline constexpr const char* time = "time";
+inline constexpr const char* fetches = "fetches";
+inline constexpr const char* bytes = "bytes";  ///< read and written
+inline constexpr const char* operations = "operations";
+}  // namespace front
+
+/// Sets `fronts` of each row to the costs, with blanks between, against which it is on the front of its shot, by
+/// medians and means alone: of the points with a standing none other beats it in both. A hint of where to look: `ssrlab
+/// tradeoff` says which of them are certain.
+void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times,
+                std::span<const CostRow> costs = {});
+bool is_on_front(const MetricSummary& error, const std::string& cost);
 
 /// Two-sided p of "both are equal" by their 95 % intervals, of which the ends that face each other count; the
 /// half-widths are Student's of the lesser number of seeds, or a normal's of points that do not depend on seeds.

@@ -27,7 +27,7 @@ struct MetricSummary {
     std::string standing = {};  ///< among the points of its shot, see evaluation/standings.h; empty: not ranked
     std::optional<double> over_best, over_best_low, over_best_high;  ///< value / the least ranked one, where paired
     std::optional<double> p_best;  ///< Holm-adjusted p of "no worse than the best measured"
-    bool is_on_front = false;      ///< of error against time, see set_fronts()
+    std::string fronts = {};       ///< the costs against which the point is on the front, see set_fronts()
 
     static constexpr auto columns() {
         return std::tuple(
@@ -45,7 +45,7 @@ struct MetricSummary {
             Column{"standing", &MetricSummary::standing}, Column{"over_best", &MetricSummary::over_best},
             Column{"over_best_low", &MetricSummary::over_best_low},
             Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},
-            Column{"on_front", &MetricSummary::is_on_front});
+            Column{"fronts", &MetricSummary::fronts});
     }
 };
 

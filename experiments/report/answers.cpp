@@ -103,7 +103,7 @@ std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& sho
 std::vector<AnswerPoint> front_of(const std::vector<Scored>& scored) {
     std::vector<const Scored*> timed;
     for (const Scored& s : scored)
-        if (s.time && s.error->is_on_front) timed.push_back(&s);
+        if (s.time && is_on_front(*s.error, front::time)) timed.push_back(&s);
     std::ranges::stable_sort(timed, {}, [](const Scored* s) { return s->time->median; });
     std::vector<AnswerPoint> front;
     for (const Scored* s : timed) front.push_back(s->point);

@@ -153,3 +153,29 @@ TEST(Standings, DecideTheirPairsAmongEffects) {
     EXPECT_EQ(effects[0].verdict, verdict::not_distinguishable);
     EXPECT_LT(*effects[0].low_holm, 1.0);
 }
+
+TEST(Fronts, HoldWhatNoRankedPointBeatsAtLess) {
+    std::vector<MetricSummary> errors = {error_of("a", 3, 0.1), error_of("b", 2, 0.1), error_of("c", 1, 0.1),
+                                         error_of("single_seed", 0.1, 0.01)};
+    errors[3].holds_all_noise = false;
+    set_standings(errors);
+    std::vector<TimeSummary> times;
+    std::vector<CostRow> costs;
+    for (const auto& [variant, ms, fetches, read, written] : {std::tuple("a", 5.0, 30u, 10u, 1u),
+                                                              {"b", 1.0, 20u, 2u, 7u},
+                                                              {"c", 4.0, 20u, 1u, 9u},
+                                                              {"single_seed", 0.1, 1u, 1u, 1u}}) {
+        TimeSummary t;
+        t.shot = "s", t.variant = variant, t.point = "default", t.stage = "total", t.median = ms;
+        times.push_back(t);
+        for (const auto& [quantity, count] :
+             {std::pair("fetches", fetches), {"bytes_read", read}, {"bytes_written", written}})
+            costs.push_back({"s", variant, "default", "total", quantity, count});
+    }
+    set_fronts(errors, times, costs);
+    std::vector<std::string> fronts;
+    for (const MetricSummary& e : errors) fronts.push_back(e.fronts);
+    EXPECT_EQ(fronts, (std::vector<std::string>{"", "time bytes", "time fetches bytes", ""}));
+    EXPECT_TRUE(is_on_front(errors[1], front::bytes));
+    EXPECT_FALSE(is_on_front(errors[1], "fetches"));
+}

@@ -26,7 +26,7 @@ PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "
 
 
 COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
-    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,speaks,standing,over_best,over_best_low,over_best_high,p_best,on_front",
+    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,speaks,standing,over_best,over_best_low,over_best_high,p_best,fronts",
     "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,speaks",
     "times.csv": "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
     "time_summary.csv": "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
@@ -34,7 +34,7 @@ COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
     "time_effects.csv": "shot,variant,point,against,against_variant,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
     "costs.csv": "shot,variant,point,stage,quantity,value",
 }
-NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "on_front", "frames", "rounds", "width", "height", "seed", "disturbed", "speaks", "ranked", "frame")  # where a row says nothing of them, 0
+NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "frames", "rounds", "width", "height", "seed", "disturbed", "speaks", "ranked", "frame")  # where a row says nothing of them, 0
 
 
 def write_csv(folder, name, rows):

@@ -6,8 +6,9 @@ const costAxis = {
 };
 const costOf = row => costAxis.kind === "time" ? totalTime(row) : totalCost(row, costAxis.kind);
 
-/// The points that summary.csv has on the front of error against time, in the order of their times.
-const frontOf = timed => timed.filter(p => p.row.onFront).sort((a, b) => a.time.value - b.time.value);
+/// The points that summary.csv has on the front of error against what the x axis shows, in the order of their costs.
+const frontOf = timed =>
+    timed.filter(p => p.row.fronts.split(" ").includes(costAxis.kind)).sort((a, b) => a.time.value - b.time.value);
 
 const rowText = row => `${row.metric} ${number(row.value)} ${interval(row)}${unitText(row.metric)}`;
 
@@ -48,7 +49,8 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
         limit ? level("limit of one frame", limit, y, {stroke: "var(--accent)", strokeDasharray: "1 3"}) : null
     ].filter(Boolean);
     const under = [
-        ...(hasTimes && !cost ? [...budgetLine(x), frontLine(frontOf(timed))] : []),
+        ...(hasTimes && !cost ? budgetLine(x) : []),
+        ...(hasTimes ? [frontLine(frontOf(timed))] : []),
         ...levels.flatMap(l => levelLayers(l, x, y))
     ];
     const frames = framesText(rows[0]);
