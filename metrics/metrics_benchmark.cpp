@@ -1,5 +1,6 @@
-// Prints the time of metrics on two 1920x1080 images: `metrics_benchmark`.
-#include "metrics/metric.h"
+// Prints the time of metrics on two 1920x1080 images, and of their scores with and without the intervals that halves of
+// the reference give: `metrics_benchmark`.
+#include "metrics/score.h"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -28,6 +29,26 @@ void measure_metric(benchmark::State& state, const std::string& name) {
     for (auto _ : state) benchmark::DoNotOptimize(measure(metric, pair));
 }
 
+/// `has_halves`: against a noisy reference, so that the score has the interval of its noise.
+void measure_score(benchmark::State& state, const std::string& name, bool has_halves) {
+    const ImagePair& pair = full_hd_pair();
+    std::optional<ReferenceHalves> halves;
+    if (has_halves) {
+        std::minstd_rand random(2);
+        halves = ReferenceHalves{
+            .a = pair.reference, .b = pair.reference, .variance = {}, .guide = pair.reference, .samples = 64};
+        halves->variance = HostImage(pair.reference.extent, 3, 1e-4f);
+        for (size_t i = 0; i < pair.reference.values.size(); ++i) {
+            const float noise = 0.02f * (std::generate_canonical<float, 24>(random) - 0.5f);
+            halves->a.values[i] += noise, halves->b.values[i] -= noise;
+        }
+    }
+    const MetricReference reference =
+        metric_reference(pair.reference, halves, {name}, {.flip_exposures = FlipExposures{-4, 4, 9}});
+    const std::vector<Mask> masks = {full_mask(pair.reference.extent)};
+    for (auto _ : state) benchmark::DoNotOptimize(score(reference, pair.test, masks));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -37,5 +58,11 @@ int main(int argc, char** argv) {
         benchmark::RegisterBenchmark((name + "/1920x1080").c_str(), measure_metric, name)
             ->Unit(benchmark::kMillisecond)
             ->UseRealTime();
+    for (const std::string name : {"mse", "mae", "flip", "hdr_flip", "ssim"})
+        for (const bool has_halves : {false, true})
+            benchmark::RegisterBenchmark(("score/" + name + (has_halves ? "/with_interval" : "")).c_str(),
+                                         measure_score, name, has_halves)
+                ->Unit(benchmark::kMillisecond)
+                ->UseRealTime();
     benchmark::RunSpecifiedBenchmarks();
 }
