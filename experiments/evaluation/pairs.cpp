@@ -85,7 +85,6 @@ double direction_between(const MetricSummary& a, const MetricSummary& b) { retur
 void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const DecidedP& standings) {
     const MetricSummary &a = *pair.a, &b = *pair.b;
     PairRow& row = pair.row;
-    if (*a.value > 0 && *b.value > 0) row.error_ratio = *a.value / *b.value;
     const auto same = [](const MetricSummary& x) { return std::tuple(x.value, x.low, x.high, x.seed_deviation); };
     if (same(a) == same(b)) {
         row.error_verdict = verdict::equal;
@@ -102,8 +101,7 @@ void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const Dec
     if (const auto [effect, is_reversed] = effects.find(a.shot, name_of(a), name_of(b));
         effect && !effect->verdict.empty()) {
         row.error_p_holm = effect->p_holm, row.decided_by = "effects";
-        row.error_ratio = is_reversed ? 1 / *effect->ratio : *effect->ratio;
-        row.error_verdict = verdict_of(*effect->p_holm, *row.error_ratio);
+        row.error_verdict = verdict_of(*effect->p_holm, is_reversed ? 1 / *effect->ratio : *effect->ratio);
         return;
     }
     row.decided_by = "pairs", pair.p = p_by_intervals(a, b);
@@ -117,7 +115,6 @@ void compare_costs(OpenPair& pair, const Costs& costs, const Decided<TimeEffectR
     pair.has_cost = true;
     const double ratio = of_a->second / of_b->second;
     pair.cost = {ratio, ratio, ratio};
-    row.cost_ratio = ratio;
     if (costs.is_counted) {
         row.cost_verdict = ratio < 1 ? verdict::less : ratio > 1 ? verdict::more : verdict::equal;
         return;
@@ -132,7 +129,6 @@ void compare_costs(OpenPair& pair, const Costs& costs, const Decided<TimeEffectR
     pair.has_cost = costs.is_judged && !ratios.empty();
     if (!pair.has_cost) return;
     pair.cost = median_interval(ratios);
-    row.cost_ratio = pair.cost.median;
     const auto [effect, is_reversed] = effects.find(pair.a->shot, a, b);
     if (effect && effect->p_holm) {
         row.cost_p_holm = *effect->p_holm;

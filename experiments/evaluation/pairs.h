@@ -6,23 +6,20 @@
 /// Two points of a shot by one error and one cost: which errs less, which costs less, and whether one dominates.
 struct PairRow {
     std::string shot, variant, point, other_variant, other_point;
-    std::optional<double> error_ratio;   ///< errors of the point / of the other; none where one is not above 0
-    std::optional<double> error_p_holm;  ///< of "both err alike", adjusted; none where they are equal
-    std::string error_verdict;           ///< verdict::less if the point errs less, ...
-    std::string decided_by;              ///< whose family the p is adjusted for: "standings", "effects" or "pairs"
-    std::optional<double> cost_ratio, cost_p_holm;
+    std::optional<double> error_p_holm;   ///< of "both err alike", adjusted; none where they are equal
+    std::string error_verdict;            ///< verdict::less if the point errs less, ...
+    std::string decided_by;               ///< whose family the p is adjusted for: "standings", "effects" or "pairs"
+    std::optional<double> cost_p_holm;    ///< of "both cost alike"; none of counted costs, which are exact
     std::string cost_verdict;             ///< empty where one has no cost, or where none of the shot was timed twice
     std::string dominates, is_dominated;  ///< "yes", "maybe" or "no"; empty without costs
 
     static constexpr auto columns() {
         return std::tuple(Column{"shot", &PairRow::shot}, Column{"variant", &PairRow::variant},
                           Column{"point", &PairRow::point}, Column{"other_variant", &PairRow::other_variant},
-                          Column{"other_point", &PairRow::other_point}, Column{"error_ratio", &PairRow::error_ratio},
-                          Column{"error_p_holm", &PairRow::error_p_holm},
+                          Column{"other_point", &PairRow::other_point}, Column{"error_p_holm", &PairRow::error_p_holm},
                           Column{"error_verdict", &PairRow::error_verdict}, Column{"decided_by", &PairRow::decided_by},
-                          Column{"cost_ratio", &PairRow::cost_ratio}, Column{"cost_p_holm", &PairRow::cost_p_holm},
-                          Column{"cost_verdict", &PairRow::cost_verdict}, Column{"dominates", &PairRow::dominates},
-                          Column{"is_dominated", &PairRow::is_dominated});
+                          Column{"cost_p_holm", &PairRow::cost_p_holm}, Column{"cost_verdict", &PairRow::cost_verdict},
+                          Column{"dominates", &PairRow::dominates}, Column{"is_dominated", &PairRow::is_dominated});
     }
 };
 

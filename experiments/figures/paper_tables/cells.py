@@ -9,7 +9,7 @@ from paper_figures import tradeoff
 from ssrlab.results import BEST, TIED, ResultsError, rows_that_speak
 from paper_tables import agreement, limits
 from paper_tables.cell import EXACT, Cell
-from paper_tables.means import SAMPLED, SHARES, largest, mean
+from paper_tables.means import ASSETS, SAMPLED, SHARES, largest, mean
 
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low_holm", "high_holm")),  # intervals that agree with the verdict
@@ -251,7 +251,7 @@ def _about(selection, filled):
         "over_count": count,
         "clocks": sorted({_clock(selection, r) for r in filled if r.get("clock")}),
         "has_adjusted_intervals": table.of == "effects",
-        "samples_scenes": over in SAMPLED,
+        "sample": ASSETS if over in SAMPLED else None,
     }
 
 

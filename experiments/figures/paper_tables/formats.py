@@ -6,6 +6,7 @@ import io
 from paper_figures import numbers
 from ssrlab.results import BEST, TIED
 from paper_tables.cell import BOTH
+from paper_tables.means import ASSETS, SAMPLED
 
 # What intervals hold (experiments/evaluation/interval.h) that is less than the scatter over the seeds and the reference's noise, where
 # there are such: its mark, and what the mark says.
@@ -63,10 +64,13 @@ def cell_text(table, cell):
 
 def _of_scenes(table):
     """What intervals of means over shots are of."""
-    if table["over"] not in ("shot", "scene", "shot_group"):
+    if table["over"] not in SAMPLED:
         return ""
-    if table.get("samples_scenes"):
+    sample = table.get("sample")
+    if sample == ASSETS:
         return " of the mean over scenes like these (Student's t, scenes of one asset averaged first)"
+    if sample:  # a summary of before that took shots or scenes by themselves
+        return f" of the mean over {sample} like these (Student's t)"
     return ", of these scenes as they are: over others they are wider"  # a summary of before they were the sample
 
 

@@ -6,7 +6,8 @@ from paper_tables import agreement
 from ssrlab import over_scenes
 from paper_tables.cell import BOTH, NOT_POSITIVE, SOME_ZERO, Cell
 
-SAMPLED = ("shot", "scene", "shot_group")  # what `over` takes as a sample of scenes
+SAMPLED = ("shot", "scene", "shot_group")  # what `over` takes as a sample of scenes ...
+ASSETS = "assets"  # ... whose means these are
 OVER_SCENES, THESE_ALONE = "scenes", "these shots"  # Cell.interval of means: as LESSER of formats.py has it
 SHARES = ("hits",)  # tables of what may be 0: their mean over shots is the arithmetic one
 

@@ -12,7 +12,7 @@ sys.path[:0] = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../
 
 from ssrlab import over_scenes  # noqa: E402
 from ssrlab.results import ResultsError  # noqa: E402
-from paper_tables import agreement, documents, limits, means, summary_file  # noqa: E402
+from paper_tables import agreement, documents, formats, limits, means, summary_file  # noqa: E402
 from paper_tables.cell import Cell  # noqa: E402
 
 
@@ -64,6 +64,18 @@ class Agreement(unittest.TestCase):
         self.assertIn(means.THESE_ALONE, few.interval)
         over_parameter = means.mean(types.SimpleNamespace(of="effects", over="taps"), [c for c, _ in parts], [a for _, a in parts])
         self.assertEqual(over_parameter.interval, "seeds")
+
+    def test_notes_say_what_intervals_are_of(self):
+        cell = Cell("t", "r", "c", 1.0, 0.9, 1.1)
+
+        def note(**table):
+            return formats.notes({"over_count": 4, "clocks": [], **table}, [cell])
+
+        self.assertIn("scenes of one asset averaged first", note(over="shot", sample=means.ASSETS))
+        self.assertIn("of the mean over shots like these", note(over="shot", sample="shots"))
+        self.assertIn("of these scenes as they are", note(over="shot"))  # kept before scenes were the sample
+        for over in (None, "taps"):
+            self.assertEqual(note(over=over, sample=None), "In brackets 95 % intervals.")
 
     def test_shares_have_wilsons_interval(self):
         share, low, high = agreement.share_of_pairs([1.0] * 8 + [0.0] * 2)
