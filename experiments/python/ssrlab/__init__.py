@@ -6,9 +6,15 @@
     results.units("time_summary")         # column to unit; results.meanings(...) says what each is
     results.primary_errors()              # the rows that the study is made to compare, which stand for their shot
 
-Put experiments/python on the path. Needs Debian's python3-pandas.
+Put experiments/python on the path. Only read() needs Debian's python3-pandas.
 """
 
-from ssrlab.tables import read
+
+def read(folder):
+    """The tables of a results folder, see tables.read()."""
+    from ssrlab import tables  # here, so that figures need no pandas
+
+    return tables.read(folder)
+
 
 __all__ = ["read"]
