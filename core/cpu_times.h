@@ -3,20 +3,19 @@
 #include <optional>
 #include <string_view>
 
-/// CPU time spent since some moment, in seconds: times that were measured while others were at work on the machine are
-/// theirs too.
+/// CPU time spent since some moment, in seconds, to detect other programs on the machine during a measurement.
 struct CpuTimes {
     std::optional<double> machine;  ///< of all CPUs and all processes, and what other virtual machines took from this
-                                    ///< one; none where the system does not tell
+                                    ///< one; none where the system does not report it
     double own = 0;                 ///< of this process
     double wall = 0;                ///< elapsed
     unsigned cpus = 1;              ///< of the machine
 };
 
-/// From /proc/stat, which counts in steps of 10 ms by sampling: spans below a second tell little.
+/// From /proc/stat, which counts in steps of 10 ms by sampling: spans below a second are inaccurate.
 CpuTimes read_cpu_times();
 
-/// What tests put in place of read_cpu_times().
+/// Replaces read_cpu_times() in tests.
 using CpuTimesReader = std::function<CpuTimes()>;
 
 /// Busy seconds of all CPUs and their number, from the text of /proc/stat (proc(5)); none if it is another text, or all
@@ -28,7 +27,7 @@ struct MachineTimes {
 std::optional<MachineTimes> parse_proc_stat(std::string_view text, double ticks_per_second);
 
 /// The share of the machine's CPU time between two moments that others took, in [0, 1]; none where the system does not
-/// tell.
+/// report it.
 std::optional<double> foreign_load(const CpuTimes& before, const CpuTimes& after);
 
 /// Above this share of foreign load times count as disturbed. An idle Linux takes below 1 %, and sampling errs by some

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Goes through a text in step with its parser, to tell where each token begins.
+/// Goes through a text in step with its parser, to find where each token begins.
 class TokenPlaces {
 public:
     TokenPlaces(std::string_view text, const std::string& file) : text_(text), file_(file) {}

@@ -78,7 +78,7 @@ public:
     std::string where() const { return at_pointer(pointer_); }  ///< of this object
     std::string at(const std::string& key) const { return at_pointer(member_pointer(pointer_, key)); }  ///< of a member
 
-    /// Fails on the first member that nobody asked for, with the nearest known key. Call it when all has been read.
+    /// Fails on the first member that was not read, with the nearest known key. Call it when all has been read.
     void finish() const;
 
 private:

@@ -46,9 +46,9 @@ std::string nearest_name(std::string_view name, std::span<const std::string> cho
         }
     }
     if (!best.empty()) return best;
-    constexpr size_t telling = 5;  // letters: shorter names are part of many others
+    constexpr size_t distinctive = 5;  // letters: shorter names are part of many others
     for (const std::string& choice : choices)
-        if (name.size() >= telling && choice.size() <= longest_name && choice.find(name) != std::string::npos)
+        if (name.size() >= distinctive && choice.size() <= longest_name && choice.find(name) != std::string::npos)
             return choice;
     return best;
 }

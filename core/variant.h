@@ -15,8 +15,8 @@ struct Reflections {
     /// Mean incident radiance over the specular lobe, before the BRDF (rgb, W sr^-1 m^-2); finite where `confidence` is
     /// 0, too: the composite multiplies.
     Image radiance;
-    /// In [0, 1]: 0 where the fallback should be used, 1 where `radiance` should, between them their mix. The masks `hit` and
-    /// `miss` divide the pixels at 0.5 (metrics/masks.cpp).
+    /// In [0, 1]: 0 where the fallback should be used, 1 where `radiance` should, between them their mix. The masks
+    /// `hit` and `miss` separate the pixels at 0.5 (metrics/masks.cpp).
     Image confidence;
     unsigned confidence_channel = 0;  ///< of `confidence`, which may be `radiance` itself
 };
@@ -35,25 +35,25 @@ public:
     /// render() skips the stages returned, which would not have changed a pixel.
     virtual std::vector<LeftOut> leave_out(const SceneFacts&) { return {}; }
 
-    /// Whether another seed may give another result: false where no random number is drawn, so that one seed tells all.
+    /// Whether another seed may give another result: false where no random number is drawn, so that one seed is enough.
     /// Called after the parameters are set.
     virtual bool depends_on_seed() const { return true; }
 
-    /// Why a seed's result may differ from run to run, as a clause that names the parameter to blame; empty if it does
+    /// Why a seed's result may differ from run to run, as a clause that names the parameter; empty if it does
     /// not. Called after the parameters are set.
     virtual std::string not_repeatable() const { return {}; }
 
-    /// Includes that render() decides by the parameters, for whoever compiles the technique's shaders outside of it.
+    /// Includes that depend on the parameters, for compiling the technique's shaders outside of render().
     virtual ShaderIncludes shader_includes() const { return {}; }
 
     /// Whether render() reads GBuffer::second_depth or ::back_depth. Called after the parameters are set.
     virtual bool needs_depth_layers() const { return false; }
 
-    /// Whether render() asks ray_probe->exact_hits, so that its time means nothing. Called after the parameters are
-    /// set.
+    /// Whether render() uses ray_probe->exact_hits, which is scene data; its time is then not meaningful. Called after
+    /// the parameters are set.
     virtual bool asks_scene() const { return false; }
 
-    RayProbe* ray_probe = nullptr;  ///< what experiments plug into its tracers
+    RayProbe* ray_probe = nullptr;  ///< connects experiments with its tracers
 
     ParameterSet params;
     Limits limits = Limits::none;  ///< of the passes that render() adds; who calls it opens a LimitScope with them

@@ -59,7 +59,7 @@ void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), in
 int parse_and_run(int argc, char** argv) {
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
-        "Exit codes: 0 done, 2 a mistake in what was asked for, 3 a fault of this machine."};
+        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine."};
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     app.set_version_flag(
@@ -75,21 +75,20 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("CONFIG.json");
     run_command_
         .add_option("--out", run.out,
-                    "Results folder; default: results/<name of the config>. A study that was stopped continues there")
+                    "Results folder; default: results/<name of the config>. A stopped study continues there")
         ->type_name("DIR");
-    run_command_.add_flag(
-        "--keep-all", run.keep_all,
-        "Also do the work which the scenes do not need (to prove that leaving it out changes nothing)");
+    run_command_.add_flag("--keep-all", run.keep_all,
+                          "Also do work that can be skipped (to verify that skipping it changes nothing)");
     run_command_.add_flag("--replace", run.replaces,
-                          "Give a results folder of another study to this one; cells that both share are kept");
+                          "Use a results folder of another study for this one; cells that both share are kept");
     run_command_.add_flag("--prune", run.prunes,
-                          "Remove cells and images that earlier versions of the study left in its folder");
+                          "Remove cells and images of earlier versions of the study from its folder");
     run_command_.add_flag("--times-here", run.takes_times_here,
-                          "Take times on this machine in place of those that another took; else they are kept");
+                          "Take times on this machine again; by default those of another machine are kept");
     run_command_
         .add_option(
             "--cells", run.cells,
-            "Do these cells alone, of a study that several processes or machines share: references, renders, "
+            "Do only these cells, of a study that several processes or machines share: references, renders, "
             "costs, times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
             "kinds narrow each other. Tables are made by `ssrlab merge`")
         ->delimiter(',')
@@ -99,46 +98,45 @@ int parse_and_run(int argc, char** argv) {
 
     PlanOptions plan;
     CLI::App& plan_command_ = *app.add_subcommand(
-        "plan", "Say which cells a study has, which are done, and about how long and how much memory the others take");
+        "plan", "List the cells of a study, which are done, and the estimated time and memory of the others");
     plan_command_.add_option("config", plan.config, "The study")->required()->type_name("CONFIG.json");
     plan_command_.add_option("--out", plan.out, "Its results folder; default: results/<name of the config>")
         ->type_name("DIR");
-    plan_command_.add_option("--cells", plan.cells, "Of these cells alone, as of `ssrlab run`")
+    plan_command_.add_option("--cells", plan.cells, "Only these cells, as for `ssrlab run`")
         ->delimiter(',')
         ->type_name("TERM");
     plan_command_.add_flag("--list", plan.has_list, "List the cells in place of estimates");
     plan_command_
-        .add_option(
-            "--json", plan.json,
-            "Also write all cells with their estimates, for other machines: the memory of this one is no limit then")
+        .add_option("--json", plan.json,
+                    "Also write all cells with their estimates, for other machines: this one's memory is then no limit")
         ->type_name("FILE.json");
-    plan_command_.add_flag("--keep-all", plan.keep_all, "As of `ssrlab run`");
+    plan_command_.add_flag("--keep-all", plan.keep_all, "As for `ssrlab run`");
     add_device(plan_command_, common), add_scene_path(plan_command_, common);
     plan_command_.callback([&] { plan_command(plan, common); });
 
     MergeOptions merge;
-    CLI::App& merge_command_ = *app.add_subcommand(
-        "merge", "Make one results folder of those that processes filled with parts of a study (`ssrlab run --cells`)");
+    CLI::App& merge_command_ =
+        *app.add_subcommand("merge", "Merge the results folders of a study's parts (`ssrlab run --cells`) into one");
     merge_command_.add_option("config", merge.config, "The study")->required()->type_name("CONFIG.json");
-    merge_command_.add_option("results", merge.folders, "Folders of its parts; default: the one that --out names")
+    merge_command_.add_option("results", merge.folders, "Folders of its parts; default: that of --out")
         ->check(CLI::ExistingDirectory)
         ->type_name("DIR...");
     merge_command_.add_option("--out", merge.out, "Results folder; default: results/<name of the config>")
         ->type_name("DIR");
     merge_command_.add_flag("--keep-all", merge.keep_all, "The parts were run with --keep-all");
-    merge_command_.add_flag("--replace", merge.replaces, "As of `ssrlab run`");
+    merge_command_.add_flag("--replace", merge.replaces, "As for `ssrlab run`");
     add_device(merge_command_, common), add_scene_path(merge_command_, common);
     merge_command_.callback([&] { status = merge_command(merge, common); });
 
     std::filesystem::path report_folder;
-    CLI::App& report_command_ = *app.add_subcommand("report", "Make report.html anew from the tables of a folder");
+    CLI::App& report_command_ = *app.add_subcommand("report", "Write report.html again from the tables of a folder");
     report_command_.add_option("results", report_folder, "A folder that `ssrlab run` or `ssrlab stability` filled")
         ->required()
         ->check(CLI::ExistingDirectory)
         ->type_name("DIR");
     bool links_images = false;
     report_command_.add_flag("--link-images", links_images,
-                             "Keep all images beside the page, in report_images/, however small they are together");
+                             "Keep all images beside the page, in report_images/, even if they are small");
     report_command_.callback([&] { write_report(report_folder, links_images); });
 
     hand_on(*app.add_subcommand("figures", "Draw the figures of a paper (PDF, SVG, PNG) from a results folder"),
@@ -146,16 +144,13 @@ int parse_and_run(int argc, char** argv) {
 
     DiffOptions diff;
     CLI::App& diff_command_ = *app.add_subcommand("diff",
-                                                  "Say which numbers changed between two results folders, beyond what "
-                                                  "chance explains (exit code 1 if any did; of two "
-                                                  "runs of one program, in at most 5 % of cases)");
+                                                  "List the numbers that changed significantly between two results "
+                                                  "folders (exit code 1 if any did; at most 5 % false alarms)");
     diff_command_.add_option("old", diff.before, "A folder that `ssrlab run` filled")->required()->type_name("OLD");
     diff_command_.add_option("new", diff.after, "Another, of the same shots and points")->required()->type_name("NEW");
-    diff_command_.add_flag("--times", diff.judges_times,
-                           "Times count, too, and are judged as one family with the errors");
-    diff_command_.add_flag("--all", diff.shows_all, "Name all changes, not only the largest");
-    diff_command_
-        .add_option("--csv", diff.csv, "Also write all numbers that were compared, with p-values and verdicts")
+    diff_command_.add_flag("--times", diff.judges_times, "Compare times, too, in one family with the errors");
+    diff_command_.add_flag("--all", diff.shows_all, "List all changes, not only the largest");
+    diff_command_.add_option("--csv", diff.csv, "Also write all compared numbers, with p-values and verdicts")
         ->type_name("FILE.csv");
     diff_command_.callback([&] { status = diff_command(diff); });
 
@@ -164,36 +159,37 @@ int parse_and_run(int argc, char** argv) {
 
     TradeoffOptions tradeoff;
     CLI::App& tradeoff_command_ = *app.add_subcommand(
-        "tradeoff", "Answer error against run time: fronts, which technique at which time, what no time can buy");
+        "tradeoff",
+        "Answer error against time: fronts, the best technique for a time budget, errors that no time removes");
     tradeoff_command_.add_option("results", tradeoff.results, "A folder that `ssrlab run` filled")
         ->required()
         ->type_name("DIR");
     tradeoff_command_.add_option("--out", tradeoff.out, "Default: tradeoff in the results folder")->type_name("DIR");
     tradeoff_command_
         .add_option("--baseline", tradeoff.baseline,
-                    "Errors are given as multiples of its; default: none, else the study's first baseline")
+                    "Errors are multiples of this point's; default: none, else the study's first baseline")
         ->type_name("VARIANT:POINT");
-    tradeoff_command_.add_option("--times", tradeoff.times, "Or as much of what --cost names")
+    tradeoff_command_.add_option("--times", tradeoff.times, "Time budgets, or budgets of the quantity of --cost")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
         ->type_name("MS");
     tradeoff_command_
-        .add_option("--factors", tradeoff.factors, "Of the baseline's error, for the time to reach them")
+        .add_option("--factors", tradeoff.factors, "Fractions of the baseline's error, for the time to reach them")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
         ->type_name("F");
-    tradeoff_command_.add_option("--leave-out", tradeoff.left_out, "Scenes or shots that nothing is said of")
-        ->type_name("SCENE");
+    tradeoff_command_.add_option("--leave-out", tradeoff.left_out, "Scenes or shots to exclude")->type_name("SCENE");
     tradeoff_command_.add_option("--metric", tradeoff.metric, "Default: that of the study's primary error");
-    tradeoff_command_.add_option("--mask", tradeoff.mask, "Default: likewise");
-    tradeoff_command_.add_option("--target", tradeoff.target, "Default: likewise");
+    tradeoff_command_.add_option("--mask", tradeoff.mask, "Default: that of the study's primary error");
+    tradeoff_command_.add_option("--target", tradeoff.target, "Default: that of the study's primary error");
     tradeoff_command_.add_option("--cost", tradeoff.cost, "A counted quantity of costs.csv in place of time")
         ->type_name("QUANTITY");
     tradeoff_command_.callback([&] { status = tradeoff_command(tradeoff); });
 
     TuneOptions tune;
     CLI::App& tune_command_ = *app.add_subcommand(
-        "tune", "Search a technique's parameters for the front of error against time, and judge them on other scenes");
+        "tune",
+        "Search a technique's parameters for the front of error against time, and evaluate them on other scenes");
     tune_command_.add_option("config", tune.config, "A study with \"tune\" (experiments/README.md)")
         ->required()
         ->type_name("CONFIG.json");
@@ -222,11 +218,10 @@ int parse_and_run(int argc, char** argv) {
         .add_option("--map", compare.map,
                     "Write the error map: .exr (a layer per metric) or .png (one metric, in false colour)")
         ->type_name("FILE");
-    compare_command_
-        .add_option("--map-max", compare.map_max, "The error that a .png map shows as its brightest colour")
+    compare_command_.add_option("--map-max", compare.map_max, "The error shown in the brightest colour of a .png map")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    compare_command_.add_option("--exposure", compare.exposure_ev, "Display metrics look at radiance times 2^EV")
+    compare_command_.add_option("--exposure", compare.exposure_ev, "Display metrics use radiance times 2^EV")
         ->type_name("EV")
         ->check(CLI::Range(-100.0, 100.0))
         ->capture_default_str();
@@ -235,13 +230,12 @@ int parse_and_run(int argc, char** argv) {
         ->capture_default_str();
     compare_command_.add_flag(
         "--fail-on-non-finite", compare.fail_on_non_finite,
-        "Exit with 2 if a pixel is NaN or Inf; else such pixels are left out and counted in a warning");
+        "Exit with 2 if a pixel is NaN or Inf; by default such pixels are excluded and counted in a warning");
     compare_command_.add_flag("--json", compare.as_json, "Print one JSON object");
     compare_command_.callback([&] { compare_images_command(compare); });
 
     ReferenceCommandOptions reference;
-    CLI::App& reference_command_ =
-        *app.add_subcommand("reference", "Path-trace a scene; continues a render that was stopped");
+    CLI::App& reference_command_ = *app.add_subcommand("reference", "Path-trace a scene; continues a stopped render");
     add_shot(reference_command_, reference.shot);
     reference_command_
         .add_option("--samples", reference.settings.max_samples,
@@ -263,8 +257,8 @@ int parse_and_run(int argc, char** argv) {
         ->capture_default_str();
     reference_command_.add_option("--seed", reference.settings.seed, "Seed of the path tracer")->capture_default_str();
     reference_command_.add_flag("--ladder", reference.settings.ladder,
-                                "Also the truth ladder: what factoring the BRDF, one view and bounce, and the borders "
-                                "of the screen cost at least; about twice the rays");
+                                "Also the truth ladder: lower bounds of the errors by factoring the BRDF, one view and "
+                                "bounce, and the borders of the screen; about twice the rays");
     reference_command_.add_option("--out", reference.out, "Default: <scene>_reference.exr")->type_name("FILE.exr");
     add_scene_path(reference_command_, common), add_cache(reference_command_, common);
     reference_command_.callback([&] { reference_command(reference, common); });
@@ -288,7 +282,7 @@ int parse_and_run(int argc, char** argv) {
 
     CaptureCommandOptions capture;
     CLI::App& capture_command_ =
-        *app.add_subcommand("capture", "Say what a capture of an engine's G-buffer holds, and what is wrong with it");
+        *app.add_subcommand("capture", "Check a capture of an engine's G-buffers, and list its layers");
     capture_command_
         .add_option("folder", capture.folder,
                     "With gbuffer.exr and camera.json, or with folders frame_<number> of them")
@@ -298,10 +292,11 @@ int parse_and_run(int argc, char** argv) {
 
     NeedsOptions needs;
     CLI::App& needs_command_ = *app.add_subcommand(
-        "needs", "Say what a scene holds, what rasteriser, path tracer and techniques leave out, and what that saves");
+        "needs",
+        "List what a scene holds, the work that rasteriser, path tracer and techniques skip, and what that saves");
     add_shot(needs_command_, needs.shot);
     needs_command_
-        .add_option("--frames", needs.frames, "How many frames the shot has; default: 1, so that nothing moves")
+        .add_option("--frames", needs.frames, "Number of frames of the shot; default: 1, so that nothing moves")
         ->check(CLI::Range(1, 10000))
         ->type_name("N");
     needs_command_
@@ -310,18 +305,18 @@ int parse_and_run(int argc, char** argv) {
         ->delimiter(',')
         ->type_name("NAME");
     needs_command_.add_flag("--measure", needs.is_measured,
-                            "Render with and without what is left out: the time saved, and whether images are the same "
+                            "Render with and without skipped work: the time saved, and whether images are the same "
                             "(exit code 1 if not)");
     needs_command_.add_option("--timed-frames", needs.timed_frames, "Measured frames of each; default: 15")
         ->check(CLI::Range(1, 10000))
         ->type_name("N");
-    needs_command_.add_option("--csv", needs.csv, "Also write what was measured")->type_name("FILE.csv");
+    needs_command_.add_option("--csv", needs.csv, "Also write the measurements")->type_name("FILE.csv");
     add_device(needs_command_, common), add_scene_path(needs_command_, common);
     needs_command_.callback([&] { status = needs_command(needs, common); });
 
     StabilityOptions stability;
-    CLI::App& stability_command_ = *app.add_subcommand(
-        "stability", "Run techniques through stiff and extreme cases: what is not finite, and what is amplified");
+    CLI::App& stability_command_ =
+        *app.add_subcommand("stability", "Test techniques with extreme inputs: non-finite values and amplification");
     stability_command_
         .add_option("--variants", stability.variants,
                     "Techniques, or single presets as NAME:PRESET; default: all presets of all, and all tracers")
@@ -339,13 +334,12 @@ int parse_and_run(int argc, char** argv) {
         ->default_val("results/stability")
         ->type_name("DIR");
     stability_command_.add_flag("--all-stages", stability.has_all_stages,
-                                "Tell of each stage in stability_stages.csv, also of those that are finite");
+                                "List every stage in stability_stages.csv, also those that are finite");
     stability_command_.add_option("--figure", stability.figure, "Also write the figure: .pdf, .png or .svg")
         ->type_name("FILE");
-    stability_command_.add_flag(
-        "--precision", stability.is_of_precision,
-        "In place of all that: formats and arithmetic, in half, float and double, one image and "
-        "one stage at a time (5 minutes; stability_precision.csv)");
+    stability_command_.add_flag("--precision", stability.is_of_precision,
+                                "Instead: formats and arithmetic, in half, float and double, one image and "
+                                "one stage at a time (5 minutes; stability_precision.csv)");
     add_device(stability_command_, common), add_scene_path(stability_command_, common);
     stability_command_.callback([&] {
         status =
@@ -363,8 +357,7 @@ int parse_and_run(int argc, char** argv) {
 
     std::string what;
     CLI::App& list_command_ = *app.add_subcommand(
-        "list",
-        "List scenes, and what each tests; variants, and what each is; their presets; tracers, metrics or devices");
+        "list", "List scenes and what each tests, variants, their presets, tracers, metrics or devices");
     list_command_.add_option("what", what)
         ->required()
         ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "metrics", "devices"}))

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/scene/camera.h"
 
-/// Which points a camera has before it, as camera_ray() sees them: from the eye on (an orthographic camera: from the
-/// plane through it), whatever the clip planes, within the borders of the image.
+/// Which points are in front of a camera, as for camera_ray(): from the eye on (an orthographic camera: from the
+/// plane through it), independent of the clip planes, within the borders of the image.
 class CameraView {
 public:
     CameraView(const CameraPose& pose, glm::uvec2 extent);

@@ -1,6 +1,6 @@
 # Writes OUT, a header with the hash of all that the numbers of a reference depend on when the path tracer is compiled, so
 # that a changed one never takes over references of an older one: of every source below ROOT that the path tracer and the
-# scene code consist of, and of BUILD (compiler, its flags). Nobody lists the sources: they are those of both folders,
+# scene code consist of, and of BUILD (compiler, its flags). The sources are not listed: they are those of both folders,
 # with what they include and the sources of those headers. SOURCES, if given, is a file that gets their names.
 cmake_minimum_required(VERSION 3.25)
 file(GLOB todo RELATIVE ${ROOT} ${ROOT}/groundtruth/*.h ${ROOT}/groundtruth/*.cpp ${ROOT}/core/scene/*.h

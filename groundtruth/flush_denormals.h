@@ -1,7 +1,7 @@
 #pragma once
 #include <xmmintrin.h>
 
-/// Denormals count as zero while it lives: Embree asks for it, and arithmetic on them is slow. The mode belongs to a
+/// Denormals count as zero while it lives: Embree recommends it, and arithmetic on them is slow. The mode belongs to a
 /// thread.
 class FlushDenormals {
 public:

@@ -24,7 +24,7 @@ struct LanesVec3 {
     void set(int lane, vec3 v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }
 };
 
-/// v or zero, without a branch, whatever v holds.
+/// v or zero, without a branch, for any v.
 inline vec3 keep_if(bool condition, vec3 v) {
     return {condition ? v.x : 0.0f, condition ? v.y : 0.0f, condition ? v.z : 0.0f};
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr uint32_t whole = 1u << 24;  ///< probability 1
 
-/// Share of the choice that is the same for all groups, whatever was learnt.
+/// Share of the choice that is the same for all groups, independent of learning.
 constexpr double even_share = 0.1;
 
 /// A cell counts as if it had seen so many samples of each group with the mean of the cell around it.

@@ -81,7 +81,7 @@ std::string groundtruth_code_version() { return std::string(code_version); }
 std::string reference_request(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                               const ReferenceSettings& settings) {
     if (scene.content_hash.empty())
-        fail("the scene '", scene.name, "' has no content hash, so its reference cannot be told from others");
+        fail("the scene '", scene.name, "' has no content hash, so its reference cannot be identified");
     ContentHash hash;
     hash.add(scene.content_hash);
     add(hash, pose);

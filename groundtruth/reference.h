@@ -18,7 +18,7 @@ struct ReferenceOutput {
     HostImage variance;        ///< of `mean`, per channel; within the halves, 14 degrees of freedom per pass
 };
 
-/// The lower rungs of the truth ladder, which tells whom a technique's error is to be blamed on: each changes one thing
+/// The lower rungs of the truth ladder, which attributes a technique's error to causes: each changes one thing
 /// of the one above it. All are means over the lobe like `incident` (times `reflectance` they are specular radiances),
 /// and share its samples, so that the steps between rungs are less noisy than the rungs: see truth_ladder.h.
 ///
@@ -42,7 +42,7 @@ struct TruthLadder {
     bool is_empty() const { return on_screen.mean.values.empty(); }
 };
 
-/// Radiances from a small, fixed set of samples of their own: the same bits whatever the seed, number and stop of the
+/// Radiances from a small, fixed set of samples of their own: the same bits for every seed, number and stop of the
 /// reference's samples are, and independent of their noise. Relative errors are weighted by it: a weight made of the
 /// reference's own noise would be correlated with what it weighs, and 1 / r^2 of a noisy r is too large on average.
 struct ReferenceGuide {
@@ -152,7 +152,7 @@ std::string reference_stream(const Scene& scene, const ScenePose& pose, const Ca
 /// `stream` and the stop rule: "<32 hex digits>-n1024", "...-n65536-e0.03-t600".
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings);
 
-/// The limits that a key tells of, if it is one of `stream`; what does not decide a stop has its default.
+/// The limits in a key, if it is one of `stream`; settings that do not decide a stop have their defaults.
 std::optional<ReferenceSettings> settings_of_key(const std::string& stream, const std::string& key);
 
 /// The hash of all sources that references depend on and of how they were compiled; see code_version.cmake.

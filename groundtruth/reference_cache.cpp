@@ -55,7 +55,7 @@ std::optional<Reference> load(const fs::path& file, const std::string& key, cons
 }
 
 /// The finished reference of the same samples that a render of these settings may add to and that got furthest, as far
-/// as names tell; empty if there is none.
+/// by their names; empty if there is none.
 fs::path extensible_reference(const fs::path& folder, const std::string& stream, const ReferenceSettings& settings) {
     fs::path best;
     std::pair<double, uint64_t> furthest{-1, 0};

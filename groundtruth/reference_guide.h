@@ -9,6 +9,6 @@
 /// that in three of the scenes, and to 1.068 in the fourth, where they spread what is bright and rare.
 inline constexpr unsigned guide_samples = 64;
 
-/// The guide of one frame: the means over guide_samples samples of each pixel from a set of their own, whatever the
-/// reference's seed. Nothing of the settings but max_depth, which `tracer` has, enters it. `run.progress` hears of it.
+/// The guide of one frame: the means over guide_samples samples of each pixel from a set of their own, independent of
+/// the reference's seed and of its settings except max_depth, which `tracer` has. Reports to `run.progress`.
 ReferenceGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, const ReferenceRun& run);

@@ -120,7 +120,7 @@ bool plan_adaptive_pass(ReferenceState& state, RenderClock& clock, Limits limit)
         const uint64_t samples = pass_samples(held, needed.values[i], level);
         goal.values[i] = float(held + double(samples));
         clock.all_samples += std::max(held, double(needed.values[i]));
-        if (samples == 0) {  // what the last pass told stays
+        if (samples == 0) {  // the last pass's estimate stays
             for (size_t c = 0; c < 2 && !state.earlier.values.empty(); ++c)
                 earlier.values[2 * i + c] = state.earlier.values[2 * i + c];
             continue;
@@ -140,7 +140,7 @@ bool plan_adaptive_pass(ReferenceState& state, RenderClock& clock, Limits limit)
     return true;
 }
 
-/// For a pass that was stopped on its way: what its plan told the clock, as far as the state knows of it.
+/// For a pass that was stopped midway: its plan's estimates for the clock, as far as the state has them.
 void resume_plan(const ReferenceState& state, RenderClock& clock) {
     const Limits uniform = uniform_limit(state.settings);
     const bool is_adaptive = !state.earlier.values.empty();

@@ -62,7 +62,7 @@ double rgb_mean(const HostImage& image, size_t pixel) {
     return (v.x + v.y + v.z) / 3;
 }
 
-/// What one pixel tells others.
+/// The information of one pixel for others.
 struct Knowledge {
     double samples = 0;
     double excess = 0;  ///< variance of its mean over the variance that is the target

@@ -10,8 +10,8 @@
 /// Informing runs one way: pixels are ranked, each is informed by pixels of lower rank only, and so no chain of
 /// decisions leads from a pixel's samples back to its own count, over any number of passes. Given the count, a pixel's
 /// samples are thus as independent as if it had been fixed beforehand: the means of both halves are without bias, and
-/// so is their product. (Were neighbours to inform each other, a pixel that met a rare path would make them look
-/// longer, and they it.) The rank is the lattice on which a pixel lies, coarse ones first, then the order of rows: so
+/// so is their product. (If neighbours informed each other, a pixel that met a rare path would give them more
+/// samples, and they it.) The rank is the lattice on which a pixel lies, coarse ones first, then the order of rows: so
 /// three pixels out of four have informers that touch them on all sides.
 ///
 /// Two quantities are of the whole image, to which a pixel contributes one part in the number of pixels: the radiance
@@ -22,6 +22,6 @@
 /// holds none of lower rank. `found` is replaced: indices of pixels.
 void find_informers(const HostImage& material_id, unsigned x, unsigned y, std::vector<size_t>& found);
 
-/// Samples that each pixel needs for the target of the state's settings, as its informers tell; one channel, 0 where
-/// nothing is known of noise. state.earlier tells how fast errors fall.
+/// Samples that each pixel needs for the target of the state's settings, estimated from its informers; one channel, 0
+/// where noise is unknown. state.earlier has the rate at which errors fall.
 HostImage needed_samples(const ReferenceState& state);

@@ -5,5 +5,5 @@
 /// nearest, with colours decoded from sRGB before filtering. RGBA in [0, 1], linear.
 glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
 
-/// Asks the processor for the texels that sample_texture() will read.
+/// Prefetches the texels that sample_texture() will read.
 void prefetch_texture(const Texture& texture, glm::vec2 uv);

@@ -25,7 +25,7 @@ LadderDifference ladder_difference(const ReferenceOutput& upper, const Reference
 /// A rung of the truth ladder below `specular`.
 struct LadderRung {
     std::string name;       ///< "split_sum", "camera_radiance", "on_screen"
-    std::string costs;      ///< what the step to it costs, in words
+    std::string costs;      ///< the approximation of the step to it, in words
     LadderDifference step;  ///< from the rung above
     LadderDifference from_truth;
 };

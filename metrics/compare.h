@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// What `ssrlab compare REFERENCE TEST` is told.
+/// The options of `ssrlab compare REFERENCE TEST`.
 struct CompareOptions {
     std::filesystem::path reference, test;  ///< EXR: linear radiance; PNG: sRGB codes, decoded for linear metrics
     std::vector<std::string> metrics;       ///< names; empty: all that are usual and that the images allow

@@ -1,11 +1,10 @@
 #pragma once
 
-/// Names how numbers are made of images: raised by one with every change of a metric, a mask, a correction or an
-/// interval after which the same images would give other numbers. Results carry it, and summaries that are kept must
-/// have been made by today's.
+/// Version of all estimators: raised by one with every change of a metric, a mask, a correction or an interval that
+/// changes the numbers of the same images. Results hold it, and kept summaries must have the current one.
 ///
 /// 2: relative errors weighted by a guide, intervals by pixels and not by tiles
-/// 3: intervals of rungs by the variance of what tells them from the truth; of frame differences and ghosts by the
+/// 3: intervals of rungs by the variance of their difference from the truth; of frame differences and ghosts by the
 ///    variances of both references and their squares; the noise of the lit colour in effects and splits
 ///
 /// Not raised where an interval is given that was not there before (those of FLIP and SSIM: metrics/extrapolation.h).

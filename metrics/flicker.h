@@ -17,8 +17,8 @@ struct FlickerMoments {
 
 /// For each mask: flicker, flicker_relative (if there is a reference to relate to) and flicker_correlation. The
 /// variance over T frames that are correlated over a time of about 1/a frames (an exponential history of weight a)
-/// comes out too small by about 2 (1 - a) / (a T) of itself. Where the measured correlation 1 - a makes that more than
-/// a fifth, flicker has no value but a note. Intervals are those of jackknife_half_width(), and say nothing of that.
+/// is too small by about 2 (1 - a) / (a T) of itself. Where the measured correlation 1 - a makes that more than
+/// a fifth, flicker has a note in place of a value. Intervals are those of jackknife_half_width(), without that error.
 /// Fails below two frames.
 std::vector<TemporalScore> flicker_scores(const FlickerMoments& moments, const MetricReference* reference,
                                           std::span<const Mask> masks);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// Whether a technique changes from frame to frame as the truth does, summed over the steps of a sequence; also over a
-/// single one. It is blind to an error that stays: read it beside the error of single frames.
+/// Whether a technique changes from frame to frame as the truth does, summed over the steps of a sequence of one step
+/// or more. Constant errors do not count: read it beside the error of single frames.
 struct FrameDifference {
     /// The masks must have the same names in the same order at each step; pixels are those of the later frame. The
     /// references may be one and the same: their difference is then exactly 0. Fails on different extents.
@@ -15,8 +15,8 @@ struct FrameDifference {
              const MetricReference& reference, std::span<const Mask> masks);
 
     /// For each mask: frame_difference and frame_difference_relative. Where all references have halves A, B, their
-    /// noise is taken out: with dA = A_t - A_(t-1), dB likewise, E[(dx - dA)(dx - dB)] = (dx - dtruth)^2, as the noises
-    /// of the halves are independent. Intervals are what that noise leaves, as those of score(): noise_half_width().
+    /// noise is removed: with dA = A_t - A_(t-1), dB likewise, E[(dx - dA)(dx - dB)] = (dx - dtruth)^2, as the noises
+    /// of the halves are independent. Intervals are due to that noise, as those of score(): noise_half_width().
     std::vector<TemporalScore> scores() const;
 
     struct Sums {

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double limit = 0.05;
 constexpr double least_energy_in_noise = 4;  // half-widths
-constexpr const char* lost_in_noise = "the change cannot be told from the noise of the reference";
+constexpr const char* lost_in_noise = "the change is not distinguishable from the noise of the reference";
 
 using Columns = std::vector<std::vector<double>>;  // tile sums
 using Totals = std::span<const double>;
 
-/// What the references say of the change at each pixel, means over channels.
+/// The change between the references at each pixel, means over channels.
 struct Change {
     HostImage difference;  ///< R_before - R_after
     Plane energy;          ///< its square, free of noise where there are halves
@@ -129,7 +129,7 @@ void set_length(TemporalScore& row, const Curve& curve) {
 }
 
 void set_settling_length(TemporalScore& row, const MaskSums& s) {
-    // The first frame's step, in units of the change: where it is too small to be told, there is nothing to settle.
+    // The first frame's step, in units of the change: where it is too small to measure, there is nothing to settle.
     const Columns columns = {s.counts, s.errors[0], plateau(s.errors), s.energy};
     const double step = std::abs(share_of_change(totals(columns)));
     const double half_width = jackknife_half_width(columns, share_of_change).value_or(0);
@@ -138,7 +138,7 @@ void set_settling_length(TemporalScore& row, const MaskSums& s) {
     else if (step + half_width < limit)
         row.value = 0;
     else
-        row.note = "the error of the first frame cannot be told from the plateau's";
+        row.note = "the error of the first frame is not distinguishable from the plateau's";
 }
 
 Ghost ghost_of(const MaskSums& s, const Mask& mask, const Mask& finite, bool has_halves) {

@@ -26,8 +26,9 @@ struct RoughnessClass {
     float from, below;
 };
 
-/// What a mask name of the form roughness_FROM_BELOW says, such as "roughness_0.01_0.1" or "roughness_0_0.01"; none for
-/// names that do not start with "roughness_". Fails on malformed ones: edges are decimals with 0 <= FROM < BELOW <= 1.
+/// The class of a mask name of the form roughness_FROM_BELOW, such as "roughness_0.01_0.1" or "roughness_0_0.01"; none
+/// for names that do not start with "roughness_". Fails on malformed ones: edges are decimals with 0 <= FROM < BELOW
+/// <= 1.
 std::optional<RoughnessClass> roughness_class(const std::string& name);
 
 /// The names of roughness classes as a regular expression, for schemas; it leaves the order of the edges unchecked.
@@ -48,6 +49,6 @@ const std::vector<std::string>& mask_names();
 void check_mask_name(const std::string& name);
 
 /// A roughness class holds the pixels where something was hit, the roughness is within it, and the largest channel of
-/// reflectance is at least its minimum, whatever reflective_max_roughness says. Fails on an unknown name, or where the
+/// reflectance is at least its minimum, independent of reflective_max_roughness. Fails on an unknown name, or where the
 /// extents differ.
 Mask make_mask(const std::string& name, const MaskInputs& inputs);

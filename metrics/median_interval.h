@@ -3,13 +3,10 @@
 
 /// The median of values in order of time, and its 95 % interval from order statistics: the ranks
 /// n / 2 -+ 1.96 sqrt(f n) / 2 of a binomial distribution with p = 1/2, whose variance is f times that of independent
-/// signs, since what slows a machine down lasts for several rounds. f = 1 + 2 sum rho_k over the autocorrelations of
+/// signs, since disturbances last for several rounds. f = 1 + 2 sum rho_k over the autocorrelations of
 /// the signs up to the first that is not above 0 (the initial positive sequence of Geyer 1992, "Practical Markov Chain
-/// Monte Carlo"), at least 2: of 15 rounds nothing better is known. The range where there are too few.
-///
-/// Coverage of the median over 400 rounds by windows of 15, 30 and 60 of them, all pairs of five points on lavapipe
-/// while 18 processes shared two cores: 98, 96 and 94 %; with f = 1 it is 93, 89 and 88 %, and a bootstrap over rounds
-/// of the ratio of medians covers 55 to 99 % of pairs, mostly with wider intervals.
+/// Monte Carlo"), at least 2, as 15 rounds estimate it poorly. The range where there are too few.
+/// metrics/README.md has the measured coverage.
 struct MedianInterval {
     double median = 0, low = 0, high = 0;
 };

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// What `metric` values depend on besides the two images. Keep it with the numbers.
+/// Settings that `metric` values depend on besides the two images. Keep them with the numbers.
 struct MetricSettings {
     float exposure_ev = 0.0f;                             ///< display metrics look at radiance x 2^exposure_ev, ...
     ToneMap tone_map = ToneMap::none;                     ///< ... tone-mapped, clamped to [0, 1] and sRGB-coded
@@ -26,8 +26,8 @@ struct PixelCounts {
 PixelCounts count_bad_pixels(const HostImage& rgb);
 
 /// Two images made ready for measuring. A pixel with NaN or Inf in either image is black in both here and outside of
-/// `finite`, so that it enters no mean and no window of its neighbours sees it; `reference_counts` and `test_counts`
-/// tell.
+/// `finite`, so that it is in no mean and no window of its neighbours; `reference_counts` and `test_counts`
+/// count them.
 struct ImagePair {
     HostImage reference, test;              ///< linear
     HostImage reference_codes, test_codes;  ///< sRGB codes in [0, 1]
@@ -46,8 +46,8 @@ ImagePair image_pair(const HostImage& reference, const HostImage& test, const Ho
 enum class Better { lower, higher, near_zero, near_one };
 enum class Domain { linear, display };  ///< linear HDR radiance, or sRGB codes
 
-/// One way to tell how far a test image is from its reference. `layers` computes all that is per pixel, once; `pool`
-/// makes one number of it for each mask: NaN if no pixel is inside. Windowed metrics (ssim, flip) are pooled by
+/// One measure of the difference between a test image and its reference. `layers` computes all that is per pixel, once;
+/// `pool` makes one number of it for each mask: NaN if no pixel is inside. Windowed metrics (ssim, flip) are pooled by
 /// averaging their map inside the mask: windows reach beyond the mask's border.
 struct Metric {
     std::string name;

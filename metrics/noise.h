@@ -4,18 +4,16 @@
 
 #include <optional>
 
-// A path-traced reference R = (A + B) / 2 has noise of its own, which a squared error counts as the test image's. With
-// two independent halves it can be taken out without bias, since their noises are uncorrelated:
+// Removes the noise of a path-traced reference R = (A + B) / 2 from squared errors without bias:
 //     E[(x - A)(x - B)] = (x - truth)^2,     (x - A)(x - B) = (x - R)^2 - (A - B)^2 / 4.
-// Single pixels may be negative and must not be clamped before they are averaged. Weights of relative errors come from
-// the guide, which is independent of both halves, so that the weighted mean has no bias either.
+// Single pixels may be negative and must not be clamped before averaging. metrics/README.md explains the statistics.
 
-/// What a path-traced reference of limited samples knows of itself: two independent halves of equal sample counts,
-/// whose mean is the reference. A noise-free reference has none. All images: linear, three channels, of one extent.
+/// Two independent halves of equal sample counts, whose mean is the reference. A noise-free reference has none. All
+/// images: linear, three channels, of one extent.
 struct ReferenceHalves {
     HostImage a, b;
-    HostImage variance;  ///< of the mean, per channel, as batches within the halves tell
-    HostImage guide;     ///< what relative errors are weighted by: near the truth, and independent of the noise of both
+    HostImage variance;  ///< of the mean, per channel, estimated from batches within the halves
+    HostImage guide;     ///< weights relative errors: near the truth, and independent of the noise of both
     double samples = 0;  ///< of each pixel, at least
 };
 
@@ -25,7 +23,7 @@ Plane cross_error(const HostImage& test, const HostImage& half_a, const HostImag
 
 /// How the reference's noise moves a sum over pixels.
 struct NoiseTerms {
-    /// Of each pixel, half the change when half A alone is the reference in place of B: (A, B) and (B, A) are equally
+    /// Per pixel, half the change when half A alone is the reference in place of B: (A, B) and (B, A) are equally
     /// likely, and its square is on average the variance of the pixel's own term. For squared errors both are
     /// 2 s^2 (x - truth)^2 + s^4 if the noise is Gaussian with s^2 that of a half.
     Plane swapped;
@@ -36,14 +34,13 @@ struct NoiseTerms {
     NoiseTerms(glm::uvec2 extent, double samples) : swapped(extent), variance(extent), samples(samples) {}
     bool is_empty() const { return swapped.values.empty(); }
 
-    /// Of what tells two outputs apart that share samples or random numbers: few of these may do so, in few pixels. The
-    /// variance may be that of both as if they were independent, of which most is taken out, and elsewhere than where
-    /// it is largest.
+    /// Of the difference of two outputs that share samples or random numbers. It may depend on few samples in few
+    /// pixels, and `variance` may be an overestimate that is largest elsewhere.
     bool is_difference = false;
 };
 
-/// The variance of sum over channels of weight (d - a)(d - b), where a and b are the noises of the halves: as if the
-/// channels' noises were one, for they share paths.
+/// The variance of sum over channels of weight (d - a)(d - b), where a and b are the noises of the halves, treated as
+/// equal in all channels, which share paths.
 struct SquaredErrorVariance {
     double linear = 0, product = 0;
 
@@ -59,15 +56,14 @@ NoiseTerms squared_error_noise(const HostImage& test, const ReferenceHalves& hal
 /// Of a pixel's x - R, mean over channels.
 NoiseTerms mean_noise(const ReferenceHalves& halves);
 
-/// Half the width of the 95 % interval that the reference's noise leaves to the sum of a per-pixel quantity over the
-/// mask: t sqrt(sum of swapped^2), as pixels have random numbers of their own and are independent. Each square has one
-/// degree of freedom, so Student's t has nu = (sum of v)^2 / (sum of v^2) (Satterthwaite 1946, "An Approximate
-/// Distribution of Estimates of Variance Components"), the number of pixels that bear the noise. It is told by the
-/// batches' variances v, with 14 degrees for each pixel: squares that tell both width and nu find the width certain
-/// just where they are small by chance. Of differences neither tells alone: the smaller of both nu counts.
+/// Half the width of the 95 % interval of the sum of a per-pixel quantity over the mask due to the reference's noise:
+/// t sqrt(sum of swapped^2), as pixels are independent. Student's t has nu = (sum of v)^2 / (sum of v^2) degrees of
+/// freedom, the number of pixels that carry the noise, with the batches' variances v (Satterthwaite 1946, "An
+/// Approximate Distribution of Estimates of Variance Components"); of differences the smaller of this and the same of
+/// swapped^2.
 ///
-/// None below nu = 2 (of differences 8), where few pixels bear nearly all noise, or below least_noise_samples under the
-/// mask, where rare bright paths are missed too often; 0 without noise. metrics/README.md has the measured coverage.
+/// None below nu = 2 (of differences 8), where few pixels carry nearly all noise, or below least_noise_samples under
+/// the mask; 0 without noise. metrics/README.md explains why and has the measured coverage.
 std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask);
 
 inline constexpr double least_noise_pixels = 2, least_difference_pixels = 8;  ///< nu

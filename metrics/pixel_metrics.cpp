@@ -120,8 +120,8 @@ std::vector<Metric> pixel_metrics() {
     using enum Better;
     using enum Domain;
     // d = x - r: test minus reference, each channel by itself. Why so many relative errors: tools that print the same
-    // name differ in the denominator, and the values by factors. Where r is path-traced its guide g stands in the
-    // denominator of those that are corrected, and the formula says so: mean d^2 / (g^2 + 0.01).
+    // name differ in the denominator, and the values by factors. Where r is path-traced its guide g is in the
+    // denominator of those that are corrected, and the formula shows it: mean d^2 / (g^2 + 0.01).
     return {
         {"mse", "mse", "radiance^2", lower, linear, "mean d^2", weighted_squares<one>, pooled_mean, one},
         {"rmse", "rmse", "radiance", lower, linear, "sqrt(mean d^2), the root taken once, at the end",

@@ -24,7 +24,7 @@ struct Plane {
     }
 };
 
-/// The pixels that a number speaks of: nonzero is inside.
+/// The pixels that a number is computed over: nonzero is inside.
 struct Mask {
     std::string name;
     glm::uvec2 extent{0, 0};

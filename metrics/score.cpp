@@ -14,7 +14,7 @@ HostImage blackened(HostImage image, const Mask& kept) {
     return image;
 }
 
-/// What the halves tell of a metric at each pixel.
+/// The estimates of the halves for a metric at each pixel.
 struct NoiseMaps {
     Plane corrected;   ///< its value without the reference's noise; empty if it is not corrected
     NoiseTerms terms;  ///< empty if the metric has no interval
@@ -115,8 +115,7 @@ NoisierMaps noisier_maps(const Metric& metric, const NoisierPairs& pairs) {
     return maps;
 }
 
-/// The value stays what everyone computes from both images; the interval reaches to where it would lie without the
-/// reference's noise.
+/// The value stays the usual one of both images; the interval extends to the value without the reference's noise.
 void set_extrapolated(Score& row, const Plane& own, const NoisierMaps& maps, const Mask& inside) {
     const MapInterval found = extrapolated_interval(own, maps.halves, maps.moved_on, inside);
     row.low = found.low, row.high = found.high;

@@ -15,13 +15,13 @@ struct Score {
     double uncorrected;  ///< with the reference's noise in it, by the same formula
     bool corrected;
     std::optional<double> low,
-        high;                     ///< 95 % interval of `value` that the reference's noise leaves, where it can be told
-    std::optional<double> floor;  ///< metric(half A, half B): over-estimates what the reference's noise scores, as each
+        high;                     ///< 95 % interval of `value` due to the reference's noise, where known
+    std::optional<double> floor;  ///< metric(half A, half B): overestimates the score of the reference's noise, as each
                                   ///< half has twice its variance
     size_t pixels;                ///< finite ones inside the mask
 };
 
-/// A reference and all that does not depend on the test image, to be made once and used for many tests.
+/// A reference and all that does not depend on the test image, made once and used for many tests.
 struct MetricReference {
     HostImage image;
     std::optional<ReferenceHalves> halves;
@@ -30,7 +30,7 @@ struct MetricReference {
     Mask finite;                                   ///< pixels finite in the image and in both halves
     std::vector<std::vector<Plane>> floor_layers;  ///< per metric, of (A, B)
 
-    /// What relative errors are weighted by: the guide where there is one, else the image.
+    /// The weight of relative errors: the guide where there is one, else the image.
     const HostImage& weighing_image() const { return halves ? halves->guide : image; }
 };
 
@@ -38,12 +38,12 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
                                  const std::vector<std::string>& metric_names, const MetricSettings& settings);
 
 /// All metrics under all masks: masks vary fastest. `counts`, if given, gets the bad pixels of the test image. `noise`,
-/// if given, gets for each score how the reference's noise moves its value, to first order, so that the noise of means
-/// of several scores can be told: 0 outside of the mask; empty where that cannot be said.
+/// if given, gets for each score how the reference's noise moves its value, to first order, for the noise of means
+/// of several scores: 0 outside of the mask; empty where unknown.
 ///
 /// Intervals: of metrics that are corrected (means of weighted squares, and rmse, the root of one), `bias` and
 /// `energy_ratio`, the ratio of a fixed mean to that of the reference. Other means of a map (flip, hdr_flip, ssim, mae)
-/// carry the reference's noise in their value, and their intervals reach to where it would lie without
-/// (metrics/extrapolation.h). The rest, which `floor` tells the size of the noise of, have none.
+/// include the reference's noise in their value, and their intervals extend to the value without it
+/// (metrics/extrapolation.h). The rest have no interval; `floor` gives the size of their noise.
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
                          PixelCounts* counts = nullptr, std::vector<NoiseTerms>* noise = nullptr);

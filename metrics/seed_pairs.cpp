@@ -31,7 +31,7 @@ SeedPairs seed_pairs(std::span<const HostImage> seeds, const HostImage& half_a, 
     for (const HostImage& seed : seeds)
         if (seed.channels != 3 || seed.extent != inside.extent || half_a.extent != inside.extent ||
             half_b.extent != inside.extent)
-            fail("telling bias from variance needs seeds, reference and mask of one size and three channels");
+            fail("separating bias and variance needs seeds, reference and mask of one size and three channels");
     const std::vector<size_t> values = values_inside(inside);
     const auto mean = [&](const auto& term) {
         return ordered_sum(values.size(), [&](size_t i) { return term(values[i]); }) / double(values.size());
@@ -54,7 +54,7 @@ SeedPairs seed_pairs(std::span<const HostImage> seeds, const HostImage& half_a, 
 }
 
 Jackknifed jackknifed_pairs(std::span<const double> of_pairs, std::span<const size_t> chosen) {
-    if (chosen.size() < 2) fail("telling bias from variance needs at least two seeds, found ", chosen.size());
+    if (chosen.size() < 2) fail("separating bias and variance needs at least two seeds, found ", chosen.size());
     Jackknifed mean{.value = mean_of_pairs(of_pairs, chosen, size_t(-1)), .without = {}};
     for (size_t i = 0; i < chosen.size() && chosen.size() > 2; ++i)
         mean.without.push_back(mean_of_pairs(of_pairs, chosen, chosen[i]));

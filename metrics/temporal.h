@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// A number that is made of a sequence of frames. There is no standard of such metrics, and names vary: the formula's
-/// id and `doc` say what is meant.
+/// A number from a sequence of frames. There is no standard of such metrics, and names vary: the formula's id and `doc`
+/// define it.
 struct TemporalMetric {
     std::string name;
     std::string formula;
@@ -24,18 +24,18 @@ const std::vector<TemporalMetric>& temporal_metrics();
 /// Fails on an unknown name, with the nearest known one.
 const TemporalMetric& temporal_metric_named(const std::string& name);
 
-/// Which values of a metric, of one frame or of a sequence, are good; none for names that are not known.
+/// Which values of a metric, of one frame or of a sequence, are good; none for unknown names.
 std::optional<Better> direction_of(const std::string& metric);
 
-/// How far a value is from the best one, so that less is better whatever the metric's direction: the value itself, its
-/// negative, or its distance from 0 or 1. Only differences of it mean something where `better` is `higher`.
+/// Distance of a value from the best one, so that less is better for every metric: the value itself, its
+/// negative, or its distance from 0 or 1. Only its differences are meaningful where `better` is `higher`.
 double shortfall(Better better, double value);
 
-/// Whether less of the metric, of one frame or of a sequence, is better: such are never negative, but for the
-/// correction of noise. False for names that are not known.
+/// Whether less of the metric, of one frame or of a sequence, is better. Such values are never negative, except through
+/// the correction of noise. False for unknown names.
 bool is_error(const std::string& metric);
 
-/// What no image's value exceeds: 1 of SSIM, FLIP and the correlation of flicker; of all others, infinity.
+/// Upper bound of the metric: 1 of SSIM, FLIP and the correlation of flicker; of all others, infinity.
 double greatest_value(const std::string& metric);
 
 /// One row of results.
@@ -43,13 +43,13 @@ struct TemporalScore {
     const TemporalMetric* metric;
     std::string formula;  ///< id: the metric's, or its guided one
     std::string mask;
-    double value = NAN;  ///< freed of the reference's noise if `corrected`; NaN if `note` says why there is none
+    double value = NAN;  ///< without the reference's noise if `corrected`; NaN if `note` says why there is none
     bool corrected = false;
     std::optional<double> uncorrected;  ///< with that noise: of frame differences
-    std::optional<double> low, high;    ///< 95 % interval, where it can be told
+    std::optional<double> low, high;    ///< 95 % interval, where known
     size_t pixels = 0;                  ///< finite ones inside the mask (frame differences: summed over the steps)
     size_t left_out = 0;                ///< those inside the mask that were NaN or Inf in some image (likewise)
-    std::string note;                   ///< why there is no value; else empty
+    std::string note;                   ///< the reason for a missing value; else empty
 };
 
 inline constexpr const char* no_pixel = "no finite pixel is inside the mask";

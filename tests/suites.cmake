@@ -20,7 +20,7 @@ function(add_suites program folder)
     string(REGEX REPLACE "\\.$" "" test "${suite}")
     add_test(${test} ${program} --gtest_filter=${suite}*)
     # The longest suites start first, so that none of them runs on alone in the end: those above 10 s by name, as
-    # tests/run.sh told, the others by how many tests they have.
+    # tests/run.sh reports, the others by how many tests they have.
     list(FIND slow_suites ${test} place)
     if(place GREATER -1)
       math(EXPR count "1000 - ${place}")
@@ -32,7 +32,7 @@ function(add_suites program folder)
       set_tests_properties(${test} PROPERTIES LABELS contract)
     endif()
     if(test STREQUAL "Clock")  # what measures time runs alone
-      set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE COST 10000)  # and first, when nobody has to be waited for
+      set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE COST 10000)  # and first, when nothing else runs
     endif()
   endforeach()
 endfunction()

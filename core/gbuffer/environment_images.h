@@ -24,6 +24,6 @@ private:
     Image sharp_, atlas_;
 };
 
-/// Binds the environment that G-buffer's rays see where they meet nothing, for shaders that call
+/// Binds the environment for rays that hit nothing, for shaders that call
 /// environment_along_ray(). A G-buffer from files knows it only as `fallback`, its mean over each pixel's lobe.
 PassGraph::Pass& bind_environment(PassGraph::Pass& pass, const GBuffer& gbuffer);

@@ -19,8 +19,7 @@ struct GBuffer {
     Image lit;               ///< rgba32f: emission and diffusely reflected radiance towards the camera; environment where nothing was hit
     Image fallback;          ///< rgba32f: the environment prefiltered over each pixel's specular lobe, for composite and variants
 
-    // What lies behind, without storage unless it was asked for (Variant::needs_depth_layers()); in float32, whatever the
-    // depth format.
+    // The next layers of depth, without storage unless Variant::needs_depth_layers(); float32 for every depth format.
     Image second_depth;  ///< r32f: device depth of the next surface along each pixel's ray; of the far plane where there is none
     Image back_depth;    ///< r32f: the same if that is the back of a surface, where what is visible ends; `depth` if it is a front, or there is none: then what is visible counts as a sheet
 

@@ -177,7 +177,7 @@ bool check_convention(const HostGBuffer& before, const HostGBuffer& now, const s
     }
     const double as_is = median(off.front()), path = median(moved);
     if (as_is < 0.5 || as_is < 0.5 * path) return false;  // pixels; most of what is seen moves by the camera alone
-    const std::string text = "Half of the surfaces move otherwise than the cameras of both frames tell, by " +
+    const std::string text = "Half of the surfaces move differently from the cameras of both frames, by " +
                              std::to_string(as_is).substr(0, 5) +
                              " pixels and more (motion: uv now - uv before, y down)";
     size_t best = 0;

@@ -8,8 +8,8 @@
 /// uv before, y down, two channels. 0 where the point was behind the camera.
 HostImage camera_motion(const HostGBuffer& now, const CameraData& before);
 
-/// What renders without a word and yet cannot be right within one frame: values out of range, a camera whose matrices
-/// contradict its planes, normals that do not fit the depths. One sentence each; where another convention would fit
+/// Errors within one frame that do not prevent rendering: values out of range, a camera whose matrices
+/// contradict its planes, normals that contradict the depths. One sentence each; where another convention would fit
 /// (view space, +Z up, flipped), it is named.
 std::vector<std::string> check_gbuffer(const HostGBuffer& gbuffer);
 

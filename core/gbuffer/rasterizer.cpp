@@ -84,7 +84,7 @@ Rasterizer::Frame Rasterizer::pose(const SceneCamera& camera, const FrameView& v
 
 GBuffer Rasterizer::render(const SceneCamera& camera, const FrameView& view) {
     if (view.extent != options_.extent)
-        fail("a frame of ", view.extent.x, " x ", view.extent.y, " was asked of a rasteriser of ", options_.extent.x,
+        fail("a frame of ", view.extent.x, " x ", view.extent.y, " does not fit a rasteriser of ", options_.extent.x,
              " x ", options_.extent.y);
     const std::optional<unsigned> predecessor = view.predecessor();
     const bool follows = last_camera_ == &camera && last_view_.frame == predecessor &&

@@ -33,7 +33,7 @@ SceneFacts material_facts(const Scene& scene);
 struct PixelFacts {
     float background = 0.0f;
     float reflective = 0.0f;                           ///< specular reflectance is not zero
-    float mirror = 0.0f;                               ///< ... and as smooth as both renderers tell apart
+    float mirror = 0.0f;                               ///< ... and as smooth as both renderers distinguish
     float moving = 0.0f;                               ///< surfaces whose motion vector exceeds a hundredth of a pixel
     float min_roughness = 1.0f, max_roughness = 0.0f;  ///< of reflective pixels
 };

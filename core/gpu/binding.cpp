@@ -69,7 +69,7 @@ void PassGraph::Impl::fail_missing(const Pass& pass, const std::string& name) {
     fail(pass.shader_, " uses '", name, "', which the pass does not provide; it provides:", list);
 }
 
-/// What a pass names and its shader ignores is a mistake, and so is reading what nobody has written.
+/// Fails where a pass names something that its shader ignores, or reads something that is not written.
 void PassGraph::Impl::check(const Pass& pass, const ShaderInterface& interface) {
     const auto is_used = [&](const std::string& name) {
         return interface.outputs.contains(name) ||

@@ -17,7 +17,7 @@ struct ClockCheck {
     std::vector<double> expected{1, 10, 100};
     std::vector<double> measured_ms;     ///< shortest of several, less that of the same pass without work
     std::vector<double> ratio;           ///< measured_ms over that of the largest work, times 100
-    std::optional<double> foreign_load;  ///< meanwhile, see foreign_load(); none where the system does not tell
+    std::optional<double> foreign_load;  ///< meanwhile, see foreign_load(); none where the system does not report it
     unsigned attempts = 0;               ///< up to clock_attempts
     ClockVerdict verdict = ClockVerdict::not_judged;
 };

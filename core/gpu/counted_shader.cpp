@@ -109,7 +109,7 @@ public:
     /// What the shader calls an image's variable or a buffer's block.
     std::string resource(Id id) const {
         const std::optional<Id> found = variable(id);
-        if (!found) fail("an image that a counted shader gets as an argument cannot be told");
+        if (!found) fail("an image argument of a counted shader cannot be identified");
         const bool is_buffer = storage_of(*found) == spv::StorageClassStorageBuffer;
         return name(is_buffer ? type_of(*found)[3] : *found);
     }
@@ -305,7 +305,7 @@ private:
     std::map<unsigned, unsigned> pending_;  ///< by the counter's place
 };
 
-/// Images that are arguments of functions are told only where these are part of their callers.
+/// Images that are arguments of functions are identified only after inlining.
 void inline_functions_of_images(std::vector<unsigned>& spirv, const std::vector<Instruction>& instructions) {
     const Module module(instructions);
     const auto is_image = [&](const Instruction& i) {

@@ -69,8 +69,7 @@ struct Draw {
 /// Values of specialization constants by their names in GLSL.
 using Constants = std::map<std::string, uint32_t>;
 
-/// Told of each pass that has been added: its stage, and the images that it writes, in which its work is found by
-/// PassGraph::download().
+/// Called for each added pass with its stage and the images that it writes, for PassGraph::download().
 using PassObserver = std::function<void(const std::string& stage, std::span<const Image> written)>;
 
 /// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by
@@ -117,17 +116,17 @@ public:
     void begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs);
 
     /// From now to the end of the frame these specialization constants (parameters with Use::constant, or
-    /// scene_constants()) have these values, whatever the parameters say: the work that they switch off is not compiled
-    /// into the passes that follow. Replaces those of the last call.
+    /// scene_constants()) have these values in place of the parameters' own: the work that they switch off is not
+    /// compiled into the passes that follow. Replaces those of the last call.
     void set_constants(Constants constants);
 
-    /// From now on `observer` is told of each pass ({}: nobody is), and images begin as zeros, so that it never sees
-    /// what nobody wrote.
+    /// From now on `observer` is called for each pass ({}: none), and images begin as zeros, so that it never sees
+    /// unwritten memory.
     void observe(PassObserver observer);
 
-    /// Of the passes and images that are asked for from now on.
+    /// Of passes and images requested from now on.
     void set_precision(Precision precision);
-    /// The name that `image` was asked for by, whatever variable it is bound to; "" of another graph's.
+    /// The name by which `image` was requested; "" of another graph's.
     std::string asked_name(const Image& image) const;
 
     /// In place of those that begin_frame() was given, for the passes that follow.

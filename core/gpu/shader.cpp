@@ -44,7 +44,7 @@ std::string read_shader(const std::string& name, const std::string& asked_for_by
 struct SourceFile {
     std::string name;
     size_t includer = 0;  ///< index of the file that includes it
-    int line = 0;         ///< there; 0: nobody does
+    int line = 0;         ///< there; 0: none
 };
 
 /// Replaces #include "x" by the text of x. Files guard themselves against double inclusion. Each file has a number, its
@@ -128,7 +128,7 @@ void find_constants(const std::vector<unsigned>& spirv, std::set<unsigned>& ids)
         if ((spirv[i] & 0xffff) == spv::OpDecorate && spirv[i + 2] == spv::DecorationSpecId) ids.insert(spirv[i + 3]);
 }
 
-/// Adds what one linked stage asks for.
+/// Adds the resources of one linked stage.
 void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& found) {
     using Kind = ShaderInterface::Kind;
     for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
@@ -230,7 +230,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         shader.setEnvInput(glslang::EShSourceGlsl, stage, webgl2 ? glslang::EShClientOpenGL : glslang::EShClientVulkan,
                            100);
         if (!webgl2) {
-            // Vulkan 1.3 would make glslang emit LocalSizeId, which asks for a maintenance4 that 1.2 does without.
+            // Vulkan 1.3 would make glslang emit LocalSizeId, which needs maintenance4, absent from 1.2.
             shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
             shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
             shader.setAutoMapBindings(true);

@@ -9,7 +9,7 @@
 
 const float pi = 3.14159265358979f;
 
-/// Smaller widths are not told apart from a mirror by either renderer; see ggx_alpha().
+/// Both renderers treat smaller widths as this one; see ggx_alpha().
 const float min_ggx_alpha = 1e-3f;
 
 SHARED float ggx_alpha(float perceptual_roughness) {
@@ -54,9 +54,9 @@ SHARED vec3 specular_f0(vec3 base_color, float metalness, float specular) {
 /// Reflectance at grazing incidence, the same for all colours.
 SHARED float specular_f90(float metalness, float specular) { return mix(specular, 1.0f, metalness); }
 
-/// What an engine's pass multiplies reflected radiance with before it adds it to an image (its documentation of
+/// The factor of reflected radiance before an engine's pass adds it to an image (its documentation of
 /// 2026-01-14, "Composite Pass"): Schlick's Fresnel term at the surface's normal, mu_o its cosine to the viewer, times
-/// the weight, and up to half less on metals. The dielectric reflectance is 0.04, whatever the material says.
+/// the weight, and up to half less on metals. The dielectric reflectance is always 0.04.
 SHARED vec3 additive_weight(vec3 base_color, float metalness, float mu_o, float weight) {
     vec3 f0 = mix(vec3(0.04f), base_color, metalness);
     vec3 fresnel = f0 + (vec3(1.0f) - f0) * schlick_weight(mu_o);

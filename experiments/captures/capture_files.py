@@ -20,7 +20,7 @@ REQUIRED = ("depth", "normal", "roughness", "base_color", "metalness")
 
 
 class CaptureError(Exception):
-    """What is wrong with the files or the request: one sentence."""
+    """An error in the files or the request: one sentence."""
 
 
 def _attribute(name, kind, value):
@@ -94,7 +94,7 @@ def write_frame(folder, layers, camera):
 
 
 def write_environment(folder, environment):
-    """What rays see that meet nothing: an RGB radiance for all directions, or an image of shape (height, width, 3) as
+    """The environment, for rays that hit nothing: an RGB radiance for all directions, or an image of shape (height, width, 3) as
     core/shared/environment.h maps it: +Y at the top, +X in the middle, -Z in the middle of the left half."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)

@@ -46,8 +46,7 @@ struct MergeOptions {
 };
 int merge_command(const MergeOptions& options, const CommonOptions& common);  ///< 1 if cells are missing, else 0
 
-/// The commands that Python answers and whose options it declares: their arguments are handed on. Each returns the exit
-/// code: 0, 2 or 3.
+/// The commands that are Python scripts, which parse the arguments. Each returns the exit code: 0, 2 or 3.
 int figures_command(const std::vector<std::string>& arguments);
 int tables_command(const std::vector<std::string>& arguments);
 
@@ -109,7 +108,7 @@ struct NeedsOptions {
     unsigned timed_frames = 15;
     std::filesystem::path csv;  ///< "": none
 };
-/// The exit code: 0, or 1 if something that was left out changed an image by more than it says.
+/// The exit code: 0, or 1 if skipped work changed an image by more than stated.
 int needs_command(const NeedsOptions& options, const CommonOptions& common);
 
 struct StabilityOptions {

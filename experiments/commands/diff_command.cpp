@@ -28,7 +28,7 @@ void print_techniques(const std::vector<NumberChange>& errors) {
     }
 }
 
-/// How far a number moved, whichever way.
+/// The relative change of a number, in either direction.
 double size_of(const NumberChange& c) {
     const double ratio = *c.after / *c.before;
     return ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : HUGE_VAL;
@@ -48,7 +48,7 @@ void print_changes(const std::vector<NumberChange>& all, bool shows_all) {
         std::cout << ": " << std::setprecision(4) << *c.before << " -> " << *c.after << " (x" << *c.after / *c.before
                   << ", " << c.how << ")\n";
     }
-    if (count < changed.size()) std::cout << "  and " << changed.size() - count << " more; --all names them\n";
+    if (count < changed.size()) std::cout << "  and " << changed.size() - count << " more; --all lists them\n";
 }
 
 void print_alone(const std::filesystem::path& folder, const std::vector<std::array<std::string, 3>>& points) {
@@ -70,7 +70,7 @@ void print_times(const StudyDiff& diff, const DiffOptions& options) {
     std::map<std::string, size_t> why;
     for (const NumberChange& c : diff.times)
         if (c.verdict == change::not_judged) ++why[c.how];
-    for (const auto& [reason, count] : why) std::cout << "; " << count << " are not judged (" << reason << ")";
+    for (const auto& [reason, count] : why) std::cout << "; " << count << " are not compared (" << reason << ")";
     std::cout << (changed > 0 ? ":\n" : ".\n");
     print_changes(diff.times, options.shows_all);
 }
@@ -81,8 +81,7 @@ int diff_command(const DiffOptions& options) {
     const StudyDiff diff =
         diff_studies(read_study_tables(options.before), read_study_tables(options.after), options.judges_times);
     if (diff.errors.empty())
-        fail(options.before.string(), " and ", options.after.string(),
-             " have no number in common: no shot and point that both have");
+        fail(options.before.string(), " and ", options.after.string(), " have no shot and point in common");
     print_techniques(diff.errors);
     const size_t changed = count_of(diff.errors, change::changed);
     std::cout << '\n' << changed << " of " << diff.errors.size() << " errors changed" << (changed > 0 ? ":\n" : ".\n");

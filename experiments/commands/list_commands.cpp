@@ -1,4 +1,4 @@
-// The commands that say what there is: describe, list.
+// The commands that list things: describe, list.
 #include "core/files.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"

@@ -1,4 +1,4 @@
-// ssrlab needs: what a scene holds, what nobody needs to do for it, and what that saves.
+// ssrlab needs: what a scene holds, the work that can be skipped for it, and what that saves.
 #include "core/files.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
@@ -25,7 +25,7 @@ Shot shot_of(const NeedsOptions& options, const CommonOptions& common) {
                      scene_search_path(common.scene_path));
 }
 
-/// One line for each part, with all who leave it out.
+/// One line for each part, with all that skip it.
 void print_left_out(const std::vector<LeftOutBy>& all) {
     std::vector<std::string> lines;
     std::map<std::string, std::string> who;
@@ -67,7 +67,7 @@ void print(const std::vector<MeasuredSaving>& savings, const std::vector<SavedTi
         std::printf("%-44s %12.2f  %-22s %s\n", (s.time.variant + " " + s.time.point).c_str(), s.time.complete_ms,
                     percent(s.time.share).c_str(), images);
     }
-    std::printf("\nStages, the most that any preset saves of them:\n");
+    std::printf("\nLargest saving of each stage by any preset:\n");
     for (const SavedTime& stage : stages) std::printf("%-44s %9.2f ms\n", stage.stage.c_str(), stage.milliseconds);
 }
 
@@ -79,7 +79,7 @@ int needs_command(const NeedsOptions& options, const CommonOptions& common) {
     std::printf("%s, camera %s\n\n", shot.scene.name.c_str(), shot.camera.name.c_str());
     for (const SceneFact& fact : list_facts(shot.scene, shot.facts))
         std::printf("  %-22s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
-    std::printf("\nLeft out, since nothing here needs it:\n");
+    std::printf("\nSkipped, as it cannot change a pixel here:\n");
     print_left_out(left_out_of(shot, points));
     for (const std::string& warning : shot.scene.warnings) std::printf("warning: %s\n", warning.c_str());
     if (!options.is_measured) return 0;
@@ -90,7 +90,7 @@ int needs_command(const NeedsOptions& options, const CommonOptions& common) {
                                                     [&](double share) { progress.update(share, "timing"); });
     print(savings.of, savings.stages);
     if (savings.load.disturbed > 0)
-        std::printf("\nwarning: other programs disturbed %u of %u timed frames; run it again on a quiet machine\n",
+        std::printf("\nwarning: other programs disturbed %u of %u timed frames; run it again on an idle machine\n",
                     savings.load.disturbed, options.timed_frames);
     if (!options.csv.empty()) write_text(options.csv, csv_of(shot, savings.of));
     return std::ranges::all_of(savings.of, &MeasuredSaving::is_as_said) ? 0 : 1;

@@ -1,4 +1,4 @@
-// ssrlab plan: which cells a study has, which of them are done, and what the others will take.
+// ssrlab plan: the cells of a study, which of them are done, and the estimated cost of the others.
 #include "core/error.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
@@ -14,7 +14,7 @@
 
 namespace {
 
-// Beyond these nobody meant the design.
+// Beyond these a design is taken for a mistake.
 constexpr size_t most_cells = 100000;
 constexpr double most_days = 30;
 
@@ -114,8 +114,8 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
     double memory = 0;
     for (const PlannedWork& w : work) memory = std::max(memory, w.is_done ? 0 : w.estimate.memory_mib);
     std::printf(
-        "\nOn this machine and %s while nothing else runs; at most about %lld MiB of memory. Measured on small "
-        "images; references at their limit of samples, those in the cache are found.\n",
+        "\nOn this machine and %s while nothing else runs; at most about %lld MiB of memory. Estimated from small "
+        "images and references at their limit of samples; cached references are reused.\n",
         device.info().name.c_str(), std::llround(memory));
     refuse_absurd(work, options.json.empty());
 }

@@ -1,4 +1,4 @@
-// ssrlab stability --precision: what halves and floats cost.
+// ssrlab stability --precision: the error of half floats and floats.
 #include "core/error.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
@@ -57,7 +57,7 @@ void print_table(const std::vector<PrecisionRow>& rows) {
     }
     std::printf(
         "\nshare: squared change of the picture over the method's squared error; it counts above %g\n"
-        "p999: relative change of values, or of rays, that 99.9 %% stay below\n"
+        "p999: 99.9th percentile of the relative change of values, or of rays\n"
         "differing: share of values that change at all; of a march, of rays that end in another pixel\n",
         negligible_share);
 }
@@ -66,7 +66,7 @@ void print_table(const std::vector<PrecisionRow>& rows) {
 
 int precision_command(const StabilityOptions& options, const CommonOptions& common) {
     if (!options.figure.empty() || options.has_all_stages)
-        fail("--figure and --all-stages are of the cases, not of --precision");
+        fail("--figure and --all-stages do not apply to --precision");
     Device device(common.device);
     std::filesystem::create_directories(options.out);
     const std::filesystem::path csv = options.out / "stability_precision.csv";

@@ -62,7 +62,7 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
     const Config config = read_config(options.config);
     if (!config.is_tuned) fail(options.config.string(), ": has no 'tune'; `ssrlab run` runs a study");
     if (!config.source["tune"].contains("axes"))
-        fail(options.config.string(), ": 'tune' has no 'axes'; it is for others to extend");
+        fail(options.config.string(), ": 'tune' has no 'axes'; it can only be extended");
     const std::filesystem::path out = options.out.empty() ? default_results(options.config) : options.out;
     json points = json::array();
     for (const VariantConfig& v : config.variants)

@@ -1,4 +1,4 @@
-// ssrlab stability: what techniques bear.
+// ssrlab stability: techniques under extreme inputs.
 #include "core/error.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
@@ -55,7 +55,7 @@ void print_verdicts(const std::vector<StabilityRow>& rows) {
         std::printf("%s: %s\n", verdict.name.c_str(), verdict.meaning.c_str());
 }
 
-/// On a CPU one for each core. lavapipe then draws in the thread that asks it to: pictures this small take a fifth less
+/// On a CPU one for each core. lavapipe then draws in the calling thread: pictures this small take a fifth less
 /// of a core's time than with threads that wait for each other, and a frame's time is that of one core, whatever the
 /// other devices do.
 std::vector<std::unique_ptr<Device>> open_devices(const std::string& choice) {

@@ -46,8 +46,8 @@ void print_ladder(const LadderSummary& ladder) {
         "truth ladder, in %% of the mean specular light %.4g of %zu reflecting pixels; the image shows %.1f %% of what "
         "they reflect\n",
         ladder.mean_specular, ladder.pixels, 100 * ladder.on_screen_share);
-    std::printf("  %-16s %-31s %16s  %-22s  %s\n", "rung", "what the step costs", "mean change",
-                "RMS of the step [95 %]", "RMS from the truth [95 %]");
+    std::printf("  %-16s %-31s %16s  %-22s  %s\n", "rung", "approximation", "mean change", "RMS of the step [95 %]",
+                "RMS from the truth [95 %]");
     for (const LadderRung& rung : ladder.rungs) {
         char mean[32];
         std::snprintf(mean, sizeof mean, "%+.2f +- %.2f", 100 * rung.step.mean / ladder.mean_specular,

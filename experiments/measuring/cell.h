@@ -39,7 +39,7 @@ struct ResultRow {
     }
 };
 
-/// One row of splits.csv: what of an error is the same for all seeds, and what differs.
+/// One row of splits.csv: the bias and the variance of an error.
 struct SplitRow {
     std::string shot, frame, variant, point, target, mask;
     unsigned seeds = 0;
@@ -74,8 +74,8 @@ struct TimeRow {
     unsigned frame = 0;
     double milliseconds = 0;
     std::string clock;
-    std::optional<double> foreign_load = {};  ///< see CpuTimes; none where the system does not tell
-    bool is_disturbed = false;                ///< other work took too much of the machine meanwhile
+    std::optional<double> foreign_load = {};  ///< see CpuTimes; none where the system does not report it
+    bool is_disturbed = false;                ///< other programs took too much CPU time meanwhile
 
     static constexpr auto columns() {
         return std::tuple(Column{"shot", &TimeRow::shot}, Column{"variant", &TimeRow::variant},
@@ -86,7 +86,7 @@ struct TimeRow {
     }
 };
 
-/// One row of hits.csv: what became of the rays that one pass traced.
+/// One row of hits.csv: how the rays of one pass ended.
 struct HitRow {
     std::string shot, frame, variant, point;
     std::string stage;     ///< the pass
@@ -120,8 +120,8 @@ struct CostRow {
     }
 };
 
-/// What a run makes of one shot and variant point with all its seeds, of the times of a shot, or of its references: the
-/// unit of work that is done once, kept, and never done again.
+/// The results of one shot and variant point with all its seeds, of the times of a shot, or of its references: the
+/// unit of work that is done once and kept.
 struct Cell {
     std::vector<ResultRow> rows;
     std::vector<SplitRow> splits;
@@ -131,7 +131,7 @@ struct Cell {
     std::vector<CostRow> costs;
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
-    std::vector<std::string> notes;                   ///< sentences for the manifest: what could not be told, and why
+    std::vector<std::string> notes;                   ///< sentences for the manifest: what is unknown, and why
     std::string truth;    ///< ShotTruth::content_hash() of what its numbers were measured against
     nlohmann::json shot;  ///< what the manifest says of the shot once its references are there; null in other cells
     nlohmann::json provenance;  ///< what made it, where and when, see experiments/store/provenance.h

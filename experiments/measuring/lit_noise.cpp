@@ -47,7 +47,7 @@ double half_width_of(const Plane& swapped, const Mask& mask) {
     return student_t_quantile(0.975, variance * variance / squares) * std::sqrt(variance) / double(mask.count());
 }
 
-/// Pixels that are finite in both results, or comparing them would tell nothing of the rest.
+/// Pixels that are finite in both results, or comparing them would say nothing of the rest.
 Mask finite_in(const HostImage& of_a, const HostImage& of_b, const Mask& finite) {
     Mask both = finite;
     for (size_t i = 0; i < of_a.values.size(); ++i)

@@ -5,24 +5,24 @@
 #include <string>
 #include <tuple>
 
-/// What the noise of the lit colour adds to a technique's error. Techniques read the path-traced lit colour of the same
-/// reference that they are compared with; all seeds read the same, so its noise is a bias of all of them, and neither
-/// the correction for the reference's noise nor the scatter of the seeds knows of it.
+/// The error that the noise of the lit colour adds to a technique. Techniques read the path-traced lit colour of the
+/// reference that they are compared with. All seeds read the same, so its noise is a bias of all of them, which neither
+/// the correction for the reference's noise nor the scatter of the seeds includes.
 ///
-/// It is told from two further runs of the point, with one seed, that read the lit colour of half A and of half B. To
-/// first order a result is linear in what it reads, so that with x_a, x_b those two results
+/// It is estimated from two further runs of the point, with one seed, that read the lit colour of half A and of half B.
+/// To first order a result is linear in what it reads, so that with x_a, x_b those two results
 ///     E[w (x_a - x_b)^2 / 4] = E[w (x - x without that noise)^2]
 /// is what the noise of the mean lit colour adds to a mean of weighted squares: pixels draw independent samples, so
-/// that what x reads elsewhere is independent of the halves that it is compared with. Where a technique decides by what
-/// it read how many rays it draws, or how it filters, x_a and x_b also differ by that.
+/// that what x reads elsewhere is independent of the halves that it is compared with. Where the number of rays or the
+/// filter of a technique depends on the light that it read, x_a and x_b also differ by that.
 ///
-/// Measured with ten references of 16 samples at 48x27 against light of 512 samples, what is told first: mcguire_dda in
+/// Measured with ten references of 16 samples at 48x27 against light of 512 samples (in brackets): mcguire_dda in
 /// modern_hall_mirror_floor adds 0.0175 (0.0175 +- 0.0019) to a relmse of 0.165, in breakfast_room_glossy_floor 0.0036
 /// (0.0040 +- 0.0019) to an mse of 0.130; frostbite_sssr 0.0155 (0.0149 +- 0.0026) to a relmse of 0.433, and 0.0006
 /// (0.0018 +- 0.0004) to an mse of 0.120. Scenes whose lit colour is emission alone have none.
 struct LitNoise {
     double added = 0;       ///< to the error, on average; 0 for errors that are linear in the result
-    double half_width = 0;  ///< of the 95 % interval of the error that this noise leaves beside it
+    double half_width = 0;  ///< of the 95 % interval of the error due to this noise
 };
 
 /// Whether the halves' light differs by more than 1e-5 of itself anywhere: less is the rounding of means.

@@ -39,7 +39,7 @@ struct PoseTruth {
     std::string content_hash;  ///< of the reference's pixels
 };
 
-/// One rendered frame: its pose, and what its G-buffer tells of it and of the frame before.
+/// One rendered frame: its pose, and the data of its G-buffer on it and on the frame before.
 struct FrameTruth {
     std::shared_ptr<const PoseTruth> pose;
     HostImage roughness, reflectance;  ///< one channel; F0 A + F90 B per pixel

@@ -12,7 +12,7 @@ struct ErrorMaps {
     NoiseTerms noise;
 };
 
-/// Relative: means are float32, and what is rounding tells nothing of the paths that were not met.
+/// Relative: means are float32, and rounding says nothing of paths that were not met.
 constexpr double rounding = 1e-6;
 
 /// truth - rung, as if that were a reference which black is compared with.
@@ -59,7 +59,7 @@ nlohmann::json entry(const ErrorMaps& maps, const Metric& metric, const Mask& in
         {"mask", inside.name},     {"value", finished(value)},
         {"low", nullptr},          {"high", nullptr},
         {"pixels", inside.count()}};
-    // Where no path told rung and truth apart, another might have: 0 is no width.
+    // Where no path showed a difference between rung and truth, another might have: 0 is not a valid width.
     if (std::optional<double> half_width = noise_half_width(maps.noise, inside); half_width.value_or(0) > 0) {
         *half_width /= double(inside.count());
         entry["low"] = finished(value - *half_width), entry["high"] = finished(value + *half_width);

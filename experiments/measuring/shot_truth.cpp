@@ -28,7 +28,7 @@ void check_change(const Shot& shot, const std::map<unsigned, std::string>& looks
     for (const FrameStep& step : shot.steps)
         if (is_after_change(shot, step) && looks.at(step.frame) != looks.at(*shot.config.change))
             fail("shot ", shot.name(), ": 'change' = ", *shot.config.change, ", but frame ", step.frame,
-                 " looks different from it; how long a change ghosts can only be told where all stands still after it");
+                 " looks different from it; ghosting can only be measured where nothing moves after the change");
 }
 
 }  // namespace

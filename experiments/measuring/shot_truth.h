@@ -5,7 +5,7 @@
 #include <functional>
 
 /// Everything that the frames of a shot are measured against. Poses that look alike share one reference, so a static
-/// shot has one, whatever the number of its frames.
+/// shot has one for any number of frames.
 struct ShotTruth {
     std::map<unsigned, std::shared_ptr<const PoseTruth>> poses;                 ///< by frame
     std::map<std::pair<unsigned, std::optional<unsigned>>, FrameTruth> frames;  ///< by frame and the one before

@@ -13,11 +13,11 @@ struct SeedSplit {
     void add(unsigned seed, const HostImage& rgb);
 };
 
-/// What all pairs of seeds tell (seed_pairs()) under each mask that holds finite pixels; nothing below two seeds, but
-/// of a point that does not depend on them, whose one seed is as good as two: all of its error is bias. Intervals are
-/// Student's over the pairs of successive seeds, which are independent (two pairs or more), around the value that all
-/// pairs give; it is a little more certain. That of the squared bias has the reference's noise added in quadrature
-/// (noise_half_width(); none where that cannot be told), and what `lit_noise` knows of `mse`. `shared` holds shot,
+/// Estimates from all pairs of seeds (seed_pairs()) under each mask with finite pixels; nothing below two seeds, except
+/// of a point that does not depend on them: all of its error is bias. Intervals are
+/// Student's over the pairs of successive seeds, which are independent (two pairs or more), around the value of all
+/// pairs, which has slightly less scatter. That of the squared bias has the reference's noise added in quadrature
+/// (noise_half_width(); none where that is unknown), and the `lit_noise` of `mse`. `shared` holds shot,
 /// frame, variant, point and target.
 std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared,
                                  bool depends_on_seed = true, const LitNoises& lit_noise = {});

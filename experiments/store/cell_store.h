@@ -8,7 +8,7 @@
 
 /// The finished cells of a results folder: cells/<name>.json. The name is the hash of all that the cell's numbers
 /// depend on, so any number of processes can fill one folder, and a killed run continues where it stopped. Each file
-/// holds a hash of its own content, and hashes of its images, so that nothing damaged is taken for a result.
+/// holds a hash of its own content, and hashes of its images, so that damaged files are not used as results.
 class CellStore {
 public:
     /// `notice` gets a sentence for each cell that is there and cannot be used.
@@ -21,13 +21,12 @@ public:
 
     /// Names of all cells whose files are whole, of other versions of the study too; their images are not looked at.
     std::vector<std::string> names() const;
-    /// The cell, whatever became of its images; nothing if its file is missing or damaged.
+    /// The cell, even if its images are missing; nothing if its file is missing or damaged.
     std::optional<Cell> read(const std::string& name) const;
     std::filesystem::path file(const std::string& name) const { return results_ / "cells" / (name + ".json"); }
 
-    /// The right to do a cell while others fill the same folder. The system takes it back when the process ends,
-    /// however it ends. Where the file system knows no locks, everyone has it: then work may be done twice, with the
-    /// same result.
+    /// The exclusive right to do a cell while others fill the same folder, released when the process ends. Where the
+    /// file system has no locks, every process gets it: work may then be done twice, with the same result.
     class Claim {
     public:
         Claim(std::filesystem::path file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {}

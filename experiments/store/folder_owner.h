@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-/// Makes the results folder that of one study, told by study.json: {"config", "keep_all"}. Two studies are the same if
-/// what is asked for is: their configs, comments and `$schema` aside, and --keep-all. Any number of processes may fill
+/// Makes the results folder that of one study, named in study.json: {"config", "keep_all"}. Two studies are the same if
+/// their configs, without comments and `$schema`, and --keep-all are. Any number of processes may fill
 /// the folder of one study.
 ///
 /// Fails with Error, before anything is written, if the folder holds another study, unless `replaces`: then the folder
@@ -16,7 +16,7 @@ class FolderOwner {
 public:
     FolderOwner(const std::filesystem::path& folder, const Config& config, bool keep_all, bool replaces,
                 const std::function<void(const std::string&)>& notice);
-    /// A study that failed before its first cell leaves the folder free for a mended config.
+    /// A study that failed before its first cell leaves the folder free for a corrected config.
     ~FolderOwner();
     FolderOwner(const FolderOwner&) = delete;
     FolderOwner& operator=(const FolderOwner&) = delete;

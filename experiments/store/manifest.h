@@ -11,11 +11,10 @@
 /// which values are good, for report, tables and figures.
 nlohmann::json metric_descriptions();
 
-/// What holds for the whole study, before any cell is done.
+/// Facts of the whole study, before any cell is done.
 nlohmann::json study_entry(const Config& config);
 
-/// By how much two copies of one point may differ in time in a shot, relative to their mean; none where no point was
-/// timed twice.
+/// The A/A floor of a shot, relative to the mean time; none where no point was timed twice.
 std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string& shot);
 
 /// How many pairs of copies were timed in a shot.

@@ -26,8 +26,8 @@ std::vector<SourceFile> parse_source_table(std::string_view table);
 /// A source needs what it includes. Of core, groundtruth, metrics, variants/common, variants/tracers and each technique
 /// whatever needs one source needs the whole folder, with those in it (of core's and variants/tracers' own folders only
 /// the sources that lie there): a class may be spread over several. In experiments a header needs the source of its
-/// name: each of them implements its own header alone. What reads a config is needed by nobody: cells hold what it read
-/// by value. No technique and no single tracer is included by what runs them (they are declared by name, see
+/// name: each of them implements its own header alone. Nothing depends on code that reads a config: cells hold what it
+/// read by value. No technique and no single tracer is included by what runs them (they are declared by name, see
 /// variants/registry.cpp and variants/tracers/tracers.cpp), so that they are asked for by their folders.
 class SourceCode {
 public:

@@ -3,7 +3,7 @@
 
 #include <set>
 
-/// What earlier versions of a study left in its folder: cells of other code, parameters or references, and images of
+/// Files of earlier versions of a study in its folder: cells of other code, parameters or references, and images of
 /// which no present cell knows.
 struct StaleFiles {
     std::vector<std::string> cells;   ///< names

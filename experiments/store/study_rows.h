@@ -17,7 +17,7 @@ struct StudyRows {
 /// With mark_what_speaks() done.
 StudyRows rows_of(const std::vector<Cell>& cells);
 
-/// Decides which frames speak for a shot, for tables, effects, report and figures: of each quantity (target, metric,
+/// Decides which frames represent a shot in tables, effects, report and figures: of each quantity (target, metric,
 /// mask) the rows over its frames where a point has such, else those of its last frame.
 void mark_what_speaks(std::span<ResultRow> rows);
 

@@ -1,4 +1,4 @@
-"""What a search leaves in its folder: tune.csv, presets.json, tuned.md, and the figure search.pdf, .svg and .png."""
+"""The files of a search in its folder: tune.csv, presets.json, tuned.md, and the figure search.pdf, .svg and .png."""
 
 import csv
 import json
@@ -94,7 +94,7 @@ class Outcome:
 
     def write_presets(self):
         """As the table of techniques reads them (variants/registry.h). What was found among the config's own points has a name already, and
-        what is neither faster than the baseline nor told to err less, or errs more on unseen scenes, is worth none."""
+        a point that is neither faster than the baseline nor significantly better, or worse on unseen scenes, gets none."""
         presets = []
         for name, budgets in self.found.items():
             point = self.points[name]

@@ -2,14 +2,14 @@
 
 Errors are compared by logarithms of ratios, the mean over shots and metrics. Three things make such a mean uncertain:
 
-- Chance, told by the scatter over seeds that both points have. Few seeds tell a scatter badly, so that of a shot is drawn towards
+- Chance, estimated by the scatter over the common seeds. Few seeds estimate a scatter badly, so that of a shot is shrunk towards
   what is usual there (the median of the points so far), as if that had been seen with PRIOR degrees of freedom, and never taken
   for less than the point's own.
 - The reference's noise, whose intervals of both errors are added in quadrature.
 - The scenes that are still to come, while a point has run on a part of them: by how much the mean over that part missed the mean
   over all, in the points that ran on all. Until LEAST_COMPLETE have, no point is stopped on a part of the scenes.
 
-A point is stopped if its error is certainly above that of a point of the front that takes no more time: at the level RISK for each
+A point is stopped if its error is significantly above that of a point of the front that takes no more time: at the level RISK for each
 point, shared by the looks that are taken at it and by the points of the front that it is compared with (Bonferroni)."""
 
 import functools
@@ -56,7 +56,7 @@ def quantile(level, degrees):
 
 @functools.lru_cache(maxsize=64)
 def median_over_mean(degrees):
-    """Of a variance that is told with so many degrees of freedom."""
+    """Of a variance that is estimated with so many degrees of freedom."""
     return float(stats.chi2.median(degrees)) / degrees
 
 
@@ -76,7 +76,7 @@ def paired(a, b, key):
 
 
 def level_of(values):
-    """The mean error; one that the reference's noise does not tell from 0 counts as that noise."""
+    """The mean error; one that is not distinguishable from 0 given the reference's noise counts as that noise."""
     mean = sum(v for v, _ in values) / len(values)
     return max(mean, NORMAL * max(d for _, d in values), 1e-12)
 
@@ -170,7 +170,7 @@ class Race:
 
     def scatter_of_scenes(self, seen):
         """(standard deviation, degrees of freedom) of the difference of two points over all shots less that over those that were seen;
-        None while too few points tell it."""
+        None while there are too few points."""
         if len(seen) == len(self.shots()):
             return 0.0, 1
         if len(self.complete) < LEAST_COMPLETE:
@@ -179,7 +179,7 @@ class Race:
         return math.sqrt(2 * variance(missed)), len(missed) - 1
 
     def beaten_by(self, point):
-        """(point of the front that takes no more time and errs certainly less, difference of the logarithms of errors), or None."""
+        """(point of the front that takes no more time and errs significantly less, difference of the logarithms of errors), or None."""
         seen = point.shots()
         scenes = self.scatter_of_scenes(seen)
         if scenes is None:

@@ -115,7 +115,7 @@ class Studies:
                 raise ResultsError(f"{results.folder}: the references of {shot['shot']} are not those of the search so far; was its cache emptied?")
 
     def read_into(self, point, results):
-        """Adds to a search's point what a study tells of it, under the label that is its name."""
+        """Adds a study's results of a search's point, under the label that is its name."""
         entry = next((v for v in results.manifest["variants"] if v.get("label") == point.name), None)
         if entry is None:
             raise ResultsError(f"{results.folder}: no point has the label '{point.name}'")

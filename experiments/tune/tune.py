@@ -1,12 +1,12 @@
-"""Searches a technique's parameters for the front of error against time, and judges what it found on other scenes.
+"""Searches a technique's parameters for the front of error against time, and evaluates the result on other scenes.
 
 usage: tune.py ASKED --out DIR -- SSRLAB [options of `ssrlab run`]
 
 ASKED is what `ssrlab tune` read of a study with "tune" (experiments/README.md). The optimiser proposes batches of points (space.py);
-each runs with half of the seeds on one shot, on two, four and so on to all, then with all seeds, and is stopped as soon as it is certainly
+each runs with half of the seeds on one shot, on two, four and so on to all, then with all seeds, and is stopped as soon as it is significantly
 worse than a point of the front that takes no more time (race.py). Every step is a study in DIR/search, every evaluation a cell of it
-(studies.py). A search that was stopped asks the optimiser the same again and reads the finished cells, so that it ends as if it
-had not been. What it leaves in DIR: outcome.py."""
+(studies.py). A stopped search repeats the optimiser's steps and reads the finished cells, so that it ends as if it
+had not been stopped. Its files in DIR: outcome.py."""
 
 import argparse
 import json
@@ -159,7 +159,7 @@ class Tuning:
             self.studies.read_into(point, results)
 
     def those_left(self, points, stage):
-        """Stops those that are certainly worse or take too long."""
+        """Stops those that are significantly worse or take too long."""
         left = []
         for point in points:
             beaten = self.race.beaten_by(point)
@@ -215,7 +215,7 @@ class Tuning:
 def main():
     parser = argparse.ArgumentParser(description="Search a technique's parameters for the front of error against time.")
     parser.add_argument("asked", help="what `ssrlab tune` read of the config")
-    parser.add_argument("--out", required=True, help="folder of the studies and of what is found")
+    parser.add_argument("--out", required=True, help="folder of the studies and of the results")
     parser.add_argument("command", nargs="+", help="ssrlab, and options of `ssrlab run`")
     arguments = parser.parse_args()
     try:

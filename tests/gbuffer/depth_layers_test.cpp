@@ -149,7 +149,7 @@ Seen expect_layers(const Scene& scene, const Setting& setting) {
                 EXPECT_NEAR(second, here[1].device_depth, tolerance) << where;
                 EXPECT_EQ(back, depth) << where;
             }
-            if (testing::Test::HasFailure()) return seen;  // one pixel tells enough
+            if (testing::Test::HasFailure()) return seen;  // one pixel is enough
         }
     return seen;
 }

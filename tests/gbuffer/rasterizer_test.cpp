@@ -47,7 +47,7 @@ TEST(motion, is_what_two_projections_in_double_precision_give) {
     view.jitter = {0.3f, -0.2f};
     const HostGBuffer g = render(scene, scene.camera("main"), view);
     const ScenePose now = pose_scene(scene, 8), before = pose_scene(scene, 7);
-    // The moving quad is alone in using its material, so its id tells where the pixel's surface was.
+    // The moving quad is alone in using its material, so its id shows where the pixel's surface was.
     const glm::dmat4 moved =
         glm::dmat4(before.world_from_instance[1]) * glm::inverse(glm::dmat4(now.world_from_instance[1]));
     size_t moving = 0, background = 0;

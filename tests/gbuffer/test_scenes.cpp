@@ -111,7 +111,7 @@ size_t differing_bits(const HostImage& a, const HostImage& b) {
 }
 
 namespace {
-/// Fails the program's run if any test made the validation layer speak.
+/// Fails the program's run if any test made the validation layer report anything.
 class ValidationIsSilent : public testing::Environment {
     void TearDown() override { EXPECT_EQ(test_device().validation_messages(), std::vector<std::string>{}); }
 };

@@ -32,7 +32,7 @@ TEST(ClockJudge, FailsOthersOnAQuietMachine) {
     EXPECT_EQ(judged({11, 110, 111}).verdict, ClockVerdict::failed) << "stamps that enclose the neighbour";
     EXPECT_EQ(judged({0, 0, 0}).verdict, ClockVerdict::failed);
     EXPECT_EQ(judged({NAN, 10, 100}).verdict, ClockVerdict::failed);
-    EXPECT_EQ(judged({0.5, 10, 100}, {}).verdict, ClockVerdict::failed) << "who cannot tell load has no excuse";
+    EXPECT_EQ(judged({0.5, 10, 100}, {}).verdict, ClockVerdict::failed) << "without a known load the verdict stands";
     EXPECT_EQ(judged({0.5, 10, 100}, disturbing_load).verdict, ClockVerdict::failed);
 }
 

@@ -50,7 +50,7 @@ TEST(Device, PicksTheOnlyOneByItself) {
     EXPECT_EQ(Device().info().name, list_devices().front().name);
 }
 
-// Silence of the validation layer in all other tests means something only if it speaks up here.
+// Silence of the validation layer in all other tests is meaningful only if it reports here.
 TEST(Validation, ReportsAMissingBarrier) {
     Device device("", true);
     Device::Impl& gpu = device.impl();

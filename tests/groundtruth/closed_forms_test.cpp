@@ -23,7 +23,7 @@ void expect_mean(const Moments& found, double exact, double deviation) {
 }
 
 /// A lobe may lose its energy in rare samples below the horizon, which even 16 batches together may miss, so that their
-/// spread does not tell: as many losses as a Poisson distribution allows at 6 standard deviations, each at most 1.
+/// spread does not show: as many losses as a Poisson distribution allows at 6 standard deviations, each at most 1.
 double rare_losses(double albedo, unsigned samples_per_batch) {
     const double samples = double(batch_count) * samples_per_batch, expected = (1 - albedo) * samples;
     return expected < 100 ? 6 * std::sqrt(expected) / samples : 0.0;
@@ -215,7 +215,7 @@ TEST(golden_closed_forms, facing_mirrors) {  // 10
                 expect_mean(total, exact, 1e-4 * exact);
                 if (depth == 4) {
                     // What is missing is R^(depth + 1) of the whole. With roulette as many of 16384 paths are left to
-                    // tell it, each with throughput 1: 6 standard errors.
+                    // determine it, each with throughput 1: 6 standard errors.
                     const double cut = std::pow(double(reflectance), depth + 1);
                     EXPECT_NEAR(pixel.cut, cut, 1e-4 * cut + (roulette ? 6 * std::sqrt(cut / 16384) : 0));
                 }

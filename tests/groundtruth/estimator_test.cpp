@@ -84,7 +84,7 @@ void expect_same_sum(const Render& a, const Render& b, Moments PixelMoments::*me
         sum_a += one.mean.x, sum_b += other.mean.x;
         variance += std::pow(one.standard_error.x, 2) + std::pow(other.standard_error.x, 2);
     }
-    EXPECT_NEAR(sum_a, sum_b, 5 * std::sqrt(variance));  // p = 1.6e-4 if one pixel's 15 degrees bear all noise
+    EXPECT_NEAR(sum_a, sum_b, 5 * std::sqrt(variance));  // p = 1.6e-4 if one pixel's 15 degrees have all noise
     EXPECT_LE(std::sqrt(variance), 0.01 * sum_b);        // found: 0.0007 to 0.0022; else this proves little
 }
 
@@ -199,7 +199,7 @@ TEST(estimator, sky_that_is_not_seen_starves_no_lamp) {
             variance[has_sky] += std::pow(pixel.diffuse.standard_error.y, 2);
         }
     // By power alone the lamps would get 1 % of the light samples, and 100 times the variance of their share; learnt,
-    // the sky keeps a third of the even share. Batches tell the sums of 64 variances to some 5 %.
+    // the sky keeps a third of the even share. Batches estimate the sums of 64 variances to some 5 %.
     EXPECT_LT(variance[1], 1.5 * variance[0]);
     EXPECT_NEAR(mean[1], mean[0], 6 * std::sqrt(variance[0] + variance[1]));
 }

@@ -11,7 +11,7 @@
 #include <functional>
 #include <optional>
 
-/// Where the mirror rays of each scene end tells whether it is the scene that was specified: a wrong size, place or
+/// Where the mirror rays of each scene end shows whether it is the scene that was specified: a wrong size, place or
 /// camera moves these shares. The expected ones were measured once on independently built models of the same scenes.
 
 namespace {

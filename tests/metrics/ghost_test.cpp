@@ -79,10 +79,10 @@ TEST(Ghost, WithoutAFirstStepThereIsNothingToSettle) {
     // Means over 6912 values of noise: the first frame's error differs from the plateau's, by far less than 5 % of
     // 0.49.
     EXPECT_EQ(ghost_of(played(at_once, 0.7f, 0.1f, random), before, after).settling_length.value, 0);
-    // With errors of 4 sqrt(2 / 6912) = 0.07, 14 % of the change, that cannot be told any more.
+    // With errors of 4 sqrt(2 / 6912) = 0.07, 14 % of the change, that is no longer measurable.
     const TemporalScore row = ghost_of(played(at_once, 0, 2, random), before, after).settling_length;
     EXPECT_TRUE(std::isnan(row.value));
-    EXPECT_EQ(row.note, "the error of the first frame cannot be told from the plateau's");
+    EXPECT_EQ(row.note, "the error of the first frame is not distinguishable from the plateau's");
 }
 
 TEST(Ghost, LengthsInTheFirstHalfAreRightToFivePercent) {

@@ -49,7 +49,8 @@ HostImage poor_guide(const HostImage& truth) {
     return guide;
 }
 
-/// Halves whose noise relative to the truth is `relative` each. Batches tell the variance with 14 degrees of freedom.
+/// Halves whose noise relative to the truth is `relative` each. Batches estimate the variance with 14 degrees of
+/// freedom.
 ReferenceHalves noisy_halves(const HostImage& truth, const Plane& relative, Random& random) {
     ReferenceHalves halves{.a = with_noise(truth, relative, random),
                            .b = with_noise(truth, relative, random),
@@ -162,7 +163,7 @@ TEST(Noise, IntervalsCoverTheTruthAtTheirRate) {
     // Three pixels of which each has ten times the deviation of the others.
     Plane few = constant(extent, 0.02);
     for (const size_t p : {100, 300, 500}) few.values[p] = 0.4;
-    expect_coverage(simulate("bias", truth, test, few, 400, all), "three pixels bear the noise");
+    expect_coverage(simulate("bias", truth, test, few, 400, all), "three pixels carry the noise");
 }
 
 TEST(Noise, NoIntervalIsGivenWhereNoneWouldCover) {
@@ -170,7 +171,7 @@ TEST(Noise, NoIntervalIsGivenWhereNoneWouldCover) {
     const HostImage truth = truth_image(extent), test = poor_guide(truth);
     Plane one = constant(extent, 0.001);
     one.values[1000] = 0.5;
-    EXPECT_EQ(simulate("mse", truth, test, one, 20, full_mask(extent)).intervals, 0) << "one pixel bears the noise";
+    EXPECT_EQ(simulate("mse", truth, test, one, 20, full_mask(extent)).intervals, 0) << "one pixel carries the noise";
     const Mask ten = some_pixels(extent, {3, 99, 300, 441, 640, 807, 999, 1203, 1500, 2001});
     NoiseTerms terms(extent, 48);
     for (double& v : terms.swapped.values) v = 2;
@@ -199,7 +200,7 @@ TEST(Noise, OfDifferencesIsToldByFewPixelsIfEitherSaysSo) {
     EXPECT_NEAR(half_width(16, 10, true).value(), 2.228139 * 4, 1e-4);
     EXPECT_NEAR(half_width(16, 10, false).value(), 2.228139 * 4, 1e-4);
     EXPECT_TRUE(half_width(8, 64, true));
-    EXPECT_FALSE(half_width(7, 64, true)) << "seven pixels bear all of the difference";
+    EXPECT_FALSE(half_width(7, 64, true)) << "seven pixels carry all of the difference";
     EXPECT_TRUE(half_width(7, 64, false));
 }
 

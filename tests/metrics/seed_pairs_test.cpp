@@ -1,4 +1,4 @@
-// What pairs of seeds tell of bias and variance, and the interval of the ratio of two such.
+// Bias and variance from pairs of seeds, and the interval of the ratio of two such.
 #include "metrics/seed_pairs.h"
 #include "core/error.h"
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 /// What DiligentFX's temporal accumulation sees in its tests. Histories of the variance are ramps, so that the variance
-/// that a pixel takes over tells where it was taken from.
+/// that a pixel takes over shows where it was taken from.
 namespace accumulation_scene {
 
 using Overrides = nlohmann::json;

@@ -1,4 +1,4 @@
-// Each correction of the tracer, on a G-buffer that shows what it mends.
+// Each correction of the tracer, on a G-buffer that shows what it fixes.
 #include "tests/variants/amd_golden.h"
 #include "tests/variants/brute_force_hierarchy.h"
 #include "tests/variants/mirror_scenes.h"
@@ -42,9 +42,9 @@ TEST_F(AmdCorrections, PartialTexelsAsTheNearPlaneShowWhatOddLevelsLackWithRever
     const double standard = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
     view.depth_direction = DepthDirection::reversed;
     const double reversed = sum_of(trace(ceiling_before_white, nlohmann::json::object()));
-    const double mended = sum_of(trace(ceiling_before_white, {{"hierarchy.partial_texels", "near_plane"}}));
+    const double corrected = sum_of(trace(ceiling_before_white, {{"hierarchy.partial_texels", "near_plane"}}));
     EXPECT_LT(reversed, 0.9 * standard);
-    EXPECT_NEAR(mended, standard, 0.01 * standard);
+    EXPECT_NEAR(corrected, standard, 0.01 * standard);
 }
 
 /// A floor that fills the image, whose rays leave upwards. 64 divides the height, so that all levels have a border at
@@ -79,15 +79,15 @@ TEST_F(AmdCorrections, ClipRayToNearPlaneFindsWhatLiesTowardsTheCamera) {
     nlohmann::json clipped = thick;
     clipped["hierarchy.clip_ray_to_near_plane"] = true;
     const double original = sum_of(trace(mirror_beside_wall, thick)),
-                 mended = sum_of(trace(mirror_beside_wall, clipped));
-    EXPECT_GT(mended, 2 * original + 100);
+                 corrected = sum_of(trace(mirror_beside_wall, clipped));
+    EXPECT_GT(corrected, 2 * original + 100);
 }
 
 TEST_F(AmdCorrections, AcceptContactHitsShowsTheWallInTheFirstRowsOfTheFloor) {
     const double original = sum_of(trace(floor_before_white, nlohmann::json::object()));
-    const double mended = sum_of(trace(floor_before_white, {{"hierarchy.accept_contact_hits", true}}));
+    const double corrected = sum_of(trace(floor_before_white, {{"hierarchy.accept_contact_hits", true}}));
     // One row of 96 pixels at least: the two nearest the wall reflect the two above them.
-    EXPECT_GT(mended, original + 0.9 * view.extent.x);
+    EXPECT_GT(corrected, original + 0.9 * view.extent.x);
 }
 
 TEST_F(AmdCorrections, RejectUnfinishedIgnoresWhereRaysAreGivenUp) {
@@ -97,20 +97,20 @@ TEST_F(AmdCorrections, RejectUnfinishedIgnoresWhereRaysAreGivenUp) {
     rejected["hierarchy.reject_unfinished"] = true;
     HostGBuffer gbuffer = gbuffer_of(floor_before_white);
     gbuffer.lit = HostImage(gbuffer.extent(), 4, 1.0f);
-    const double original = sum_of(trace(gbuffer, few_steps)), mended = sum_of(trace(gbuffer, rejected));
+    const double original = sum_of(trace(gbuffer, few_steps)), corrected = sum_of(trace(gbuffer, rejected));
     EXPECT_GT(original, 100);
-    EXPECT_EQ(mended, 0);
+    EXPECT_EQ(corrected, 0);
 }
 
 TEST_F(AmdCorrections, FarMissesAreAsLongAsTheFarPlaneIsAway) {
     const HostGBuffer gbuffer = gbuffer_of(floor_below_nothing);
     const HostImage original = trace(gbuffer, nlohmann::json::object()),
-                    mended = trace(gbuffer, {{"far_misses", true}});
+                    corrected = trace(gbuffer, {{"far_misses", true}});
     for (size_t i = 0; i < original.pixel_count(); ++i) {
         if (gbuffer.depth.values[i] == 1) continue;
         ASSERT_EQ(original.values[4 * i], 0);
         EXPECT_NE(original.values[4 * i + 3], 100);
-        EXPECT_EQ(mended.values[4 * i + 3], 100);
+        EXPECT_EQ(corrected.values[4 * i + 3], 100);
     }
 }
 
@@ -180,8 +180,8 @@ TEST_F(AmdCorrections, RedrawBelowHorizonLeavesNoRayInTheSurface) {
 TEST_F(AmdCorrections, ThicknessAtHitMipKeepsTheConfidenceOfSlantedSurfaces) {
     pose.world_from_view = glm::rotate(glm::mat4(1), -0.4f, glm::vec3(1, 0, 0));
     const double original = sum_of(trace(floor_before_white, nlohmann::json::object()));
-    const double mended = sum_of(trace(floor_before_white, {{"hierarchy.thickness_at_hit_mip", true}}));
-    EXPECT_GT(mended, 1.2 * original);
+    const double corrected = sum_of(trace(floor_before_white, {{"hierarchy.thickness_at_hit_mip", true}}));
+    EXPECT_GT(corrected, 1.2 * original);
 }
 
 TEST_F(AmdCorrections, FloatRoughnessKeepsSmallWidths) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-// What each correction of the denoiser mends, with the correction off and on, in both forms.
+// What each correction of the denoiser fixes, with the correction off and on, in both forms.
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 // Where in the last frame's image the denoiser looks for history: of a wall at z = 0, whose history is a ramp that
-// tells its own place.
+// encodes its own place.
 
 namespace {
 
@@ -44,7 +44,7 @@ DenoiserInputs wall_seen_by(const CameraPose& pose, const CameraData& camera, fl
     return inputs;
 }
 
-/// Red tells the column, green the row.
+/// Red is the column, green the row.
 HostImage ramp() {
     HostImage image(extent, 4, 0.5f);
     for (unsigned y = 0; y < extent.y; ++y)

@@ -130,7 +130,7 @@ unsigned frame_of(const std::string& file) {
 }
 
 struct RecordedNoise : BlueNoiseTest, testing::WithParamInterface<std::string> {};
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RecordedNoise);  // GoldenVectors tells where they must be
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RecordedNoise);  // GoldenVectors says where they must be
 
 TEST_P(RecordedNoise, HasTheSpectrumOfOurs) {
     expect_same_kind(numbers(frame_of(GetParam()), 0, NoiseShift::golden_diagonal),

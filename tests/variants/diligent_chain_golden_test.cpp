@@ -127,7 +127,7 @@ struct DiligentChainOf : VariantTest, testing::WithParamInterface<Chain> {
         return diligent_frame_folder(sequence(), frame) + stage + "_" + GetParam().variant + factor + ".exr";
     }
 };
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentChainOf);  // GoldenVectors tells where they must be
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentChainOf);  // GoldenVectors says where they must be
 
 /// By the tolerance that the index suggests for all three stages, in any channel.
 bool is_off(const HostImage& ours, const HostImage& theirs, size_t pixel) {

@@ -87,7 +87,7 @@ struct DiligentCleanup : VariantTest {
 };
 
 /// Radius 1 at the default, 2 from a deviation of 1 on; at the border the nearest pixels count again. Kernels without
-/// gates tell every weight.
+/// gates determine every weight.
 TEST_F(DiligentCleanup, FiltersAsItsFormulaSays) {
     for (const double sigma : {0.9, 1.5, 4.0}) expect_formula(sigma);
 }

@@ -1,4 +1,4 @@
-// Each correction of the rays, on a G-buffer that shows what it mends; those of the march and of the rays' directions
+// Each correction of the rays, on a G-buffer that shows what it fixes; those of the march and of the rays' directions
 // have tests of their own.
 #include "tests/variants/diligent_hits.h"
 
@@ -11,14 +11,14 @@ using DiligentCorrections = DiligentHits;
 /// The original's projection knows of the jitter, its unprojection does not, which turns its rays by an angle that
 /// grows with the scene.
 TEST_F(DiligentCorrections, UnprojectJitterHoldsInScenesOfAnySize) {
-    const nlohmann::json mended = {{"hierarchy.unproject_jitter", true}};
+    const nlohmann::json corrected = {{"hierarchy.unproject_jitter", true}};
     const HostGBuffer unjittered = gbuffer_of(floor_before_white);
-    EXPECT_EQ(trace(unjittered, mended).direction.values, trace(unjittered).direction.values);
+    EXPECT_EQ(trace(unjittered, corrected).direction.values, trace(unjittered).direction.values);
     view.jitter = {0.45f, -0.4f};
     for (const float scale : {1.0f, 100.0f}) {
         const CameraPose small = pose;
         enlarge(scale);
-        EXPECT_GT(quality(mended, scale).right, 0.999) << scale;
+        EXPECT_GT(quality(corrected, scale).right, 0.999) << scale;
         pose = small;
     }
     enlarge(100);
@@ -27,10 +27,10 @@ TEST_F(DiligentCorrections, UnprojectJitterHoldsInScenesOfAnySize) {
 
 /// A metre of 100 km is lost in the rounding of float32.
 TEST_F(DiligentCorrections, RelativeRayStepHoldsInScenesOfAnySize) {
-    const nlohmann::json mended = {{"hierarchy.relative_ray_step", true}};
-    EXPECT_GT(quality(mended).right, 0.999);
+    const nlohmann::json corrected = {{"hierarchy.relative_ray_step", true}};
+    EXPECT_GT(quality(corrected).right, 0.999);
     enlarge(16384);
-    EXPECT_GT(quality(mended, 16384).right, 0.999);
+    EXPECT_GT(quality(corrected, 16384).right, 0.999);
     EXPECT_LT(quality(nlohmann::json::object(), 16384).right, 0.6);
 }
 
@@ -79,20 +79,20 @@ TEST_F(DiligentCorrections, AcceptContactHitsShowsTheWallInTheFirstRowsOfTheFloo
     pose.world_from_view = glm::mat4(1);
     const HostGBuffer gbuffer = gbuffer_of(floor_before_white);
     const double original = confidence_of(trace(gbuffer)),
-                 mended = confidence_of(trace(gbuffer, {{"hierarchy.accept_contact_hits", true}}));
+                 corrected = confidence_of(trace(gbuffer, {{"hierarchy.accept_contact_hits", true}}));
     // One row at least: the two nearest the wall reflect the two above them. At both sides hits fade.
-    EXPECT_GT(mended, original + 0.9 * view.extent.x);
+    EXPECT_GT(corrected, original + 0.9 * view.extent.x);
 }
 
 TEST_F(DiligentCorrections, PremultiplyConfidenceWeightsTheirColour) {
     const HostGBuffer gbuffer = gbuffer_of(mirror_floor);
     const HostImage original = trace(gbuffer).radiance,
-                    mended = trace(gbuffer, {{"premultiply_confidence", true}}).radiance;
+                    corrected = trace(gbuffer, {{"premultiply_confidence", true}}).radiance;
     unsigned faded = 0;
     for (size_t i = 0; i < original.pixel_count(); ++i) {
         const float confidence = original.values[4 * i + 3];
-        EXPECT_EQ(mended.values[4 * i + 3], confidence);
-        EXPECT_EQ(mended.rgb(i), confidence * original.rgb(i));
+        EXPECT_EQ(corrected.values[4 * i + 3], confidence);
+        EXPECT_EQ(corrected.rgb(i), confidence * original.rgb(i));
         faded += confidence > 0 && confidence < 0.9f;
     }
     EXPECT_GT(faded, 100u);

@@ -1,5 +1,5 @@
 // Targets of 16 bits get no number that they cannot hold: what devices make of those differs. To see what shaders hand
-// on, their targets here have 32 bits, which they are not told of.
+// on, their targets here have 32 bits, which the shaders do not know.
 #include "tests/variants/diligent_frames.h"
 #include "tests/variants/diligent_hits.h"
 #include "tests/variants/reconstruction_bench.h"

@@ -1,4 +1,4 @@
-// What rays show and how surely.
+// What rays show, and their confidence.
 #include "tests/variants/diligent_hits.h"
 
 #include <algorithm>

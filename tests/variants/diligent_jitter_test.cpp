@@ -68,14 +68,14 @@ TEST_F(DiligentJitter, CostsTheMoreTheLargerTheSceneUnlessUndone) {
     double before = 0;
     for (const float scale : {1.0f, 10.0f, 100.0f}) {
         const Cost still = cost(scale, {}, false), original = cost(scale, half_a_pixel, false),
-                   mended = cost(scale, half_a_pixel, true);
+                   corrected = cost(scale, half_a_pixel, true);
         const auto print = [&](const char* name, const Cost& of) {
             std::printf("x %-8g  %-16s  %.3f  %.4f     %.4f\n", double(scale), name, of.rmse, of.lost, of.shifted);
         };
-        print("no jitter", still), print("false", original), print("true", mended);
+        print("no jitter", still), print("false", original), print("true", corrected);
         // Rays end in other places within pixels.
-        EXPECT_NEAR(mended.rmse, still.rmse, 0.1 * still.rmse) << scale;
-        EXPECT_LT(mended.lost + mended.shifted, 0.005) << scale;
+        EXPECT_NEAR(corrected.rmse, still.rmse, 0.1 * still.rmse) << scale;
+        EXPECT_LT(corrected.lost + corrected.shifted, 0.005) << scale;
         EXPECT_GT(original.rmse, 2 * still.rmse) << scale;
         EXPECT_GT(original.rmse, before) << scale;
         before = original.rmse;

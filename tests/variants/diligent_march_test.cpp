@@ -28,10 +28,10 @@ struct Outcome {
 };
 
 struct DiligentMarch : DiligentTracing {
-    const nlohmann::json mended = {{"hierarchy.clip_ray_to_near_plane", true},
-                                   {"hierarchy.relative_ray_step", true},
-                                   {"hierarchy.max_traversal_intersections", 4096},
-                                   {"hierarchy.stop_outside_screen", true}};
+    const nlohmann::json corrected = {{"hierarchy.clip_ray_to_near_plane", true},
+                                      {"hierarchy.relative_ray_step", true},
+                                      {"hierarchy.max_traversal_intersections", 4096},
+                                      {"hierarchy.stop_outside_screen", true}};
 
     /// Rays that leave the screen end at the next border of the level that they are on.
     static bool is_same(const BruteForceEnd& expected, double length, glm::dvec2 pixels_apart) {
@@ -42,7 +42,7 @@ struct DiligentMarch : DiligentTracing {
     }
 
     Outcome compare(nlohmann::json parameters) {
-        parameters.update(mended);
+        parameters.update(corrected);
         const HostGBuffer gbuffer = gbuffer_of(uneven_mirrors);
         const HostImage found = trace(gbuffer, parameters).direction;
         Outcome outcome;

@@ -29,7 +29,7 @@ struct DiligentNoiseOf : BlueNoiseTest, testing::WithParamInterface<std::pair<co
             noise.render(graph, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8, NoiseStage::fragment));
     }
 };
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentNoiseOf);  // GoldenVectors tells where they must be
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentNoiseOf);  // GoldenVectors says where they must be
 
 /// In frame 0 numbers are those of the table, half the range later: number k stands for code k + 128 modulo 256.
 HostImage table_from_frame_0(HostImage numbers) {

@@ -172,10 +172,10 @@ TEST_F(DiligentRay, BiasTowardsMirrorEndsInTheMirrorDirection) {
     for (const auto [incidence, error, rounding] :
          {Case{45, 0.09, 0.005}, Case{70, 0.25, 0.005}, Case{80, 0.51, 0.005}, Case{85, 1.0, 0.05}}) {
         const nlohmann::json original = {{"ggx_importance_sample_bias", 1.0}};
-        nlohmann::json mended = original;
-        mended["bias_towards_mirror"] = true;
+        nlohmann::json corrected = original;
+        corrected["bias_towards_mirror"] = true;
         EXPECT_NEAR(degrees_from_mirror(rays(incidence, original), incidence), error, rounding);
-        EXPECT_LT(degrees_from_mirror(rays(incidence, mended), incidence), 1e-4);  // the rounding of float32
+        EXPECT_LT(degrees_from_mirror(rays(incidence, corrected), incidence), 1e-4);  // the rounding of float32
     }
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-// What each correction of spatial reconstruction mends, and what its years differ in, with the switch off and on.
+// What each correction of spatial reconstruction fixes, and how its years differ, with the switch off and on.
 
 namespace {
 

@@ -139,15 +139,15 @@ TEST_F(DiligentReconstruction, LeavesMirrorsSharp) {
 }
 
 /// At half resolution, where even pixels have the ray of their 2x2, odd ones have, as in the original, that of the
-/// next; mended their own.
-TEST_F(DiligentReconstruction, RoundsUpAtHalfResolutionUnlessMended) {
+/// next; corrected their own.
+TEST_F(DiligentReconstruction, RoundsUpAtHalfResolutionUnlessCorrected) {
     const ReconstructionInputs inputs =
         reflecting_wall({.ray_extent = {16, 16}, .roughness = 0, .ray = [](unsigned x, unsigned y) {
                              return TexelRay{.radiance = glm::vec3(x, y, 0)};
                          }});
-    for (const bool is_mended : {false, true}) {
-        const Reconstruction found = run(inputs, {{"half_resolution", true}, {"nearest_half_rays", is_mended}});
-        const auto ray_of = [&](unsigned x) { return float(is_mended ? x / 2 : std::min((x + 1) / 2, 15u)); };
+    for (const bool is_corrected : {false, true}) {
+        const Reconstruction found = run(inputs, {{"half_resolution", true}, {"nearest_half_rays", is_corrected}});
+        const auto ray_of = [&](unsigned x) { return float(is_corrected ? x / 2 : std::min((x + 1) / 2, 15u)); };
         for (unsigned y = 0; y < 32; ++y)
             for (unsigned x = 0; x < 32; ++x) {
                 EXPECT_NEAR(found.radiance.pixel(x, y)[0], ray_of(x), 16 * float_error);

@@ -43,7 +43,7 @@ Parameters without_fades(Parameters parameters = Parameters::object()) {
     return parameters;
 }
 
-/// A wall that is as bright as told, above a mirror of some roughness.
+/// A wall of the given radiance, above a mirror of some roughness.
 SyntheticScene floor_and_wall(float radiance, float roughness = 0) {
     return [=](const CameraRay& ray) {
         SyntheticHit hit = floor_before_white(ray);

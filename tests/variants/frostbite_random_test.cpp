@@ -132,9 +132,9 @@ TEST_F(FrostbiteRandom, FillsTheLobeOverTheFramesWhileNumbersOfRaysChange) {
         }
 }
 
-/// Else bias and variance, which are told by the scatter over seeds, would be wrong: seeds that take turns share what
-/// differs between the four pixels evenly. Chi-square of pairs of successive seeds with 15 degrees of freedom, which
-/// exceeds 56.5 once in a million.
+/// Else bias and variance, which are estimated from the scatter over seeds, would be wrong: seeds that take turns share
+/// what differs between the four pixels evenly. Chi-square of pairs of successive seeds with 15 degrees of freedom,
+/// which exceeds 56.5 once in a million.
 TEST(FrostbiteSeeds, StartAtTurnsThatDoNotHangOnEachOther) {
     const unsigned pairs = 16384;
     std::map<std::pair<unsigned, unsigned>, unsigned> counts;
@@ -205,7 +205,7 @@ TEST_F(FrostbiteRandom, DrawsTheMarchApartFromTheDirection) {
         const glm::dvec2 to_border = (border - pixel - 0.5) / per_metre;
         const double length = std::min({to_border.x, to_border.y, 9.9 / direction.z}) * glm::length(per_metre);
         const double jitter = glm::distance(hit, pixel) / length;
-        if (length < 20 || jitter > 0.9) continue;  // the last step, or too few pixels to tell
+        if (length < 20 || jitter > 0.9) continue;  // the last step, or too few pixels
         correlation += (jitter - 0.45) / 0.26 * (drawn_from(direction).x - 0.5) / 0.29;
         mean += jitter;
         ++rays;

@@ -41,7 +41,7 @@ TEST(Registry, AppliesPresetsBeforeParameters) {
     EXPECT_EQ(variant->params.values().at("dda.refine"), true);
 }
 
-/// What `ssrlab tune` writes becomes presets by a copy of its file; a copy beside the wrong technique is told.
+/// What `ssrlab tune` writes becomes presets by a copy of its file; a copy beside the wrong technique is an error.
 TEST(Registry, TakesPresetsThatASearchFound) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "tuned_presets.json";
     const auto add = [&](VariantEntry entry, const std::string& preset) {

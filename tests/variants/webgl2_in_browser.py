@@ -71,7 +71,7 @@ def main():
         browser = open_browser(profile, SOFTWARE)
         try:
             if len(failures(browser, [BROKEN])) != 1:
-                sys.exit("webgl2_in_browser: the browser compiles what WebGL 2 forbids, so this test tells nothing")
+                sys.exit("webgl2_in_browser: the browser compiles what WebGL 2 forbids, so this test is not valid")
             batch = 64  # a message to the browser stays below 2 MB
             refused = [f for i in range(0, len(sources), batch) for f in failures(browser, sources[i : i + batch])]
         finally:

@@ -7,7 +7,7 @@
 /// AMD FidelityFX Stochastic Screen-Space Reflections with its reflection denoiser, as the shaders of FidelityFX SDK
 /// 1.1.4 compute them (effects SSSR 1.5 and Denoiser 1.3, MIT licence). Defaults are those of AMD's sample.
 ///
-/// README.md explains the passes, lists the deviations, and names the parameter that mends each defect of the original.
+/// README.md explains the passes, lists the deviations, and names the parameter that fixes each defect of the original.
 class AmdSssr final : public TracingVariant {
 public:
     bool depends_on_seed() const override;

@@ -45,7 +45,7 @@ const uint is_tracing = 1u, is_waiting = 2u;
 shared uint quad_states[64];
 bool neighbour_is(uint flip, uint state) { return (quad_states[gl_LocalInvocationIndex ^ flip] & state) != 0u; }
 
-// A pixel that waits for a ray which nobody traces. Quads lie in the list of invocations as (0, 0), (1, 0), (0, 1),
+// A pixel that takes a ray which no pixel traces. Quads lie in the list of invocations as (0, 0), (1, 0), (0, 1),
 // (1, 1).
 bool is_orphan(uint state) {
     uint server = samples_per_quad == 1u ? gl_LocalInvocationIndex & 3u : 1u;  // the flip that leads to it

@@ -2,7 +2,7 @@
 #include "core/parameters.h"
 
 /// Parameters of the three denoiser passes. "Denoiser 1.3" is the effect in FidelityFX SDK 1.1.4 (reflections); its
-/// constants are parameters here. Switches under "corrections" mend one defect each.
+/// constants are parameters here. Switches under "corrections" fix one defect each.
 struct AmdDenoiserParameters {
     ParameterSet& params;
 
@@ -82,7 +82,7 @@ struct AmdDenoiserParameters {
         {"", "the temporal resolve weights history by this frame's reprojected sample count; the original binds the last "
          "frame's count at the same pixel", "ssrlab; Denoiser 1.3 and 1.2, host code"}};
     Switch no_dark_exit{params, "no_dark_exit", false,
-        {"", "dark pixels are accumulated as all others; the original turns them off at once", "ssrlab; as in Denoiser 1.2"}};
+        {"", "dark pixels are accumulated like all others; the original sets them to 0 at once", "ssrlab; as in Denoiser 1.2"}};
     Switch running_variance{params, "running_variance", false,
         {"", "variance is a running mean over the history; the original mixes the other way round, so that long histories "
          "keep only the newest change", "ssrlab"}};
@@ -99,13 +99,13 @@ struct AmdDenoiserParameters {
         {"", "points that were behind the camera have no history. The original divides by their negative w, and looks the "
          "reflected point up on the other side of the screen", "ssrlab"}};
     Switch finite_neighborhood{params, "finite_neighborhood", false,
-        {"", "clamps radiance to the largest half float before it is shared, and leaves non-finite neighbours out",
+        {"", "clamps radiance to the largest half float before it is shared, and excludes non-finite neighbours",
          "ssrlab; the overflow is FidelityFX SDK issue 186"}};
     Switch fresh_neighborhood{params, "fresh_neighborhood", false,
-        {"", "filters next to tiles without a glossy pixel see this frame's colours there, no variance and no average; the "
-         "original sees what earlier frames have left", "ssrlab; FidelityFX SSSR issue 4"}};
+        {"", "filters next to tiles without a glossy pixel read this frame's colours there, no variance and no average; the "
+         "original reads stale data of earlier frames", "ssrlab; FidelityFX SSSR issue 4"}};
     Switch float_histories{params, "float_histories", false,
-        {"", "keeps radiance, variance, counts and averages in 32 bits; half floats that truncate drift dark as they "
+        {"", "keeps radiance, variance, counts and averages in 32 bits; truncated half floats drift darker as they "
          "accumulate. The faithful form still shares halves between the threads of a tile",
          "ssrlab; the original's formats are R16G16B16A16_FLOAT, R16_FLOAT and R11G11B10_FLOAT"}};
     // clang-format on

@@ -51,11 +51,11 @@ VariantEntry amd_sssr_entry() {
               "the stale sample count is kept, as in version 1.3, the stale averages and the pyramid's are not",
               nlohmann::json::object()},
              {"repeatable",
-              "as sdk_1_5, but subgroups do not give up their last rays: runs repeat, whatever the size of subgroups",
+              "as sdk_1_5, but subgroups do not give up their last rays: repeatable for every size of subgroups",
               {{"hierarchy.min_traversal_occupancy", 0}}},
              {"corrected",
-              "every defect mended, and no early exit of thinly occupied subgroups; what only changes a choice of the "
-              "original's is left as it is",
+              "every defect fixed, and no early exit of thinly occupied subgroups; deliberate choices of the original "
+              "are unchanged",
               amd_corrected},
              {"best",
               "the least error that a search found (search_amd_sssr.json of commit 5cf9fef), from `corrected` on: "

@@ -5,7 +5,7 @@
 
 /// Parameters of classification, noise and intersection, under the original's names; those of its march begin with
 /// `hierarchy.`. "SSSR 1.5" is the effect in FidelityFX SDK 1.1.4; its defaults are those of AMD's sample. Switches
-/// under "corrections" mend one defect each.
+/// under "corrections" fix one defect each.
 struct AmdTracingParameters {
     ParameterSet& params;
 

@@ -2,7 +2,7 @@
 #include "core/gbuffer/gbuffer.h"
 #include "core/gpu/pass_graph.h"
 
-/// A G-buffer without the values that no technique can bear, in place of the graph's inputs as long as this lives: each
+/// A G-buffer without NaN and Inf, in place of the graph's inputs as long as this lives: each
 /// shader that names `depth` reads the repaired one. A fault stays in its pixel, which becomes background (depth), black
 /// (colours), still (motion) or faces the viewer (normals of surfaces); normals that are not unit become so. What was sound
 /// keeps its bits. repair_image.frag has the rules.

@@ -9,8 +9,8 @@ struct Preset {
     nlohmann::json parameters;
 };
 
-/// The API that a technique keeps to, so that it runs there. `lifted_by` holds values of parameters; each of them asks
-/// for more than the API has and lifts the limits.
+/// The API whose limits a technique obeys, so that it runs there. `lifted_by` holds values of parameters; each of them
+/// asks for more than the API has and lifts the limits.
 struct VariantLimits {
     Limits api = Limits::none;
     nlohmann::json lifted_by = nlohmann::json::object();

@@ -8,7 +8,7 @@
 /// DiligentFX's screen-space reflection (Apache-2.0 licence), an adaptation of AMD FidelityFX SSSR to machines without
 /// compute shaders. Defaults are those of the effect as of July 2026.
 ///
-/// README.md explains the passes, lists the deviations, and names the parameter that mends each defect of the original.
+/// README.md explains the passes, lists the deviations, and names the parameter that fixes each defect of the original.
 class DiligentSsr final : public TracingVariant {
 public:
     bool depends_on_seed() const override;

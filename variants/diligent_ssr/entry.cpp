@@ -47,8 +47,7 @@ VariantEntry diligent_ssr_entry() {
                {"history_search", "device_depth"}}},
              {"current", "July 2026, with its defaults", nlohmann::json::object()},
              {"corrected",
-              "every defect mended, and history that averages; what only changes a choice of the original's is "
-              "left as it is",
+              "every defect fixed, and history that averages; deliberate choices of the original are unchanged",
               diligent_corrected},
              {"best",
               "the least error that a search found (search_diligent.json of commit 5cf9fef), from `corrected` on: "

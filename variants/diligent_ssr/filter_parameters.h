@@ -29,7 +29,7 @@ struct DiligentFilterParameters {
         {"", "multiplies the confidence. The original fades reflections in with it while its pipelines compile",
          "DiligentFX, AlphaInterpolation"}};
 
-    // What the document says and the original's code does not do.
+    // In the document, but not in the original's code.
     Choice cleanup{params, "cleanup", "bilateral", {"bilateral", "guided"},
         {"", "the filter of what is still noisy. guided: lines in the distance from the camera plane that fit windows of the same size, "
          "whose cost need not grow with the window (He et al. 2010)", "DiligentFX: bilateral; its document would try guided"}};
@@ -61,7 +61,7 @@ struct DiligentFilterParameters {
 
     Switch start_from_black{params, "start_from_black", false,
         {"", "the first frame blends with black histories, as in an application whose previous depth is then the frame's "
-         "own; with the default weight of history averaging never takes that black away. Otherwise the first frame "
+         "own; with the default weight of history averaging never removes that black. Otherwise the first frame "
          "has no history, as where the previous depth is cleared", "DiligentFX leaves it to the application"}};
 
     // Corrections.
@@ -69,7 +69,7 @@ struct DiligentFilterParameters {
         {"", "turns the disk of neighbours from frame to frame. The original's code does, but its applications seldom set "
          "the frame index that it reads, so that the pattern stands still", "DiligentFX"}};
     Switch own_ray{params, "own_ray", false,
-        {"", "counts a pixel's own ray, too; the original's eight neighbours leave it out", "ssrlab"}};
+        {"", "also uses a pixel's own ray, which the original's eight neighbours exclude", "ssrlab"}};
     Switch scale_radius{params, "scale_radius", false,
         {"", "with half_resolution, a radius of as many rays; in the original of as many pixels, which is half as many rays",
          "ssrlab; an open issue of DiligentFX"}};
@@ -91,7 +91,7 @@ struct DiligentFilterParameters {
         {"", "rays whose weight or direction is not a number count nothing; what the original makes of them is up to the "
          "driver", "ssrlab"}};
     Switch clear_targets{params, "clear_targets", false,
-        {"", "clears what the mask leaves out. The original's filters read what older frames left there", "ssrlab"}};
+        {"", "clears the pixels outside of the mask, where the original's filters read stale data", "ssrlab"}};
     Switch float_histories{params, "float_histories", false,
         {"", "keeps reconstructed colours, variances and histories in 32 bits in place of 16, whose storing darkens history "
          "on devices that truncate", "ssrlab; DiligentFX stores RGBA16F and R16F"}};

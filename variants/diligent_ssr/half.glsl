@@ -5,7 +5,7 @@
 
 const float largest_half = 65504.0;
 
-// What is not a number stays so: that is for finite_weights to mend.
+// NaN stays NaN: finite_weights removes it.
 vec4 as_halves(vec4 v) {
     return mix(v, sign(v) * largest_half, greaterThan(abs(v), vec4(largest_half)));
 }

@@ -65,7 +65,7 @@ float kernel(float radius) {
     return spatial_kernel == double_gaussian ? exp(-0.66 * gaussian * gaussian) : gaussian;
 }
 
-// Clamps turn what is not a number into one, so that the weight alone does not tell.
+// Clamps turn NaN into a number, so that the weight alone does not show it.
 bool is_finite_weight(float weight, vec3 ws_direction, float density) {
     float sum = weight + ws_direction.x + ws_direction.y + ws_direction.z;
     return !isnan(sum) && !isinf(sum) && !isnan(density);

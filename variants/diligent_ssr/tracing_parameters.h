@@ -5,7 +5,7 @@
 
 /// Parameters of depth hierarchy, mask, noise and intersection, under the original's names; those of its march begin
 /// with `hierarchy.`. "DiligentFX" is its ScreenSpaceReflection as of July 2026, "2024" that of April 2024, which its
-/// document describes. Switches under "corrections" mend one defect each.
+/// document describes. Switches under "corrections" fix one defect each.
 struct DiligentTracingParameters {
     ParameterSet& params;
 

@@ -12,7 +12,7 @@ nlohmann::json quality(unsigned max_steps, unsigned binary_search_steps, double 
             {"num_rays", num_rays}};
 }
 
-/// What mends the march and the mean; the temporal mode's history, too.
+/// Corrections of the march, the mean and the temporal mode's history.
 nlohmann::json corrections() {
     nlohmann::json parameters = {{"fixed_stride.step", "pixels"},
                                  {"fixed_stride.reject_towards_camera", false},
@@ -48,7 +48,7 @@ VariantEntry four_mode_ssr_entry() {
         .description =
             "A fixed stride, a march through a depth pyramid, several rays of the GGX lobe, or these blended over "
             "time; with "
-            "the document's fades, and its composite where a study asks for it.",
+            "the document's fades, and its composite as a study's option.",
         .presets = {{"low", "the document's table: 32 steps, 4 of refinement, stride 2, 1 ray", quality(32, 4, 2, 1)},
                     {"medium", "48 steps, 6 of refinement, stride 1.5, 2 rays", quality(48, 6, 1.5, 2)},
                     {"high", "64 steps, 8 of refinement, stride 1, 4 rays: the document's default",

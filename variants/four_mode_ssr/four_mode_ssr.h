@@ -3,7 +3,7 @@
 
 /// The four-mode reflection pass of an engine: its documentation of 2026-01-14 is "the document". Parameters have its
 /// names, in this project's spelling, and its defaults; those of its two marches are the tracers' `fixed_stride` and
-/// `cells`. README.md tells how each step of the document is read, and where it errs.
+/// `cells`. README.md explains how the document is interpreted, and its errors.
 class FourModeSsr final : public TracingVariant {
 public:
     FourModeSsr();
@@ -40,7 +40,7 @@ private:
          "the document: the number; the linear fall is ssrlab's"}};
     Choice history_place{params, "history_place", "camera", {"camera", "motion_vectors"},
         {"", "where the surface was in the frame before. camera: by the previous camera, as if nothing but it moved",
-         "the document asks for motion vectors, and its algorithm takes the previous camera's matrix"}};
+         "the document specifies motion vectors, but its algorithm uses the previous camera's matrix"}};
     Switch neighborhood_clamp{params, "neighborhood_clamp", true,
         {"", "clamps the history to the least and largest of the 3x3 neighbours, each channel and the confidence alone", "the document"}};
     Switch reject_other_surfaces{params, "reject_other_surfaces", false,

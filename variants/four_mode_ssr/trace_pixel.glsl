@@ -9,7 +9,7 @@ uniform writeonly image2D traced;
 
 const uint mode_hiz = 1u;             // parameter `mode`; those above draw at random
 const uint weights_ratio = 1u;      // parameter `weights`
-const float least_confidence = 1e-4;  // that half floats tell from none, with room
+const float least_confidence = 1e-4;  // well above the resolution of half floats
 
 struct DrawnRay {
     vec3 direction;  // in the frame of the shading normal

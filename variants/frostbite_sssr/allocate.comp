@@ -1,4 +1,4 @@
-// Lists the rays of every traced pixel for the tracer that its roughness asks for. The order of the lists changes from
+// Lists the rays of every traced pixel for the tracer of its roughness. The order of the lists changes from
 // run to run; each ray has a place of its own to write to, so that nothing else does.
 #include "frostbite_sssr/counters.glsl"
 #include "frostbite_sssr/draw_ray.glsl"

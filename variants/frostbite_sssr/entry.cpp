@@ -7,11 +7,11 @@ VariantEntry frostbite_sssr_entry() {
         .title = "Frostbite's stochastic screen-space reflections, with ray reuse",
         .source =
             "Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections, SIGGRAPH course Advances in Real-Time "
-            "Rendering, as quoted by others; what they leave open is ours",
+            "Rendering, as quoted by others; gaps are filled by ssrlab",
         .description =
             "Probes decide how many rays each tile gets; a hierarchical march serves smooth surfaces and linear steps "
             "rough ones; each pixel weighs its neighbours' rays by its own BRDF, takes their colours from mip levels, "
-            "and blends with what it reflected in the frame before.",
+            "and blends with its reflection of the previous frame.",
         .presets =
             {{"frostbite_2015",
               "the configuration whose times were published: 1 ray per half-resolution pixel, 4 taps, 0.7 of the "
@@ -27,7 +27,7 @@ VariantEntry frostbite_sssr_entry() {
              {"best",
               "the least error that a search found (search_frostbite.json of commit 5cf9fef): one ray per pixel from "
               "0.7 of the "
-              "lobe of visible normals; hits that the previous frame did not show see the environment",
+              "lobe of visible normals; hits that the previous frame did not show use the environment",
               {{"half_resolution", false},
                {"lobe", "visible_normals"},
                {"importance_bias", 0.3},

@@ -43,7 +43,7 @@ float lobe_share(Surface surface, float mu_i, bool is_traced, float density_rati
 
 void add_ray(inout Sums sums, ivec2 pixel, Surface surface, ReusedRay ray) {
     OwnRay own = as_own_ray(surface, ray);
-    // As in the path-traced reference such a direction is known to bring no light, whatever a neighbour saw along it.
+    // As in the path-traced reference such a direction is known to bring no light, whatever a neighbour's ray met along it.
     // One into the neighbour's surface alone was never looked along.
     bool is_into_surface = dot(own.direction, surface.geometric_normal) <= 0.0;
     if (ray.traced.target == ray_into_surface && !is_into_surface) return;

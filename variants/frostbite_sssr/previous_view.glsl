@@ -33,7 +33,7 @@ bool showed_plane(ivec2 texel, vec3 point, vec3 plane_normal) {
 }
 
 // Whether that camera saw, at `place` on its images, what `pixel` shows now. Something that moves is taken to keep its
-// distance: motion vectors do not tell.
+// distance, which motion vectors do not contain.
 bool was_seen(ivec2 pixel, vec2 place) {
     vec4 clip = camera.previous_clip_from_world * world_position(pixel);
     ivec2 texel = min(ivec2(place), ivec2(camera.extent.xy) - 1);

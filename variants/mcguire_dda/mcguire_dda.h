@@ -22,7 +22,7 @@ private:
         {"perceptual", "rougher surfaces are left to the fallback", "ssrlab; the paper traces mirrors only"}};
     Switch trace_inward_rays{params, "trace_inward_rays", true,
         {"", "also traces mirror rays that shading normals turn below the geometric surface",
-         "McGuire & Mara 2014 do not tell them apart"}};
+         "McGuire & Mara 2014 do not distinguish them"}};
     // clang-format on
     Tracers tracers{
         params, {{"tracer", "trace", "dda", "the march that finds what a ray meets"}}, "McGuire & Mara 2014: dda"};

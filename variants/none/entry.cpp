@@ -6,7 +6,7 @@ VariantEntry none_entry() {
         .name = "none",
         .title = "No screen-space reflections",
         .source = "ssrlab",
-        .description = "Confidence 0 everywhere: the fallback alone, against which every technique is read.",
+        .description = "Confidence 0 everywhere: the fallback alone, the baseline of all techniques.",
         .presets = {},
         .create = [] { return std::make_unique<None>(); },
     };

@@ -36,7 +36,7 @@ VariantEntry simple_ssr_entry() {
               "one ray per pixel about the mirror direction, averaged with nothing",
               {{"previous_frame", true}, {"draw", "jittered_ray"}, {"weights", "none"}}},
              {"cosine",
-              "directions by the cosine, which know nothing of the lobe: what importance sampling is for",
+              "cosine-distributed directions, independent of the lobe: the baseline of importance sampling",
               {{"draw", "cosine"}, {"rays", 4}, {"tracer", "cells"}}},
              {"blog", "the article as printed: mirror rays through a hierarchical depth buffer", article_march},
              {"blog_importance", "the article as printed, with its other choice: a direction by importance",

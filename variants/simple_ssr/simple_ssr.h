@@ -24,7 +24,7 @@ private:
          "slides: mirror, then jittered; the article: mirror or by importance; AMD's slides show jittered_ray beside visible_normals"}};
     Param<unsigned> rays{params, "rays", 1, {1, 16}, {"rays", "of each pixel, unless all are its mirror ray", "slides: few"}};
     Choice weights{params, "weights", "ratio", {"none", "ratio"},
-        {"", "of the rays of a pixel in their mean. none: all alike, whatever they were drawn from; ratio: the density of the lobe of "
+        {"", "of the rays of a pixel in their mean. none: all alike, for any distribution; ratio: the density of the lobe of "
          "visible normals over that which they were drawn with, divided by the sum, so that many rays of any draw come to the same "
          "mean; a single ray has the same colour either way",
          "none: slides and article, which name no weight; ratio: ssrlab"}};

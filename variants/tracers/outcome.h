@@ -2,7 +2,7 @@
 #define TRACERS_OUTCOME_H
 #include "core/shared/language.h"
 
-// How a ray ended, for GLSL and for C++. What a tracer cannot tell apart it calls by the first that is true.
+// How a ray ended, for GLSL and for C++. Of outcomes that a tracer cannot distinguish it gives the first that is true.
 
 const uint outcome_hit = 0u;
 const uint outcome_off_screen = 1u;     ///< it left the screen

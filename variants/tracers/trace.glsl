@@ -28,7 +28,7 @@ TraceEnd missed(uint outcome, vec2 position, float distance) {
     return TraceEnd(ivec2(0), position, distance, 0.0, outcome);
 }
 
-// Tracers read depth through these, which are counted where the pass that includes them asks for it.
+// Tracers read depth through these, which are counted where the including pass enables it.
 uint depth_fetches = 0u;
 void count_fetch() {
 #ifdef COUNT_DEPTH_FETCHES

@@ -167,12 +167,11 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
                   const std::function<void(PassGraph::Pass&)>& run) const {
     const TracerNeeds needed = needs(slots);
     if (needed.exact_hits && (!probe || !probe->exact_hits))
-        fail("the tracer exact_scene asks the scene, which only ssrlab's commands plug in, and not for captures");
+        fail("the tracer exact_scene uses scene data, which only ssrlab's commands provide, and not for captures");
     if (needed.depth_layers && !graph.has_input("second_depth"))
         fail(
-            "the chosen tracer reads what lies behind the visible surfaces: captures do not hold it, and scenes' "
-            "frames only "
-            "if the technique's needs_depth_layers() asks for it");
+            "the chosen tracer reads the layer behind the visible surfaces: captures lack it, and scenes' frames have "
+            "it only if the technique's needs_depth_layers() returns true");
     const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
     const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
     const RecordedRays* replayed = nullptr;

@@ -48,7 +48,7 @@ public:
     Images images(PassGraph& graph, const Image& depth, const PyramidMaker& make = {},
                   const std::vector<std::string>& slots = {}) const;
 
-    /// Runs `pass`, whose shader includes `slots`, once by `run` (over all pixels); with a probe that asks for it a
+    /// Runs `pass`, whose shader includes `slots`, once by `run` (over all pixels); with a probe that needs it a
     /// second time before, to get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different
     /// TraceRay::number. Fails if a tracer needs exact hits and `probe` has none.
     void run(

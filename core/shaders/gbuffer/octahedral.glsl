@@ -2,7 +2,7 @@
 // JCGT 3(2), "oct".
 vec2 folded(vec2 p) { return (1.0 - abs(p.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0))); }
 
-// What is left of n after it was stored in two signed integers of so many bits.
+// n after it was stored in two signed integers of so many bits.
 vec3 octahedral(vec3 n, uint bits) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     if (n.z < 0.0) p = folded(p);

@@ -1,4 +1,4 @@
-// A Vulkan layer for programs that present nothing, whose frames RenderDoc cannot tell apart: the capture lasts from
+// A Vulkan layer for programs that present nothing, whose frames RenderDoc cannot separate: the capture lasts from
 // the creation of a device to its end. run.sh uses it.
 #define _GNU_SOURCE
 #include <dlfcn.h>

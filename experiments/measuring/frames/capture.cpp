@@ -86,9 +86,10 @@ void check_predecessor(const fs::path& place, const LoadedGBuffer& now, const Ho
         fail((place / "camera.json").string(), ": its previous camera is not that of frame ", frame,
              ", so frames between them are missing, or it is that of another frame");
     if (now.absent.contains("previous_depth")) return;
-    const HostImage told = surface_distances(before, now.gbuffer.previous_depth);
+    const HostImage stored = surface_distances(before, now.gbuffer.previous_depth);
     const HostImage& depth = before.depth;
-    const double share = share_that_differs(told, [&](size_t i) { return surface_distance(before, depth.values[i]); });
+    const double share =
+        share_that_differs(stored, [&](size_t i) { return surface_distance(before, depth.values[i]); });
     if (share > 0.25)  // what is not drawn alike twice: foliage, particles, edges under another jitter
         fail((place / "gbuffer.exr").string(), ": previous_depth is not the depth of frame ", frame, ": ",
              std::lround(100 * share), " % of the pixels differ by more than 1 %");

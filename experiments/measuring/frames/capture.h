@@ -8,10 +8,10 @@
 #include <optional>
 
 /// G-buffers from files in place of a scene: a folder with one (gbuffer_file.h), or with several in a row, in folders
-/// frame_<number> of their own. An environment.json beside them tells what rays see that meet nothing.
+/// frame_<number> of their own. An environment.json beside them is for rays that hit nothing.
 ///
-/// How a frame is played, and not its file, decides what was before it: after the one that it follows in the capture,
-/// the file's motion vectors count (without any, those of still objects are derived from depth and cameras); after
+/// The previous frame is the one played before: after the one that it follows in the capture,
+/// the file's motion vectors are used (without any, those of still objects are derived from depth and cameras); after
 /// itself, where a pose is held, nothing moves; after any other, which timing plays on its way back, objects stand
 /// still. Camera, depth and normal of before are always those of the frame played before.
 class Capture {
@@ -23,7 +23,7 @@ public:
     const std::optional<Environment>& environment() const { return environment_; }
     const std::filesystem::path& folder_of(unsigned frame) const { return folders_.at(frame); }
 
-    /// As its files tell; valid until the next call, with an empty `fallback` layer filled from the environment.
+    /// From its files; valid until the next call, with an empty `fallback` layer filled from the environment.
     const LoadedGBuffer& load(unsigned frame);
     HostGBuffer played(unsigned frame, std::optional<unsigned> previous);
 
@@ -44,7 +44,7 @@ Shot capture_shot(const ShotConfig& config, const Capture& capture);
 
 /// What all frames of a shot hold.
 struct CaptureContents {
-    SceneFacts facts;                ///< what is unknown counts as there, so that nothing is left out for lack of it
+    SceneFacts facts;                ///< what is unknown counts as present, so that nothing is skipped for lack of it
     bool has_lit = false;            ///< a lit colour of its own
     std::vector<std::string> notes;  ///< sentences for the user, with the frames that they are about
 };
@@ -57,6 +57,6 @@ CaptureContents inspect_capture(const Shot& shot, Capture& capture);
 /// The reference of a frame: the last run of # in config.reference stands for its number, with leading zeros.
 std::filesystem::path capture_reference_file(const ShotConfig& config, unsigned frame);
 
-/// Fails if the reference has another size than the frame, was evidently made from another place (its first hits must
+/// Fails if the reference has another size than the frame, was evidently made from another camera (its first hits must
 /// lie at the G-buffer's depths but for a few pixels at edges), or lacks the truth ladder that is needed.
 Reference read_capture_reference(const Shot& shot, Capture& capture, unsigned frame, bool needs_ladder);

@@ -6,7 +6,7 @@
 #include "groundtruth/camera_view.h"
 #include "groundtruth/embree_scene.h"
 
-/// What rays that start from the pixels of one frame truly meet, asked of the scene.
+/// What rays that start from the pixels of one frame meet in the scene.
 class ExactRays {
 public:
     /// `camera`: of the frame's G-buffer, without jitter. `shot` must outlive this.

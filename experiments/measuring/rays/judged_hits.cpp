@@ -14,12 +14,12 @@ const std::array<const char*, outcome_count> outcome_names = {"hit",         "of
                                                               "unfinished",  "background",  "too_thick",
                                                               "from_behind", "own_surface", "hidden"};
 
-// Of the intervals below `hit_coverage_study` tells how often they hold the truth.
+// `hit_coverage_study` measures the coverage of the intervals below.
 
 /// Student's interval takes the seeds for normal, and knows nothing of what none of them showed. Rays that change their
-/// verdict with the seed are often few: a count c over all seeds, told by their scatter, whose mean is known within
-/// z^2/2 + z sqrt(c + z^2/4), the upper end of Wilson's score interval of a Poisson mean. The wider of both on each
-/// side. `rays`: mean over the seeds. None with a single seed.
+/// verdict with the seed are often few: a count c over all seeds, estimated by their scatter, whose mean is known
+/// within z^2/2 + z sqrt(c + z^2/4), the upper end of Wilson's score interval of a Poisson mean. The wider of both on
+/// each side. `rays`: mean over the seeds. None with a single seed.
 std::optional<Estimate> share_estimate(const std::vector<double>& shares, double rays) {
     if (shares.size() < 2) return {};
     constexpr double z = 1.96;
@@ -117,7 +117,7 @@ std::optional<double> JudgedHits::median_distance_error(const Count& count) {
 
 std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
     using ValueOf = std::function<std::optional<double>(const Count&)>;
-    using RaysOf = std::function<double(const Count&)>;  // how many bear the value of what is no share
+    using RaysOf = std::function<double(const Count&)>;  // the number of rays behind a value that is no share
     std::vector<HitRow> rows;
     for (const auto& [key, seeds] : counts_) {
         const auto add = [&](const std::string& quantity, const ValueOf& value_of, const RaysOf& rays_of_other = {}) {

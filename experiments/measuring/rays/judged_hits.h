@@ -62,5 +62,5 @@ private:
 
 /// The verdict of each pixel's first ray in one colour each (RGB), black where none was traced: right green, wrong
 /// place orange, false hit red-purple, avoidable miss yellow, unavoidable miss blue, empty grey (Okabe and Ito's
-/// colours, which people of any colour vision tell apart).
+/// colours, distinguishable with any colour vision).
 HostImage map_of_verdicts(const RecordedRays& recorded, const std::vector<ExactHit>& truth, glm::uvec2 extent);

@@ -52,5 +52,5 @@ TEST_F(BuildRecord, IsDirtyIfTheCodeIsNoLongerThatOfTheBuild) {
     EXPECT_EQ(clean["commit"], "abc");
     EXPECT_EQ(build_info({{"commit", "abc"}, {"dirty", true}, {"code", code}})["dirty"], true);
     EXPECT_EQ(build_info({{"commit", "abc"}, {"dirty", false}, {"code", "of another shader"}})["dirty"], true);
-    EXPECT_EQ(build_info({{"commit", "abc"}, {"dirty", false}})["dirty"], true) << "a record that cannot tell";
+    EXPECT_EQ(build_info({{"commit", "abc"}, {"dirty", false}})["dirty"], true) << "a record that does not say";
 }

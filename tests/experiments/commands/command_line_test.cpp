@@ -74,11 +74,11 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     EXPECT_NE(ssrlab("run study.json --out o").text.find("did you mean 'mirror_pillars'?"), std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "o/results.csv"));
     config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda"}], "tune": {"most_runs": 9}})");
-    expect_mistake("tune study.json", "it is for others to extend");
+    expect_mistake("tune study.json", "it can only be extended");
 }
 
 TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
-    // Also of a point that asks the scene, whose time is not told by its rays.
+    // Also of a point that uses scene data, whose time does not depend on its rays.
     config(
         R"({"shots": [{"scene": "fence", "resolution": [48, 27]}], "reference": "none", "lit": "direct", "seeds": 1, "timing": {"frames": 0},
         "variants": [{"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}]})");
@@ -189,7 +189,7 @@ TEST_F(CommandLine, ListsWhatEachThingIs) {
     const std::string variants = ssrlab("list variants").text;
     EXPECT_NE(variants.find("none: No screen-space reflections\n    Confidence 0 everywhere"), std::string::npos)
         << variants;
-    EXPECT_NE(ssrlab("list presets").text.find("\namd_sssr:corrected\n    every defect mended"), std::string::npos);
+    EXPECT_NE(ssrlab("list presets").text.find("\namd_sssr:corrected\n    every defect fixed"), std::string::npos);
 }
 
 TEST_F(CommandLine, SavesGBuffers) {

@@ -154,9 +154,9 @@ TEST_F(CaptureTest, WithoutMotionOrPreviousCameraTheFrameBeforeTellsThem) {
     }
     EXPECT_SAYS(notes(), "no layer 'motion': it is derived from depth and cameras");
     Capture capture(folder);
-    const HostGBuffer told = wall(1), derived = capture.played(1, 0);
-    for (size_t i = 0; i < told.motion.values.size(); ++i)
-        ASSERT_NEAR(derived.motion.values[i], told.motion.values[i], 1e-6f);  // float32 matrices, of other products
+    const HostGBuffer stored = wall(1), derived = capture.played(1, 0);
+    for (size_t i = 0; i < stored.motion.values.size(); ++i)
+        ASSERT_NEAR(derived.motion.values[i], stored.motion.values[i], 1e-6f);  // float32 matrices, of other products
     EXPECT_EQ(derived.camera.previous_clip_from_world, camera(0).clip_from_world);
     EXPECT_EQ(derived.camera.frame.w, 1u);
 }

@@ -1,4 +1,4 @@
-"""How well counted costs tell times: against numbers by hand."""
+"""How well counted costs predict times: against numbers by hand."""
 
 import os
 import subprocess

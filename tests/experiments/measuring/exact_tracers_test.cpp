@@ -311,7 +311,7 @@ TEST_F(ExactTracers, WhoCannotAskOrSeeIsToldSo) {
     Probed asking(player, "mcguire_dda", {{"tracer", "exact_scene"}});
     EXPECT_TRUE(asking.variant->asks_scene());
     const std::string no_scene =
-        "the tracer exact_scene asks the scene, which only ssrlab's commands plug in, and not for captures";
+        "the tracer exact_scene uses scene data, which only ssrlab's commands provide, and not for captures";
     asking.probe.exact_hits = {};
     EXPECT_EQ(message_of([&] { asking.render(); }), no_scene);
     asking.variant->ray_probe = nullptr;
@@ -321,8 +321,8 @@ TEST_F(ExactTracers, WhoCannotAskOrSeeIsToldSo) {
         Probed seeing(player, "mcguire_dda", parameters);
         EXPECT_TRUE(seeing.variant->needs_depth_layers());
         EXPECT_EQ(message_of([&] { seeing.render(); }),
-                  "the chosen tracer reads what lies behind the visible surfaces: captures do not hold it, and scenes' "
-                  "frames only if the technique's needs_depth_layers() asks for it");
+                  "the chosen tracer reads the layer behind the visible surfaces: captures lack it, and scenes' frames "
+                  "have it only if the technique's needs_depth_layers() returns true");
     }
     Probed by_parameter(player, "mcguire_dda",
                         {{"tracer", "exact_layer"}, {"exact_layer.thickness_from", "parameter"}});

@@ -26,7 +26,7 @@ TEST(NoiseCoverage, HoldsForReferencesOfThePathTracer) {
                                                         .draws = 1});
         size_t judged = 0;
         for (const CoverageRow& row : rows) {
-            // Where few pixels bear nearly all noise, some seeds have an interval and most have not.
+            // Where few pixels carry nearly all noise, some seeds have an interval and most have not.
             if ((row.mask != "all" && row.mask != "reflective") || row.intervals < 0.9 * row.trials) continue;
             const std::string what = row.scene + " " + row.test + " " + row.target + " " + row.mask + " " + row.metric;
             ++judged;

@@ -110,7 +110,7 @@ TEST(Splits, HoldTheNoiseOfTheReferenceInTheIntervalOfTheBias) {
 
 TEST(Splits, HoldWhatNoisyLightMayHaveAdded) {
     // A reference of 0 without noise, and seeds of 1, 1, 1 and 3 everywhere. Of the pairs 1 * 1 and 1 * 3 the mean has
-    // a standard error of 1, and Student's t of one degree is 12.7062. All six pairs tell a squared bias of 2.
+    // a standard error of 1, and Student's t of one degree is 12.7062. All six pairs estimate a squared bias of 2.
     const glm::uvec2 extent(32, 16);
     const HostImage none(extent, 3);
     const MetricReference reference = metric_reference(

@@ -206,7 +206,7 @@ TEST_F(Timing, PairsEveryTimedPointAndLeavesOutTheOthers) {
         EXPECT_EQ(times.pairs[i].variant, config.variants[i].variant);
         EXPECT_GT(times.pairs[i].first_ms, 0.0);
         EXPECT_GT(times.pairs[i].second_ms, 0.0);
-        EXPECT_NE(times.pairs[i].first_ms, times.pairs[i].second_ms) << "measured once, told twice";
+        EXPECT_NE(times.pairs[i].first_ms, times.pairs[i].second_ms) << "measured once, reported twice";
     }
     EXPECT_TRUE(std::ranges::none_of(times.rows, [](const TimeRow& row) { return row.point == "dda.stride=4"; }));
 

@@ -141,7 +141,7 @@ def test_search(folder):
     spent = sum(int(r["runs"]) for r in rows)
     presets = {p["name"]: p for p in json.loads(read(folder, "presets.json"))["presets"]}
     judged = 4 * 2 * (2 + len(presets))
-    check(spent + judged == fake.runs, f"{spent} runs are told and {judged} judge, but there were {fake.runs}")
+    check(spent + judged == fake.runs, f"{spent} runs are reported and {judged} judge, but there were {fake.runs}")
     check(1000 - 16 < spent <= 1000, f"{spent} runs of a budget of 1000")
     check(spent < 0.6 * full, f"stopping saved little: {spent} runs of {full}")
     values = {json.dumps({k: r[k] for k in AXES}) for r in tried}
@@ -149,7 +149,7 @@ def test_search(folder):
     check(all((r["step"] == "") == (r["march"] == "tree") for r in tried), "steps count with the march `linear` alone")
     start = truth(DEFAULTS, SHOTS[0])[1]
     for budget, least in ((1, 1.0), (2, 1.0)):
-        own = presets.get(f"best_{budget}x", presets["best_1x"])["parameters"]  # which bears the lesser name if it is best within both
+        own = presets.get(f"best_{budget}x", presets["best_1x"])["parameters"]  # which has the smaller budget's name if it is best within both
         found = DEFAULTS | own
         check(all(DEFAULTS[k] != v for k, v in own.items()), f"{own} names defaults")
         ratio = sum(truth(found, s)[0] / truth(DEFAULTS, s)[0] for s in SHOTS) / len(SHOTS)
@@ -244,15 +244,15 @@ def test_race():
 
 
 def test_times_protect():
-    """A point that takes less time than all that err less is not stopped; nor is any on the first scene, while none tells how scenes
+    """A point that takes less time than all that err less is not stopped; nor is any on the first scene, while it is unknown how scenes
     differ."""
     rng = random.Random(2)
     runners = race.Race(simulated(rng, "base", 0.0, 1.0, 0.0), 1.05, 3)
     bad = simulated(rng, "bad", 1.0, 1.04, 0.0)
     check(runners.beaten_by(bad) is not None, "all scenes are seen")
-    check(runners.beaten_by(part(bad, ["s0"], (0, 1))) is None, "one point tells nothing of how scenes differ")
+    check(runners.beaten_by(part(bad, ["s0"], (0, 1))) is None, "one point does not show how scenes differ")
     check(runners.beaten_by(simulated(rng, "fast", 1.0, 0.9, 0.0)) is None, "it is the fastest")
-    check(runners.beaten_by(simulated(rng, "alike", 1.0, 0.97, 0.0)) is not None, "its time cannot be told from the rival's")
+    check(runners.beaten_by(simulated(rng, "alike", 1.0, 0.97, 0.0)) is not None, "its time is not distinguishable from the rival's")
 
 
 def main():

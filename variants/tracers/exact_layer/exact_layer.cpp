@@ -9,11 +9,11 @@ struct ExactLayer final : Tracer {
 
     // clang-format off
     Choice thickness_from{params, "exact_layer.thickness_from", "scene", {"parameter", "scene"},
-        {"", "what is solid behind a visible surface, where a ray enters a pixel behind it. scene: what truly is, by the "
+        {"", "what is solid behind a visible surface, where a ray enters a pixel behind it. scene: the scene's solid, up to the "
          "back of the surface, which ends the ray as hidden; parameter: exact_layer.relative_thickness, within which the ray "
-         "has met it, as other tracers take it", "ssrlab"}};
+         "hits it, as in other tracers", "ssrlab"}};
     Param<float> relative_thickness{params, "exact_layer.relative_thickness", 0.02f, {0.0f, 10.0f},
-        {"of the depth", "depth behind the visible surface that counts as solid, where no scene tells", "ssrlab"}};
+        {"of the depth", "depth behind the visible surface that counts as solid, where scene data is not used", "ssrlab"}};
     // clang-format on
 };
 
@@ -21,11 +21,11 @@ struct ExactLayer final : Tracer {
 
 TracerEntry exact_layer_tracer() {
     return {.name = "exact_layer",
-            .title = "All that one layer of depth tells",
+            .title = "Exact within one layer of depth",
             .source = "ssrlab",
             .description =
-                "A yardstick: looks at every pixel that the line crosses, takes each for the plane that it shows, "
-                "and knows how thick things are.",
+                "For comparison: tests every pixel that the line crosses, treats each as the plane that it shows, "
+                "and uses the true thickness of objects.",
             .shader = "tracers/exact_layer/exact_layer.glsl",
             .create = [](ParameterSet& params) { return std::make_unique<ExactLayer>(params); }};
 }

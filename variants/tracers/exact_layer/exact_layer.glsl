@@ -1,4 +1,4 @@
-// The yardstick of what one layer of depth can tell: every pixel that the ray crosses is looked at, and what it shows is
+// The most that one layer of depth contains: every pixel that the ray crosses is tested, and what it shows is
 // the plane through its sample, as its geometric normal says, not a step. Nothing of it is meant to be fast.
 #ifndef TRACERS_EXACT_LAYER_GLSL
 #define TRACERS_EXACT_LAYER_GLSL

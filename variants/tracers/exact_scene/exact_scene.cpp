@@ -12,11 +12,11 @@ struct ExactScene final : Tracer {
 
 TracerEntry exact_scene_tracer() {
     return {.name = "exact_scene",
-            .title = "What the rays truly meet",
+            .title = "Exact rays, from scene data",
             .source = "ssrlab",
             .description =
-                "A yardstick: the scene itself is asked, by Embree on the host; a hit is what the screen shows. Its "
-                "time means nothing.",
+                "For comparison: uses scene data, by Embree on the host; a hit is what the screen shows. Its "
+                "time is not meaningful.",
             .shader = "tracers/exact_scene/exact_scene.glsl",
             .fits_webgl2 = false,
             .create = [](ParameterSet& params) { return std::make_unique<ExactScene>(params); }};

@@ -1,4 +1,4 @@
-// The yardstick of what any tracer can find: what the ray truly meets, asked of the scene between two passes, and whether
+// The most that any tracer can find: what the ray meets in the scene, answered between two passes, and whether
 // the screen shows it. RayProbe::exact_hits of core/ray_probe.h answers, in the order of the records.
 #ifndef TRACERS_EXACT_SCENE_GLSL
 #define TRACERS_EXACT_SCENE_GLSL

@@ -6,7 +6,7 @@ namespace {
 
 const char* const slides =
     "Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections, SIGGRAPH course Advances in "
-    "Real-Time Rendering, as quoted by others; what they leave open is ours";
+    "Real-Time Rendering, as quoted by others; gaps are filled by ssrlab";
 
 struct Hierarchical final : Tracer {
     explicit Hierarchical(ParameterSet& params) : Tracer(params) {}

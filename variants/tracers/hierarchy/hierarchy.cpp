@@ -15,7 +15,7 @@ struct Hierarchy final : Tracer {
     }
 
     // Names are the originals' where both have one. Techniques that are an original begin with its values; the defaults
-    // are those with all defects mended.
+    // are those with all defects fixed.
     // clang-format off
     Choice judgement{params, "hierarchy.judgement", "diligent", {"amd", "diligent"},
         {"", "how the place where the walk ended is judged. amd: by the distance between ray and surface in metres; "
