@@ -19,7 +19,7 @@ REPLACED = re.compile(
     re.IGNORECASE,
 )
 TYPES = (".c", ".cmake", ".comp", ".cpp", ".frag", ".glsl", ".h", ".html", ".js", ".json", ".md", ".py", ".sh", ".txt")
-TO_DO = "config|configs|evaluation|figures|measuring/times|python|report|run|stability|tradeoff"  # folders of experiments
+TO_DO = "config|evaluation|figures|measuring/times|python|report|run|stability|tradeoff"  # folders of experiments
 SKIPPED = re.compile(rf"(tests/)?experiments/({TO_DO})/|tests/plain_words_test\.py")
 
 
