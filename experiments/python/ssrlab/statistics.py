@@ -1,5 +1,5 @@
 """Statistics of numbers that scripts choose, as ssrlab itself computes them: asked of the program, so that each is written once
-(experiments/commands/statistics_command.cpp). One process answers all questions of a script, some 30 microseconds each."""
+(experiments/commands/statistics_command.cpp). One process answers all questions of a script, some 20 microseconds each."""
 
 import functools
 import json
