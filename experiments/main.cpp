@@ -186,6 +186,9 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("QUANTITY");
     tradeoff_command_.callback([&] { status = tradeoff_command(tradeoff); });
 
+    CLI::App& statistics_command_ = *app.add_subcommand("statistics", "Answer the questions of ssrlab's own scripts");
+    statistics_command_.group("")->callback([] { statistics_command(); });  // not shown by --help
+
     TuneOptions tune;
     CLI::App& tune_command_ = *app.add_subcommand(
         "tune",

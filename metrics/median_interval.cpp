@@ -8,8 +8,22 @@
 
 namespace {
 
-/// By how much more than independent signs those of d - median scatter over n of them.
-double sign_variance_factor(std::span<const double> values, double median) {
+std::vector<double> in_order_of_size(std::span<const double> values) {
+    if (values.empty()) fail("no values to take a median of");
+    std::vector<double> sorted(values.begin(), values.end());
+    std::ranges::sort(sorted);
+    return sorted;
+}
+
+double median_of(const std::vector<double>& sorted) {
+    const size_t n = sorted.size();
+    return n % 2 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
+}
+
+}  // namespace
+
+double sign_variance_factor(std::span<const double> values) {
+    const double median = median_of(in_order_of_size(values));
     const size_t n = values.size();
     const auto sign = [&](size_t i) { return double(values[i] > median) - double(values[i] < median); };
     double factor = 1;
@@ -23,15 +37,11 @@ double sign_variance_factor(std::span<const double> values, double median) {
     return std::max(factor, 2.0);
 }
 
-}  // namespace
-
 MedianInterval median_interval(std::span<const double> in_order_of_time) {
-    if (in_order_of_time.empty()) fail("no values to take a median of");
-    std::vector<double> sorted(in_order_of_time.begin(), in_order_of_time.end());
-    std::ranges::sort(sorted);
+    const std::vector<double> sorted = in_order_of_size(in_order_of_time);
     const size_t n = sorted.size();
-    MedianInterval m{.median = n % 2 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2])};
-    const double half_width = 1.96 * std::sqrt(sign_variance_factor(in_order_of_time, m.median) * double(n)) / 2;
+    MedianInterval m{.median = median_of(sorted)};
+    const double half_width = 1.96 * std::sqrt(sign_variance_factor(in_order_of_time) * double(n)) / 2;
     const double rank = std::max(0.0, std::floor(double(n) / 2 - half_width));
     m.low = sorted[size_t(rank)], m.high = sorted[n - 1 - size_t(rank)];
     return m;

@@ -11,5 +11,8 @@ struct MedianInterval {
     double median = 0, low = 0, high = 0;
 };
 
+/// f of median_interval().
+double sign_variance_factor(std::span<const double> in_order_of_time);
+
 /// Fails with Error where there is no value.
 MedianInterval median_interval(std::span<const double> in_order_of_time);

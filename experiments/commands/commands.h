@@ -64,6 +64,9 @@ struct TradeoffOptions {
 };
 int tradeoff_command(const TradeoffOptions& options);  ///< the exit code: 0, 2 or 3
 
+/// Answers what scripts ask for, a JSON object a line, until its input ends (python/ssrlab/statistics.py).
+void statistics_command();
+
 struct TuneOptions {
     std::filesystem::path config, out;
 };

@@ -5,15 +5,21 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
 #include "experiments/config/config_schema.h"
-#include "experiments/evaluation/pairs.h"
+#include "experiments/evaluation/tradeoff.h"
 #include "metrics/estimators.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 namespace {
 
-/// Runs a script of experiments/: 0 done, 2 a mistake of the user, else a fault of the machine (3).
+std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+
+/// Runs a script of experiments/: 0 done, 2 a mistake of the user, else a fault of the machine (3). Scripts ask this
+/// program for their statistics (experiments/python/ssrlab/statistics.py).
 int run_script(const std::string& name, const std::vector<std::string>& arguments) {
+    setenv("SSRLAB_PROGRAM", this_program().c_str(), 1);
     std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/" + name};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const int code = run_program(command);
@@ -41,18 +47,41 @@ int tradeoff_command(const TradeoffOptions& options) {
     const auto chosen = [&](const std::string& asked, const char* key, const std::string& fallback) {
         return asked.empty() ? own.value(key, fallback) : asked;
     };
-    const PrimaryComparisons plain,
-        error{.metric = chosen(options.metric, "metric", plain.metric),
-              .mask = chosen(options.mask, "mask", plain.mask),
-              .target = chosen(options.target, "target", plain.target)};
+    const PrimaryComparisons plain, error{.metric = chosen(options.metric, "metric", plain.metric),
+                                          .mask = chosen(options.mask, "mask", plain.mask),
+                                          .target = chosen(options.target, "target", plain.target)};
+    std::vector<double> costs = options.times;
+    std::ranges::sort(costs);
+    const Tradeoff found = tradeoff_of(tables, {.error = error,
+                                                .cost = options.cost,
+                                                .baseline = options.baseline,
+                                                .costs = costs,
+                                                .left_out = options.left_out});
     const std::filesystem::path out = options.out.empty() ? options.results / "tradeoff" : options.out;
     std::filesystem::create_directories(out);
-    write_rows(out / "pairs.csv", pairs_of(tables, error, options.cost));
-    const nlohmann::json asked = {
-        {"results", options.results.string()}, {"out", out.string()},        {"baseline", options.baseline},
-        {"times", options.times},              {"factors", options.factors}, {"target", error.target},
-        {"metric", error.metric},              {"mask", error.mask},         {"cost", options.cost},
-        {"left_out", options.left_out}};
+    write_rows(out / "pairs.csv", found.pairs);
+    write_rows(out / "front.csv", found.front);
+    write_rows(out / "across.csv", found.across);
+    write_rows(out / "stages.csv", found.changes);
+    nlohmann::json asked = {{"results", options.results.string()},
+                            {"out", out.string()},
+                            {"baseline", found.baseline},
+                            {"times", costs},
+                            {"factors", options.factors},
+                            {"target", error.target},
+                            {"metric", error.metric},
+                            {"mask", error.mask},
+                            {"cost", options.cost},
+                            {"divisors", nlohmann::json::object()},
+                            {"chosen", nlohmann::json::array()}};
+    for (const auto& [shot, divisor] : found.divisors) asked["divisors"][shot] = column_json(divisor);
+    for (const ChosenPoint& c : found.chosen)
+        asked["chosen"].push_back({{"shot", c.shot},
+                                   {"variant", c.variant},
+                                   {"cost", c.cost},
+                                   {"point", c.point},
+                                   {"chosen_on", c.chosen_on},
+                                   {"fits", c.fits}});
     write_text(out / "asked.json", asked.dump(1) + "\n");
     return run_script("tradeoff/tradeoff.py", {(out / "asked.json").string()});
 }
@@ -83,8 +112,7 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
         {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
     std::filesystem::create_directories(out);
     write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
-    std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",
-                                          std::filesystem::read_symlink("/proc/self/exe").string()};
+    std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--", this_program()};
     arguments.insert(arguments.end(), run_options.begin(), run_options.end());
     return run_script("tune/tune.py", arguments);
 }

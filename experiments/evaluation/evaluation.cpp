@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "experiments/evaluation/over_scenes.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
 #include "experiments/evaluation/time_effects.h"
@@ -51,6 +52,7 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
     const std::vector<TimeSummary> times = summarise(rows.times, floors);
     set_fronts(errors, times, rows.costs);
     write_rows(folder / "summary.csv", errors);
+    write_rows(folder / "over_scenes.csv", errors_over_scenes(errors, manifest));
     write_rows(folder / "time_summary.csv", times);
 
     std::vector<EffectRow> effects = paired_effects(rows.results, variants, not_repeatable, rows.reference_noise);
@@ -66,6 +68,7 @@ void require_evaluation(const std::filesystem::path& folder, const nlohmann::jso
     const std::string writer = writer_of(manifest);
     require_table<MetricSummary>(folder / "summary.csv", writer);
     require_table<TimeSummary>(folder / "time_summary.csv", writer);
+    require_table<OverScenesRow>(folder / "over_scenes.csv", writer);
     require_table<EffectRow>(folder / "effects.csv", writer);
     require_table<TimeEffectRow>(folder / "time_effects.csv", writer);
 }

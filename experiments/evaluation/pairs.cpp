@@ -11,7 +11,6 @@
 
 namespace {
 
-using PointName = std::pair<std::string, std::string>;  // variant, point
 using PairName = std::tuple<std::string, PointName, PointName>;
 using Rounds = std::map<std::pair<unsigned, unsigned>, double>;  // by seed and frame, ms
 
@@ -58,12 +57,7 @@ Costs costs_of(const StudyTables& tables, const std::string& shot, const std::st
         costs.aa_pairs = aa_pair_count(tables.manifest, shot);
         return costs;
     }
-    costs.is_counted = true;
-    std::map<PointName, double> totals;  // a stage of that name has the sum of all
-    for (const CostRow& c : tables.costs)
-        if (c.shot == shot && c.quantity == quantity)
-            (c.stage == "total" ? totals : costs.values)[{c.variant, c.point}] += double(c.value);
-    for (const auto& [point, total] : totals) costs.values[point] = total;
+    costs.is_counted = true, costs.values = counted_costs(tables, shot, quantity);
     return costs;
 }
 
@@ -179,6 +173,16 @@ void set_dominance(OpenPair& pair, double floor) {
 }
 
 }  // namespace
+
+std::map<PointName, double> counted_costs(const StudyTables& tables, const std::string& shot,
+                                          const std::string& quantity) {
+    std::map<PointName, double> sums, totals;  // a stage of that name has the sum of all
+    for (const CostRow& c : tables.costs)
+        if (c.shot == shot && c.quantity == quantity)
+            (c.stage == "total" ? totals : sums)[{c.variant, c.point}] += double(c.value);
+    for (const auto& [point, total] : totals) sums[point] = total;
+    return sums;
+}
 
 std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparisons& error, const std::string& cost) {
     const auto is_of_error = [&](const auto& row) {

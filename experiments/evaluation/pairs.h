@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/evaluation/over_scenes.h"
 #include "experiments/evaluation/study_tables.h"
 
 #include <string>
@@ -22,6 +23,10 @@ struct PairRow {
                           Column{"dominates", &PairRow::dominates}, Column{"is_dominated", &PairRow::is_dominated});
     }
 };
+
+/// The points' sums over their stages of a quantity of costs.csv in a shot.
+std::map<PointName, double> counted_costs(const StudyTables& tables, const std::string& shot,
+                                          const std::string& quantity);
 
 /// Every pair of points of each shot that are ranked by the error, once. `cost`: a quantity of costs.csv; "": the total
 /// time of a frame.

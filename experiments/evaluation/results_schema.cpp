@@ -2,6 +2,7 @@
 
 #include "core/files.h"
 #include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/over_scenes.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/evaluation/time_effects.h"
 #include "experiments/measuring/cell.h"
@@ -69,6 +70,19 @@ const std::map<std::string, Meaning>& meanings() {
         {"variance", {"", "variance over the seeds"}},
         {"variance_low", {"", "low end of its 95 % interval"}},
         {"variance_high", {"", "high end of its 95 % interval"}},
+        {"baseline_variant", {"", "variant of what errors are multiples of"}},
+        {"baseline_point", {"", "point of what errors are multiples of"}},
+        {"scenes", {"", "how many scenes were averaged; those of one asset count once"}},
+        {"shots", {"", "how many shots these have"}},
+        {"over_scenes.ratio", {"", "geometric mean over the scenes of the error over the baseline's"}},
+        {"over_scenes.low", {"", "low end of its 95 % interval over scenes like these; empty below 4"}},
+        {"over_scenes.high", {"", "high end of that interval"}},
+        {"rank", {"", "place by ratio, 1 the least; empty: lacks shots", "integer"}},
+        {"rank_low", {"", "lowest place if any one scene is left out", "integer"}},
+        {"rank_high", {"", "highest place if any one scene is left out", "integer"}},
+        {"over_scenes.over_best", {"", "error over that of the first rank, geometric mean over the scenes"}},
+        {"over_scenes.p_holm", {"", "p-value of: over_best is 1; adjusted for all points of the error"}},
+        {"over_scenes.standing", {"", "best, tied or behind over the scenes; empty: not ranked, or fewer than 4"}},
         {"stage", {"", "name of the pass; total: all of the variant's"}},
         {"hits.stage", {"", "the pass that traced the rays; error: of the whole technique"}},
         {"milliseconds", {"ms", "time of the stage in this frame"}},
@@ -178,8 +192,8 @@ nlohmann::json results_schema(const std::vector<VariantConfig>& variants) {
             {"resources",
              {table<ResultRow>("results"), table<SplitRow>("splits"), table<EffectRow>("effects"),
               table<TimeEffectRow>("time_effects"), table<TimeRow>("times"), table<MetricSummary>("summary"),
-              table<TimeSummary>("time_summary"), table<HitRow>("hits"), table<CostRow>("costs"),
-              parameters_table(variants)}}};
+              table<OverScenesRow>("over_scenes"), table<TimeSummary>("time_summary"), table<HitRow>("hits"),
+              table<CostRow>("costs"), parameters_table(variants)}}};
 }
 
 void write_parameters(const std::filesystem::path& folder, const std::vector<VariantConfig>& variants) {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 
 namespace {
 
@@ -279,6 +280,49 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
         answers.push_back(std::move(answer));
     }
     return answers;
+}
+
+std::string over_scenes_sentence(const ReportTables& tables, const json& manifest) {
+    const Headline headline = headline_of(manifest, tables.errors);
+    const auto is_of_headline = [&](const auto& row) {
+        return row.target == headline.target && row.metric == headline.metric && row.mask == headline.mask;
+    };
+    auto labels = point_labels(manifest);
+    std::vector<const OverScenesRow*> rows;
+    std::vector<AnswerPoint> tied, behind;
+    for (const OverScenesRow& row : tables.over_scenes) {
+        if (!is_of_headline(row)) continue;
+        rows.push_back(&row);
+        const AnswerPoint point{row.variant, row.point, row.ratio, row.low, row.high, labels[{row.variant, row.point}]};
+        if (row.rank && rows.size() > 1 && row.standing == standing::tied) tied.push_back(point);
+        if (row.standing == standing::behind) behind.push_back(point);
+    }
+    if (rows.empty()) return "";
+    const OverScenesRow& first = *rows.front();  // those that are ranked come first
+    if (!first.rank) return "Over scenes nothing is ranked: no shot has an error of every point.";
+    std::set<std::string> scenes;
+    for (const MetricSummary& e : tables.errors)
+        if (is_of_headline(e)) scenes.insert(asset_of(manifest, e.shot));
+    if (scenes.size() == 1) return "One scene is too few for a verdict over scenes, which takes four.";
+    const auto named = [&](const std::string& variant, const std::string& point) {
+        return name_of(AnswerPoint{.variant = variant, .point = point, .label = labels[{variant, point}]});
+    };
+    const std::string baseline = named(first.baseline_variant, first.baseline_point),
+                      name = named(first.variant, first.point);
+    std::string text = "Over " + std::to_string(first.scenes) +
+                       (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes " + name;
+    text += first.standing == standing::best ? " has the least error" : " has the least error measured";
+    const Ratio ratio{first.ratio, first.low, first.high};
+    text += name == baseline
+                ? " (geometric mean of " + headline.metric + ")"
+                : ", " + shown(ratio) + " that of " + baseline + " (geometric mean of " + headline.metric + ")";
+    if (first.scenes < least_scenes)
+        return text + "; " + std::to_string(first.scenes) + (first.scenes == 1 ? " scene is" : " scenes are") +
+               " too few for an interval and a verdict, which take four.";
+    if (!tied.empty()) text += ", but is not distinguishable from " + listed(tied, 3);
+    if (!behind.empty())
+        text += "; it is significantly better than " + (tied.empty() ? "all others" : listed(behind, 3));
+    return text + ".";
 }
 
 json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headline) {

@@ -39,4 +39,14 @@ struct ShotAnswer {
 /// One for each shot that has an error of the headline, in the order of the results.
 std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const nlohmann::json& manifest);
 
+/// What the scenes say together of the error of the headline (over_scenes.csv), as a sentence; empty where no point has
+/// such an error beside the baseline's.
+std::string over_scenes_sentence(const ReportTables& tables, const nlohmann::json& manifest);
+
+/// What is said first, on the page and in the terminal.
+struct StudyAnswers {
+    std::string over_scenes;
+    std::vector<ShotAnswer> shots;
+};
+
 nlohmann::json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headline);

@@ -122,7 +122,8 @@ json error_table(const std::vector<const MetricSummary*>& rows, const json& metr
 json without_scripts(const json& data, const Headline& headline, std::span<const MetricSummary> errors,
                      const PointSet& singles) {
     json values = {{"warnings", data["warnings"]}, {"error_tables", json::array()}};
-    if (!data["answers"].empty()) values["answers"] = {{"shots", data["answers"]}};
+    if (!data["answers"].empty())
+        values["answers"] = {{"over_scenes", data["over_scenes"]}, {"shots", data["answers"]}};
     const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, headline, headline.metric),
                                             others =
                                                 headline_rows(errors, singles, headline, headline.perceptual_metric);
@@ -146,7 +147,7 @@ std::string page_text(const std::string& title, const json& data, json values) {
 
 }  // namespace
 
-std::vector<ShotAnswer> write_report(const std::filesystem::path& folder, bool links_images) {
+StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
     const json stability = stability_report_data(folder);
     if (!stability.is_null() && !std::filesystem::exists(folder / "manifest.json")) {
         // No study: the page has this one section.
@@ -169,8 +170,9 @@ std::vector<ShotAnswer> write_report(const std::filesystem::path& folder, bool l
                         {"mask", headline.mask},
                         {"target", headline.target},
                         {"perceptual_metric", headline.perceptual_metric}};
-    std::vector<ShotAnswer> answers = shot_answers(tables, manifest);
-    data["answers"] = answers_json(answers, headline);
+    StudyAnswers answers{over_scenes_sentence(tables, manifest), shot_answers(tables, manifest)};
+    data["over_scenes"] = answers.over_scenes;
+    data["answers"] = answers_json(answers.shots, headline);
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
     data["manifest"].erase("stale");   // not of this study as it is

@@ -8,5 +8,5 @@
 /// atomically. The page needs no network. It is one file with its images in it as long as it stays below 30 MB; else,
 /// or if `links_images`, they lie in report_images/ beside it. Where the folder also holds the tables of `ssrlab
 /// stability`, the page shows them; where it holds these alone, it shows nothing else. Fails with Error, naming the
-/// file, if one is missing or malformed. Returns what the page says of each shot first.
-std::vector<ShotAnswer> write_report(const std::filesystem::path& results_folder, bool links_images = false);
+/// file, if one is missing or malformed. Returns what the page says first.
+StudyAnswers write_report(const std::filesystem::path& results_folder, bool links_images = false);

@@ -83,7 +83,8 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
                         .costs = {},
                         .effects = {},
                         .time_effects = {},
-                        .times = read_rows<TimeSummary>(folder / "time_summary.csv")};
+                        .times = read_rows<TimeSummary>(folder / "time_summary.csv"),
+                        .over_scenes = read_rows<OverScenesRow>(folder / "over_scenes.csv")};
     const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
     if (has("splits.csv")) tables.splits = read_rows<SplitRow>(folder / "splits.csv");
     if (has("hits.csv")) tables.hits = read_rows<HitRow>(folder / "hits.csv");

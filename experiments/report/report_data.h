@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/over_scenes.h"
 #include "experiments/evaluation/study_points.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/evaluation/time_effects.h"
@@ -15,9 +16,10 @@ struct ReportTables {
     std::vector<EffectRow> effects;
     std::vector<TimeEffectRow> time_effects;
     std::vector<TimeSummary> times;
+    std::vector<OverScenesRow> over_scenes = {};
 };
 
-/// summary.csv and time_summary.csv must be there, as this version writes them (require_evaluation()); other tables
+/// summary.csv, over_scenes.csv and time_summary.csv must be there, as this version writes them (require_evaluation()); other tables
 /// that are not are empty. `manifest` is the folder's.
 ReportTables read_report_tables(const std::filesystem::path& folder, const nlohmann::json& manifest);
 

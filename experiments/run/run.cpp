@@ -27,8 +27,9 @@ nlohmann::json read_manifest_before(const std::filesystem::path& file) {
 }
 
 /// What a reader wants to know first.
-void say_answers(StudySession& study, const std::vector<ShotAnswer>& answers) {
-    for (const ShotAnswer& answer : answers)
+void say_answers(StudySession& study, const StudyAnswers& answers) {
+    if (!answers.over_scenes.empty()) study.progress.say("\n" + answers.over_scenes);
+    for (const ShotAnswer& answer : answers.shots)
         study.progress.say("\n" + answer.shot + ": " + answer.sentence +
                            (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence));
     study.progress.say("\nReport: " +
@@ -75,9 +76,9 @@ private:
     /// it does not end with.
     bool are_results_due() const { return std::chrono::steady_clock::now() - written_ > 200 * took_; }
 
-    std::vector<ShotAnswer> write(bool is_complete) {
+    StudyAnswers write(bool is_complete) {
         const auto start = std::chrono::steady_clock::now();
-        std::vector<ShotAnswer> answers = write_results(study_, is_complete, before_);
+        StudyAnswers answers = write_results(study_, is_complete, before_);
         written_ = std::chrono::steady_clock::now(), took_ = written_ - start;
         return answers;
     }

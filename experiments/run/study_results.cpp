@@ -73,7 +73,7 @@ void handle_stale_files(StudySession& study, nlohmann::json& manifest, const nlo
 
 }  // namespace
 
-std::vector<ShotAnswer> write_results(StudySession& study, bool is_complete, const nlohmann::json& before) {
+StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann::json& before) {
     nlohmann::json manifest;
     const std::filesystem::path file = study.settings.out / "manifest.json";
     {
@@ -86,7 +86,7 @@ std::vector<ShotAnswer> write_results(StudySession& study, bool is_complete, con
         write_parameters(study.settings.out, study.config.variants);
         write_evaluation(study.settings.out, rows, manifest, study.config.variants, study.config.primary);
     }
-    std::vector<ShotAnswer> answers;
+    StudyAnswers answers;
     {
         const SpentTime::Span span(study.spent, "report");
         answers = write_report(study.settings.out);

@@ -9,13 +9,13 @@ what holds over scenes; a trial draws some with replacement. Prints the tables o
 
 import argparse
 import math
-import warnings
+import subprocess
+import tempfile
 
 import numpy as np
-from scipy import stats
 
-from analysis import curves, fits, points, scenes, uncertainty
-from ssrlab import over_scenes
+from analysis import curves, fits, points, uncertainty
+from ssrlab import statistics
 
 ROUNDS = 15
 PLACES = (0.25, 0.5, 0.75)  # along the true front, logarithmic
@@ -40,15 +40,15 @@ class Tally:
 
 
 def students(values):
-    half = stats.t.ppf(0.975, len(values) - 1) * values.std(ddof=1) / math.sqrt(len(values)) if len(values) > 1 else 0.0
-    return float(values.mean()), float(values.mean() - half), float(values.mean() + half)
+    return statistics.mean(values) if len(values) > 1 else (float(values[0]),) * 3
 
 
-def median_interval(values):
-    """(median, low, high) of values in order of time: metrics/median_interval.h in small, since thousands are simulated here."""
-    ordered, n = np.sort(values), len(values)
-    rank = int(max(0.0, math.floor(n / 2 - uncertainty.NORMAL * math.sqrt(uncertainty.sign_factor(values) * n) / 2)))
-    return float(np.median(ordered)), float(ordered[rank]), float(ordered[n - 1 - rank])
+def decided(folder, left_out=()):
+    """What ssrlab decides of a results folder."""
+    with tempfile.TemporaryDirectory() as out:
+        command = [statistics.program(), "tradeoff", folder, "--out", out]
+        subprocess.run(command + (["--leave-out", *left_out] if left_out else []), check=True, stdout=subprocess.DEVNULL)
+        return points.Study(out)
 
 
 class World:
@@ -60,6 +60,7 @@ class World:
         for p in shot.points:
             p.rounds = p.rounds or rounds_of.get(p.key, {})
             p.cost = float(np.median(list(p.rounds.values()))) if p.rounds else None
+            p.verdict = "front" if p.verdict == "no cost" and p.cost else p.verdict
         self.points = [p for p in shot.judged() if p.variant != "none"]
         self.seeds = [np.array([p.seeds[s] for s in sorted(p.seeds, key=int)]) for p in self.points]
         self.rounds = [np.array([p.rounds[r] for r in sorted(p.rounds)]) for p in self.points]
@@ -77,10 +78,9 @@ class World:
 
     def _point(self, p, seeds, rounds):
         error, low, high = students(seeds)
-        made = points.Point(p.variant, p.point, p.label, error, max(low, 0.0), high, dict(enumerate(seeds)), True)
+        made = points.Point(p.variant, p.point, p.label, error, max(low, 0.0), high, dict(enumerate(seeds)))
         made.rounds = {(0, i): float(ms) for i, ms in enumerate(rounds)}
-        cost, low, high = median_interval(rounds)
-        made.set_cost(cost, low, high, high, low, 0.0)
+        made.cost, made.cost_low, made.cost_high = statistics.median(rounds)
         return made
 
 
@@ -158,7 +158,7 @@ def study_fits(worlds, trials, tally):
                 law.append(value), deviations.append(fits._log_deviation(value, low, high))
                 of = rounds[generator.integers(len(rounds))]
                 start = generator.integers(0, len(of) - ROUNDS + 1)
-                median, low, high = median_interval(c * of[start : start + ROUNDS])
+                median, low, high = statistics.median(c * of[start : start + ROUNDS])
                 found_costs.append(median), cost_deviations.append(fits._log_deviation(median, low, high))
             fit = fits.fit_law(found_costs, law, deviations, cost_deviations)
             tally.add(("floor of a fit", count), fit.floor_low, fit.floor_high, floor)
@@ -168,15 +168,13 @@ def study_fits(worlds, trials, tally):
 def study_scenes(study, trials, tally, counts):
     """Over pairs of points, real logs of ratios of all scenes are the truth."""
     generator = np.random.default_rng(6)
-    base = study.baseline()
     table = {}
     for shot in study.shots:
-        reference = shot.divisor(base)
-        if reference is None:
+        if shot.divisor is None:
             continue
         for p in shot.points:
-            if p.is_ranked and p.error > 0 and p.key != base:
-                table.setdefault(p.key, {}).setdefault(shot.asset, []).append(math.log(p.error / reference))
+            if p.is_ranked() and p.error > 0 and p.key != study.baseline:
+                table.setdefault(p.key, {}).setdefault(study.results.asset(shot.name), []).append(math.log(p.error / shot.divisor))
     means = {m: {s: np.mean(v) for s, v in of.items()} for m, of in table.items()}
     most = max(len(v) for v in means.values())
     whole = [m for m, v in means.items() if len(v) == most]
@@ -187,10 +185,10 @@ def study_scenes(study, trials, tally, counts):
         for trial in range(trials):
             for count in counts:
                 drawn = values[generator.integers(0, len(values), count)]
-                _, low, high = over_scenes.mean_interval(drawn)
+                _, low, high, _ = statistics.mean_over_scenes((str(i), v) for i, v in enumerate(drawn))
                 tally.add(("over scenes, Student's t", count), low, high, values.mean())
                 if trial < 20:
-                    tally.add(("over scenes, BCa", count), *scenes.bootstrap_interval(drawn, trial), values.mean())
+                    tally.add(("over scenes, BCa", count), *statistics.bootstrap_over_scenes(drawn, trial), values.mean())
     return most, len(samples)
 
 
@@ -208,10 +206,9 @@ def main():
     parser.add_argument("--leave-out", nargs="+", default=[], help="scenes")
     parser.add_argument("--trials", type=int, default=300)
     arguments = parser.parse_args()
-    warnings.simplefilter("ignore")  # BCa of samples that hardly differ
-    shots = [s for folder in arguments.seeds_and_rounds for s in points.Study(folder).shots]
+    shots = [s for folder in arguments.seeds_and_rounds for s in decided(folder).shots]
     rounds_of = {p.key: p.rounds for s in reversed(shots) for p in s.points if p.rounds}
-    worlds, tally = [World(s, rounds_of) for s in shots], Tally()
+    worlds, tally = [w for w in (World(s, rounds_of) for s in shots) if w.points], Tally()
     print(f"{sum(len(w.points) for w in worlds)} points of {len(worlds)} shots\n")
     study_curves(worlds, arguments.trials, tally)
     names = ["error", "median cost", "error at a cost", "error past the front's end", "cost to an error"]
@@ -220,7 +217,7 @@ def main():
     study_fits(worlds, arguments.trials, tally)
     print_table(tally, ["floor of a fit", "exponent of a fit"], (4, 5, 6, 8), "points")
     counts = (4, 5, 6, 8, 12, 20)
-    most, samples = study_scenes(points.Study(arguments.scenes, left_out=arguments.leave_out), arguments.trials, tally, counts)
+    most, samples = study_scenes(decided(arguments.scenes, arguments.leave_out), arguments.trials, tally, counts)
     print(f"{most} scenes, {samples} points and pairs of them\n")
     print_table(tally, ["over scenes, Student's t", "over scenes, BCa"], counts, "scenes")
 

@@ -5,11 +5,10 @@ import json
 import math
 import os
 
-from analysis import scenes
-from ssrlab import over_scenes
 from paper_figures import style
 from paper_figures.numbers import with_interval
 from paper_figures.placed_labels import place_labels
+from ssrlab import statistics
 from ssrlab.results import Measured
 
 FASTER = 1.1  # a point that is this much faster than the baseline is worth a name though it errs more
@@ -71,10 +70,10 @@ class Outcome:
         logs = [(shot.get("asset") or shot["scene"], math.log(row.value)) for shot, rows in self.unseen_rows(name) for row in rows.values() if row]
         if not logs:
             return None
-        value, low, high, count, _ = over_scenes.geometric_mean(logs)
+        value, low, high, count = statistics.geometric_mean_over_scenes(logs)
         scene_of = {shot["shot"]: shot.get("asset") or shot["scene"] for shot in self.results.manifest["shots"]}
         taken = self.studies.times_of(self.results, self.point_of(name)).items()
-        time = over_scenes.geometric_mean([(scene_of[shot], math.log(ratio)) for shot, (ratio, _) in taken])[:3] if taken else None
+        time = statistics.geometric_mean_over_scenes([(scene_of[shot], math.log(ratio)) for shot, (ratio, _) in taken])[:3] if taken else None
         return Measured(value, low, high), count, Measured(*time) if time else None
 
     def point_of(self, name):
@@ -126,7 +125,7 @@ class Outcome:
             f"Error: {error}, as a multiple of that of `{tuning.baseline}`, geometric mean over scenes; {self.time_word()}: likewise "
             f"(that of `{tuning.baseline}`: {tuning.baseline_cost:.4g} {self.unit}; on the scenes of the search without an interval). In brackets 95 % intervals: of the scenes of the search by "
             "the seeds and the reference's noise, for these scenes as they are; of unseen ones by how they differ among each other, none below "
-            f"{over_scenes.LEAST_SCENES} scenes.",
+            "4 scenes.",
             "",
             f"{len(tuning.tried)} points were tried, {sum(not p.stopped for p in tuning.tried)} of them in full, in {tuning.runs()} runs of one seed in one "
             f"shot ({tuning.runs_of_a_point() * len(self.points)} without stopping any). The least of many measured errors looks smaller than it is; "

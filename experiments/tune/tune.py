@@ -15,7 +15,7 @@ import os
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, *(os.path.join(HERE, os.pardir, room) for room in ("python", "figures", "tradeoff"))]
+sys.path[:0] = [HERE, *(os.path.join(HERE, os.pardir, room) for room in ("python", "figures"))]
 try:
     import optuna  # noqa: F401
 except ImportError as missing:

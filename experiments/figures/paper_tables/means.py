@@ -3,8 +3,8 @@
 import math
 
 from paper_tables import agreement
-from ssrlab import over_scenes
 from paper_tables.cell import BOTH, NOT_POSITIVE, SOME_ZERO, Cell
+from ssrlab import statistics
 
 SAMPLED = ("shot", "scene", "shot_group")  # what `over` takes as a sample of scenes ...
 ASSETS = "assets"  # ... whose means these are
@@ -23,7 +23,7 @@ def _joined(texts):
 def _over_scenes(result, parts, mean_of_assets):
     """Gives the mean the interval over scenes, of which these are a sample, if enough assets have a value; all that seeds and
     references add scatters with them. `parts`: (Cell, asset). Else the mean keeps that of these shots, and says so."""
-    mean, low, high = mean_of_assets([(asset, c.value) for c, asset in parts])
+    mean, low, high, _ = mean_of_assets([(asset, c.value) for c, asset in parts])
     result.value = mean
     if low is not None:
         result.low, result.high, result.interval = low, high, OVER_SCENES
@@ -56,7 +56,7 @@ def _geometric_mean(parts, assets):
         half = math.sqrt(sum((math.log(c.high / c.low) / 2) ** 2 for c in cells)) / len(cells)
         result.low, result.high = result.value * math.exp(-half), result.value * math.exp(half)
     if assets and not result.is_count():
-        _over_scenes(result, [(parts[i], assets[i]) for i in filled], lambda of: over_scenes.geometric_mean([(a, math.log(v)) for a, v in of])[:3])
+        _over_scenes(result, [(parts[i], assets[i]) for i in filled], lambda of: statistics.geometric_mean_over_scenes([(a, math.log(v)) for a, v in of]))
     return result
 
 
@@ -74,7 +74,7 @@ def _arithmetic_mean(parts, assets):
         half = math.sqrt(sum(((c.high - c.low) / 2) ** 2 for c in cells)) / len(cells)
         result.low, result.high = result.value - half, result.value + half
     if assets:
-        _over_scenes(result, [(parts[i], assets[i]) for i in filled], over_scenes.mean)
+        _over_scenes(result, [(parts[i], assets[i]) for i in filled], statistics.mean_over_scenes)
         if result.low is not None:
             result.low, result.high = max(result.low, 0.0), min(result.high, 1.0)
     return result
@@ -89,7 +89,7 @@ def _mean_of_agreement(parts, assets):
     """Of correlations, which have no interval by themselves."""
     result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(parts))
     result.least, result.most = min(c.value for c in parts), max(c.value for c in parts)
-    result.value, result.low, result.high = over_scenes.mean(list(zip(assets, (c.value for c in parts))))
+    result.value, result.low, result.high, _ = statistics.mean_over_scenes(list(zip(assets, (c.value for c in parts))))
     return result
 
 

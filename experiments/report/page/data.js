@@ -42,6 +42,7 @@ function readData() {
         defaults: raw.defaults,          // variant to {parameter: value}, of those that this build knows
         headline: raw.headline ?? null,  // of studies, as their answers: experiments/report/answers.h
         answers: raw.answers ?? [],
+        overScenes: raw.over_scenes ?? "",
         warnings: raw.warnings,
         notes: raw.notes,
         images: raw.images,

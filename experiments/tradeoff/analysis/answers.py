@@ -1,8 +1,7 @@
 """answers.md: what the rows say, as sentences and tables."""
 
-from analysis import scenes
-from ssrlab import over_scenes
 from analysis.rows import RUNGS
+from ssrlab.results import BEHIND
 
 MOST_LISTED = 4
 
@@ -40,7 +39,7 @@ class Answers:
         self.analysis, self.study = analysis, analysis.study
         self.unit = self.study.unit
         self.shot_labels = {s.name: s.label for s in self.study.shots}
-        self.base = self.study.label_of(analysis.baseline)
+        self.base = self.study.label_of(self.study.baseline)
 
     def text(self):
         parts = [self._head(), self._at_costs(), self._whole(), self._shots(), self._floors(), self._stages()]
@@ -67,7 +66,7 @@ class Answers:
             lines += self._doubts()
         else:
             lines.append(f"`{self.unit}`: counted over a technique's own stages, without scatter; times may order techniques otherwise.")
-        without = [s.label for s in study.shots if s.divisor(self.analysis.baseline) is None]
+        without = [s.label for s in study.shots if s.divisor is None]
         if without:
             lines.append(
                 f"Multiples leave out {', '.join(without)}: the error of {self.base} is not known, or too small to divide by."
@@ -102,19 +101,15 @@ class Answers:
         return lines
 
     def _rows_at(self, machine, cost):
-        return [r for r in self.analysis.across if r.get("machine") == machine and r.get("cost") == cost]
+        return [r for r in self.study.across if r.get("machine") == machine and r.get("cost") == cost]
 
     def _short(self, machine, cost):
         rows = self._rows_at(machine, cost)
         first = next((r for r in rows if r["rank"] == 1), None)
         if first is None or first["label"] == self.base:
             return number(cost), "none that fits in all scenes", "", ""
-        near = [r["label"] for r in rows if r["rank"] and r is not first and not self._is_beaten(r)]
+        near = [r["label"] for r in rows if r["rank"] and r is not first and r["standing"] != BEHIND]
         return number(cost), first["label"], measured(first["ratio"], first["low"], first["high"]), ", ".join(near)
-
-    @staticmethod
-    def _is_beaten(row):
-        return row["p_holm"] is not None and row["p_holm"] <= 0.05
 
     def _at_cost(self, machine, cost):
         rows = self._rows_at(machine, cost)
@@ -159,7 +154,7 @@ class Answers:
         if first is None or (first["ratio"] == 1 and first["label"] == self.base):
             return f"No technique fits in all {of_scenes} scenes" + (f" with less error than {self.base}." if first else ".")
         others = [r for r in rows if r["rank"] and r is not first]
-        beaten = [r for r in others if self._is_beaten(r)]
+        beaten = [r for r in others if r["standing"] == BEHIND]
         near = [r for r in others if r not in beaten]
         text = f"**{first['label']}** has the least error, {measured(first['ratio'], first['low'], first['high'])} of that of {self.base} (geometric mean, {first['scenes']} scenes)"
         if not others:
@@ -168,15 +163,15 @@ class Answers:
             text += f"; over these scenes it is not distinguishable from {listed(r['label'] for r in near)}"
         if beaten:
             text += f"; it errs less than {listed(r['label'] for r in beaten)} (Holm's test at 0.05)"
-        if first["scenes"] < over_scenes.LEAST_SCENES:
+        if first["low"] is None:
             text += f"; {first['scenes']} scenes are too few for an interval"
         return text + "."
 
     def _whole(self):
-        rows = [r for r in self.analysis.across if r.get("cost") is None]
+        rows = [r for r in self.study.across if r.get("cost") is None]
         if not rows:
             return []
-        lines = ["## Which errs least, whatever it takes", "", self._first_sentence(next((r for r in rows if r["rank"] == 1), None), rows, len({s.scene for s in self.study.shots})), ""]
+        lines = ["## Which errs least, whatever it takes", "", self._first_sentence(next((r for r in rows if r["rank"] == 1), None), rows, rows[0]["of_scenes"]), ""]
         return lines + self._ranking("point", rows, "scenes", [r["scenes"] for r in rows])
 
     def _shots(self):
@@ -191,7 +186,7 @@ class Answers:
         return lines
 
     def _front_sentence(self, shot):
-        rows = sorted((r for r in self.analysis.front if r["shot"] == shot.name and r["cost"] is not None), key=lambda r: r["cost"])
+        rows = sorted((r for r in self.study.front if r["shot"] == shot.name and r["cost"] is not None), key=lambda r: r["cost"])
         at = lambda r: f"{r['label']} ({measured(r['cost'], r['cost_low'], r['cost_high'])} {self.unit}, {measured(r['error'], r['error_low'], r['error_high'])})"  # noqa: E731
         sure = [r for r in rows if r["verdict"] == "front"]
         maybe = [r for r in rows if r["verdict"] == "undecided"]
@@ -208,13 +203,13 @@ class Answers:
         cells = []
         for variant, curve in self._curves(shot):
             ends = f"{number(curve.start)} to {number(curve.end)}"
-            cells.append((self.analysis.label(variant), ends, *(self._error_text(by[variant, c]) for c in costs)))
+            cells.append((variant, ends, *(self._error_text(by[variant, c]) for c in costs)))
         return table(("technique", f"measured at ({self.unit})", *(f"error at {number(c)} {self.unit}" for c in costs)), cells)
 
     def _curves(self, shot):
         """Those of more than the baseline alone."""
         curves = self.analysis.curves[shot.name].items()
-        return [(v, c) for v, c in curves if [p.key for p in c.points] != [self.analysis.baseline]]
+        return [(v, c) for v, c in curves if [p.key for p in c.points] != [self.study.baseline]]
 
     def _error_text(self, row):
         if row.get("error") is None:
@@ -229,7 +224,7 @@ class Answers:
         by = {(r["variant"], r["factor"]): r for r in rows}
         factors = self.analysis.factors
         cells = [
-            (self.analysis.label(v), *(self._cost_text(by[v, f]) for f in factors)) for v, _ in self._curves(shot)
+            (v, *(self._cost_text(by[v, f]) for f in factors)) for v, _ in self._curves(shot)
         ]
         of = {f: next(r["error"] for r in rows if r["factor"] == f) for f in factors}
         return table(("technique", *(f"{self.unit} to {number(f)} of {self.base}'s error ({number(of[f])})" for f in factors)), cells)
@@ -288,7 +283,7 @@ class Answers:
         return lines + table(("axis", "shot", "points", self.unit, "floor", "floor / rung", "b", "misfit", "status"), cells)
 
     def _stages(self):
-        rows = self.analysis.stages
+        rows = self.study.stages
         if not rows:
             return []
         lines = ["## Which change buys what", ""]
@@ -298,13 +293,13 @@ class Answers:
         lines.append("")
         for machine in dict.fromkeys(r["machine"] for r in rows):
             own = [r for r in rows if r["machine"] == machine]
-            pooled = [r for r in own if not r["shot"] and r["scenes"] >= over_scenes.LEAST_SCENES]
+            pooled = [r for r in own if not r["shot"] and r["error_low"] is not None]
             changes = {self._change_key(r) for r in pooled}
             single = [r for r in own if r["shot"] and self._change_key(r) not in changes]
             lines += [f"On {machine}{', over scenes: geometric mean of the ratios of errors, mean of the costs' if pooled else ''}:", ""]
             lines += self._stage_table("scenes", pooled)
             if single:
-                lines += [f"In each shot, since {over_scenes.LEAST_SCENES - 1} scenes or fewer are too few for an interval:", ""] + self._stage_table("shot", single)
+                lines += ["In each shot, since three scenes or fewer are too few for an interval:", ""] + self._stage_table("shot", single)
         return lines
 
     @staticmethod

@@ -136,7 +136,7 @@ def fit_law(costs, errors, log_error_deviations, log_cost_deviations):
 
 def fit_axis(axis, floor_of_costs):
     """Fits the law to an axis, or says why not. `floor_of_costs`: the relative difference that copies of one point may have."""
-    points = [p for p in axis.points if not p.why_not_judged()]
+    points = [p for p in axis.points if p.is_judged()]
     if len(points) < LEAST_POINTS:
         return points, Fit(f"only {len(points)} of its points are judged")
     costs = [p.cost for p in points]

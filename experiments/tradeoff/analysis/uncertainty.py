@@ -4,30 +4,17 @@ import math
 
 import numpy as np
 from scipy import stats
+from ssrlab import statistics
 
 NORMAL = 1.959964  # of 95 %, as metrics/median_interval.cpp
 LEVELS = (2.5, 97.5)
-
-
-def sign_factor(values):
-    """By how much more than those of independent rounds the signs about the median scatter, at least 2: as
-    metrics/median_interval.h has it. `values` in order of time."""
-    values = np.asarray(values, float)
-    signs, n = np.sign(values - np.median(values)), len(values)
-    factor = 1.0
-    for lag in range(1, n // 2):
-        correlation = (float(signs[lag:] @ signs[:-lag]) + 1) / n
-        if correlation <= 0:
-            break
-        factor += 2 * correlation
-    return max(factor, 2.0)
 
 
 class ShotDraws:
     """Errors and costs as they might truly be, of points of one shot: arrays of points x draws.
 
     A mean error over k seeds is drawn from Student's t with k - 1 degrees of freedom about the measured one, and a median
-    cost from the binomial distribution of its rank among the rounds, widened by sign_factor(). Points share the normal
+    cost from the binomial distribution of its rank among the rounds, widened by statistics.sign_factor(). Points share the normal
     deviate of each seed and of each round, so that what seeds and slow frames do to several points at once stays common.
     What the interval of an error holds beyond its seeds, the reference's noise, is one deviate for each variant.
     Errors move by a factor exp(d / error): never to 0 or below, and further up than down."""
@@ -58,7 +45,8 @@ class ShotDraws:
                 chi = np.sqrt(stats.chi2.ppf(np.clip(uniform, 1e-6, 1), k - 1) / (k - 1))
                 scatter = sum(d * normal(("seed", s)) for s, d in zip(p.seeds, deviations)) / math.sqrt(k * (k - 1))
                 relative += scatter / chi / p.error
-                of_seeds = stats.t.ppf(0.975, k - 1) * values.std(ddof=1) / math.sqrt(k)
+                _, low, high = statistics.mean(values)
+                of_seeds = (high - low) / 2
             up = max(p.error_high - p.error, 0.0)
             rest = math.sqrt(max(up * up - of_seeds * of_seeds, 0.0)) / NORMAL
             relative += rest / p.error * normal(("reference", p.variant))
@@ -81,7 +69,7 @@ class ShotDraws:
             for r in rounds:
                 if r not in deviates:
                     deviates[r] = self.generator.standard_normal(self.count)
-            offset = math.sqrt(sign_factor(values)) / 2 * sum(s * deviates[r] for r, s in zip(rounds, signs))
+            offset = math.sqrt(statistics.sign_factor(values)) / 2 * sum(s * deviates[r] for r, s in zip(rounds, signs))
             place = np.clip(n / 2 + offset - 0.5, 0, n - 1)
             drawn[i] = np.interp(place, np.arange(n), np.sort(values))
         return drawn

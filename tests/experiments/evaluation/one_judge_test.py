@@ -1,4 +1,5 @@
-"""Every tool says the same of two points of a study: standings, effects, pairs, report, tables, tradeoff and diff.
+"""Every tool says the same of two points of a study: standings, effects, pairs, report, tables, tradeoff and diff; and of what holds over
+scenes over_scenes.csv, which is computed anew here, the report's first sentence, and tradeoff.
 
 usage: one_judge_test.py REPORT_PAGE_PROGRAM SSRLAB [RESULTS ...]
 
@@ -7,13 +8,18 @@ places that compare it: what they say must be one.
 """
 
 import csv
+import itertools
 import json
+import math
 import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+
+import numpy as np
+from scipy import stats
 
 REPORT_PAGE, SSRLAB, *FOLDERS = sys.argv[1:]
 SAME, LESS, MORE = "not distinguishable", "less", "more"
@@ -75,9 +81,10 @@ def judge(folder):
     for r in rows("effects.csv"):
         if r["verdict"]:
             witnesses.add("effects.csv", r["shot"], (r["variant"], r["point"]), (r["against_variant"], r["against_point"]), r["verdict"])
-    report(witnesses, folder, errors)
+    page = report(witnesses, folder, errors)
     tables(witnesses, folder, errors, rows("effects.csv"))
     tradeoff(witnesses, folder)
+    over_scenes(folder, manifest, rows("over_scenes.csv"), rows("summary.csv"), page["over_scenes"])
     contradictions = witnesses.contradictions()
     assert not contradictions, contradictions
     run(SSRLAB, "diff", folder, folder)  # exit code 0: no number of a study differs from itself
@@ -100,6 +107,7 @@ def report(witnesses, folder, errors):
                 witnesses.add("report", answer["shot"], point, best, SAME if point in tied else MORE)
                 found += 1
     assert found, "the report says nothing of any pair"
+    return page
 
 
 def add_tables(folder, manifest, names):
@@ -110,7 +118,7 @@ def add_tables(folder, manifest, names):
     maker = {"ssrlab": {"commit": "abc1234", "dirty": False, "code": "00ff", "estimators": 7}, "device": {"name": "d"}, "finished": "2026-01-31T12:05:00Z"}
     manifest.setdefault("provenance", [maker | {"cells": []}])
     manifest.setdefault("study", {"name": "made_up", "config": "made_up.json"})
-    for proof in manifest["clock"]["proofs"]:
+    for proof in manifest.get("clock", {}).get("proofs", []):
         proof.setdefault("shots", [])
     for shot in manifest["shots"]:
         shot.update({"width": shot.get("width", 64), "height": shot.get("height", 36)})
@@ -159,6 +167,87 @@ def tradeoff(witnesses, folder):
         if r["verdict"] in ("front", "undecided", "dominated"):
             verdict = "dominated" if point in dominated else "undecided" if point in undecided else "front"
             assert r["verdict"] == verdict, (point, r["verdict"], verdict)
+
+
+def close(text, number):
+    return (text == "") == (number is None) and (number is None or math.isclose(float(text), number, rel_tol=1e-6))
+
+
+def closed_p(p, own):
+    """Closed testing with Bonferroni's test, which Holm's is a shortcut of."""
+    others = [i for i in range(len(p)) if i != own]
+    sets = (s for n in range(len(p)) for s in itertools.combinations(others, n))
+    return max(min(1.0, (len(s) + 1) * min([p[own], *(p[i] for i in s)])) for s in sets)
+
+
+def of_scenes(logs, asset_of):
+    """(mean, low, high, p) of {shot: value} by scipy; assets count once."""
+    values = np.array([np.mean([v for s, v in logs.items() if asset_of[s] == asset]) for asset in sorted({asset_of[s] for s in logs})])
+    if len(values) < 4:
+        return values.mean(), None, None, None
+    half, degrees = stats.t.ppf(0.975, len(values) - 2) * stats.sem(values), len(values) - 2
+    p = float(2 * stats.t.sf(abs(values.mean()) / stats.sem(values), degrees)) if values.std() > 0 else None
+    return values.mean(), values.mean() - half, values.mean() + half, p
+
+
+def over_scenes(folder, manifest, found, summary, sentence):
+    """over_scenes.csv against its rules; what the report and tradeoff say is what stands there."""
+    entries = {s["shot"]: s for s in manifest["shots"]}
+    asset_of = {r["shot"]: entries[r["shot"]].get("asset") or entries[r["shot"]].get("scene") or r["shot"] for r in summary}
+    speaking = [r for r in summary if r["speaks"] == "1" and r["value"]]
+    base, largest = {}, {}
+    for r in speaking:
+        largest[r["shot"]] = max(largest.get(r["shot"], 0), float(r["value"]))
+    for r in speaking:
+        if (r["variant"], r["point"]) == (found[0]["baseline_variant"], found[0]["baseline_point"]) and r["low"] and float(r["low"]) > 0:
+            if float(r["value"]) > max(2 * float(r["floor"] or 0), 1e-6 * largest[r["shot"]]):
+                base[r["shot"]] = float(r["value"])
+    logs, asks = {}, {(v["variant"], v["point"]) for v in manifest["variants"] if v.get("asks_scene")}
+    for r in speaking:
+        key = (r["variant"], r["point"])
+        if r["ranked"] == "1" and r["low"] and key not in asks and r["shot"] in base and float(r["value"]) > 0:
+            logs.setdefault(key, {})[r["shot"]] = math.log(float(r["value"]) / base[r["shot"]])
+    ranked = [k for k, v in logs.items() if len(v) >= 0.9 * len(base)]
+    common = [s for s in base if all(s in logs[k] for k in ranked)]
+    logs |= {k: {s: logs[k][s] for s in common} for k in ranked}
+    rows = {(r["variant"], r["point"]): r for r in found}
+    assert rows.keys() == logs.keys(), (rows.keys(), logs.keys())
+    means = {k: of_scenes(v, asset_of) for k, v in logs.items()}
+    first = next(k for k, r in rows.items() if r["rank"] == "1")
+    assert first == min(ranked, key=lambda k: (means[k][0], k)), first
+    against = {k: of_scenes({s: v - logs[first][s] for s, v in of.items() if s in logs[first]}, asset_of) for k, of in logs.items() if k != first}
+    tested = [k for k, v in against.items() if v[3] is not None]
+    adjusted = {k: closed_p([against[o][3] for o in tested], i) for i, k in enumerate(tested)}
+    exponential = lambda v: None if v is None else math.exp(v)  # noqa: E731
+    for key, r in rows.items():
+        assert all(close(r[c], exponential(v)) for c, v in zip(("ratio", "low", "high"), means[key])), (key, r, means[key])
+        assert all(close(r["over_best" + c], exponential(v)) for c, v in zip(("", "_low", "_high"), against.get(key, (None,) * 3))), (key, r)
+        assert close(r["p_holm"], adjusted.get(key)), (key, r, adjusted.get(key))
+        if len({asset_of[s] for s in common}) >= 4 and key in ranked and key != first:
+            assert r["standing"] == ("behind" if adjusted.get(key, 1) < 0.05 else "tied"), (key, r)
+
+    name = lambda key: key[0] if key[1] == "default" else " ".join(key)  # noqa: E731
+    tied = [name(k) for k, r in rows.items() if r["standing"] == "tied" and k != first]
+    behind = [name(k) for k, r in rows.items() if r["standing"] == "behind"]
+    said = re.fullmatch(r"Over \d+ (?:of \d+ )?scenes (.*?) has the least error.*?(?:, but is not distinguishable from (.*?))?(?:; it is significantly better than (.*?))?\.", sentence)
+    assert said and said[1] == name(first), sentence
+    listed = lambda text: re.split(r", | and ", re.sub(r" and \d+ more$", "", text)) if text else []  # noqa: E731
+    assert listed(said[2]) == tied[:3], (sentence, tied)
+    assert listed(said[3]) == (behind[:3] if tied else ["all others"]), (sentence, behind)
+
+    across = {(r["variant"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"]}
+    assert across.keys() == rows.keys()
+    for key, r in rows.items():
+        for column in ("scenes", "shots", "ratio", "low", "high", "rank", "rank_low", "rank_high", "p_holm", "standing"):
+            assert r[column] == across[key][column], (key, column, r, across[key])
+        for end in ("", "_low", "_high"):
+            assert r["over_best" + end] == across[key]["against_best" + end], (key, r, across[key])
+    with open(os.path.join(folder, "tradeoff", "answers.md"), encoding="utf-8") as stream:
+        whole = stream.read().split("## Which errs least, whatever it takes")[1]
+    answer = re.search(r"^\*\*(.*?)\*\* has the least error.*$", whole, re.M)
+    assert answer[1] == name(first), answer[0]
+    assert ("not distinguishable" in answer[0], "errs less than" in answer[0]) == (bool(tied), bool(behind)), answer[0]
+    print(f"{os.path.basename(folder)}: over {rows[first]['scenes']} scenes {len(tied)} tied, {len(behind)} behind: {sentence}")
 
 
 def main():

@@ -10,7 +10,6 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path[:0] = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments", room) for room in ("figures", "python")]
 
-from ssrlab import over_scenes  # noqa: E402
 from ssrlab.results import ResultsError  # noqa: E402
 from paper_tables import agreement, documents, formats, limits, means, summary_file  # noqa: E402
 from paper_tables.cell import Cell  # noqa: E402
@@ -40,14 +39,6 @@ class Agreement(unittest.TestCase):
         taus = {(r["metric"], r["against"]): float(r["value"]) for r in agreement.agreement_rows(Directions(), both)}
         self.assertEqual(taus[("mse", "ssim")], 1)
         self.assertEqual(len(taus), 4)
-
-    def test_scenes_are_a_sample(self):
-        mean, low, high = over_scenes.mean([("a", 1), ("b", 2), ("c", 3), ("d", 4)])
-        self.assertEqual(mean, 2.5)
-        self.assertAlmostEqual((high - low) / 2, 4.30265 * 1.2909944 / 2, places=4)  # Student's t(0.975, 2), see over_scenes.py
-        # Shots of one asset count once: their mean.
-        self.assertEqual(over_scenes.mean([("a", 0), ("a", 2), ("b", 2), ("c", 3), ("d", 4)]), (mean, low, high))
-        self.assertEqual(over_scenes.mean([("a", 1), ("a", 2), ("b", 3), ("c", 3)])[1:], (None, None))
 
     def test_tables_take_scenes_as_the_sample(self):
         """Logs 0, 1, 1, 2 of four assets, one of which has two shots, with hardly any noise of their own."""

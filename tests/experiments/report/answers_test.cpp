@@ -169,3 +169,38 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
     made.tables.errors[3].value = made.tables.errors[3].low = made.tables.errors[3].high = 0.3;
     EXPECT_NE(made.answer().perceptual_sentence.find("it is the best, too"), std::string::npos);
 }
+
+TEST(Answers, SayFirstWhatHoldsOverScenes) {
+    Made made;
+    made.add("none", 1, 0.1);
+    json study = manifest;
+    study["variants"].push_back({{"variant", "a"}, {"point", "default"}, {"label", "A, labelled"}});
+    const auto add = [&](const std::string& variant, double rank, const std::string& standing, size_t scenes) {
+        OverScenesRow& row = made.tables.over_scenes.emplace_back();
+        row.variant = variant, row.point = row.baseline_point = "default", row.baseline_variant = "none";
+        row.target = "specular", row.metric = "mse", row.mask = "reflective";
+        row.ratio = 0.1 * rank, row.rank = rank, row.standing = standing, row.scenes = scenes;
+        if (scenes >= least_scenes) row.low = 0.05 * rank, row.high = 0.2 * rank;
+    };
+    const auto sentence = [&](std::vector<std::string> standings, size_t scenes) {
+        made.tables.over_scenes.clear();
+        for (size_t i = 0; i < standings.size(); ++i)
+            add(std::string(1, char('a' + i)), double(i + 1), standings[i], scenes);
+        return over_scenes_sentence(made.tables, study);
+    };
+    EXPECT_EQ(sentence({}, 5), "");
+    EXPECT_EQ(sentence({"best", "behind"}, 5), "One scene is too few for a verdict over scenes, which takes four.");
+    for (const char* shot : {"t", "u", "v", "w", "x"})
+        made.tables.errors.push_back(made.tables.errors.front()), made.tables.errors.back().shot = shot;
+    EXPECT_EQ(
+        sentence({"best", "behind", "behind"}, 6),
+        "Over 6 scenes A, labelled has the least error, 0.1x [0.05x, 0.2x] that of none (geometric mean of mse); it "
+        "is significantly better than all others.");
+    EXPECT_EQ(sentence({"tied", "tied", "behind"}, 5),
+              "Over 5 of 6 scenes A, labelled has the least error measured, 0.1x [0.05x, 0.2x] that of none (geometric "
+              "mean of mse), but is not distinguishable from b; it is significantly better than c.");
+    EXPECT_EQ(
+        sentence({"", ""}, 3),
+        "Over 3 of 6 scenes A, labelled has the least error measured, 0.1x that of none (geometric mean of mse); 3 "
+        "scenes are too few for an interval and a verdict, which take four.");
+}

@@ -78,6 +78,13 @@ def test_results(page, folder):
     page.find_element(By.ID, "hasSingleChanges").click()
 
 
+def test_first_sentence(page, folder):
+    first = next(r for r in rows_of(folder, "over_scenes.csv", target="specular", metric="relmse", mask="reflective") if r["rank"] == "1")
+    said = page.find_element(By.ID, "answers").text
+    wanted = f"Over {first['scenes']} scenes {first['variant']} {first['point']} has the least error"
+    check(said.startswith(wanted), f"the first sentence is of all scenes: {said[:120]}, in place of {wanted}")
+
+
 def test_truth_ladder(page, folder):
     """What bounds the techniques stands below them, is never the best, and says which frames it speaks of."""
     rungs = [c for c in table_of(page, "#summary") if c[1][0] == LADDER]
@@ -297,6 +304,7 @@ def main():
         page = open_browser(profile)
         try:
             open_report(page, folder)
+            test_first_sentence(page, folder)
             test_results(page, folder)
             test_truth_ladder(page, folder)
             test_images_of_a_rung(page)

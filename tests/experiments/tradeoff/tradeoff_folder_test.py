@@ -31,6 +31,7 @@ COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
     "times.csv": "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
     "time_summary.csv": "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
     "effects.csv": "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,interval,p,family,p_holm,low_holm,high_holm,verdict",
+    "over_scenes.csv": "target,metric,mask,variant,point,baseline_variant,baseline_point,scenes,shots,ratio,low,high,rank,rank_low,rank_high,over_best,over_best_low,over_best_high,p_holm,standing",
     "time_effects.csv": "shot,variant,point,against,against_variant,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
     "costs.csv": "shot,variant,point,stage,quantity,value",
 }
@@ -78,6 +79,7 @@ def write_study(folder):
         compared = {"shot": a_shot, "variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "target": "specular"}
         effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51, "p_holm": 0.001, "low_holm": 0.48, "high_holm": 0.52, "verdict": "less"})
     write_csv(folder, "summary.csv", errors)
+    write_csv(folder, "over_scenes.csv", [])  # tradeoff compares anew, by its own baseline and shots
     write_csv(folder, "results.csv", errors)
     write_csv(folder, "times.csv", times)
     medians = [own_times(s, *keys[name], 1.01 * ms) for s in shots for name, (ms, _) in PRESETS.items()]
@@ -216,7 +218,9 @@ class Folder(unittest.TestCase):
         with open(os.path.join(TRADEOFF, "README.md"), encoding="utf-8") as stream:
             sections = re.split(r"^`(\w+\.csv)`", stream.read(), flags=re.M)
         told = {name: set(re.findall(r"`(\w+)`", text)) for name, text in zip(sections[1::2], sections[2::2])}
-        for name, columns in FILES.items():
+        for name in (*FILES, "front.csv", "pairs.csv", "across.csv", "stages.csv"):
+            with open(os.path.join(self.out, name), encoding="utf-8") as stream:
+                columns = stream.readline().strip().split(",")
             self.assertEqual(set(columns) - told[name], set(), name)
 
 

@@ -1,4 +1,4 @@
-"""Error against run time: dominance, draws, curves, fits and means over scenes, by closed forms.
+"""Error against run time: draws, curves and fits, by closed forms.
 
 usage: tradeoff_test.py TRADEOFF_FOLDER
 """
@@ -6,15 +6,13 @@ usage: tradeoff_test.py TRADEOFF_FOLDER
 import math
 import re
 import sys
-import types
 import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, sys.argv.pop(1))
 
 import numpy as np  # noqa: E402
-from analysis import curves, dominance, fits, points, rows, scenes, stages, uncertainty  # noqa: E402  (before what it finds)
-from ssrlab import over_scenes  # noqa: E402
+from analysis import curves, fits, points, uncertainty  # noqa: E402
 
 FRAMES = 15
 
@@ -22,37 +20,12 @@ FRAMES = 15
 def point(name, error, half_width=0.0, cost=10.0, spread=0.0, seeds=None):
     """`spread`: of the times, relative; all points are slow in the same frames."""
     variant, _, rest = name.partition(":")
-    made = points.Point(variant, rest or "default", name, error, error - half_width, error + half_width, seeds or {"0": error}, True)
+    made = points.Point(variant, rest or "default", name, error, error - half_width, error + half_width, seeds or {"0": error})
     made.rounds = {(0, f): cost * (1 + spread * ((7 * f) % FRAMES - 7) / 7) for f in range(FRAMES)}
     ordered = sorted(made.rounds.values())
     low, high = ordered[2], ordered[12]  # of 15 rounds in turn
-    made.set_cost(cost, low, high, high, low, 0.0)
+    made.cost, made.cost_low, made.cost_high = cost, low, high
     return made
-
-
-def shot(*of_points, floor=0.0):
-    return points.Shot("s", "s", "scene", "asset", "machine", floor, True, list(of_points), {})
-
-
-class Dominance(unittest.TestCase):
-    def test_points_are_as_their_pairs_say(self):
-        made = shot(point("a", 1, cost=10), point("b", 2, cost=20), point("c", 0.9, cost=30))
-        for one, other, dominates, is_dominated in (("a", "b", "yes", "no"), ("a", "c", "maybe", "no"), ("b", "c", "no", "no")):
-            keys = (one, "default"), (other, "default")
-            made.pairs[keys] = points.Pair(False, dominates, is_dominated)
-            made.pairs[keys[::-1]] = points.Pair(False, is_dominated, dominates)
-        found = {key[0]: (verdict, [p.variant for p in by], [p.variant for p in rivals]) for key, (verdict, by, rivals) in dominance.judge(made).items()}
-        self.assertEqual(found, {"a": ("front", [], []), "b": ("dominated", ["a"], []), "c": ("undecided", [], ["a"])})
-
-    def test_the_nominal_front_has_no_point_that_is_beaten(self):
-        front = dominance.nominal_front([point("a", 2, 0, 1), point("b", 1, 0, 2), point("c", 1.5, 0, 3), point("d", 0.5, 0, 4)])
-        self.assertEqual({v for v, _ in front}, {"a", "b", "d"})
-
-
-class Medians(unittest.TestCase):
-    def test_slow_halves_scatter_more_than_rounds_in_turn(self):
-        self.assertEqual(uncertainty.sign_factor([float(v) for v in (8, 1, 15, 4, 11, 2, 14, 6, 9, 3, 13, 5, 12, 7, 10)]), 2)
-        self.assertGreater(uncertainty.sign_factor([float(v) for v in range(15)]), 4)
 
 
 class Draws(unittest.TestCase):
@@ -170,88 +143,6 @@ class Fits(unittest.TestCase):
         self.assertEqual((axis.parameter, axis.fixed), ("rays", "wide=0"))
         self.assertEqual([parameters[p.key] for p in axis.points], [{"rays": r, "wide": 0, "mode": "a"} for r in (1, 2, 4, 8, 16)])
 
-
-class Scenes(unittest.TestCase):
-    def test_shots_of_a_scene_count_once(self):
-        logs = [("a", 0.0), ("a", 2.0), ("b", 1.0), ("c", 3.0), ("d", 3.0)]
-        ratio, low, high, count, shots = over_scenes.geometric_mean(logs)
-        self.assertEqual((count, shots), (4, 5))
-        self.assertAlmostEqual(math.log(ratio), 2)
-        # Standard error 1.1547 / 2; t(0.975, 2) = 4.30265: one degree fewer than of normal values.
-        self.assertAlmostEqual(math.log(high) - 2, 4.30265 * 1.1547005 / 2, places=4)
-        self.assertAlmostEqual(2 - math.log(low), 4.30265 * 1.1547005 / 2, places=4)
-        self.assertEqual(over_scenes.geometric_mean(logs[:4])[1:3], (None, None))
-
-    def test_holm(self):
-        for found, by_hand in zip(scenes.holm([0.01, None, 0.04, 0.03]), (0.03, None, 0.06, 0.06)):
-            self.assertEqual(found, by_hand) if by_hand is None else self.assertAlmostEqual(found, by_hand)
-
-    def test_ranks_without_any_one_scene(self):
-        table = {"a": {"s": 0.0, "t": 0.0, "u": 0.0}, "b": {"s": -3.0, "t": 1.0, "u": 1.0}, "c": {"s": 9.0, "t": 9.0, "u": 9.0}}
-        self.assertEqual(scenes.rank_stability(table), {"a": (2, 1, 2), "b": (1, 1, 2), "c": (3, 3, 3)})
-
-    def test_wins_are_certain_or_shared(self):
-        table = {m: {f"s{i}": (v, v * 0.9, v * 1.1) for i, v in enumerate(values)} for m, values in {"a": [1, 1, 1, 1], "b": [2, 2, 1.1, 3]}.items()}
-        less = lambda m, n, s: table[m][s][2] < table[n][s][1]  # noqa: E731
-        rows = scenes.Comparison(table, {f"s{i}": f"s{i}" for i in range(4)}, {f"s{i}": 4.0 for i in range(4)}, less).rows()
-        self.assertEqual([(r["method"], r["rank"], r["wins"], r["shared"]) for r in rows], [("a", 1, 3, 1), ("b", 2, 0, 1)])
-        self.assertAlmostEqual(rows[0]["ratio"], 0.25)
-        self.assertAlmostEqual(rows[1]["against_best"], (2 * 2 * 1.1 * 3) ** 0.25)
-
-    def test_what_lacks_shots_is_not_ranked(self):
-        table = {"a": {s: (2, 2, 2) for s in "stuv"}, "b": {s: (1, 1, 1) for s in "stu"}}
-        for lacking, ranks in ((0.1, {"a": 1, "b": None}), (0.25, {"a": 2, "b": 1})):
-            compared = scenes.Comparison(table, {s: s for s in "stuv"}, dict.fromkeys("stuv", 4.0), lambda m, n, s: True, lacking)
-            self.assertEqual({r["method"]: r["rank"] for r in compared.rows()}, ranks)
-
-
-class Stages(unittest.TestCase):
-    def change(self, error, costs, is_told=True):
-        return stages.Change("s", "s", "m", ("v", "a"), ("v", "b"), "x", error, costs, is_told)
-
-    def test_verdicts(self):
-        less, more, same = (0.5, 0.4, 0.6), (2, 1.8, 2.2), (1.1, 0.9, 1.3)
-        dearer, cheaper = (2.0, 1, 3), (-2.0, -3, -1)
-        told = {(less, dearer): "buys error", (more, cheaper): "saves cost", (less, cheaper): "better in both", (more, dearer): "worse in both"}
-        told |= {(same, dearer): "dearer, no error told", (same, cheaper): "cheaper, no error told"}
-        for (error, costs), verdict in told.items():
-            self.assertEqual(self.change(error, costs).verdict(), verdict)
-        self.assertEqual(self.change(less, dearer, False).verdict(), "less error, no cost told")
-        self.assertEqual(self.change(same, dearer, False).verdict(), "nothing told")
-
-    def test_one_parameter_alone(self):
-        self.assertEqual(stages.change_between({"a": True, "b": 1}, {"a": False, "b": 1}), "a: true -> false")
-        self.assertEqual(stages.change_between({"a": 1, "b": 1}, {"a": 2, "b": 2}), "")
-
-
-class ChosenPoints(unittest.TestCase):
-    """Within a cost a technique is the point that errs least elsewhere, not the one that chance favours in the scene itself."""
-
-    def test_no_scene_chooses_for_itself(self):
-        random, shots = np.random.default_rng(4), []
-        points_of = 8  # of equal true error: in its own scene the least of eight is 30 % below the mean
-        for i in range(20):
-            own = [point(f"v:{k}", float(np.exp(random.normal(-0.02, 0.2))), 0.01) for k in range(points_of)]
-            own.append(point("none", 2.0, 0.01, cost=1.0))
-            made = shot(*own)
-            made.name = made.scene = made.asset = f"s{i}"
-            shots.append(made)
-        study = types.SimpleNamespace(
-            shots=shots, unit="ms", label_of=lambda key: ":".join(key), parameters_of=lambda key: {}, has_noise_of_times=True
-        )
-        analysis = rows.Analysis(study, ("none", "default"), [20.0], [])
-        chosen = [r for r in analysis.error_at_cost if r["variant"] == "v"]
-        self.assertEqual({r["chosen_on"] for r in chosen}, {"other scenes"})
-        for r in chosen:
-            ran = study.shots[int(r["shot"][1:])].point_of(("v", r["point"]))
-            self.assertEqual((r["point_error"], r["point_low"]), (ran.error, ran.error_low))
-        mean = float(np.exp(np.mean([math.log(r["point_error"]) for r in chosen])))
-        best = float(np.exp(np.mean([math.log(min(p.error for p in s.points if p.variant == "v")) for s in shots])))
-        # The true geometric mean is 0.98, and the mean over 20 scenes scatters by 0.045 of it; the least of eight is 0.74.
-        self.assertAlmostEqual(mean, 0.98, delta=4 * 0.045)
-        self.assertLess(best, 0.8)
-        (across,) = [r for r in analysis.across if r["variant"] == "v" and r.get("cost")]
-        self.assertAlmostEqual(across["ratio"], mean / 2, places=6)
 
 if __name__ == "__main__":
     unittest.main()

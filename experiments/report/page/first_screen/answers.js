@@ -1,4 +1,4 @@
-// The first screen: what each shot says, and for the chosen one its pictures and its errors against time.
+// The first screen: what the scenes say together and each shot says, and for the chosen one its pictures and its errors against time.
 
 const answerChoice = {
     shot: null
@@ -28,6 +28,7 @@ function openPoint(row) {
 function showAnswers() {
     const shots = unique(report.errors.map(r => r.shot));
     answerChoice.shot = shots[0];
+    at("over-scenes").textContent = report.overScenes;
     pointListeners.push(drawAnswerCharts);
     showBudget();
     showWhy();

@@ -1,0 +1,54 @@
+// Statistics for the Python scripts, which choose what they are of: a process that answers questions costs less than a
+// copy of the rules, and less than a library, which would need the same sources once more and a place to be found in.
+#include "core/error.h"
+#include "experiments/commands/commands.h"
+#include "experiments/evaluation/over_scenes.h"
+#include "metrics/median_interval.h"
+#include "metrics/statistics.h"
+
+#include <iostream>
+
+namespace {
+
+using nlohmann::json;
+
+json answer_to(const json& question) {
+    const std::string asked = question.at("ask");
+    if (asked == "mean_over_scenes") {
+        std::vector<ShotValue> values;
+        for (const json& v : question.at("values")) values.push_back({v.at(0), v.at(1)});
+        const MeanOverScenes mean = mean_over_scenes(values);
+        return {mean.value, column_json(mean.low), column_json(mean.high), mean.scenes};
+    }
+    const std::vector<double> values = question.at("values");
+    if (asked == "bootstrap_over_scenes") {
+        const auto ends = bootstrap_over_scenes(values, question.at("seed"));
+        return ends ? json{ends->first, ends->second} : json{nullptr, nullptr};
+    }
+    if (asked == "mean") {
+        const Estimate mean = mean_estimate(values);
+        return {mean.value, mean.low, mean.high};
+    }
+    if (asked == "median") {
+        const MedianInterval median = median_interval(values);
+        return {median.median, median.low, median.high};
+    }
+    if (asked == "sign_factor") return json::array({sign_variance_factor(values)});
+    fail("no statistic is called '", asked, "'");
+}
+
+}  // namespace
+
+void statistics_command() {
+    for (std::string line; std::getline(std::cin, line);) {
+        json answer;
+        try {
+            answer = answer_to(json::parse(line));
+        } catch (const json::exception& e) {
+            answer = {{"error", e.what()}};
+        } catch (const Error& e) {
+            answer = {{"error", e.what()}};
+        }
+        std::cout << answer.dump() << std::endl;
+    }
+}

@@ -1,0 +1,260 @@
+#include "experiments/evaluation/over_scenes.h"
+
+#include "core/error.h"
+#include "experiments/evaluation/standings.h"
+#include "experiments/evaluation/study_points.h"
+#include "metrics/quantiles.h"
+#include "metrics/statistics.h"
+#include "metrics/temporal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace {
+
+double mean_of(std::span<const double> values) {
+    double sum = 0;
+    for (const double v : values) sum += v;
+    return sum / double(values.size());
+}
+
+/// The mean over the shots of each scene.
+std::map<std::string, double> scene_means(std::span<const ShotValue> values) {
+    std::map<std::string, std::vector<double>> of_scene;
+    for (const ShotValue& v : values) of_scene[v.asset].push_back(v.value);
+    std::map<std::string, double> means;
+    for (const auto& [asset, of_shots] : of_scene) means[asset] = mean_of(of_shots);
+    return means;
+}
+
+std::vector<double> values_of(const std::map<std::string, double>& of_scene) {
+    std::vector<double> values;
+    for (const auto& [asset, value] : of_scene) values.push_back(value);
+    return values;
+}
+
+MeanOverScenes mean_of_scenes(std::span<const double> values) {
+    MeanOverScenes mean{.value = mean_of(values), .low = {}, .high = {}, .p = {}, .scenes = values.size()};
+    if (values.size() < least_scenes) return mean;
+    const double n = double(values.size()), degrees = n - 2;
+    double squares = 0;
+    for (const double v : values) squares += (v - mean.value) * (v - mean.value);
+    const double error = std::sqrt(squares / (n - 1) / n), half_width = student_t_quantile(0.975, degrees) * error;
+    mean.low = mean.value - half_width, mean.high = mean.value + half_width;
+    if (error > 0) mean.p = 2 * student_t_cdf(-std::abs(mean.value) / error, degrees);
+    return mean;
+}
+
+std::optional<double> exponential(const std::optional<double>& value) {
+    return value ? std::optional(std::exp(*value)) : std::nullopt;
+}
+
+using Logarithms = std::map<size_t, double>;  // by the index of the shot
+
+std::vector<ShotValue> with_assets(const Logarithms& logarithms, std::span<const ShotErrors> shots) {
+    std::vector<ShotValue> values;
+    for (const auto& [shot, value] : logarithms) values.push_back({shots[shot].asset, value});
+    return values;
+}
+
+/// Places by the means over the scenes but one; those that are equal share the lower place.
+std::vector<double> ranks(const std::vector<std::vector<double>>& of_points, std::optional<size_t> left_out) {
+    std::vector<double> means, places;
+    for (std::vector<double> values : of_points) {
+        if (left_out) values.erase(values.begin() + std::ptrdiff_t(*left_out));
+        means.push_back(mean_of(values));
+    }
+    for (const double own : means)
+        places.push_back(1 + double(std::ranges::count_if(means, [&](double other) { return other < own; })));
+    return places;
+}
+
+void set_ranks(const std::vector<OverScenes*>& points) {
+    std::vector<std::vector<double>> of_points;
+    for (const OverScenes* point : points) of_points.push_back(point->logarithms);
+    const std::vector<double> places = ranks(of_points, {});
+    for (size_t i = 0; i < points.size(); ++i) points[i]->rank = points[i]->rank_low = points[i]->rank_high = places[i];
+    const size_t scenes = of_points.front().size();
+    for (size_t left_out = 0; left_out < scenes && scenes > 1; ++left_out) {
+        const std::vector<double> without = ranks(of_points, left_out);
+        for (size_t i = 0; i < points.size(); ++i) {
+            points[i]->rank_low = std::min(*points[i]->rank_low, without[i]);
+            points[i]->rank_high = std::max(*points[i]->rank_high, without[i]);
+        }
+    }
+}
+
+/// Compares all with the first rank over the shots that both have, and decides who may be the best.
+void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span<const ShotErrors> shots,
+                   const std::map<PointName, Logarithms>& logarithms) {
+    std::vector<OverScenes*> compared;
+    std::vector<double> p;
+    for (OverScenes& point : points) {
+        if (&point == &first) continue;
+        Logarithms over_first;
+        const Logarithms& of_first = logarithms.at({first.variant, first.point});
+        for (const auto& [shot, value] : logarithms.at({point.variant, point.point}))
+            if (const auto own = of_first.find(shot); own != of_first.end()) over_first[shot] = value - own->second;
+        if (over_first.empty()) continue;
+        const MeanOverScenes mean = mean_over_scenes(with_assets(over_first, shots));
+        point.over_best = std::exp(mean.value);
+        point.over_best_low = exponential(mean.low), point.over_best_high = exponential(mean.high);
+        if (mean.p) compared.push_back(&point), p.push_back(*mean.p);
+    }
+    const std::vector<double> adjusted = holm_adjusted(p);
+    for (size_t i = 0; i < compared.size(); ++i) compared[i]->p_holm = adjusted[i];
+    if (first.scenes < least_scenes || std::ranges::count_if(points, [](auto& o) { return o.rank.has_value(); }) < 2)
+        return;
+    first.standing = standing::best;
+    for (OverScenes& point : points) {
+        if (!point.rank || &point == &first) continue;
+        const bool is_behind = point.p_holm && *point.p_holm < significance;
+        point.standing = is_behind ? standing::behind : standing::tied;
+        if (!is_behind) first.standing = standing::tied;
+    }
+}
+
+}  // namespace
+
+std::string asset_of(const nlohmann::json& manifest, const std::string& shot) {
+    const auto shots = manifest.find("shots");
+    if (shots == manifest.end()) return shot;
+    for (const nlohmann::json& entry : *shots)
+        if (entry.is_object() && entry.value("shot", "") == shot)
+            for (const char* key : {"asset", "scene"})
+                if (const std::string name = entry.value(key, ""); !name.empty()) return name;
+    return shot;
+}
+
+MeanOverScenes mean_over_scenes(std::span<const ShotValue> values) {
+    if (values.empty()) fail("a mean over scenes needs a value");
+    return mean_of_scenes(values_of(scene_means(values)));
+}
+
+std::optional<std::pair<double, double>> bootstrap_over_scenes(std::span<const double> values, unsigned seed) {
+    const size_t n = values.size(), resamples = 1999;
+    if (n < least_scenes || std::ranges::count(values, values.front()) == std::ptrdiff_t(n)) return {};
+    std::mt19937_64 random(seed);
+    std::vector<double> means(resamples), resampled(n);
+    for (double& mean : means) {
+        for (double& v : resampled) v = values[random() % n];
+        mean = mean_of(resampled);
+    }
+    std::ranges::sort(means);
+    const double mean = mean_of(values);
+    const auto [first, last] = std::ranges::equal_range(means, mean);  // those that are equal count half
+    const double below = double((first - means.begin()) + (last - means.begin())) / double(2 * resamples);
+    if (!(below > 0 && below < 1)) return {};
+    double cubes = 0, squares = 0;  // of what the mean is without each value, the jackknife
+    for (const double v : values) cubes += std::pow(v - mean, 3), squares += (v - mean) * (v - mean);
+    const double bias = normal_quantile(below), acceleration = cubes / (6 * std::pow(squares, 1.5));
+    const auto end = [&](double probability) {
+        const double z = bias + normal_quantile(probability), moved = bias + z / (1 - acceleration * z);
+        const double place = 0.5 * std::erfc(-moved / std::sqrt(2.0)) * double(resamples - 1);
+        const size_t left = std::min(size_t(place), resamples - 2);
+        return std::lerp(means[left], means[left + 1], place - double(left));
+    };
+    return std::pair(end(0.025), end(0.975));
+}
+
+std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, double lacking) {
+    std::map<PointName, Logarithms> logarithms;
+    size_t counted = 0;
+    for (size_t i = 0; i < shots.size(); ++i) {
+        if (!shots[i].divisor) continue;
+        ++counted;
+        for (const auto& [name, error] : shots[i].errors)
+            if (error > 0) logarithms[name][i] = std::log(error / *shots[i].divisor);
+    }
+    const auto is_ranked = [&](const Logarithms& own) { return double(own.size()) >= (1 - lacking) * double(counted); };
+    std::vector<size_t> common;
+    for (size_t i = 0; i < shots.size(); ++i)
+        if (shots[i].divisor && std::ranges::all_of(logarithms, [&](const auto& entry) {
+                return !is_ranked(entry.second) || entry.second.contains(i);
+            }))
+            common.push_back(i);
+    std::vector<OverScenes> points;
+    std::vector<PointName> ranked;
+    for (auto& [name, own] : logarithms) {
+        if (is_ranked(own) && !common.empty()) {
+            ranked.push_back(name);
+            std::erase_if(own, [&](const auto& entry) { return std::ranges::count(common, entry.first) == 0; });
+        }
+        OverScenes& point = points.emplace_back(OverScenes{.variant = name.first, .point = name.second});
+        point.logarithms = values_of(scene_means(with_assets(own, shots)));
+        const MeanOverScenes mean = mean_of_scenes(point.logarithms);
+        point.scenes = mean.scenes, point.shots = own.size(), point.ratio = std::exp(mean.value);
+        point.low = exponential(mean.low), point.high = exponential(mean.high);
+    }
+    std::vector<OverScenes*> of_ranked;
+    for (OverScenes& point : points)
+        if (std::ranges::count(ranked, PointName(point.variant, point.point)) > 0) of_ranked.push_back(&point);
+    if (of_ranked.empty()) return points;
+    set_ranks(of_ranked);
+    OverScenes& first = **std::ranges::min_element(of_ranked, {}, [](const OverScenes* o) { return *o->rank; });
+    set_standings(points, first, shots, logarithms);
+    std::ranges::stable_sort(
+        points, {}, [](const OverScenes& o) { return std::tuple(!o.rank.has_value(), o.rank.value_or(0), o.ratio); });
+    return points;
+}
+
+PointName baseline_over_scenes(const nlohmann::json& manifest) {
+    const nlohmann::json variants = manifest.value("variants", nlohmann::json::array());
+    const auto name_of = [](const nlohmann::json& v) {
+        return PointName(v.value("variant", ""), v.value("point", ""));
+    };
+    for (const nlohmann::json& v : variants)
+        if (v.value("variant", "") == "none") return name_of(v);
+    for (const nlohmann::json& v : variants)
+        if (v.value("baseline", false)) return name_of(v);
+    if (variants.empty()) fail("manifest.json has no variants");
+    return name_of(variants.front());
+}
+
+std::optional<double> divisor_of(std::span<const MetricSummary* const> errors, const PointName& baseline) {
+    double largest = -INFINITY;
+    const MetricSummary* own = nullptr;
+    for (const MetricSummary* e : errors) {
+        largest = std::max(largest, *e->value);
+        if (!own && PointName(e->variant, e->point) == baseline) own = e;
+    }
+    if (!own || !own->low || !(*own->low > 0)) return {};
+    return *own->value > std::max(2 * own->floor.value_or(0), 1e-6 * largest) ? own->value : std::nullopt;
+}
+
+std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest) {
+    using ErrorName = std::tuple<std::string, std::string, std::string>;  // target, metric, mask
+    std::vector<ErrorName> names;
+    std::map<ErrorName, std::vector<std::pair<std::string, std::vector<const MetricSummary*>>>> of_error;  // by shot
+    for (const MetricSummary& e : errors) {
+        if (!e.speaks_for_shot || !e.value || direction_of(e.metric) != Better::lower) continue;
+        const ErrorName name(e.target, e.metric, e.mask);
+        if (!of_error.contains(name)) names.push_back(name);
+        auto& shots = of_error[name];
+        auto at = std::ranges::find(shots, e.shot, [](const auto& shot) { return shot.first; });
+        if (at == shots.end()) at = shots.insert(at, {e.shot, {}});
+        at->second.push_back(&e);
+    }
+    if (names.empty() || manifest.value("variants", nlohmann::json::array()).empty()) return {};
+    const PointSet using_scene = points_using_scene_data(manifest);
+    const PointName baseline = baseline_over_scenes(manifest);
+    std::vector<OverScenesRow> rows;
+    for (const ErrorName& name : names) {
+        std::vector<ShotErrors> shots;
+        for (const auto& [shot, of_shot] : of_error[name]) {
+            ShotErrors& own = shots.emplace_back(
+                ShotErrors{.asset = asset_of(manifest, shot), .divisor = divisor_of(of_shot, baseline), .errors = {}});
+            for (const MetricSummary* e : of_shot)
+                if (e->holds_all_noise && e->low && !using_scene.contains({e->variant, e->point}))
+                    own.errors[{e->variant, e->point}] = *e->value;
+        }
+        for (OverScenes& o : compare_over_scenes(shots, most_lacking)) {
+            OverScenesRow& row = rows.emplace_back();
+            static_cast<OverScenes&>(row) = std::move(o);
+            std::tie(row.target, row.metric, row.mask) = name;
+            std::tie(row.baseline_variant, row.baseline_point) = baseline;
+        }
+    }
+    return rows;
+}

@@ -1,0 +1,100 @@
+#pragma once
+#include "experiments/evaluation/summary.h"
+
+#include <nlohmann/json.hpp>
+
+// What holds over scenes: they are the sample. Shots of one scene, and scenes of one asset, are averaged first.
+
+/// Of fewer scenes nothing is known but their mean.
+inline constexpr size_t least_scenes = 4;
+
+/// What a shot's scene shows, as the manifest has it: scenes of one asset are no independent samples.
+std::string asset_of(const nlohmann::json& manifest, const std::string& shot);
+
+/// A value of one shot.
+struct ShotValue {
+    std::string asset;
+    double value = 0;
+};
+
+/// A mean with its 95 % interval over scenes like these: Student's t with n - 2 degrees of freedom, one fewer than of
+/// normal values. Logarithms of ratios are skewed: with n - 1 intervals of four to six scenes hold the truth in 92 %
+/// (experiments/tradeoff/README.md).
+struct MeanOverScenes {
+    double value = 0;
+    std::optional<double> low, high;  ///< none below least_scenes
+    std::optional<double> p;          ///< two-sided, of "the mean is 0"; also none where all scenes say the same
+    size_t scenes = 0;
+};
+/// Fails with Error where there is no value.
+MeanOverScenes mean_over_scenes(std::span<const ShotValue> values);
+
+/// The 95 % interval of the mean by resampling the scenes (BCa; Efron 1987, "Better Bootstrap Confidence Intervals"),
+/// for comparison alone: of few scenes it is too narrow. The same numbers whenever it is asked with the same `seed`;
+/// none below least_scenes, or where all are the same.
+std::optional<std::pair<double, double>> bootstrap_over_scenes(std::span<const double> values, unsigned seed = 1);
+
+/// A point, or what else is compared by name.
+using PointName = std::pair<std::string, std::string>;  // variant, point
+
+/// One shot's errors of all that is compared over scenes.
+struct ShotErrors {
+    std::string asset;
+    std::optional<double> divisor;  ///< the baseline's error; none where it is no measure, and the shot counts for none
+    std::map<PointName, double> errors;
+};
+
+/// What scenes say of the errors of one point.
+struct OverScenes {
+    std::string variant, point;
+    size_t scenes = 0, shots = 0;                     ///< in which it and the baseline have an error above 0
+    double ratio = 1;                                 ///< geometric mean over scenes of error / the baseline's
+    std::optional<double> low, high;                  ///< its MeanOverScenes
+    std::optional<double> rank, rank_low, rank_high;  ///< 1: the least; ends with any one scene left out
+    std::optional<double> over_best, over_best_low, over_best_high;  ///< error / that of the first rank
+    std::optional<double> p_holm;         ///< of "over_best is 1", adjusted for all that is compared here
+    std::string standing;                 ///< see standings.h; of what is ranked over least_scenes or more
+    std::vector<double> logarithms = {};  ///< of the ratio in each scene
+};
+
+/// By ascending rank, those without one last. Ranked, over the shots that they have in common, is what lacks at most
+/// the share `lacking` of the shots that count. The first rank was chosen from the scenes that it is compared over:
+/// `standing` says which points may be the best (the confidence set of set_standings()), not how far the first is
+/// ahead.
+std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, double lacking = 0);
+
+/// So many of the shots may a point lack an error above 0 in, and be ranked.
+inline constexpr double most_lacking = 0.1;
+
+/// The point that errors are told as multiples of: `none`, no screen-space reflections, where the study has it, else
+/// its first baseline, else its first point. Fails with Error where the manifest has no variants.
+PointName baseline_over_scenes(const nlohmann::json& manifest);
+
+/// The baseline's error in a shot, to divide by; none where any error would be a huge multiple of it: it is not
+/// distinguishable from 0, is not twice what the reference's noise scores, or is below a millionth of the shot's
+/// largest, as rounding leaves it. `errors`: of that shot, by one target, metric and mask.
+std::optional<double> divisor_of(std::span<const MetricSummary* const> errors, const PointName& baseline);
+
+/// A row of over_scenes.csv.
+struct OverScenesRow : OverScenes {
+    std::string target, metric, mask, baseline_variant, baseline_point;
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"target", &OverScenesRow::target}, Column{"metric", &OverScenesRow::metric},
+            Column{"mask", &OverScenesRow::mask}, Column{"variant", &OverScenesRow::variant},
+            Column{"point", &OverScenesRow::point}, Column{"baseline_variant", &OverScenesRow::baseline_variant},
+            Column{"baseline_point", &OverScenesRow::baseline_point}, Column{"scenes", &OverScenesRow::scenes},
+            Column{"shots", &OverScenesRow::shots}, Column{"ratio", &OverScenesRow::ratio},
+            Column{"low", &OverScenesRow::low}, Column{"high", &OverScenesRow::high},
+            Column{"rank", &OverScenesRow::rank}, Column{"rank_low", &OverScenesRow::rank_low},
+            Column{"rank_high", &OverScenesRow::rank_high}, Column{"over_best", &OverScenesRow::over_best},
+            Column{"over_best_low", &OverScenesRow::over_best_low},
+            Column{"over_best_high", &OverScenesRow::over_best_high}, Column{"p_holm", &OverScenesRow::p_holm},
+            Column{"standing", &OverScenesRow::standing});
+    }
+};
+
+/// Of every error (target, metric, mask) for which less is better, the points that can be ranked in a shot
+/// (MetricSummary::holds_all_noise) and use no scene data, as multiples of baseline_over_scenes().
+std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest);

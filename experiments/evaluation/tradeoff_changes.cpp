@@ -1,0 +1,192 @@
+#include "experiments/evaluation/tradeoff.h"
+#include "metrics/quantiles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace {
+
+using nlohmann::json;
+
+/// A change with what its intervals are made from.
+struct Change {
+    ChangeRow row;
+    std::string asset;
+    bool is_error_significant = false, is_cost_significant = false;
+};
+
+/// `rays: 1 -> 4` of the parameters in which two points differ; empty where that is not one.
+std::string change_between(const json& first, const json& second) {
+    std::vector<std::string> names;
+    const auto add = [&](const json& parameters) {
+        for (const auto& [name, value] : parameters.items())
+            if (first.value(name, json()) != second.value(name, json()) && std::ranges::count(names, name) == 0)
+                names.push_back(name);
+    };
+    add(first), add(second);
+    if (names.size() != 1) return "";
+    const auto shown = [&](const json& parameters) {
+        const json value = parameters.value(names.front(), json());
+        return value.is_string() ? value.get<std::string>() : value.is_null() ? "not set" : value.dump();
+    };
+    return names.front() + ": " + shown(first) + " -> " + shown(second);
+}
+
+std::string verdict_of(const Change& change) {
+    const bool errs_less = change.row.error_ratio<1, is_dearer = change.row.cost> 0;
+    if (!change.is_cost_significant)
+        return !change.is_error_significant ? "nothing told"
+               : errs_less                  ? "less error, no cost told"
+                                            : "more error, no cost told";
+    if (!change.is_error_significant) return is_dearer ? "dearer, no error told" : "cheaper, no error told";
+    if (errs_less == is_dearer) return is_dearer ? "buys error" : "saves cost";
+    return errs_less ? "better in both" : "worse in both";
+}
+
+/// Equally probable values of a deviate.
+constexpr size_t deviates = 128;
+using Deviates = std::array<double, deviates>;
+
+template <class Quantile>
+Deviates deviates_of(Quantile quantile) {
+    Deviates values;
+    for (size_t i = 0; i < deviates; ++i) values[i] = quantile((double(i) + 0.5) / double(deviates));
+    return values;
+}
+
+/// `normal` with these ends of 95 %, above and below alike where they differ.
+Deviates normal_between(const Deviates& normal, double value, double low, double high) {
+    const double end = normal_quantile(0.975);
+    Deviates moved;
+    for (size_t i = 0; i < deviates; ++i)
+        moved[i] = value + normal[i] * (normal[i] > 0 ? high - value : value - low) / end;
+    return moved;
+}
+
+/// Cost for each percent by which the cheaper errs more.
+double per_percent(double log_error, double cost) { return std::abs(cost) / (100 * std::expm1(std::abs(log_error))); }
+
+/// Sets cost_per_percent, with an interval of all pairs of both deviates, which are independent.
+void set_worth(ChangeRow& row, const Deviates& log_errors, const Deviates& costs) {
+    std::vector<double> values;
+    for (const double log_error : log_errors)
+        for (const double cost : costs) values.push_back(per_percent(log_error, cost));
+    const auto end = [&](double probability) -> std::optional<double> {
+        const auto at = values.begin() + std::ptrdiff_t(probability * double(values.size() - 1));
+        std::ranges::nth_element(values, at);
+        return std::isfinite(*at) ? std::optional(*at) : std::nullopt;
+    };
+    row.cost_per_percent = per_percent(std::log(row.error_ratio), row.cost);
+    row.cost_per_percent_low = end(0.025), row.cost_per_percent_high = end(0.975);
+}
+
+bool has_worth(const Change& change) {
+    return change.row.verdict == "buys error" || change.row.verdict == "saves cost";
+}
+
+/// Each change over all scenes in which it was measured by one machine.
+std::vector<Change> pooled(const std::vector<Change>& changes) {
+    const auto same = [](const Change& a, const Change& b) {
+        const auto name = [](const ChangeRow& r) {
+            return std::tie(r.machine, r.variant, r.point, r.against_variant, r.against_point, r.change);
+        };
+        return name(a.row) == name(b.row);
+    };
+    std::vector<Change> found;
+    for (const Change& change : changes) {
+        if (std::ranges::any_of(found, [&](const Change& other) { return same(other, change); })) continue;
+        std::vector<ShotValue> log_errors, costs;
+        for (const Change& own : changes)
+            if (same(own, change)) {
+                log_errors.push_back({own.asset, std::log(own.row.error_ratio)});
+                costs.push_back({own.asset, own.row.cost});
+            }
+        const MeanOverScenes error = mean_over_scenes(log_errors), cost = mean_over_scenes(costs);
+        Change& mean = found.emplace_back(change);
+        ChangeRow& row = mean.row;
+        row.shot.clear(), row.scenes = error.scenes, row.error_ratio = std::exp(error.value), row.cost = cost.value;
+        row.error_low = row.error_high = row.cost_low = row.cost_high = std::nullopt;
+        row.cost_per_percent = row.cost_per_percent_low = row.cost_per_percent_high = std::nullopt;
+        if (error.low) row.error_low = std::exp(*error.low), row.error_high = std::exp(*error.high);
+        row.cost_low = cost.low, row.cost_high = cost.high;
+        mean.is_error_significant = error.low && (*error.high < 0 || *error.low > 0);
+        mean.is_cost_significant = cost.low && (*cost.high < 0 || *cost.low > 0);
+        row.verdict = verdict_of(mean);
+        if (!has_worth(mean)) continue;
+        const double degrees = double(error.scenes) - 2, end = student_t_quantile(0.975, degrees);
+        const Deviates of_t = deviates_of([&](double p) { return student_t_quantile(p, degrees); });
+        const auto moved = [&](const MeanOverScenes& m) {
+            Deviates values = of_t;
+            for (double& v : values) v = m.value + (m.value - *m.low) / end * v;
+            return values;
+        };
+        set_worth(row, moved(error), moved(cost));
+    }
+    return found;
+}
+
+}  // namespace
+
+std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryComparisons& error,
+                                  std::span<const FrontRow> front, const std::string& unit) {
+    using Name = std::tuple<std::string, std::string, std::string>;  // shot, variant, point
+    using PairName = std::pair<Name, Name>;
+    std::map<Name, const FrontRow*> points;
+    for (const FrontRow& p : front) points[{p.shot, p.variant, p.point}] = &p;
+    std::map<PointName, json> parameters;
+    for (const json& v : tables.manifest.value("variants", json::array()))
+        parameters[{v.value("variant", ""), v.value("point", "")}] = v.value("parameters", json::object());
+    std::map<PairName, const TimeEffectRow*> time_effects;
+    if (unit == unit_of_times)
+        for (const TimeEffectRow& t : tables.time_effects)
+            if (t.stage == "total")
+                time_effects[{{t.shot, t.variant, t.point}, {t.shot, t.against_variant, t.against_point}}] = &t;
+    const Deviates normal = deviates_of(normal_quantile);
+
+    std::vector<Change> changes;
+    std::set<PairName> known;
+    for (const EffectRow& e : tables.effects) {
+        const PairName names = {{e.shot, e.variant, e.point}, {e.shot, e.against_variant, e.against_point}};
+        const auto b = points.find(names.first), a = points.find(names.second);
+        if (e.target != error.target || e.metric != error.metric || e.mask != error.mask || !e.ratio || !e.low_holm ||
+            !e.high_holm || !(*e.ratio > 0) || e.variant != e.against_variant || a == points.end() ||
+            b == points.end() || !(a->second->cost.value_or(0) > 0) || !(b->second->cost.value_or(0) > 0))
+            continue;
+        const std::string text =
+            change_between(parameters[{e.against_variant, e.against_point}], parameters[{e.variant, e.point}]);
+        if (text.empty() || !known.insert(names).second) continue;
+        const FrontRow& of = *b->second;
+        const double cost = *a->second->cost, exact = *of.cost / cost;
+        Change& change = changes.emplace_back();
+        change.asset = asset_of(tables.manifest, e.shot);
+        change.is_error_significant = e.verdict == verdict::less || e.verdict == verdict::more;
+        ChangeRow& row = change.row;
+        row.shot = e.shot, row.machine = of.machine, row.unit = unit, row.change = text;
+        row.variant = e.variant, row.point = e.point, row.label = of.label;
+        row.against_variant = e.against_variant, row.against_point = e.against_point;
+        row.error_ratio = *e.ratio, row.error_low = *e.low_holm, row.error_high = *e.high_holm;
+        std::array<double, 3> ratios = {exact, exact, exact};
+        change.is_cost_significant = exact != 1;
+        if (const auto found = time_effects.find(names); found != time_effects.end()) {
+            const TimeEffectRow& t = *found->second;
+            const bool is_judged = !t.verdict.empty();
+            ratios = {t.ratio, is_judged ? *t.low_holm : t.low, is_judged ? *t.high_holm : t.high};
+            change.is_cost_significant = t.verdict == verdict::less || t.verdict == verdict::more;
+        }
+        row.cost = (ratios[0] - 1) * cost, row.cost_low = (ratios[1] - 1) * cost,
+        row.cost_high = (ratios[2] - 1) * cost;
+        row.verdict = verdict_of(change);
+        if (has_worth(change))
+            set_worth(row, normal_between(normal, std::log(*e.ratio), std::log(*e.low_holm), std::log(*e.high_holm)),
+                      normal_between(normal, row.cost, *row.cost_low, *row.cost_high));
+    }
+    std::map<std::string, size_t> places;
+    for (const FrontRow& p : front) places.try_emplace(p.shot, places.size());
+    std::ranges::stable_sort(changes, {}, [&](const Change& change) { return places.at(change.row.shot); });
+    std::vector<Change> means = pooled(changes);
+    std::vector<ChangeRow> rows;
+    for (std::vector<Change>* list : {&changes, &means})
+        for (Change& change : *list) rows.push_back(std::move(change.row));
+    return rows;
+}

@@ -1,0 +1,202 @@
+// What holds over scenes: closed forms, brute force, and how often what is truly the best is said to be behind.
+#include "experiments/evaluation/over_scenes.h"
+
+#include "core/error.h"
+#include "experiments/evaluation/standings.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <random>
+
+namespace {
+
+/// Logarithms of errors by scene, of points "a", "b", ...: the baseline's error is 1 in all.
+std::vector<ShotErrors> shots_of(const std::vector<std::vector<double>>& of_points) {
+    std::vector<ShotErrors> shots;
+    for (size_t i = 0; i < of_points.front().size(); ++i) {
+        ShotErrors& shot =
+            shots.emplace_back(ShotErrors{.asset = "scene " + std::to_string(i), .divisor = 1.0, .errors = {}});
+        for (size_t p = 0; p < of_points.size(); ++p)
+            shot.errors[{std::string(1, char('a' + p)), ""}] = std::exp(of_points[p][i]);
+    }
+    return shots;
+}
+
+std::map<std::string, OverScenes> by_name(const std::vector<OverScenes>& rows) {
+    std::map<std::string, OverScenes> found;
+    for (const OverScenes& row : rows) found[row.variant] = row;
+    return found;
+}
+
+/// Closed testing with Bonferroni's test, whose adjusted p is the largest of all hypotheses that hold it.
+double closed_p(const std::vector<double>& p, size_t own) {
+    double largest = 0;
+    for (unsigned set = 1; set < 1u << p.size(); ++set) {
+        if (!(set >> own & 1)) continue;
+        double least = 1;
+        unsigned size = 0;
+        for (size_t i = 0; i < p.size(); ++i)
+            if (set >> i & 1) least = std::min(least, p[i]), ++size;
+        largest = std::max(largest, std::min(1.0, size * least));
+    }
+    return largest;
+}
+
+}  // namespace
+
+TEST(OverScenes, MeansAreStudentsOverAssets) {
+    const std::vector<ShotValue> values = {{"a", 0}, {"a", 2}, {"b", 2}, {"c", 3}, {"d", 4}};
+    const MeanOverScenes mean = mean_over_scenes(values);
+    EXPECT_EQ(mean.scenes, 4u);
+    EXPECT_DOUBLE_EQ(mean.value, 2.5);
+    // Standard error sqrt(5 / 3) / 2; of 2 degrees of freedom quantile(q) = (2 q - 1) / sqrt(2 q (1 - q)),
+    // and p = 1 - t / sqrt(2 + t^2).
+    const double error = std::sqrt(5.0 / 3) / 2, t = 2.5 / error, quantile = 0.95 / std::sqrt(2 * 0.975 * 0.025);
+    EXPECT_NEAR(*mean.high - 2.5, quantile * error, 1e-12);
+    EXPECT_NEAR(2.5 - *mean.low, quantile * error, 1e-12);
+    EXPECT_NEAR(*mean.p, 1 - t / std::sqrt(2 + t * t), 1e-12);
+}
+
+TEST(OverScenes, ThreeAssetsHaveNoInterval) {
+    const std::vector<ShotValue> values = {{"a", 1}, {"a", 2}, {"b", 3}, {"c", 3}};
+    const MeanOverScenes mean = mean_over_scenes(values);
+    EXPECT_EQ(mean.scenes, 3u);
+    EXPECT_FALSE(mean.low || mean.high || mean.p);
+    EXPECT_THROW(mean_over_scenes({}), Error);
+}
+
+TEST(OverScenes, RanksHaveTheirRangeWithoutAnyOneScene) {
+    const auto found = by_name(compare_over_scenes(shots_of({{0, 0, 0}, {-3, 1, 1}, {9, 9, 9}})));
+    const auto ranks = [&](const char* name) {
+        const OverScenes& o = found.at(name);
+        return std::vector<double>{*o.rank, *o.rank_low, *o.rank_high};
+    };
+    EXPECT_EQ(ranks("a"), (std::vector<double>{2, 1, 2}));
+    EXPECT_EQ(ranks("b"), (std::vector<double>{1, 1, 2}));
+    EXPECT_EQ(ranks("c"), (std::vector<double>{3, 3, 3}));
+    EXPECT_EQ(found.at("b").standing, "") << "three scenes are too few for a verdict";
+}
+
+TEST(OverScenes, RanksOnlyWhatHasNearlyAllShots) {
+    std::vector<ShotErrors> shots = shots_of({{2, 2, 2, 2}, {1, 1, 1, 1}});
+    shots[3].errors.erase({"b", ""});
+    const auto strict = by_name(compare_over_scenes(shots, 0.1)), lenient = by_name(compare_over_scenes(shots, 0.25));
+    EXPECT_EQ(strict.at("a").rank, 1);
+    EXPECT_FALSE(strict.at("b").rank);
+    EXPECT_EQ(strict.at("b").standing, "");
+    EXPECT_EQ(lenient.at("b").rank, 1);
+    EXPECT_EQ(lenient.at("a").rank, 2);
+    EXPECT_EQ(lenient.at("a").shots, 3u) << "ranked over the shots that both have";
+}
+
+TEST(OverScenes, ShotsWithoutADivisorCountForNone) {
+    std::vector<ShotErrors> shots = shots_of({{1, 1, 1, 1}, {2, 2, 2, 2}});
+    shots[2].divisor = std::nullopt;
+    const auto found = by_name(compare_over_scenes(shots));
+    EXPECT_EQ(found.at("a").scenes, 3u);
+    EXPECT_NEAR(found.at("a").ratio, std::exp(1), 1e-12);
+}
+
+TEST(OverScenes, VerdictsAreThoseOfClosedTesting) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    unsigned decided = 0;
+    for (unsigned trial = 0; trial < 50; ++trial) {
+        std::vector<std::vector<double>> of_points(4, std::vector<double>(6));
+        for (size_t p = 0; p < of_points.size(); ++p)
+            for (double& v : of_points[p]) v = 0.5 * double(p) + 0.4 * normal(random);
+        const std::vector<OverScenes> rows = compare_over_scenes(shots_of(of_points));
+        std::vector<double> p;
+        for (size_t i = 1; i < rows.size(); ++i) {
+            std::vector<ShotValue> differences;
+            for (size_t scene = 0; scene < 6; ++scene)
+                differences.push_back({std::to_string(scene), rows[i].logarithms[scene] - rows[0].logarithms[scene]});
+            p.push_back(*mean_over_scenes(differences).p);
+            EXPECT_NEAR(*rows[i].over_best, rows[i].ratio / rows[0].ratio, 1e-12 * *rows[i].over_best);
+        }
+        bool is_alone = true;
+        for (size_t i = 1; i < rows.size(); ++i) {
+            const double adjusted = closed_p(p, i - 1);
+            EXPECT_NEAR(*rows[i].p_holm, adjusted, 1e-12);
+            EXPECT_EQ(rows[i].standing, adjusted < 0.05 ? standing::behind : standing::tied);
+            is_alone = is_alone && adjusted < 0.05;
+            decided += adjusted < 0.05;
+        }
+        EXPECT_EQ(rows[0].standing, is_alone ? standing::best : standing::tied);
+        EXPECT_FALSE(rows[0].p_holm);
+    }
+    EXPECT_GT(decided, 20u);  // the test sees both verdicts
+    EXPECT_LT(decided, 130u);
+}
+
+TEST(OverScenes, WhatIsTrulyTheBestIsHardlyEverBehind) {
+    std::mt19937 random(5);
+    std::student_t_distribution<double> heavy(3);
+    const unsigned trials = 2000;
+    unsigned behind = 0;
+    for (unsigned trial = 0; trial < trials; ++trial) {  // of five points that are equal "a" is as good as any
+        std::vector<std::vector<double>> of_points(5, std::vector<double>(8));
+        for (auto& point : of_points)
+            for (double& v : point) v = heavy(random);
+        behind += by_name(compare_over_scenes(shots_of(of_points))).at("a").standing == standing::behind;
+    }
+    EXPECT_LT(behind, trials * 0.05 + 3 * std::sqrt(trials * 0.05 * 0.95));
+}
+
+TEST(OverScenes, DivisorsAreNoNoise) {
+    MetricSummary base{.shot = "s", .variant = "none", .point = "default"}, large{.shot = "s", .variant = "x"};
+    base.value = 1, base.low = 0.9, base.floor = 0.4, large.value = 100;
+    const auto divisor = [&] {
+        const MetricSummary* errors[] = {&base, &large};
+        return divisor_of(errors, {"none", "default"});
+    };
+    EXPECT_EQ(divisor(), 1.0);
+    base.floor = 0.5;  // not twice what the reference's noise scores
+    EXPECT_FALSE(divisor());
+    base.floor = 0.4, base.low = 0;
+    EXPECT_FALSE(divisor());
+    base.low = 0.9, large.value = 2e6;
+    EXPECT_FALSE(divisor());
+}
+
+TEST(OverScenes, TheBaselineIsNoneElseTheStudysFirst) {
+    nlohmann::json manifest = {
+        {"variants", {{{"variant", "a"}, {"point", "x"}}, {{"variant", "b"}, {"point", "y"}, {"baseline", true}}}}};
+    EXPECT_EQ(baseline_over_scenes(manifest), PointName("b", "y"));
+    manifest["variants"].push_back({{"variant", "none"}, {"point", "default"}});
+    EXPECT_EQ(baseline_over_scenes(manifest), PointName("none", "default"));
+    manifest["variants"].erase(2), manifest["variants"].erase(1);
+    EXPECT_EQ(baseline_over_scenes(manifest), PointName("a", "x"));
+}
+
+TEST(OverScenes, EveryErrorHasItsRows) {
+    std::vector<MetricSummary> errors;
+    const auto add = [&](const std::string& shot, const std::string& variant, const std::string& metric, double value) {
+        MetricSummary e{.shot = shot,
+                        .frame = "0",
+                        .variant = variant,
+                        .point = "default",
+                        .target = "specular",
+                        .metric = metric,
+                        .mask = "all"};
+        e.value = value, e.low = 0.9 * value, e.high = 1.1 * value, e.holds_all_noise = e.speaks_for_shot = true;
+        errors.push_back(e);
+    };
+    for (const char* shot : {"s", "t", "u", "v"})
+        for (const char* metric : {"mse", "ssim"})
+            add(shot, "none", metric, 1), add(shot, "half", metric, 0.5), add(shot, "exact", metric, 0.1);
+    const nlohmann::json manifest = {
+        {"variants",
+         {{{"variant", "none"}, {"point", "default"}},
+          {{"variant", "exact"}, {"point", "default"}, {"asks_scene", true}}}},
+        {"shots", {{{"shot", "u"}, {"asset", "same"}}, {{"shot", "v"}, {"asset", "same"}}}}};
+    const std::vector<OverScenesRow> rows = errors_over_scenes(errors, manifest);
+    ASSERT_EQ(rows.size(), 2u) << "of mse alone, for which less is better, and without what uses scene data";
+    EXPECT_EQ(rows[0].variant, "half");
+    EXPECT_EQ(rows[0].metric, "mse");
+    EXPECT_EQ(rows[0].scenes, 3u);
+    EXPECT_EQ(rows[0].shots, 4u);
+    EXPECT_NEAR(rows[0].ratio, 0.5, 1e-12);
+    EXPECT_EQ(rows[1].baseline_variant, "none");
+    EXPECT_NEAR(*rows[1].over_best, 2, 1e-12);
+}

@@ -1,0 +1,67 @@
+"""The statistics that scripts ask of ssrlab, against scipy's, and by closed forms.
+
+usage: SSRLAB_PROGRAM=SSRLAB statistics_test.py
+"""
+
+import os
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/python"))
+
+import numpy as np  # noqa: E402
+from scipy import stats  # noqa: E402
+from ssrlab import statistics  # noqa: E402
+
+QUANTILES = 2e-8  # so far off are scipy's of Student's t: of 2 degrees of freedom over_scenes_test.cpp has the closed form
+
+
+class Statistics(unittest.TestCase):
+    def setUp(self):
+        self.random = np.random.default_rng(1)
+
+    def test_means_over_scenes_are_students_with_one_degree_fewer(self):
+        for count in (4, 5, 8, 38):
+            values = self.random.normal(1, 2, count)
+            mean, low, high, scenes = statistics.mean_over_scenes((str(i), v) for i, v in enumerate(values))
+            half = stats.t.ppf(0.975, count - 2) * stats.sem(values)
+            np.testing.assert_allclose((mean, low, high), (values.mean(), values.mean() - half, values.mean() + half), rtol=QUANTILES)
+            self.assertEqual(scenes, count)
+
+    def test_assets_count_once_and_four_are_needed(self):
+        alike = statistics.mean_over_scenes([("a", 1), ("b", 2), ("c", 3), ("d", 4)])
+        self.assertEqual(statistics.mean_over_scenes([("a", 0), ("a", 2), ("b", 2), ("c", 3), ("d", 4)]), alike)
+        self.assertEqual(statistics.mean_over_scenes([("a", 1), ("a", 2), ("b", 3), ("c", 3)])[1:], (None, None, 3))
+        ratio, low, high, _ = statistics.geometric_mean_over_scenes([(n, np.log(v)) for n, v in zip("abcd", (1, 2, 4, 8))])
+        np.testing.assert_allclose((ratio, low * high), (8**0.5, 8), rtol=1e-12)
+
+    def test_means_are_students(self):
+        values = self.random.normal(1, 2, 6)
+        low, high = stats.t.interval(0.95, 5, values.mean(), stats.sem(values))
+        np.testing.assert_allclose(statistics.mean(values), (values.mean(), low, high), rtol=QUANTILES)
+
+    def test_bootstraps_are_scipys(self):
+        values = self.random.exponential(1, 12)
+        found = stats.bootstrap((values,), np.mean, n_resamples=20000, method="BCa", random_state=2).confidence_interval
+        # 1999 resamples tell an end of 95 % to about 6 % of the standard error; here to within four times that.
+        np.testing.assert_allclose(statistics.bootstrap_over_scenes(values), found, atol=0.25 * stats.sem(values))
+        self.assertEqual(statistics.bootstrap_over_scenes(values), statistics.bootstrap_over_scenes(values))
+        self.assertEqual(statistics.bootstrap_over_scenes(values[:3]), (None, None))
+        self.assertEqual(statistics.bootstrap_over_scenes([1.0] * 5), (None, None))
+
+    def test_slow_halves_scatter_more_than_rounds_in_turn(self):
+        self.assertEqual(statistics.sign_factor([8, 1, 15, 4, 11, 2, 14, 6, 9, 3, 13, 5, 12, 7, 10]), 2)
+        self.assertGreater(statistics.sign_factor(range(15)), 4)
+
+    def test_medians_have_the_ends_of_their_ranks(self):
+        values = [8, 1, 15, 4, 11, 2, 14, 6, 9, 3, 13, 5, 12, 7, 10]  # ranks 7.5 -+ 1.96 sqrt(2 x 15) / 2
+        self.assertEqual(statistics.median(values), (8, 3, 13))
+
+    def test_mistakes_are_said(self):
+        with self.assertRaisesRegex(ValueError, "at least two values"):
+            statistics.mean([1.0])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,184 @@
+// Error against cost: the point that stands for a technique, the front, and what changes are worth, of made-up tables.
+#include "experiments/evaluation/tradeoff.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <random>
+
+namespace {
+
+using nlohmann::json;
+
+struct MadeStudy {
+    StudyTables tables;
+    MadeStudy() { tables.manifest = {{"shots", json::array()}, {"variants", json::array()}}; }
+
+    void add_point(const std::string& variant, const std::string& point, json parameters = json::object()) {
+        tables.manifest["variants"].push_back({{"variant", variant}, {"point", point}, {"parameters", parameters}});
+    }
+    void add(const std::string& shot, const std::string& variant, const std::string& point, double error, double cost) {
+        MetricSummary e{.shot = shot,
+                        .frame = "0",
+                        .variant = variant,
+                        .point = point,
+                        .target = "specular",
+                        .metric = "mse",
+                        .mask = "reflective"};
+        e.value = error, e.low = 0.99 * error, e.high = 1.01 * error;
+        e.holds_all_noise = e.speaks_for_shot = true;
+        tables.errors.push_back(e);
+        TimeSummary t{
+            .shot = shot, .variant = variant, .point = point, .stage = "total", .clock = "host_fence", .frames = 15};
+        t.median = cost, t.low = 0.9 * cost, t.high = 1.1 * cost, t.fits_from = 1.1 * cost, t.may_fit_from = 0.9 * cost;
+        tables.times.push_back(t);
+    }
+    Tradeoff found(std::vector<double> costs) const {
+        return tradeoff_of(tables, {.error = {.metric = "mse", .mask = "reflective", .target = "specular"},
+                                    .cost = "",
+                                    .baseline = "",
+                                    .costs = std::move(costs),
+                                    .left_out = {}});
+    }
+};
+
+}  // namespace
+
+TEST(Tradeoff, NoSceneChoosesForItself) {
+    std::mt19937 random(4);
+    std::normal_distribution<double> scatter(-0.02, 0.2);
+    const int scenes = 20,
+              points = 8;  // of equal true error: in its own scene the least of eight is 30 % below the mean
+    MadeStudy made;
+    made.add_point("none", "default");
+    double log_best = 0;
+    for (int i = 0; i < scenes; ++i) {
+        const std::string shot = "s" + std::to_string(i);
+        made.add(shot, "none", "default", 2, 1);
+        double least = INFINITY;
+        for (int k = 0; k < points; ++k) {
+            const double error = std::exp(scatter(random));
+            made.add(shot, "v", std::to_string(k), error, 10);
+            least = std::min(least, error);
+        }
+        log_best += std::log(least) / scenes;
+    }
+    const Tradeoff found = made.found({20});
+    double log_mean = 0;
+    for (const ChosenPoint& c : found.chosen) {
+        EXPECT_EQ(c.chosen_on, "other scenes");
+        EXPECT_EQ(c.fits, "surely");
+        if (c.variant != "v") continue;
+        const auto ran = std::ranges::find_if(
+            found.front, [&](const FrontRow& r) { return r.shot == c.shot && r.point == c.point; });
+        log_mean += std::log(*ran->error) / scenes;
+    }
+    // The true geometric mean is 0.98, and the mean over 20 scenes scatters by 0.045 of it; the least of eight is 0.74.
+    EXPECT_NEAR(std::exp(log_mean), 0.98, 4 * 0.045);
+    EXPECT_LT(std::exp(log_best), 0.8);
+    const auto across =
+        std::ranges::find_if(found.across, [](const AcrossRow& r) { return r.variant == "v" && !r.cost.empty(); });
+    EXPECT_NEAR(across->ratio, std::exp(log_mean) / 2, 1e-12);
+    EXPECT_EQ(across->scenes_that_fit, scenes);
+}
+
+TEST(Tradeoff, APointFitsByItsMedianAndSurelyByItsEnds) {
+    MadeStudy made;
+    made.add_point("none", "default");
+    for (const char* shot : {"s", "t"})
+        made.add(shot, "v", "cheap", 2, 10), made.add(shot, "v", "dear", 1, 20),
+            made.add(shot, "none", "default", 3, 1);
+    const Tradeoff found = made.found({8, 9.5, 10.5, 21, 30});
+    std::vector<std::string> said;
+    for (const ChosenPoint& c : found.chosen)
+        if (c.shot == "s" && c.variant == "v") said.push_back(c.point + " " + c.fits);
+    EXPECT_EQ(said, (std::vector<std::string>{" no", " maybe", "cheap maybe", "dear maybe", "dear surely"}));
+}
+
+TEST(Tradeoff, AloneASceneChoosesForItselfAndSaysSo) {
+    MadeStudy made;
+    made.add_point("none", "default");
+    made.add("s", "none", "default", 3, 1), made.add("s", "v", "a", 2, 5), made.add("s", "v", "b", 1, 5);
+    const Tradeoff found = made.found({5});
+    const auto chosen = std::ranges::find(found.chosen, "v", &ChosenPoint::variant);
+    EXPECT_EQ(chosen->point, "b");
+    EXPECT_EQ(chosen->chosen_on, "this shot");
+}
+
+TEST(Tradeoff, ChangesOfOneParameterHaveTheirVerdicts) {
+    struct Case {
+        std::string error, cost, verdict;
+    };
+    const Case cases[] = {{verdict::less, verdict::more, "buys error"},
+                          {verdict::more, verdict::less, "saves cost"},
+                          {verdict::less, verdict::less, "better in both"},
+                          {verdict::more, verdict::more, "worse in both"},
+                          {verdict::not_distinguishable, verdict::more, "dearer, no error told"},
+                          {verdict::not_distinguishable, verdict::less, "cheaper, no error told"},
+                          {verdict::less, verdict::not_distinguishable, "less error, no cost told"},
+                          {verdict::not_distinguishable, verdict::not_distinguishable, "nothing told"}};
+    for (const Case& c : cases) {
+        MadeStudy made;
+        made.add_point("v", "a", {{"rays", 1}, {"wide", false}}),
+            made.add_point("v", "b", {{"rays", 4}, {"wide", false}});
+        made.add_point("v", "both", {{"rays", 4}, {"wide", true}});
+        for (const char* point : {"a", "b", "both"}) made.add("s", "v", point, 1, 10);
+        const double error = c.error == verdict::less   ? 0.5
+                             : c.error == verdict::more ? 2
+                                                        : 1.01,
+                     time = c.cost == verdict::less   ? 0.5
+                            : c.cost == verdict::more ? 2
+                                                      : 1.01;
+        for (const char* point : {"b", "both"}) {
+            EffectRow effect{.shot = "s", .variant = "v", .point = point};
+            effect.against_variant = "v", effect.against_point = "a";
+            effect.target = "specular", effect.metric = "mse", effect.mask = "reflective";
+            effect.ratio = error, effect.low_holm = 0.9 * error, effect.high_holm = 1.1 * error,
+            effect.verdict = c.error;
+            made.tables.effects.push_back(effect);
+            TimeEffectRow of_time{.shot = "s", .variant = "v", .point = point};
+            of_time.against_variant = "v", of_time.against_point = "a", of_time.stage = "total", of_time.ratio = time;
+            of_time.low_holm = 0.9 * time, of_time.high_holm = 1.1 * time, of_time.verdict = c.cost;
+            made.tables.time_effects.push_back(of_time);
+        }
+        const std::vector<ChangeRow> changes = made.found({}).changes;
+        ASSERT_EQ(changes.size(), 2u) << "one in the shot, one over scenes; `both` changes two parameters";
+        EXPECT_EQ(changes[0].verdict, c.verdict);
+        EXPECT_EQ(changes[0].change, "rays: 1 -> 4");
+        EXPECT_EQ(changes[1].shot, "");
+        EXPECT_FALSE(changes[1].error_low) << "one scene";
+        EXPECT_EQ(changes[0].cost_per_percent.has_value(), c.verdict == "buys error" || c.verdict == "saves cost");
+        if (c.verdict != std::string("buys error")) continue;
+        EXPECT_NEAR(*changes[0].cost_per_percent, 10 / 100.0, 1e-12);  // 100 % more error without
+        // Of 0.1 the cost's interval is 8 to 12 of 10 ms, the error's 82 to 122 of 100 %: in quadrature a fourth.
+        EXPECT_NEAR(*changes[0].cost_per_percent_low, 0.075, 0.005);
+        EXPECT_NEAR(*changes[0].cost_per_percent_high, 0.131, 0.008);
+    }
+}
+
+TEST(Tradeoff, ChangesOverScenesAreStudents) {
+    MadeStudy made;
+    made.add_point("v", "a", {{"rays", 1}}), made.add_point("v", "b", {{"rays", 4}});
+    const double logarithms[] = {-1.0, -1.2, -0.8, -1.0}, costs[] = {10, 12, 8, 10};
+    for (int i = 0; i < 4; ++i) {
+        const std::string shot = "s" + std::to_string(i);
+        for (const char* point : {"a", "b"}) made.add(shot, "v", point, 1, 10);
+        EffectRow effect{.shot = shot, .variant = "v", .point = "b"};
+        effect.against_variant = "v", effect.against_point = "a";
+        effect.target = "specular", effect.metric = "mse", effect.mask = "reflective", effect.verdict = verdict::less;
+        effect.ratio = std::exp(logarithms[i]), effect.low_holm = 0.9 * *effect.ratio,
+        effect.high_holm = 1.1 * *effect.ratio;
+        made.tables.effects.push_back(effect);
+        TimeEffectRow of_time{.shot = shot, .variant = "v", .point = "b"};
+        of_time.against_variant = "v", of_time.against_point = "a", of_time.stage = "total";
+        of_time.ratio = 1 + costs[i] / 10, of_time.low = of_time.high = of_time.ratio;
+        made.tables.time_effects.push_back(of_time);
+    }
+    const ChangeRow mean = made.found({}).changes.back();
+    EXPECT_EQ(mean.scenes, 4u);
+    EXPECT_EQ(mean.verdict, "buys error");
+    const double half =
+        0.95 / std::sqrt(2 * 0.975 * 0.025) * std::sqrt(0.08 / 3) / 2;  // t(0.975, 2) times the standard error
+    EXPECT_NEAR(std::log(*mean.error_high), -1 + half, 1e-9);
+    EXPECT_NEAR(*mean.cost_high, 10 + 10 * half, 1e-9);
+    EXPECT_NEAR(*mean.cost_per_percent, 10 / (100 * (std::exp(1) - 1)), 1e-12);
+}
