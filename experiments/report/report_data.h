@@ -3,6 +3,7 @@
 #include "experiments/evaluation/study_points.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/evaluation/time_effects.h"
+#include "experiments/stability/stability_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@ struct ReportTables {
     std::vector<EffectRow> effects;
     std::vector<TimeEffectRow> time_effects;
     std::vector<TimeSummary> times;
+    StabilityTables stability;  ///< empty where `ssrlab stability` did not write into the folder
 };
 
 /// summary.csv and time_summary.csv must be there, as this version writes them (require_evaluation()); other tables
