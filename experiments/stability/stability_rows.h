@@ -23,8 +23,8 @@ struct StabilityRow : CaseFindings {
     std::optional<double> time_ratio;
     /// Amplification of inputs, see Perturbation.
     std::optional<double> depth_median, depth_p999, normal_median, normal_p999, lit_median, lit_p999;
-    /// Of long sequences: relative change of the mean from the second quarter of the frames to the last quarter, and
-    /// its standard error, from the means of blocks of frames.
+    /// Of long sequences: relative change of the mean from the first to the second half of the last three quarters of
+    /// the frames, and its standard error, from the means of blocks of frames.
     std::optional<double> drift, drift_noise;
     /// Of a fed back image: by how much each change of the mean is smaller than the one before.
     std::optional<double> gain;

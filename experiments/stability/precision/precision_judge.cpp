@@ -89,10 +89,13 @@ std::vector<PrecisionJudge::Written> PrecisionJudge::written_of(const PrecisionR
     return images;
 }
 
-/// Nothing, with the reason in `row`, where that cannot be rendered.
+/// Nothing, with the reason in `row`, where that cannot be rendered; else `row` gets what it changed of the method,
+/// once that is known.
 std::optional<PrecisionRun> PrecisionJudge::run(const PrecisionWish& wish, PrecisionRow& row) {
     try {
-        return run_precisely(device_, point_, shot_.frames(), wish);
+        PrecisionRun run = run_precisely(device_, point_, shot_.frames(), wish);
+        if (!floats_.specular.values.empty()) row = changed(row, run);
+        return run;
     } catch (const Error& error) {
         row.refusal = error.what();
         return std::nullopt;
@@ -120,10 +123,8 @@ void PrecisionJudge::judge_format(const Written& what, PrecisionKind kind) {
         }
     }
     if (values) row.above_half = double(above) / double(values), row.below_half = double(below) / double(values);
-    if (auto run = this->run({.precision = formats_with(what.image, kind)}, row)) {
+    if (auto run = this->run({.precision = formats_with(what.image, kind)}, row))
         row.set(change_of_values(floats_, *run, is_meant));
-        row = changed(row, *run);
-    }
     add(row);
 }
 
@@ -137,7 +138,7 @@ void PrecisionJudge::judge_formats(const std::vector<Written>& written, const Pr
         .format_of = [&](const std::string& image,
                          Format asked) { return is_written(image) ? as_float16(asked) : as_float32(asked); },
         .is_double = {}};
-    if (const auto run = this->run({.precision = halves}, all)) all = changed(all, *run);
+    run({.precision = halves}, all);
     add(all);
     for (const Written& what : written) {
         if (as_float32(what.format) == as_float16(what.format)) continue;  // holds no fractions
@@ -159,8 +160,7 @@ void PrecisionJudge::judge_inputs() {
         {"motion", {"motion"}}};
     for (const auto& [name, images] : groups) {
         PrecisionRow row{.kind = PrecisionKind::input, .stage = "gbuffer", .image = name, .format = "half"};
-        if (const auto run = this->run({.precision = {in_float, {}}, .half_inputs = images}, row))
-            row = changed(row, *run);
+        run({.precision = {in_float, {}}, .half_inputs = images}, row);
         add(row);
     }
 }
@@ -202,7 +202,6 @@ void PrecisionJudge::judge_march(const std::string& stage, const RecordedRays& r
             else if (is_hit(a))
                 distances.push_back(double(std::abs(a.distance - b.distance) / std::max(a.distance, b.distance)));
         }
-        row = changed(row, *run);
         row.set(value_change(distances));
         row.differing = elsewhere / traced;
         row.wrong = shot_.wrong_share(rays), row.wrong_in_double = shot_.wrong_share(wide);
@@ -217,7 +216,6 @@ void PrecisionJudge::judge_stage(const std::string& stage) {
         {.precision = in_double([&](const std::string& s) { return s == stage; }), .is_recording = rays != nullptr},
         row);
     if (!run) return add(row);
-    row = changed(row, *run);
     std::vector<std::string> images;
     for (const StageValue& value : floats_.values)
         if (value.stage == stage && value.values.pixel_count() > 1 && !std::ranges::count(images, value.image))
@@ -252,8 +250,7 @@ std::vector<PrecisionRow> PrecisionJudge::rows() {
     for (const std::string& stage : floats_.stages)
         if (stage != RepairedInputs::stage) judge_stage(stage);
     PrecisionRow all{.kind = PrecisionKind::arithmetic};
-    if (const auto run = this->run({.precision = in_double([](const std::string&) { return true; })}, all))
-        all = changed(all, *run);
+    run({.precision = in_double([](const std::string&) { return true; })}, all);
     add(all);
     return rows_;
 }
