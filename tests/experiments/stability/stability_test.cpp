@@ -244,6 +244,20 @@ TEST(StabilityVerdict, IsOfSeveralSeedsWhereOneMightTurnIt) {
     EXPECT_FALSE(is_near_worse({}, usual));
 }
 
+TEST(StabilityErrors, AreOfJudgedPixelsThatAreFinite) {
+    CaseFrames frames;
+    EXPECT_FALSE(relative_error(frames, HostImage({4, 1}, 3))) << "no truth is known";
+    frames.truth = HostImage({4, 1}, 3, 2.0f);
+    frames.is_judged = {1, 1, 0, 1};
+    HostImage image = frames.truth;
+    image.set_rgb(0, glm::vec3(3.0f)), image.set_rgb(2, glm::vec3(100.0f));
+    image.set_rgb(3, glm::vec3(0.0f, std::numeric_limits<float>::quiet_NaN(), 0.0f));
+    EXPECT_EQ(relative_error(frames, image), 3.0 / 24);
+    EXPECT_EQ(relative_difference(frames, frames.truth, image), 3.0 / 24);
+    frames.truth = HostImage({4, 1}, 3);
+    EXPECT_FALSE(relative_error(frames, image)) << "the truth is black";
+}
+
 TEST(StabilityTables, ComeBackAsTheyWereWritten) {
     const auto folder = std::filesystem::temp_directory_path() / "ssrlab_stability_tables";
     std::filesystem::create_directories(folder);
