@@ -344,6 +344,7 @@ int parse_and_run(int argc, char** argv) {
                                 "Instead: formats and arithmetic, in half, float and double, one image and "
                                 "one stage at a time (5 minutes; stability_precision.csv)");
     add_device(stability_command_, common), add_scene_path(stability_command_, common);
+    add_cache(stability_command_, common);
     stability_command_.callback([&] {
         status =
             stability.is_of_precision ? precision_command(stability, common) : stability_command(stability, common);

@@ -3,6 +3,7 @@
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
+#include "experiments/config/all_points.h"
 #include "experiments/run/needs.h"
 #include "experiments/run/progress.h"
 #include "experiments/tables/csv.h"

@@ -1,10 +1,10 @@
 // ssrlab stability --precision: the error of half floats and floats.
 #include "core/error.h"
-#include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
 #include "experiments/run/progress.h"
 #include "experiments/stability/precision/precision.h"
+#include "groundtruth/reference_cache.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -42,8 +42,8 @@ void print_table(const std::vector<PrecisionRow>& rows) {
         Worst& worst = entry->second;
         worst.non_finite += r.non_finite;
         if (!r.refusal.empty()) worst.refusal = r.refusal;
-        const ValueChange values = r.values.value_or(ValueChange{});
-        worst.p999 = std::max(worst.p999, values.p999), worst.differing = std::max(worst.differing, values.differing);
+        worst.p999 = std::max(worst.p999, r.value_p999.value_or(0.0));
+        worst.differing = std::max(worst.differing, r.differing.value_or(0.0));
         if (r.share.value_or(0.0) > worst.share) worst.share = *r.share, worst.case_name = r.case_name;
     }
     std::printf("\n%-28s %-10s %-46s%10s %-10s%10s%10s\n", "the worst of all cases", "", "", "share", "in", "p999",
@@ -73,12 +73,15 @@ int precision_command(const StabilityOptions& options, const CommonOptions& comm
     Progress progress(1.0);
     const auto done = [&](const std::vector<PrecisionRow>& rows, double share) {
         const PrecisionRow& row = rows.back();
-        write_text(csv, precision_csv(rows));
+        write_rows(csv, rows);
         progress.update(share, row.case_name + ": " + row.variant + " " + row.point);
     };
-    const std::vector<PrecisionRow> rows =
-        run_precision(device, options.table.empty() ? precision_case_table() : options.table,
-                      {options.cases, options.variants}, scene_search_path(common.scene_path), done);
+    const StabilitySelection selection{.table = options.table.empty() ? precision_case_table() : options.table,
+                                       .cases = options.cases,
+                                       .variants = options.variants};
+    const StabilityFolders folders{.search_path = scene_search_path(common.scene_path),
+                                   .cache = common.cache.empty() ? default_cache_folder() : common.cache};
+    const std::vector<PrecisionRow> rows = run_precision(device, selection, folders, done);
     print_table(rows);
     std::printf("\nTable: %s\n", csv.string().c_str());
     return 0;

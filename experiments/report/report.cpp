@@ -9,7 +9,6 @@
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
-#include "experiments/stability/stability_report.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -148,16 +147,20 @@ std::string page_text(const std::string& title, const json& data, json values) {
 }  // namespace
 
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
-    const json stability = stability_report_data(folder);
-    if (!stability.is_null() && !std::filesystem::exists(folder / "manifest.json")) {
-        // No study: the page has this one section.
-        json data = report_data({}, {});
-        for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
-        data["manifest"] = data["defaults"] = json::object();
-        data["stability"] = stability, data["is_study"] = false;
-        write_text(folder / "report.html",
-                   page_text("What techniques bear", data, {{"stability", stability_without_scripts(stability)}}));
-        return {};
+    if (!std::filesystem::exists(folder / "manifest.json")) {
+        if (const StabilityTables stability = read_stability_tables(folder); !stability.rows.empty()) {
+            // No study: the page has this one section.
+            json data = report_data({.stability = stability}, {});
+            for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
+            data["manifest"] = data["defaults"] = json::object();
+            data["is_study"] = false;
+            write_text(folder / "report.html", page_text("Stability under extreme inputs", data,
+                                                         {{"stability", stability_without_scripts(stability)},
+                                                          {"tables",
+                                                           "stability.csv, stability_cases.csv and "
+                                                           "stability_stages.csv"}}));
+            return {};
+        }
     }
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
@@ -178,9 +181,10 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     data["manifest"].erase("stale");   // not of this study as it is
     data["warnings"] = report_warnings(manifest, tables.errors, tables.times);
     data["defaults"] = parameter_defaults(manifest);
-    data["stability"] = stability, data["is_study"] = true;
+    data["is_study"] = true;
     json values = without_scripts(data, headline, tables.errors, singles);
-    if (!stability.is_null()) values["stability"] = stability_without_scripts(stability);
+    values["tables"] = "results.csv and summary.csv";
+    if (!tables.stability.rows.empty()) values["stability"] = stability_without_scripts(tables.stability);
     const json title = manifest.value("title", json());
     const auto page = [&] { return page_text(title.is_string() ? title.get<std::string>() : "Study", data, values); };
 

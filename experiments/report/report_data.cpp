@@ -73,6 +73,34 @@ json cost_table(const std::vector<CostRow>& costs, Texts& code) {
     return {{"columns", columns}, {"texts", texts}, {"rows", std::move(values)}};
 }
 
+json stability_data(const StabilityTables& tables, Texts& code) {
+    json verdicts = json::array(), failures = json::array();
+    for (const VerdictName& v : verdict_names()) verdicts.push_back({{"name", v.name}, {"meaning", v.meaning}});
+    for (const StageFailure& f : stage_failures(tables)) {
+        json explanations = json::array();
+        for (const KnownFailure& known : f.known)
+            explanations.push_back({{"operation", known.operation}, {"fix", known.fix}});
+        failures.push_back({{"variant", f.variant},
+                            {"place", f.place},
+                            {"points", f.points},
+                            {"cases", f.cases},
+                            {"nan", f.nan},
+                            {"infinite", f.infinite},
+                            {"first", f.first},
+                            {"unexplained", f.unexplained},
+                            {"explanations", explanations},
+                            {"is_source", f.is_source()}});
+    }
+    std::vector<StageRow> stages = tables.stages;
+    std::erase_if(stages, [](const StageRow& row) { return row.nan + row.infinite == 0; });
+    return {{"lead", stability_lead(tables)},
+            {"verdicts", verdicts},  // from the best to the worst; rows have indices into them
+            {"failures", failures},
+            {"cases", table<StabilityCase>(tables.cases, code)},
+            {"rows", table<StabilityRow>(tables.rows, code)},
+            {"stages", table<StageRow>(stages, code)}};
+}
+
 }  // namespace
 
 ReportTables read_report_tables(const std::filesystem::path& folder, const json& manifest) {
@@ -84,7 +112,8 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
                         .effects = {},
                         .time_effects = {},
                         .times = read_rows<TimeSummary>(folder / "time_summary.csv"),
-                        .over_scenes = read_rows<OverScenesRow>(folder / "over_scenes.csv")};
+                        .over_scenes = read_rows<OverScenesRow>(folder / "over_scenes.csv"),
+                        .stability = read_stability_tables(folder)};
     const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
     if (has("splits.csv")) tables.splits = read_rows<SplitRow>(folder / "splits.csv");
     if (has("hits.csv")) tables.hits = read_rows<HitRow>(folder / "hits.csv");
@@ -116,6 +145,7 @@ json report_data(const ReportTables& tables, const PointSet& single_changes) {
                  {"time_effects", table<TimeEffectRow>(tables.time_effects, code)},
                  {"times", table<TimeSummary>(tables.times, code)},
                  {"metrics", metric_descriptions()}};
+    if (!tables.stability.rows.empty()) data["stability"] = stability_data(tables.stability, code);
     data["texts"] = std::move(code.list);
     return data;
 }

@@ -4,6 +4,7 @@
 #include "experiments/evaluation/study_points.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/evaluation/time_effects.h"
+#include "experiments/stability/stability_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,7 @@ struct ReportTables {
     std::vector<TimeEffectRow> time_effects;
     std::vector<TimeSummary> times;
     std::vector<OverScenesRow> over_scenes = {};
+    StabilityTables stability;  ///< empty where `ssrlab stability` did not write into the folder
 };
 
 /// summary.csv, over_scenes.csv and time_summary.csv must be there, as this version writes them (require_evaluation()); other tables

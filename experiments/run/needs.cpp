@@ -2,7 +2,6 @@
 
 #include "core/gbuffer/rasterizer.h"
 #include "experiments/measuring/render_variant.h"
-#include "experiments/stability/stability.h"
 #include "groundtruth/path_tracer.h"
 #include "variants/registry.h"
 
@@ -129,19 +128,6 @@ MeasuredSaving measure_path_tracer(const Shot& shot, unsigned rounds) {
 
 bool MeasuredSaving::is_as_said() const {
     return has_same_bits || (!keeps_bits && largest_difference <= rounding_difference);
-}
-
-std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
-    std::vector<VariantConfig> points;
-    for (const StabilityPoint& p : chosen_points(names))
-        points.push_back({.variant = p.variant,
-                          .preset = p.preset,
-                          .parameters = p.parameters,
-                          .point = p.label(),
-                          .seeds = {1},
-                          .against = {},
-                          .against_point = {}});
-    return points;
 }
 
 Config timed_config(const std::vector<VariantConfig>& points, unsigned frames) {

@@ -10,10 +10,6 @@ class Device;
 /// A study of `points`, each timed over so many frames, lit by the rasteriser.
 Config timed_config(const std::vector<VariantConfig>& points, unsigned frames);
 
-/// Presets of all techniques, and all tracers but exact_scene in the plainest technique, as points of a study. `names`:
-/// techniques, or single points as NAME:POINT; none: all. Fails with Error (and a near miss) for an unknown one.
-std::vector<VariantConfig> all_points(const std::vector<std::string>& names = {});
-
 /// What leaving out changes of someone's images, and what it saves.
 struct MeasuredSaving {
     Saving time;                   ///< point "" for "path tracer" and "rasteriser"

@@ -48,18 +48,7 @@ void move_color(HostGBuffer& g) {
     for (size_t i = 0; i < g.lit.pixel_count(); ++i) g.lit.set_rgb(i, g.lit.rgb(i) * (1 + color_step * sign_at(i)));
 }
 
-}  // namespace
-
-double quantile(std::vector<double>& values, double share) {
-    const size_t rank = std::min(values.size() - 1, size_t(std::ceil(share * double(values.size() - 1))));
-    std::nth_element(values.begin(), values.begin() + ptrdiff_t(rank), values.end());
-    return values[rank];
-}
-
-std::vector<Perturbation> perturbations() {
-    return {{"depth", move_depth}, {"normal", move_normal, normal_step}, {"lit", move_color, color_step}};
-}
-
+/// As a share of the input.
 double relative_step_of(const Perturbation& perturbation, const HostGBuffer& g, size_t pixel) {
     if (perturbation.relative_step > 0) return perturbation.relative_step;
     const float depth = g.depth.values[pixel];
@@ -68,8 +57,24 @@ double relative_step_of(const Perturbation& perturbation, const HostGBuffer& g, 
     return std::max(std::abs(there - here) / here, double(std::numeric_limits<float>::epsilon()) / 2);
 }
 
-Amplification amplification(const Perturbation& perturbation, const CaseFrames& frames, const CaseResult& run,
-                            const CaseResult& perturbed) {
+}  // namespace
+
+double quantile(std::vector<double>& values, double share) {
+    const size_t rank = std::min(values.size() - 1, size_t(std::ceil(share * double(values.size() - 1))));
+    std::nth_element(values.begin(), values.begin() + ptrdiff_t(rank), values.end());
+    return values[rank];
+}
+
+const std::vector<Perturbation>& perturbations() {
+    using Row = StabilityRow;
+    static const std::vector<Perturbation> all = {{&Row::depth_median, &Row::depth_p999, move_depth},
+                                                  {&Row::normal_median, &Row::normal_p999, move_normal, normal_step},
+                                                  {&Row::lit_median, &Row::lit_p999, move_color, color_step}};
+    return all;
+}
+
+void measure_amplification(StabilityRow& row, const Perturbation& perturbation, const CaseFrames& frames,
+                           const CaseResult& run, const CaseResult& perturbed) {
     const double magnitude = run.means.back();
     std::vector<double> ratios;
     for (size_t i = 0; i < run.specular.pixel_count(); ++i) {
@@ -79,7 +84,6 @@ Amplification amplification(const Perturbation& perturbation, const CaseFrames& 
         if (std::isfinite(relative))
             ratios.push_back(relative / relative_step_of(perturbation, *frames.steps.back().host, i));
     }
-    Amplification result{.input = perturbation.input};
-    if (!ratios.empty()) result.median = quantile(ratios, 0.5), result.p999 = quantile(ratios, 0.999);
-    return result;
+    row.*perturbation.median = ratios.empty() ? 0.0 : quantile(ratios, 0.5);
+    row.*perturbation.p999 = ratios.empty() ? 0.0 : quantile(ratios, 0.999);
 }

@@ -1,13 +1,13 @@
 #include "experiments/stability/case_frames.h"
 
-#include "core/error.h"
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "core/near_miss.h"
-#include "experiments/stability/changed_scene.h"
+#include "experiments/stability/changed_shot.h"
+#include "groundtruth/reference_cache.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace {
@@ -16,25 +16,6 @@ namespace {
 constexpr unsigned samples = 64;
 constexpr float least_reflectance = 0.02f;  // as the mask `reflective`
 
-HostImage& image_of(HostGBuffer& g, const std::string& name) {
-    const std::vector<std::pair<std::string, HostImage*>> images = {{"depth", &g.depth},
-                                                                    {"geometric_normal", &g.geometric_normal},
-                                                                    {"normal", &g.normal},
-                                                                    {"base_color", &g.base_color},
-                                                                    {"emission", &g.emission},
-                                                                    {"motion", &g.motion},
-                                                                    {"previous_depth", &g.previous_depth},
-                                                                    {"previous_normal", &g.previous_normal},
-                                                                    {"lit", &g.lit},
-                                                                    {"fallback", &g.fallback}};
-    std::vector<std::string> names;
-    for (const auto& [known, image] : images) {
-        if (known == name) return *image;
-        names.push_back(known);
-    }
-    fail("a case's fault is of the unknown image '", name, "'", suggestion(name, names));
-}
-
 bool is_hit(const InputFault& fault, glm::uvec2 pixel, glm::uvec2 extent) {
     if (fault.where == "all") return true;
     if (fault.where == "every_other") return (pixel.x + pixel.y) % 2 == 1;
@@ -42,7 +23,7 @@ bool is_hit(const InputFault& fault, glm::uvec2 pixel, glm::uvec2 extent) {
 }
 
 void apply(const InputFault& fault, HostGBuffer& gbuffer) {
-    HostImage& image = image_of(gbuffer, fault.image);
+    HostImage& image = gbuffer.*fault.image;
     for (unsigned y = 0; y < image.extent.y; ++y)
         for (unsigned x = 0; x < image.extent.x; ++x) {
             if (!is_hit(fault, {x, y}, image.extent)) continue;
@@ -58,102 +39,80 @@ void apply(const InputFault& fault, HostGBuffer& gbuffer) {
 std::vector<InputFault> with_aftermath(const std::vector<InputFault>& faults) {
     std::vector<InputFault> all = faults;
     for (InputFault fault : faults) {
-        if (fault.image != "depth" && fault.image != "normal") continue;
-        fault.image = "previous_" + fault.image;
+        if (fault.image != &HostGBuffer::depth && fault.image != &HostGBuffer::normal) continue;
+        fault.image = fault.image == &HostGBuffer::depth ? &HostGBuffer::previous_depth : &HostGBuffer::previous_normal;
         if (fault.step) ++*fault.step;
         all.push_back(fault);
     }
     return all;
 }
 
-bool is_finite_pixel(const HostImage& image, size_t pixel) {
-    return std::all_of(&image.values[pixel * image.channels], &image.values[pixel * image.channels] + image.channels,
-                       [](float value) { return std::isfinite(value); });
-}
-
 }  // namespace
 
 bool is_sound(const HostGBuffer& g, size_t pixel) {
-    for (const HostImage* image : {&g.depth, &g.geometric_normal, &g.normal, &g.base_color, &g.emission, &g.motion,
-                                   &g.previous_depth, &g.previous_normal, &g.lit, &g.fallback})
-        if (!is_finite_pixel(*image, pixel)) return false;
-    return true;
+    return std::ranges::all_of(input_images(), [&](const auto& named) {
+        const HostImage& image = g.*named.second;
+        const float* const texel = &image.values[pixel * image.channels];
+        return std::all_of(texel, texel + image.channels, [](float value) { return std::isfinite(value); });
+    });
 }
 
-std::shared_ptr<const Reference> TruthStore::get(const Scene& scene, const SceneCamera& camera, glm::uvec2 size,
-                                                 unsigned pose) {
-    const ScenePose scene_pose = pose_scene(scene, float(pose));
-    const CameraPose camera_pose = pose_camera(camera, scene_pose, float(pose));
-    const ReferenceSettings settings{.max_samples = samples};
-    const std::lock_guard lock(mutex_);
-    std::shared_ptr<const Reference>& known = known_[reference_stream(scene, scene_pose, camera_pose, size, settings)];
-    if (!known) known = std::make_shared<Reference>(render_reference(scene, scene_pose, camera_pose, size, settings));
-    return known;
+CaseDrawer::CaseDrawer(Device& device, std::vector<std::filesystem::path> search_path, std::filesystem::path cache,
+                       const std::vector<VariantConfig>& points)
+    : device_(device), search_path_(std::move(search_path)), cache_(std::move(cache)) {
+    config_.variants = points;
+    config_.reference.max_samples = samples;
 }
 
 CaseFrames CaseDrawer::draw(const CaseScene& wanted, const std::vector<InputFault>& own_faults,
                             const std::function<void(HostGBuffer&)>& perturbation) {
     const std::vector<InputFault> faults = with_aftermath(own_faults);
-    struct Drawn {
-        ChangedScene changed;
-        std::unique_ptr<Rasterizer> rasterizer;
-    };
-    const auto drawn = std::make_shared<Drawn>(Drawn{changed_scene(wanted, search_path_), nullptr});
-    const auto& [scene, camera] = drawn->changed;
-    drawn->rasterizer = std::make_unique<Rasterizer>(
-        device_, scene,
-        RasterizerOptions{.extent = wanted.size, .depth_format = wanted.depth_format, .has_depth_layers = true});
+    const auto shot = std::make_shared<const Shot>(changed_shot(wanted, search_path_));
+    const std::shared_ptr<FrameSource> source = scene_source(device_, *shot, config_, false);
     CaseFrames frames;
-    frames.owners.push_back(drawn);
+    frames.shot = shot, frames.owners.push_back(source);
+    std::map<unsigned, std::shared_ptr<const Reference>> references;  // by pose
+    const auto reference_of = [&](unsigned pose) {
+        std::shared_ptr<const Reference>& known = references[pose];
+        if (known || shot->config.direct_lit) return known;
+        const ShotFrame now = shot_frame(*shot, pose);
+        known = std::make_shared<Reference>(
+            cached_reference(shot->scene, now.scene, now.camera, shot->config.extent, config_.reference, cache_));
+        return known;
+    };
 
     using Look = std::tuple<unsigned, std::optional<unsigned>, std::vector<bool>>;  // pose, pose before, faults
     std::map<Look, CaseFrame> known;
-    for (unsigned step = 0; step < wanted.poses.size(); ++step) {
-        const unsigned pose = wanted.poses[step];
-        const std::optional<unsigned> before = step ? std::optional(wanted.poses[step - 1]) : std::nullopt;
+    for (const FrameStep& step : shot->steps) {
         std::vector<bool> has_fault;
-        for (const InputFault& fault : faults) has_fault.push_back(fault.step.value_or(step) == step);
-        const auto [entry, is_new] = known.try_emplace({pose, before, has_fault});
+        for (const InputFault& fault : faults) has_fault.push_back(fault.step.value_or(step.index) == step.index);
+        const auto [entry, is_new] = known.try_emplace({step.frame, step.previous_frame, has_fault});
         CaseFrame& frame = entry->second;
         if (is_new) {
-            const std::shared_ptr<const Reference> truth =
-                wanted.is_lit_directly ? nullptr : truths_.get(scene, camera, wanted.size, pose);
-            Rasterizer& rasterizer = *drawn->rasterizer;
-            const GBuffer gbuffer = rasterizer.render(camera, {.extent = wanted.size,
-                                                               .depth_direction = wanted.depth_direction,
-                                                               .frame = pose,
-                                                               .seed = 1,
-                                                               .index = step,
-                                                               .previous_frame = before});
-            if (truth)
-                rasterizer.upload_lit(gbuffer, truth->diffuse.mean);
-            else
-                rasterizer.light_directly(gbuffer);
-            HostGBuffer host = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), wanted.depth_format);
+            const std::shared_ptr<const Reference> reference = reference_of(step.frame);
+            const GBuffer gbuffer = source->render(step, 0, reference ? reference->diffuse.mean : HostImage());
+            HostGBuffer host = download_gbuffer(source->graph(), gbuffer, source->camera(), shot->config.depth_format);
             for (size_t i = 0; i < faults.size(); ++i)
                 if (has_fault[i]) apply(faults[i], host);
             if (perturbation) perturbation(host);
-            const auto graph = std::make_shared<PassGraph>(device_, wanted.size);
+            const auto graph = std::make_shared<PassGraph>(device_, shot->config.extent);
             frame = {.host = std::make_shared<HostGBuffer>(host),
                      .gbuffer = upload_gbuffer(*graph, host),
                      .camera = host.camera};
             frame.gbuffer.environment = gbuffer.environment;
             frames.owners.push_back(graph);
-            if (step + 1 == wanted.poses.size()) frames.reference = truth;
         }
         frames.steps.push_back(frame);
-        frames.steps.back().camera.frame.x = step;
+        frames.steps.back().camera.frame.x = step.index;
     }
-    if (!frames.reference && !wanted.is_lit_directly)
-        frames.reference = truths_.get(scene, camera, wanted.size, wanted.poses.back());
+    frames.reference = reference_of(shot->steps.back().frame);
     if (frames.reference) frames.truth = frames.reference->specular.mean;
 
     const HostGBuffer& last = *frames.steps.back().host;
     const HostImage reflectance = specular_reflectance(last);
     for (size_t i = 0; i < last.depth.pixel_count(); ++i) {
         const glm::vec3 r = reflectance.rgb(i);
-        frames.is_sound.push_back(is_sound(last, i));
-        frames.is_judged.push_back(frames.is_sound.back() && last.material_id.values[i] != 0 &&
+        frames.is_judged.push_back(is_sound(last, i) && last.material_id.values[i] != 0 &&
                                    std::max({r.x, r.y, r.z}) >= least_reflectance);
     }
     return frames;

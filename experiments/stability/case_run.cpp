@@ -1,12 +1,7 @@
 #include "experiments/stability/case_run.h"
 
 #include "core/error.h"
-#include "core/gbuffer/composite.h"
-#include "experiments/config/config.h"
-#include "experiments/config/point_name.h"
 #include "experiments/measuring/render_variant.h"
-#include "variants/registry.h"
-#include "variants/tracers/tracers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +25,7 @@ float brightest(const HostGBuffer& gbuffer) {
     return most;
 }
 
-void judge(CaseResult& run, const FrameImages& frame, const HostGBuffer& gbuffer, float most, bool is_after_faults) {
+void judge(CaseFindings& run, const FrameImages& frame, const HostGBuffer& gbuffer, float most, bool is_after_faults) {
     size_t spread = 0;
     for (size_t i = 0; i < frame.specular.pixel_count(); ++i) {
         if (!is_sound(gbuffer, i)) continue;
@@ -43,7 +38,7 @@ void judge(CaseResult& run, const FrameImages& frame, const HostGBuffer& gbuffer
         const float least = std::min({radiance.x, radiance.y, radiance.z});
         const float brightest = confidence * std::max({radiance.x, radiance.y, radiance.z});  // as it is composited
         const bool is_bright = brightest > brighter_than_all * most;
-        if (is_bright) run.excess = std::max(run.excess, brightest - most);
+        if (is_bright) run.excess = std::max(run.excess, double(brightest - most));
         run.negative += least < 0, run.too_bright += is_bright;
         run.bad_confidence += confidence < 0 || confidence > 1;
     }
@@ -51,13 +46,29 @@ void judge(CaseResult& run, const FrameImages& frame, const HostGBuffer& gbuffer
     run.spread_frames += is_after_faults && spread > 0;
 }
 
-FrameImages render(PassGraph& graph, Variant& variant, Compositor& compositor, const CaseFrame& frame, unsigned seed,
-                   StageScan* scan, double& milliseconds) {
-    if (scan) scan->resume();
-    const Reflections reflections = render_variant(graph, variant, frame.camera, seed, frame.gbuffer);
+void scan(std::vector<StageFinding>& findings, const std::string& stage, const std::string& image,
+          const HostImage& content) {
+    auto finding =
+        std::ranges::find_if(findings, [&](const StageFinding& f) { return f.stage == stage && f.image == image; });
+    if (finding == findings.end()) finding = findings.insert(findings.end(), {.stage = stage, .image = image});
+    for (const float value : content.values) {
+        finding->nan += std::isnan(value), finding->infinite += std::isinf(value);
+        if (std::isfinite(value)) finding->largest = std::max(finding->largest, double(std::abs(value)));
+    }
+}
+
+/// `findings`: of every image that the passes write; null: they are not looked at.
+FrameImages render(const Renderer& technique, const CaseFrame& frame, unsigned seed,
+                   std::vector<StageFinding>* findings, double& milliseconds) {
+    PassGraph& graph = *technique.graph;
+    if (findings)
+        graph.observe([&graph, findings](const std::string& stage, std::span<const Image> written) {
+            for (const Image& image : written) scan(*findings, stage, image.name, graph.download(image));
+        });
+    const Reflections reflections = technique.render(frame.camera, seed, frame.gbuffer);
     milliseconds = graph.frame_milliseconds();
-    if (scan) scan->pause();  // what the compositor makes of a bad pixel is no stage of the technique
-    const Composite composite = compositor.render(frame.gbuffer, reflections);
+    graph.observe({});  // what the compositor makes of a bad pixel is no stage of the technique
+    const Composite composite = technique.compositor->render(frame.gbuffer, reflections);
     return {.specular = channels_of(graph.download(composite.specular), 0, 3),
             .radiance = channels_of(graph.download(reflections.radiance), 0, 3),
             .confidence = channels_of(graph.download(reflections.confidence), reflections.confidence_channel, 1)};
@@ -72,13 +83,9 @@ double mean_of_judged(const CaseFrames& frames, const HostImage& specular) {
     return count ? sum / double(count) : 0.0;
 }
 
-void render_all(CaseResult& run, Device& device, Variant& variant, const CaseFrames& frames, const StabilityCase& what,
+void render_all(CaseResult& run, const Renderer& technique, const CaseFrames& frames, const StabilityCase& what,
                 const CaseOptions& options) {
-    const glm::uvec2 extent = frames.steps.front().host->extent();
-    PassGraph graph(device, extent);
-    std::optional<StageScan> scan;
-    if (options.is_scanned) scan.emplace(graph);
-    Compositor compositor(graph);
+    const glm::uvec2 extent = technique.graph->extent();
     unsigned last_fault = 0;
     for (const InputFault& fault : what.faults) last_fault = std::max(last_fault, fault.step.value_or(1u << 31));
     HostImage fed_back;
@@ -86,16 +93,16 @@ void render_all(CaseResult& run, Device& device, Variant& variant, const CaseFra
         CaseFrame frame = frames.steps[step];
         std::optional<PassGraph> mirror;
         if (!fed_back.values.empty()) {
-            mirror.emplace(device, extent);
+            mirror.emplace(technique.graph->device(), extent);
             HostImage rgba(extent, 4, 1.0f);
             for (size_t i = 0; i < rgba.pixel_count(); ++i) rgba.set_rgb(i, fed_back.rgb(i));
             frame.gbuffer.lit = mirror->image("lit", Format::rgba32f);
             mirror->upload(frame.gbuffer.lit, rgba);
         }
         double milliseconds = 0;
-        const bool is_looked_at = step < 32 || step % 16 == 0;  // of long sequences some frames are enough
-        FrameImages images = render(graph, variant, compositor, frame, options.seed,
-                                    scan && is_looked_at ? &*scan : nullptr, milliseconds);
+        // Of long sequences some frames are enough.
+        const bool is_looked_at = options.is_scanned && (step < 32 || step % 16 == 0);
+        FrameImages images = render(technique, frame, options.seed, is_looked_at ? &run.stages : nullptr, milliseconds);
         run.milliseconds = step ? std::min(run.milliseconds, milliseconds) : milliseconds;
         const float most = what.feeds_back ? std::numeric_limits<float>::max() : brightest(*frame.host);
         judge(run, images, *frame.host, most, step > last_fault);
@@ -108,59 +115,43 @@ void render_all(CaseResult& run, Device& device, Variant& variant, const CaseFra
         }
         run.specular = std::move(images.specular);
     }
-    if (!scan) return;
-    run.stages = scan->findings();
-    run.non_finite = scan->non_finite(), run.first_non_finite = scan->first_non_finite();
+    for (const StageFinding& f : run.stages) {
+        if (f.nan + f.infinite == 0) continue;
+        if (run.non_finite == 0) run.first_non_finite = f.stage + ": " + f.image;
+        run.non_finite += f.nan + f.infinite;
+    }
 }
 
 }  // namespace
 
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-std::string StabilityPoint::label() const {
-    if (!preset.empty()) return preset;
-    return parameters.empty() ? "default" : label_of(parameters);
-}
-
-std::vector<StabilityPoint> stability_points() {
-    std::vector<StabilityPoint> points;
-    for (const VariantEntry& entry : variant_table()) {
-        if (entry.presets.empty() || entry.name == "mcguire_dda") points.push_back({entry.name, ""});
-        for (const Preset& preset : entry.presets) points.push_back({entry.name, preset.name});
-        if (entry.name != "mcguire_dda") continue;
-        for (const TracerEntry& tracer : tracer_table())
-            if (tracer.name != "exact_scene" && tracer.name != "dda")
-                points.push_back({entry.name, "", {{"tracer", tracer.name}}});
-    }
-    return points;
-}
-
-CaseResult run_case(Device& device, const StabilityPoint& point, const StabilityCase& what, const CaseFrames& frames,
+CaseResult run_case(Device& device, const VariantConfig& point, const StabilityCase& what, const CaseFrames& frames,
                     const CaseOptions& options, const CaseFrames* before) {
     CaseResult run;
     try {
-        const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
-        RayProbe probe;
-        variant->ray_probe = &probe;
+        Renderer technique(device, (before ? before : &frames)->shot->config.extent, point);
         if (before) {
             CaseResult smaller;
-            render_all(smaller, device, *variant, *before, what, {});
+            render_all(smaller, technique, *before, what, {});
+            technique.graph = std::make_unique<PassGraph>(device, frames.shot->config.extent);
+            technique.compositor = std::make_unique<Compositor>(*technique.graph);
         }
-        render_all(run, device, *variant, frames, what, options);
+        render_all(run, technique, frames, what, options);
     } catch (const Error& error) {
         run.refusal = error.what();
     }
     return run;
 }
 
-std::optional<double> relative_error(const CaseFrames& frames, const HostImage& specular) {
+std::optional<double> relative_difference(const CaseFrames& frames, const HostImage& a, const HostImage& b) {
     if (frames.truth.values.empty()) return std::nullopt;
-    double error = 0, truth = 0;
-    for (size_t i = 0; i < specular.pixel_count(); ++i) {
-        if (!frames.is_judged[i] || !is_finite(specular.rgb(i))) continue;
-        const glm::dvec3 t(frames.truth.rgb(i)), difference = glm::dvec3(specular.rgb(i)) - t;
-        error += glm::dot(difference, difference), truth += glm::dot(t, t);
+    double squares = 0, truth = 0;
+    for (size_t i = 0; i < a.pixel_count(); ++i) {
+        if (!frames.is_judged[i] || !is_finite(a.rgb(i)) || !is_finite(b.rgb(i))) continue;
+        const glm::dvec3 t(frames.truth.rgb(i)), difference = glm::dvec3(a.rgb(i)) - glm::dvec3(b.rgb(i));
+        squares += glm::dot(difference, difference), truth += glm::dot(t, t);
     }
     if (truth == 0) return std::nullopt;
-    return error / truth;
+    return squares / truth;
 }

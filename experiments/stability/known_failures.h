@@ -1,8 +1,5 @@
 #pragma once
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
+#include "experiments/stability/stability_rows.h"
 
 /// Why a stage of a technique as published holds NaN or Inf, in words: one entry of failures.json.
 struct KnownFailure {
@@ -10,7 +7,9 @@ struct KnownFailure {
     std::vector<std::string> stages;      ///< as "stage", or "stage: image"
     std::vector<std::string> cases;       ///< names, families or groups of cases; empty: all
     std::string operation;                ///< of the shader, that makes a finite value one that is not, or keeps it
-    std::string mend;                     ///< how `corrected` or `best` avoids it
+    std::string fix;                      ///< how `corrected` or `best` avoids it
+
+    bool operator==(const KnownFailure&) const = default;
 };
 
 /// Fails with Error on unknown keys.
@@ -19,10 +18,6 @@ std::vector<KnownFailure> read_known_failures(const std::filesystem::path& file)
 /// The file that comes with ssrlab.
 std::filesystem::path known_failures_file();
 
-/// What is not finite, and where.
-struct FailurePlace {
-    std::string variant, point, stage, image;
-    std::string case_name, family, group;
-};
-/// The first entry that tells of `place`; null if none does.
-const KnownFailure* explanation_of(const FailurePlace& place, const std::vector<KnownFailure>& known);
+/// The first entry that explains why the stage, of a run of `what`, is not finite; null if none does.
+const KnownFailure* explanation_of(const StageRow& stage, const StabilityCase& what,
+                                   const std::vector<KnownFailure>& known);

@@ -1,6 +1,7 @@
 #include "experiments/stability/stability_case.h"
 
 #include "core/error.h"
+#include "experiments/config/config_values.h"
 #include "experiments/config/point_name.h"
 
 #include <algorithm>
@@ -39,17 +40,18 @@ void read_scale(JsonObject& object, CaseScene& scene) {
 
 CaseScene read_scene(JsonObject& object) {
     CaseScene scene;
-    scene.scene = object.text("scene");
-    scene.camera = object.text("camera", "");
-    scene.size = read_size(object, "size", scene.size);
-    scene.poses = read_poses(object);
+    ShotConfig& shot = scene.shot;
+    shot.scene = object.text("scene");
+    shot.camera = object.text("camera", "");
+    shot.extent = read_size(object, "size", shot.extent);
+    shot.frames = read_poses(object);
+    shot.depth_format = object.value_of("depth_format", depth_formats);
+    if (object.boolean("reversed_depth", false)) shot.depth_direction = DepthDirection::reversed;
+    shot.direct_lit = object.choice("lit", {"path_traced", "direct"}, "path_traced") == "direct";
     if (object.has("near")) scene.near = object.number("near", 1e-6f, 1e9f);
     if (object.has("far")) scene.far = object.number("far", 1e-6f, 1e12f);
-    scene.depth_format = object.value_of("depth_format", depth_formats);
-    if (object.boolean("reversed_depth", false)) scene.depth_direction = DepthDirection::reversed;
     read_scale(object, scene);
     scene.instance_scale = object.vector("instance_scale", glm::vec3(1.0f));
-    scene.is_lit_directly = object.choice("lit", {"path_traced", "direct"}, "path_traced") == "direct";
     if (object.has("roughness")) scene.roughness = object.number("roughness", 0.0f, 1.0f);
     scene.radiance = object.number("radiance", 0.0f, 1e12f, 1.0f);
     if (object.has("view")) scene.view = object.any("view");
@@ -78,7 +80,8 @@ glm::vec2 read_pair(JsonObject& object, const std::string& key) {
 
 InputFault read_fault(JsonObject object) {
     InputFault fault;
-    fault.image = object.text("image");
+    object.any("image");  // which is required
+    fault.image = object.value_of("image", input_images());
     const char* key = object.has("times") ? "times" : "value";
     fault.is_factor = object.has("times");
     const nlohmann::json& value = object.any(key);
@@ -123,7 +126,7 @@ StabilityCase read_case(const nlohmann::json& json, const std::string& where) {
     result.feeds_back = object.boolean("feeds_back", false);
     result.is_perturbed = object.boolean("perturbed", false);
     result.is_truth_same = object.boolean("same_truth", false);
-    if (object.has("only")) result.only = object.any("only").get<std::vector<std::string>>();
+    if (object.has("only")) result.only = one_or_more(object, "only", "");
 
     nlohmann::json benign = nlohmann::json::object();
     for (const auto& [key, value] : json.items())
@@ -177,6 +180,22 @@ std::vector<nlohmann::json> expanded(nlohmann::json json) {
 
 }  // namespace
 
+const std::vector<std::pair<std::string, HostImage HostGBuffer::*>>& input_images() {
+    using G = HostGBuffer;
+    static const std::vector<std::pair<std::string, HostImage G::*>> images = {
+        {"depth", &G::depth},
+        {"geometric_normal", &G::geometric_normal},
+        {"normal", &G::normal},
+        {"base_color", &G::base_color},
+        {"emission", &G::emission},
+        {"motion", &G::motion},
+        {"previous_depth", &G::previous_depth},
+        {"previous_normal", &G::previous_normal},
+        {"lit", &G::lit},
+        {"fallback", &G::fallback}};
+    return images;
+}
+
 std::vector<StabilityCase> read_stability_cases(const std::filesystem::path& file) {
     const nlohmann::json table = read_json(file);
     JsonObject object(table, file.string());
@@ -191,7 +210,7 @@ std::vector<StabilityCase> read_stability_cases(const std::filesystem::path& fil
 }
 
 bool StabilityCase::has_truth() const {
-    return !scene.is_lit_directly &&
+    return !scene.shot.direct_lit &&
            std::ranges::all_of(faults, [](const InputFault& f) { return f.where == "pixel" || f.is_factor; });
 }
 

@@ -1,33 +1,29 @@
 #pragma once
+#include "core/gbuffer/gbuffer_file.h"
 #include "core/json.h"
-#include "core/scene/camera.h"
+#include "experiments/config/config.h"
+#include "experiments/tables/columns.h"
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-/// What a case draws: a scene's camera, changed. The keys of cases.json by the same names; README.md explains them.
+/// What a case draws: a shot, changed. The keys of cases.json by the same names; README.md explains them.
 struct CaseScene {
-    std::string scene, camera;
-    glm::uvec2 size{96, 54};
-    std::vector<unsigned> poses{0, 0, 0};  ///< rendered in this order
-    std::optional<float> near, far;        ///< m
-    DepthFormat depth_format = DepthFormat::d32f;
-    DepthDirection depth_direction = DepthDirection::standard;
-    glm::vec3 scale{1.0f};  ///< of all geometry; one number in the file scales camera and lights as well
+    /// Its frames are rendered in this order, which need not ascend.
+    ShotConfig shot{.extent = {96, 54}, .frames = {0, 0, 0}};
+    std::optional<float> near, far;  ///< m
+    glm::vec3 scale{1.0f};           ///< of all geometry; one number in the file scales camera and lights as well
     bool scales_all = false;
     glm::vec3 instance_scale{1.0f};  ///< of each instance, whose mesh is scaled by the inverse
-    bool is_lit_directly = false;    ///< the lit colour is the rasterised direct light; there is no truth
     std::optional<float> roughness;  ///< perceptual, of every surface
     float radiance = 1.0f;           ///< factor of all that shines
     nlohmann::json view;             ///< an entry of a scene.json's `cameras`, in place of `camera`; null: none
     nlohmann::json quads;            ///< surfaces that are added; null: none
 };
 
+/// What faults may change, by name, and what of a sound pixel is finite.
+const std::vector<std::pair<std::string, HostImage HostGBuffer::*>>& input_images();
+
 /// A change of the G-buffer's values, as a capture of another engine may hold them.
 struct InputFault {
-    std::string image;          ///< member of GBuffer
+    HostImage HostGBuffer::*image = nullptr;
     std::vector<float> value;   ///< one for all channels, or one for each
     bool is_factor = false;     ///< `value` multiplies what is there
     std::string where;          ///< "pixel": the one at `at`; "all"; "every_other": of rows and columns
@@ -49,14 +45,20 @@ struct StabilityCase {
     std::string benign_key;   ///< the same for cases whose `benign` is the same
     std::vector<InputFault> faults;
     std::optional<glm::uvec2> size_before;  ///< the technique rendered at this size before
-    bool feeds_back =
-        false;  ///< each frame's lit colour is the composited image of the frame before: mirrors in mirrors
+    /// Each frame's lit colour is the composited image of the frame before: mirrors in mirrors.
+    bool feeds_back = false;
     bool is_perturbed = false;           ///< amplification is measured
     bool is_truth_same = false;          ///< the path tracer must give the benign case's image
     std::vector<std::string> only;       ///< techniques, or NAME:PRESET; empty: all
     std::optional<MetricImages> images;  ///< then the metrics alone are looked at, and `scene` says nothing
 
     bool has_truth() const;  ///< whether the path tracer's picture is that of the G-buffer with its faults
+
+    /// Of stability_cases.csv.
+    static constexpr auto columns() {
+        return std::tuple(Column{"case", &StabilityCase::name}, Column{"family", &StabilityCase::family},
+                          Column{"group", &StabilityCase::group}, Column{"why", &StabilityCase::why});
+    }
 };
 
 /// Reads a table of cases. Every combination of the values of a case's `each` is a case of its own, called by them.

@@ -1,25 +1,45 @@
 #pragma once
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
+#include "experiments/stability/known_failures.h"
+#include "experiments/stability/stability_rows.h"
 
-/// What the report shows of the tables that `ssrlab stability` wrote into `folder`; null where there are none:
-///
-///     lead        what they say, in a few sentences
-///     verdicts    [{name, meaning}], from the best to the worst
-///     cases       [{name, group, why}]; techniques: [{variant, point}]; both in the order of stability.csv
-///     rows        [[case, technique, verdict, {column: value}]], of the columns that are not empty and not 0
-///     stages      [[case, technique, "stage: image", NaN, Inf]]
-///     failures    [{variant, points, place, cases, nan, infinite, first, unexplained, explanations}], by variant and
-///                 place = "stage: image". `first`: pairs of case and technique in which no stage before it fails;
-///                 `unexplained`: those of them that failures.json does not tell of
-///
-/// Fails with Error, naming file and line, where a table is malformed.
-nlohmann::json stability_report_data(const std::filesystem::path& folder);
+/// The tables that `ssrlab stability` writes into a folder.
+struct StabilityTables {
+    std::vector<StabilityRow> rows;
+    std::vector<StabilityCase> cases;  ///< as far as stability_cases.csv tells of them
+    std::vector<StageRow> stages;
+};
 
-/// Where values that are not finite come from, and how it is mended, as a table for terminals.
-std::string failures_text(const nlohmann::json& data);
+/// Nothing where there are none. Fails with Error, naming file and line, where a table is malformed.
+StabilityTables read_stability_tables(const std::filesystem::path& folder);
+
+/// An image of a stage that is not finite in runs of one technique.
+struct StageFailure {
+    std::string variant, place;  ///< "stage: image"
+    std::vector<std::string> points, cases;
+    size_t nan = 0, infinite = 0;
+    size_t first = 0;        ///< runs in which no stage before it fails
+    size_t unexplained = 0;  ///< those of them that failures.json does not explain
+    std::vector<KnownFailure> known;
+
+    /// What is not only had what other stages passed it.
+    bool is_source() const { return first > 0 || !known.empty(); }
+};
+
+/// By technique and place, in the order of stability_stages.csv.
+std::vector<StageFailure> stage_failures(const StabilityTables& tables);
+
+/// What the tables say, in a few sentences.
+std::string stability_lead(const StabilityTables& tables);
+
+/// How many cases each technique got each verdict in, in the order of stability.csv.
+std::vector<std::pair<std::string, std::vector<size_t>>> verdict_counts(const std::vector<StabilityRow>& rows);
+
+/// A technique as people read it.
+std::string technique_name(const std::string& variant, const std::string& point);
+
+/// The sources among the failures, and how they are fixed, as a table for terminals.
+std::string failures_text(const std::vector<StageFailure>& failures);
 
 /// The values of the section `stability` of report/page/no_scripts.html: the lead, how often each technique got each
-/// verdict, and the failures. `data`: as stability_report_data() returns it.
-nlohmann::json stability_without_scripts(const nlohmann::json& data);
+/// verdict, and the failures.
+nlohmann::json stability_without_scripts(const StabilityTables& tables);

@@ -1,5 +1,6 @@
 #pragma once
-#include "experiments/stability/amplification.h"
+#include "experiments/stability/case_run.h"
+#include "experiments/tables/columns.h"
 
 /// From the best to the worst.
 enum class Verdict { ok, worse, out_of_range, inside, spreads, refused };
@@ -9,31 +10,61 @@ struct VerdictName {
     std::string name, meaning;
 };
 const std::vector<VerdictName>& verdict_names();  ///< by Verdict
+std::string csv_field(Verdict verdict);
+void read_field(const CsvReader& csv, const char* name, Verdict& verdict);
+inline nlohmann::json column_json(Verdict verdict) { return size_t(verdict); }
 
-/// One technique in one case.
-struct StabilityRow {
+/// One technique in one case: a row of stability.csv.
+struct StabilityRow : CaseFindings {
     std::string case_name, group, variant, point;
     Verdict verdict = Verdict::ok;
-    std::optional<double> error, benign_error;  ///< means over the seeds
+    std::optional<double> error, benign_error, error_ratio;  ///< of means over the seeds
     unsigned seeds = 1;
     std::optional<double> time_ratio;
-    std::optional<double> drift;  ///< of long sequences: relative change of the mean from the second quarter of the
-                                  ///< frames to the last quarter
-    std::optional<double> drift_noise;  ///< standard error of it, from the means of blocks of frames
-    std::optional<double>
-        gain;  ///< of a fed back image: by how much each change of the mean is smaller than the one before
-    std::vector<Amplification> amplifications;
-    CaseResult run;
+    /// Amplification of inputs, see Perturbation.
+    std::optional<double> depth_median, depth_p999, normal_median, normal_p999, lit_median, lit_p999;
+    /// Of long sequences: relative change of the mean from the first to the second half of the last three quarters of
+    /// the frames, and its standard error, from the means of blocks of frames.
+    std::optional<double> drift, drift_noise;
+    /// Of a fed back image: by how much each change of the mean is smaller than the one before.
+    std::optional<double> gain;
+    std::vector<StageFinding> stages = {};
 
-    std::optional<double> error_ratio() const;
+    static constexpr auto columns() {
+        using Row = StabilityRow;
+        return std::tuple(
+            Column{"case", &Row::case_name}, Column{"group", &Row::group}, Column{"variant", &Row::variant},
+            Column{"point", &Row::point}, Column{"verdict", &Row::verdict}, Column{"error", &Row::error},
+            Column{"benign_error", &Row::benign_error}, Column{"error_ratio", &Row::error_ratio},
+            Column{"seeds", &Row::seeds}, Column{"non_finite", &Row::non_finite},
+            Column{"first_non_finite", &Row::first_non_finite}, Column{"spread_pixels", &Row::spread_pixels},
+            Column{"spread_frames", &Row::spread_frames}, Column{"negative", &Row::negative},
+            Column{"too_bright", &Row::too_bright}, Column{"excess", &Row::excess},
+            Column{"bad_confidence", &Row::bad_confidence}, Column{"time_ratio", &Row::time_ratio},
+            Column{"depth_median", &Row::depth_median}, Column{"depth_p999", &Row::depth_p999},
+            Column{"normal_median", &Row::normal_median}, Column{"normal_p999", &Row::normal_p999},
+            Column{"lit_median", &Row::lit_median}, Column{"lit_p999", &Row::lit_p999}, Column{"drift", &Row::drift},
+            Column{"drift_noise", &Row::drift_noise}, Column{"gain", &Row::gain}, Column{"refusal", &Row::refusal});
+    }
 };
 
+/// Sets both errors, and their ratio where there is one.
+void set_errors(StabilityRow& row, std::optional<double> error, std::optional<double> benign_error);
 Verdict verdict_of(const StabilityRow& row);
 /// Whether another seed might make a verdict of `worse`, or take it back, in a picture of so many pixels.
 bool is_near_worse(const StabilityRow& row, size_t pixels);
 
-/// One line for each case and technique, one for each case, and one for each stage of the former that holds a
-/// non-finite value, or for all of their stages.
-std::string stability_csv(const std::vector<StabilityRow>& rows);
-std::string stability_cases_csv(const std::vector<StabilityCase>& cases);
-std::string stability_stages_csv(const std::vector<StabilityRow>& rows, bool has_all);
+/// What one image of one stage held in one row of stability.csv: a row of stability_stages.csv.
+struct StageRow : StageFinding {
+    std::string case_name, variant, point;
+
+    static constexpr auto columns() {
+        using Row = StageRow;
+        return std::tuple(Column{"case", &Row::case_name}, Column{"variant", &Row::variant},
+                          Column{"point", &Row::point}, Column{"stage", &Row::stage}, Column{"image", &Row::image},
+                          Column{"nan", &Row::nan}, Column{"infinite", &Row::infinite},
+                          Column{"largest", &Row::largest});
+    }
+};
+/// Those that hold a value that is not finite, or all.
+std::vector<StageRow> stage_rows(const std::vector<StabilityRow>& rows, bool has_all);

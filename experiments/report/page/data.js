@@ -26,13 +26,11 @@ function readData() {
     const timeEffect = e =>
         ({...e, value: e.ratio, low: e.lowHolm ?? e.low, high: e.highHolm ?? e.high, holm: e.pHolm});
     const time = t => ({...t, value: t.medianMs, low: t.lowMs, high: t.highMs});
-    /// As experiments/stability/stability_report.h has it; its lists become objects.
     const stability = raw.stability && {
         ...raw.stability,
-        rows: raw.stability.rows.map(
-            ([place, technique, verdict, values]) => ({case: place, technique, verdict, values})),
-        stages: raw.stability.stages.map(
-            ([place, technique, image, nan, infinite]) => ({case: place, technique, image, nan, infinite}))
+        cases: rows(raw.stability.cases),
+        rows: rows(raw.stability.rows),
+        stages: rows(raw.stability.stages)
     };
     return {
         isStudy: raw.is_study,  // else the page shows `stability` alone

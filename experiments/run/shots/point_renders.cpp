@@ -1,27 +1,17 @@
 #include "experiments/run/shots/point_renders.h"
 
-#include "core/gbuffer/composite.h"
 #include "core/gpu/device.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/run/shots/point_errors.h"
 #include "experiments/run/shots/point_rays.h"
 #include "experiments/store/image_queue.h"
 #include "experiments/store/result_images.h"
-#include "variants/registry.h"
 
 #include <algorithm>
 
 namespace {
 
 const Mask everywhere{.name = "all", .extent = {}, .inside = {}};  // the only one that needs no truth
-
-/// A technique with images and histories of its own, and what composites its results.
-struct Renderer {
-    std::unique_ptr<Variant> variant;
-    std::unique_ptr<RayProbe> probe;  ///< of the variant
-    std::unique_ptr<PassGraph> graph;
-    std::unique_ptr<Compositor> compositor;
-};
 
 /// One seed on its way through the shot.
 struct SeedInShot {
@@ -78,13 +68,8 @@ public:
 
 private:
     Renderer renderer() const {
-        const VariantConfig& v = point_.variant;
-        Renderer made{.variant = make_variant(v.variant, v.parameters, v.preset),
-                      .probe = std::make_unique<RayProbe>(),
-                      .graph = std::make_unique<PassGraph>(device_, point_.shot.config.extent)};
-        made.variant->ray_probe = made.probe.get();
+        Renderer made(device_, point_.shot.config.extent, point_.variant, point_.config.composite);
         if (!settings_.keep_all) made.variant->leave_out(point_.shot.facts);
-        made.compositor = std::make_unique<Compositor>(*made.graph, point_.config.composite);
         return made;
     }
 
@@ -129,7 +114,7 @@ private:
         Renderer& r = seed.renderer;
         rays_.plug_in_scene(*r.probe, step, frame.camera);
         r.probe->is_recording = rays_.judges(seed.seed(), step);
-        const Reflections reflections = render_variant(*r.graph, *r.variant, frame.camera, seed.seed(), frame.gbuffer);
+        const Reflections reflections = r.render(frame.camera, seed.seed(), frame.gbuffer);
         if (!step.is_warm_up) {
             const Composite composite = r.compositor->render(frame.gbuffer, reflections);
             const FrameTruth* truth = point_.truth.frame(step);
@@ -155,7 +140,7 @@ private:
         frame.gbuffer.lit = r.graph->image("lit_of_half", Format::rgba32f).as("lit");
         r.graph->upload(frame.gbuffer.lit, rgba);
         const unsigned seed = point_.variant.seeds.front();
-        const Reflections reflections = render_variant(*r.graph, *r.variant, frame.camera, seed, frame.gbuffer);
+        const Reflections reflections = r.render(frame.camera, seed, frame.gbuffer);
         report_step();
         const FrameTruth* truth = point_.truth.frame(step);
         if (!step.is_measured || !truth) return {};

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "experiments/measuring/rays/judged_hits.h"
-#include "experiments/stability/changed_scene.h"
 #include "variants/common/repaired_inputs.h"
 #include "variants/tracers/outcome.h"
 
@@ -27,18 +26,6 @@ Precision formats_with(const std::string& image, PrecisionKind kind) {
 
 Precision in_double(std::function<bool(const std::string&)> is_double) {
     return {.format_of = in_float, .is_double = std::move(is_double)};
-}
-
-/// Squared differences over squared truth, of judged pixels that are finite in both: relative_error() of two images.
-std::optional<double> relative_change(const CaseFrames& frames, const HostImage& a, const HostImage& b) {
-    double change = 0, truth = 0;
-    for (size_t i = 0; i < a.pixel_count(); ++i) {
-        if (!frames.is_judged[i] || !is_finite(a.rgb(i)) || !is_finite(b.rgb(i))) continue;
-        const glm::dvec3 t(frames.truth.rgb(i)), difference = glm::dvec3(a.rgb(i)) - glm::dvec3(b.rgb(i));
-        change += glm::dot(difference, difference), truth += glm::dot(t, t);
-    }
-    if (truth == 0) return std::nullopt;
-    return change / truth;
 }
 
 size_t non_finite_pixels(const HostImage& image) {
@@ -69,17 +56,12 @@ bool ends_elsewhere(const RayRecord& a, const RayRecord& b) {
 
 }  // namespace
 
-PrecisionShot::PrecisionShot(CaseDrawer& drawer, const StabilityCase& what,
-                             const std::vector<std::filesystem::path>& search_path)
-    : frames_(drawer.draw(what.scene, what.faults)) {
-    ChangedScene changed = changed_scene(what.scene, search_path);
-    shot_.scene = std::move(changed.scene), shot_.camera = std::move(changed.camera);
-    shot_.config.extent = what.scene.size;
-    exact_ = std::make_unique<ExactRays>(shot_, what.scene.poses.back(), frames_.steps.back().camera);
-}
+PrecisionShot::PrecisionShot(CaseFrames frames)
+    : frames_(std::move(frames)),
+      exact_(*frames_.shot, frames_.shot->steps.back().frame, frames_.steps.back().camera) {}
 
 std::optional<double> PrecisionShot::wrong_share(const RecordedRays& recorded) const {
-    const std::vector<ExactHit> truth = exact_->hits(recorded);
+    const std::vector<ExactHit> truth = exact_.hits(recorded);
     double rays = 0, wrong = 0;
     for (size_t i = 0; i < truth.size(); ++i) {
         const RayRecord& ray = recorded.rays[i];
@@ -107,10 +89,13 @@ std::vector<PrecisionJudge::Written> PrecisionJudge::written_of(const PrecisionR
     return images;
 }
 
-/// Nothing, with the reason in `row`, where that cannot be rendered.
+/// Nothing, with the reason in `row`, where that cannot be rendered; else `row` gets what it changed of the method,
+/// once that is known.
 std::optional<PrecisionRun> PrecisionJudge::run(const PrecisionWish& wish, PrecisionRow& row) {
     try {
-        return run_precisely(device_, point_, shot_.frames(), wish);
+        PrecisionRun run = run_precisely(device_, point_, shot_.frames(), wish);
+        if (!floats_.specular.values.empty()) row = changed(row, run);
+        return run;
     } catch (const Error& error) {
         row.refusal = error.what();
         return std::nullopt;
@@ -119,7 +104,7 @@ std::optional<PrecisionRun> PrecisionJudge::run(const PrecisionWish& wish, Preci
 
 PrecisionRow PrecisionJudge::changed(PrecisionRow row, const PrecisionRun& run) const {
     row.error = relative_error(shot_.frames(), run.specular);
-    row.change = relative_change(shot_.frames(), floats_.specular, run.specular);
+    row.change = relative_difference(shot_.frames(), floats_.specular, run.specular);
     if (row.change && error_ > 0) row.share = *row.change / error_;
     row.non_finite = non_finite_pixels(run.specular);
     return row;
@@ -138,10 +123,8 @@ void PrecisionJudge::judge_format(const Written& what, PrecisionKind kind) {
         }
     }
     if (values) row.above_half = double(above) / double(values), row.below_half = double(below) / double(values);
-    if (auto run = this->run({.precision = formats_with(what.image, kind)}, row)) {
-        row.values = change_of_values(floats_, *run, is_meant);
-        row = changed(row, *run);
-    }
+    if (auto run = this->run({.precision = formats_with(what.image, kind)}, row))
+        row.set(change_of_values(floats_, *run, is_meant));
     add(row);
 }
 
@@ -155,7 +138,7 @@ void PrecisionJudge::judge_formats(const std::vector<Written>& written, const Pr
         .format_of = [&](const std::string& image,
                          Format asked) { return is_written(image) ? as_float16(asked) : as_float32(asked); },
         .is_double = {}};
-    if (const auto run = this->run({.precision = halves}, all)) all = changed(all, *run);
+    run({.precision = halves}, all);
     add(all);
     for (const Written& what : written) {
         if (as_float32(what.format) == as_float16(what.format)) continue;  // holds no fractions
@@ -177,8 +160,7 @@ void PrecisionJudge::judge_inputs() {
         {"motion", {"motion"}}};
     for (const auto& [name, images] : groups) {
         PrecisionRow row{.kind = PrecisionKind::input, .stage = "gbuffer", .image = name, .format = "half"};
-        if (const auto run = this->run({.precision = {in_float, {}}, .half_inputs = images}, row))
-            row = changed(row, *run);
+        run({.precision = {in_float, {}}, .half_inputs = images}, row);
         add(row);
     }
 }
@@ -194,8 +176,11 @@ void PrecisionJudge::judge_rays(const std::string& stage, const PrecisionRun& ru
         directions.push_back(both ? double(glm::distance(x.direction, y.direction)) : 1.0);
         origins.push_back(both ? double(glm::distance(x.origin, y.origin) / glm::length(x.origin)) : 1.0);
     }
-    add({.kind = PrecisionKind::rays, .stage = stage, .image = "direction", .values = value_change(directions)});
-    add({.kind = PrecisionKind::rays, .stage = stage, .image = "origin", .values = value_change(origins)});
+    for (const auto& [image, differences] : {std::pair("direction", directions), std::pair("origin", origins)}) {
+        PrecisionRow row{.kind = PrecisionKind::rays, .stage = stage, .image = image};
+        row.set(value_change(differences));
+        add(row);
+    }
 }
 
 void PrecisionJudge::judge_march(const std::string& stage, const RecordedRays& rays) {
@@ -217,9 +202,8 @@ void PrecisionJudge::judge_march(const std::string& stage, const RecordedRays& r
             else if (is_hit(a))
                 distances.push_back(double(std::abs(a.distance - b.distance) / std::max(a.distance, b.distance)));
         }
-        row = changed(row, *run);
-        row.values = value_change(distances);
-        row.values->differing = elsewhere / traced;
+        row.set(value_change(distances));
+        row.differing = elsewhere / traced;
         row.wrong = shot_.wrong_share(rays), row.wrong_in_double = shot_.wrong_share(wide);
     }
     add(row);
@@ -232,7 +216,6 @@ void PrecisionJudge::judge_stage(const std::string& stage) {
         {.precision = in_double([&](const std::string& s) { return s == stage; }), .is_recording = rays != nullptr},
         row);
     if (!run) return add(row);
-    row = changed(row, *run);
     std::vector<std::string> images;
     for (const StageValue& value : floats_.values)
         if (value.stage == stage && value.values.pixel_count() > 1 && !std::ranges::count(images, value.image))
@@ -240,8 +223,8 @@ void PrecisionJudge::judge_stage(const std::string& stage) {
     if (images.empty()) add(row);  // it writes buffers
     for (const std::string& image : images) {
         row.image = image;
-        row.values = change_of_values(
-            floats_, *run, [&](const StageValue& value) { return value.stage == stage && value.image == image; });
+        row.set(change_of_values(
+            floats_, *run, [&](const StageValue& value) { return value.stage == stage && value.image == image; }));
         add(row);
     }
     const auto is_traced = [](const RayRecord& ray) { return ray.is_traced > 0; };
@@ -267,8 +250,7 @@ std::vector<PrecisionRow> PrecisionJudge::rows() {
     for (const std::string& stage : floats_.stages)
         if (stage != RepairedInputs::stage) judge_stage(stage);
     PrecisionRow all{.kind = PrecisionKind::arithmetic};
-    if (const auto run = this->run({.precision = in_double([](const std::string&) { return true; })}, all))
-        all = changed(all, *run);
+    run({.precision = in_double([](const std::string&) { return true; })}, all);
     add(all);
     return rows_;
 }

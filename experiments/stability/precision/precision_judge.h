@@ -2,10 +2,10 @@
 #include "experiments/measuring/rays/exact_rays.h"
 #include "experiments/stability/precision/precision.h"
 
-/// A case as drawn, and its scene, which is asked where rays truly end.
+/// A case as drawn, whose scene is asked where rays truly end.
 class PrecisionShot {
 public:
-    PrecisionShot(CaseDrawer& drawer, const StabilityCase& what, const std::vector<std::filesystem::path>& search_path);
+    explicit PrecisionShot(CaseFrames frames);
 
     const CaseFrames& frames() const { return frames_; }
     /// Share of the rays of the last frame that end elsewhere than they do in the scene, by JudgedHits' rules: a wrong
@@ -14,14 +14,13 @@ public:
 
 private:
     CaseFrames frames_;
-    Shot shot_;
-    std::unique_ptr<ExactRays> exact_;
+    ExactRays exact_;
 };
 
 /// One technique in one case: each image in other formats, each stage in double.
 class PrecisionJudge {
 public:
-    PrecisionJudge(Device& device, const PrecisionShot& shot, StabilityPoint point)
+    PrecisionJudge(Device& device, const PrecisionShot& shot, VariantConfig point)
         : device_(device), shot_(shot), point_(std::move(point)) {}
 
     std::vector<PrecisionRow> rows();
@@ -46,7 +45,7 @@ private:
 
     Device& device_;
     const PrecisionShot& shot_;
-    StabilityPoint point_;
+    VariantConfig point_;
     PrecisionRun floats_;  ///< all in float
     double error_ = 0;     ///< of it
     std::vector<PrecisionRow> rows_;

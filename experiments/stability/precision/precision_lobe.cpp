@@ -46,12 +46,13 @@ std::vector<PrecisionRow> lobe_rows(Device& device) {
     std::vector<PrecisionRow> rows;
     for (const float roughness : {0.0f, 0.1f, 0.3f, 1.0f}) {
         const auto add = [&](const std::string& function, std::vector<double> differences) {
-            rows.push_back({.variant = "ggx_lobe",
-                            .point = "roughness=" + shortest_digits(roughness),
-                            .kind = PrecisionKind::arithmetic,
-                            .stage = "lobe",
-                            .image = function,
-                            .values = value_change(std::move(differences))});
+            PrecisionRow row{.variant = "ggx_lobe",
+                             .point = "roughness=" + shortest_digits(roughness),
+                             .kind = PrecisionKind::arithmetic,
+                             .stage = "lobe",
+                             .image = function};
+            row.set(value_change(std::move(differences)));
+            rows.push_back(row);
         };
         LobePasses narrow(device, roughness, false), wide(device, roughness, true);
         const HostImage directions = narrow.drawn_directions(), exact = wide.drawn_directions();

@@ -1,10 +1,8 @@
 #include "experiments/stability/precision/precision_run.h"
 
-#include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/stability/amplification.h"
-#include "variants/registry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,14 +28,12 @@ RoundedInputs rounded_inputs(Device& device, const CaseFrame& frame, const std::
 
 }  // namespace
 
-PrecisionRun run_precisely(Device& device, const StabilityPoint& point, const CaseFrames& frames,
+PrecisionRun run_precisely(Device& device, const VariantConfig& point, const CaseFrames& frames,
                            const PrecisionWish& wish) {
-    const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
-    variant->limits = Limits::none;  // not every API filters floats
-    RayProbe probe;
-    variant->ray_probe = &probe;
-    PassGraph graph(device, frames.steps.front().host->extent());
-    Compositor compositor(graph);
+    const Renderer technique(device, frames.shot->config.extent, point);
+    technique.variant->limits = Limits::none;  // not every API filters floats
+    PassGraph& graph = *technique.graph;
+    RayProbe& probe = *technique.probe;
     PrecisionRun run;
     std::optional<RoundedInputs> inputs;
     const HostGBuffer* rounded_host = nullptr;
@@ -65,10 +61,10 @@ PrecisionRun run_precisely(Device& device, const StabilityPoint& point, const Ca
             }
         });
         graph.set_precision(wish.precision);
-        const Reflections reflections = render_variant(graph, *variant, frame.camera, stability_seed, gbuffer);
+        const Reflections reflections = technique.render(frame.camera, stability_seed, gbuffer);
         graph.observe({});
         graph.set_precision({});
-        const Composite composite = compositor.render(frame.gbuffer, reflections);
+        const Composite composite = technique.compositor->render(frame.gbuffer, reflections);
         if (is_last) run.specular = channels_of(graph.download(composite.specular), 0, 3);
     }
     run.rays = std::move(probe.recorded);

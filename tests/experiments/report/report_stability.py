@@ -32,7 +32,7 @@ def test_stability(page, folder):
     check(all(f"{v} ({n})" in legend for v, n in zip(VERDICTS, counts)), f"legend: {legend}")
     shapes = page.execute_script("return [...document.querySelectorAll('.matrix .verdict')].map(v => v.getAttribute('d'))")
     equal(sorted(shapes.count(s) for s in set(shapes)), sorted(counts), "marks of each shape")
-    titles = page.execute_script("return [...document.querySelectorAll('.matrix title')].map(t => t.textContent)")
+    titles = page.execute_script("return [...document.querySelectorAll('.matrix text > title')].map(t => t.textContent)")
     with open(os.path.join(folder, "stability_cases.csv"), newline="") as file:
         equal(titles, [f"{c['case']}: {c['why']}" for c in csv.DictReader(file)], "reasons of cases")
     lead = page.find_element(By.ID, "stability-lead").text
@@ -55,7 +55,7 @@ def test_stability(page, folder):
 
     failures = part_of(page, "Stages that are not finite")
     equal([f[1] for f in failures], ["amd_sssr/intersect: radiance", "of_another_build/trace: result"], "where they arise")
-    check(len(failures[0][5]) > 10 and len(failures[0][6]) > 10, f"no operation or mend: {failures[0]}")
+    check(len(failures[0][5]) > 10 and len(failures[0][6]) > 10, f"no operation or fix: {failures[0]}")
     equal(failures[1][5:], ["unexplained in 1", ""], "what nobody has told of")
     equal(part_of(page, "Spread of bad inputs"), [["amd_sssr · slides", "12 +2"]], "spread")
     equal(

@@ -4,6 +4,7 @@ usage: report_study_in_browser.py REPORT_PAGE_PROGRAM
 """
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -263,7 +264,7 @@ def test_quiet(page):
     shown = page.find_element(By.TAG_NAME, "body").text
     for word in ("undefined", "[object"):
         check(word not in shown, f"the page says {word!r}")
-    # What techniques bear is told in numbers of NaN.
+    # Stability is told in numbers of NaN.
     others = page.execute_script(
         "return [...document.querySelectorAll('main > section:not(#stability)')].map(s => s.innerText).join()"
     )
@@ -284,6 +285,8 @@ def test_stability_alone(page):
         ids = page.execute_script("return [...document.querySelectorAll('main > section')].map(s => s.id)")
         equal(ids, ["stability"], "sections")
         test_quiet(page)
+        named = re.findall(r"\w+\.csv", page.find_element(By.TAG_NAME, "footer").text)
+        equal(sorted(named), sorted(f for f in os.listdir(folder) if f.endswith(".csv")), "the files that the footer names")
         page.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
         page.refresh()
         text = page.find_element(By.TAG_NAME, "noscript").text

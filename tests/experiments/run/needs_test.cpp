@@ -1,4 +1,5 @@
 #include "experiments/run/needs.h"
+#include "experiments/config/all_points.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>
@@ -11,14 +12,8 @@ const std::vector<std::filesystem::path> scenes = {std::filesystem::path(SSRLAB_
 std::vector<VariantConfig> points() {
     std::vector<VariantConfig> all;
     const auto add = [&](const std::string& variant, const std::string& preset,
-                         nlohmann::json parameters = nlohmann::json::object()) {
-        all.push_back({.variant = variant,
-                       .preset = preset,
-                       .parameters = std::move(parameters),
-                       .point = std::to_string(all.size()),
-                       .seeds = {1},
-                       .against = {},
-                       .against_point = {}});
+                         const nlohmann::json& parameters = nlohmann::json::object()) {
+        all.push_back(single_point(variant, preset, parameters));
     };
     add("mcguire_dda", "best");
     add("amd_sssr", "corrected");

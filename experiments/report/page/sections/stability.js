@@ -1,4 +1,4 @@
-// What techniques bear: each technique in each case of `ssrlab stability`, and what failed there.
+// Stability under extreme inputs: each technique in each case of `ssrlab stability`, and what failed there.
 
 /// From the best to the worst, as verdict_names() of experiments/stability/stability_rows.cpp has them: a shape and a
 /// colour, so that either alone tells them apart. Shapes fill a square from -1 to 1.
@@ -12,26 +12,29 @@ const verdictMarks = [
 
 const stabilityColumns = [
     ["error", "Error", "squared error over squared truth of the specular radiance"],
-    ["benign_error", "Benign error", "the same without what makes the case hard"],
-    ["error_ratio", "Error / benign error", ""],
+    ["benignError", "Benign error", "the same without what makes the case hard"],
+    ["errorRatio", "Error / benign error", ""],
     ["seeds", "Seeds", "of which the errors are means, where one alone might decide the verdict"],
-    ["non_finite", "NaN and Inf", "values of all stages and frames"], ["first_non_finite", "First in", "stage: image"],
-    ["spread_pixels", "Spread", "pixels of one frame that are not finite though their inputs are"],
-    ["spread_frames", "Spread in time", "frames after the fault in which there are any"],
+    ["nonFinite", "NaN and Inf", "values of all stages and frames"], ["firstNonFinite", "First in", "stage: image"],
+    ["spreadPixels", "Spread", "pixels of one frame that are not finite though their inputs are"],
+    ["spreadFrames", "Spread in time", "frames after the fault in which there are any"],
     ["negative", "Negative pixels", "of all frames"],
-    ["too_bright", "Too bright pixels", "brighter by 4 % than all light, of all frames"],
+    ["tooBright", "Too bright pixels", "brighter by 4 % than all light, of all frames"],
     ["excess", "Excess", "the most by which a pixel is brighter"],
-    ["bad_confidence", "Confidence outside [0, 1]", "pixels of all frames"],
-    ["time_ratio", "Time / benign time", "of the fastest frames; of pictures this small anything below 4 may be noise"],
-    ["drift", "Drift", "relative change of the mean over a long rest"], ["drift_noise", "Drift's standard error", ""],
+    ["badConfidence", "Confidence outside [0, 1]", "pixels of all frames"],
+    ["timeRatio", "Time / benign time", "of the fastest frames; of pictures this small anything below 4 may be noise"],
+    ["drift", "Drift", "relative change of the mean over a long rest"], ["driftNoise", "Drift's standard error", ""],
     ["gain", "Gain", "factor from frame to frame of an image that is fed back"], ["refusal", "Refused", ""]
 ];
 
+/// By name: pointKey() of the technique, names of cases.
 const stabilityChoice = {
-    technique: 0,
-    case: 0,
-    amplified: 0
+    technique: "",
+    case: "",
+    amplified: ""
 };
+const techniqueNames = new Map(list(report.stability?.rows).map(row => [pointKey(row), pointLabel(row)]));
+const stabilityCases = new Map(list(report.stability?.cases).map(c => [c.case, c]));
 
 function showStability() {
     const data = report.stability;
@@ -44,20 +47,18 @@ function showStability() {
             svg("svg", {viewBox: "-7 -7 14 14", "aria-hidden": "true"}, verdictMark(v, 0, 0, 5)),
             `${verdict.name} (${count})`);
     }));
-    const worst = data.rows.reduce((a, b) => b.verdict > a.verdict && b.verdict < verdictMarks.length - 1 ? b : a);
-    chooseCell(worst);
-    const isMetric = technique => technique.variant === "metrics";
-    const indices = wanted => data.techniques.flatMap((technique, t) => isMetric(technique) === wanted ? [t] : []);
+    const isMetric = row => row.variant === "metrics";
     at("stability-matrix")
-        .replaceChildren(...[indices(false), indices(true)].filter(own => own.length).map(stabilityMatrix));
-    showStabilityCell();
+        .replaceChildren(...[data.rows.filter(row => !isMetric(row)), data.rows.filter(isMetric)]
+                             .filter(own => own.length)
+                             .map(stabilityMatrix));
+    // At first the worst that was rendered.
+    showStabilityCell(
+        data.rows.reduce((a, b) => b.verdict > a.verdict && b.verdict < verdictMarks.length - 1 ? b : a));
     at("stability-tables")
         .replaceChildren(...[failureTable(), spreadTable(), amplificationTable()].filter(part => part !== null));
 }
 
-function chooseCell({case: place, technique}) { Object.assign(stabilityChoice, {case: place, technique}); }
-
-const techniqueName = t => pointLabel(report.stability.techniques[t]);
 const verdictMark = (verdict, x, y, size) => svg("path", {
     class: "verdict",
     d: verdictMarks[verdict].d,
@@ -65,25 +66,24 @@ const verdictMark = (verdict, x, y, size) => svg("path", {
     fill: verdictMarks[verdict].color
 });
 
-/// Techniques as rows, the cases that they were in as columns.
-function stabilityMatrix(techniques) {
-    const {rows, cases} = report.stability;
-    const own = rows.filter(row => techniques.includes(row.technique)), columns = unique(own.map(row => row.case));
+/// Of the rows `own` of stability.csv: techniques as rows, the cases that they were in as columns.
+function stabilityMatrix(own) {
+    const techniques = unique(own.map(pointKey)), columns = unique(own.map(row => row.case));
+    const group = c => stabilityCases.get(c).group, variant = t => t.split("|")[0];
     const longest = (names, size) => Math.ceil(Math.max(...names.map(name => name.length)) * size * 0.56) + 10;
     const cellWidth = Math.max(9, Math.min(16, Math.floor(900 / columns.length))), cellHeight = 13;
-    const left = longest(techniques.map(techniqueName), 10.5), top = longest(columns.map(c => cases[c].name), 9),
-          bottom = longest(columns.map(c => cases[c].group), 10.5);
+    const left = longest(techniques.map(t => techniqueNames.get(t)), 10.5), top = longest(columns, 9),
+          bottom = longest(columns.map(group), 10.5);
     const width = columns.length * cellWidth, height = techniques.length * cellHeight;
     const middle = (index, size) => (index + 0.5) * size;
     const isFirst = (list, i, key) => i > 0 && key(list[i]) !== key(list[i - 1]);
-    const group = c => cases[c].group, variant = t => report.stability.techniques[t].variant;
     const rowLabels = techniques.map(
         (t, i) => svg(
-            "text", {x: -6, y: middle(i, cellHeight) + 3.5, "text-anchor": "end", class: "small"}, techniqueName(t)));
+            "text", {x: -6, y: middle(i, cellHeight) + 3.5, "text-anchor": "end", class: "small"}, techniqueNames.get(t)));
     const columnLabels = columns.map(
         (c, i) =>
             svg("text", {transform: `translate(${middle(i, cellWidth) + 3} -6) rotate(-90)`, class: "smaller"},
-                svg("title", {}, `${cases[c].name}: ${cases[c].why}`), cases[c].name));
+                svg("title", {}, `${c}: ${stabilityCases.get(c).why}`), c));
     const groupLabels = columns.flatMap(
         (c, i) => i === 0 || isFirst(columns, i, group) ?
             [svg(
@@ -102,87 +102,64 @@ function stabilityMatrix(techniques) {
             (t, i) =>
                 isFirst(techniques, i, variant) ? [{x1: -6, x2: width, y1: i * cellHeight, y2: i * cellHeight}] : [])
     ].map(ends => svg("line", {class: "axis", ...ends}));
-    const marks = own.map(
-        row => verdictMark(
-            row.verdict, middle(columns.indexOf(row.case), cellWidth),
-            middle(techniques.indexOf(row.technique), cellHeight), 4));
-    const chosen = svg("rect", {class: "chosen", width: cellWidth, height: cellHeight, hidden: true});
+    const marks = own.map(row => {
+        const [x, y] = [columns.indexOf(row.case) * cellWidth, techniques.indexOf(pointKey(row)) * cellHeight];
+        const mark =
+            svg("g", {transform: `translate(${x} ${y})`, class: "cell", click: () => showStabilityCell(row)},
+                svg("title", {}, `${pointLabel(row)}\n${row.case}: ${report.stability.verdicts[row.verdict].name}`),
+                svg("rect", {width: cellWidth, height: cellHeight}),
+                verdictMark(row.verdict, cellWidth / 2, cellHeight / 2, 4));
+        mark.isOf = ({technique, case: name}) => row.case === name && pointKey(row) === technique;
+        return mark;
+    });
     const field = svg("rect", {class: "field", width, height});
-    const chart =
-        svg("svg", {
+    return svg(
+        "svg", {
             class: "matrix",
             viewBox: `${- left} ${- top} ${left + width + 4} ${top + height + bottom}`,
             style: `min-width: ${left + width + 4}px; max-width: ${1.3 * (left + width + 4)}px`,
             role: "img",
             "aria-label": "Verdicts of techniques (rows) in cases (columns). Choose one below for its numbers."
         },
-            field, lines, rowLabels, columnLabels, groupLabels, marks, chosen);
-    const cellAt = event => {
-        const box = field.getBoundingClientRect();
-        const column = Math.floor((event.clientX - box.left) / box.width * columns.length),
-              row = Math.floor((event.clientY - box.top) / box.height * techniques.length);
-        return own.find(cell => cell.case === columns[column] && cell.technique === techniques[row]);
-    };
-    chart.addEventListener("pointermove", event => {
-        const row = cellAt(event);
-        tip.hidden = !row;
-        if (!row) return;
-        tip.textContent =
-            `${techniqueName(row.technique)}\n${cases[row.case].name}: ${report.stability.verdicts[row.verdict].name}`;
-        tip.style.left = Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8) + "px";
-        tip.style.top = Math.min(event.clientY + 14, innerHeight - tip.offsetHeight - 8) + "px";
-    });
-    chart.addEventListener("pointerleave", () => {
-        tip.hidden = true;
-    });
-    chart.addEventListener("click", event => {
-        const row = cellAt(event);
-        if (!row) return;
-        chooseCell(row);
-        showStabilityCell();
-    });
-    chart.markChosen = () => {
-        const column = columns.indexOf(stabilityChoice.case), row = techniques.indexOf(stabilityChoice.technique);
-        chosen.toggleAttribute("hidden", column < 0 || row < 0);
-        chosen.setAttribute("x", column * cellWidth), chosen.setAttribute("y", row * cellHeight);
-    };
-    return chart;
+        field, lines, rowLabels, columnLabels, groupLabels, marks);
 }
 
-/// The chosen technique in the chosen case: its numbers, and its stages of which not all was finite.
-function showStabilityCell() {
+/// The technique and the case of a row, or else the chosen ones: their numbers, and the stages of which not all was
+/// finite.
+function showStabilityCell(chosenRow) {
+    if (chosenRow) Object.assign(stabilityChoice, {case: chosenRow.case, technique: pointKey(chosenRow)});
     const data = report.stability, {technique, case: chosen} = stabilityChoice;
-    document.querySelectorAll("svg.matrix").forEach(chart => chart.markChosen());
+    document.querySelectorAll("#stability-matrix .cell")
+        .forEach(mark => mark.classList.toggle("chosen", mark.isOf(stabilityChoice)));
     const change = key => value => {
-        stabilityChoice[key] = Number(value);
+        stabilityChoice[key] = value;
         showStabilityCell();
         at("stability-choice").querySelectorAll("select")[key === "case" ? 1 : 0].focus();
     };
-    const options = names => names.map((name, i) => [i, name]);
     at("stability-choice")
         .replaceChildren(
-            select("Technique", options(data.techniques.map(pointLabel)), technique, change("technique")),
-            select("Case", options(data.cases.map(c => c.name)), chosen, change("case")));
-    const row = data.rows.find(r => r.case === chosen && r.technique === technique);
+            select("Technique", [...techniqueNames], technique, change("technique")),
+            select("Case", unique(data.rows.map(r => r.case)), chosen, change("case")));
+    const isChosen = r => r.case === chosen && pointKey(r) === technique, row = data.rows.find(isChosen);
     const verdict = row ? data.verdicts[row.verdict] : {name: "not run", meaning: "the case is not for this technique"};
-    const values = row ? row.values : {};
-    const shown = stabilityColumns.filter(([column]) => column in values && (column !== "seeds" || values.seeds > 1));
-    const stages = data.stages.filter(s => s.case === chosen && s.technique === technique);
+    const shown = row ? stabilityColumns.filter(([column]) => row[column] && (column !== "seeds" || row.seeds > 1)) : [];
+    const stages = data.stages.filter(isChosen);
     at("stability-cell")
         .replaceChildren(
-            h("p", {}, h("b", {}, `${techniqueName(technique)}, ${data.cases[chosen].name}: ${verdict.name}`),
+            h("p", {}, h("b", {}, `${techniqueNames.get(technique)}, ${chosen}: ${verdict.name}`),
               ` – ${verdict.meaning}.`),
-            h("p", {class: "note"}, `The case: ${data.cases[chosen].why}`),
+            h("p", {class: "note"}, `The case: ${stabilityCases.get(chosen).why}`),
             shown.length ?
                 table(
                     [{name: "Quantity"}, {name: "Value", number: true}, {name: "Meaning"}],
                     shown.map(([column, name,
-                                meaning]) => [name, cell(values[column], stabilityNumber(values[column])), meaning])) :
+                                meaning]) => [name, cell(row[column], stabilityNumber(row[column])), meaning])) :
                 "",
             stages.length ?
                 table(
                     [{name: "Stage: image"}, {name: "NaN", number: true}, {name: "Inf", number: true}],
-                    stages.map(s => [s.image, s.nan, s.infinite].map(String)), {caption: "Values of all frames"}) :
+                    stages.map(s => [`${s.stage}: ${s.image}`, s.nan, s.infinite].map(String)),
+                    {caption: "Values of all frames"}) :
                 "");
 }
 
@@ -191,7 +168,6 @@ const stabilityNumber = value => typeof value === "number" ? number(value) : val
 function failureTable() {
     const {failures} = report.stability;
     if (!failures.length) return null;
-    const isTold = f => f.first || f.explanations.length;
     const names = (some, ...before) =>
         h("details", {}, h("summary", {}, ...before, String(some.length)), some.join(", "));
     const line = f =>
@@ -199,49 +175,46 @@ function failureTable() {
          f.first ? String(f.first) : "passed on",
          [...f.explanations.map(e => e.operation), ...(f.unexplained ? [`unexplained in ${f.unexplained}`] : [])].join(
              "; or "),
-         f.explanations.map(e => e.mend).join("; ")];
+         f.explanations.map(e => e.fix).join("; ")];
     const columns = [
         {name: "Technique"}, {name: "Stage: image"}, {name: "Cases"}, {name: "NaN, Inf", number: true},
-        {name: "Arises there", number: true}, {name: "Operation"}, {name: "Mend"}
+        {name: "Arises there", number: true}, {name: "Operation"}, {name: "Fix"}
     ];
     return part(
         "Stages that are not finite",
         "Values of all frames. They arise where no stage before fails, in so many runs; other stages were passed them.",
-        table(columns, failures.filter(isTold).map(line)),
-        failures.some(f => !isTold(f)) ?
+        table(columns, failures.filter(f => f.is_source).map(line)),
+        failures.some(f => !f.is_source) ?
             h("details", {}, h("summary", {}, "Stages that were only passed such values"),
-              table(columns.slice(0, 4), failures.filter(f => !isTold(f)).map(f => line(f).slice(0, 4)))) :
+              table(columns.slice(0, 4), failures.filter(f => !f.is_source).map(f => line(f).slice(0, 4)))) :
             "");
 }
 
 /// Of cases in which something spreads, and techniques in which it does.
 function spreadTable() {
-    const {rows, cases} = report.stability, own = rows.filter(row => row.values.spread_pixels);
+    const own = report.stability.rows.filter(row => row.spreadPixels);
     if (!own.length) return null;
-    const columns = unique(own.map(row => row.case)).sort((a, b) => a - b);
-    const text = row =>
-        row ? `${row.values.spread_pixels}${row.values.spread_frames ? ` +${row.values.spread_frames}` : ""}` : "·";
-    const lines = unique(own.map(row => row.technique))
-                      .sort((a, b) => a - b)
-                      .map(
-                          t =>
-                              [techniqueName(t),
-                               ...columns.map(c => text(own.find(row => row.case === c && row.technique === t)))]);
+    const isIn = key => value => own.some(row => key(row) === value);
+    const columns = [...stabilityCases.keys()].filter(isIn(row => row.case));
+    const text = row => row ? `${row.spreadPixels}${row.spreadFrames ? ` +${row.spreadFrames}` : ""}` : "·";
+    const lines = [...techniqueNames.keys()].filter(isIn(pointKey)).map(
+        t => [techniqueNames.get(t),
+              ...columns.map(c => text(own.find(row => row.case === c && pointKey(row) === t)))]);
     return part(
         "Spread of bad inputs",
         "The most pixels of a frame that are not finite though their inputs are; behind a +, frames after the fault in " +
             "which there are any. Cases and techniques in which there are none are left out.",
-        table([{name: "Technique"}, ...columns.map(c => ({name: cases[c].name, number: true}))], lines));
+        table([{name: "Technique"}, ...columns.map(c => ({name: c, number: true}))], lines));
 }
 
 function amplificationTable() {
-    const {rows, cases} = report.stability, inputs = ["depth", "normal", "lit"];
-    const own = rows.filter(row => inputs.some(input => `${input}_p999` in row.values));
+    const inputs = ["depth", "normal", "lit"];
+    const own = report.stability.rows.filter(row => inputs.some(input => row[`${input}P999`]));
     if (!own.length) return null;
-    const choices = unique(own.map(row => row.case)).map(c => [c, cases[c].name]);
-    stabilityChoice.amplified = choices[0][0];
+    const choices = unique(own.map(row => row.case));
+    stabilityChoice.amplified = choices[0];
     const body = scroller();
-    const value = (row, column) => cell(row.values[column] ?? 0, number(row.values[column] ?? 0, 3));
+    const value = (row, column) => cell(row[column] ?? 0, number(row[column] ?? 0, 3));
     const show = () => body.replaceChildren(table(
         [
             {name: "Technique"},
@@ -250,8 +223,7 @@ function amplificationTable() {
         own.filter(row => row.case === stabilityChoice.amplified)
             .map(
                 row =>
-                    [techniqueName(row.technique),
-                     ...inputs.flatMap(i => [value(row, `${i}_median`), value(row, `${i}_p999`)])]),
+                    [pointLabel(row), ...inputs.flatMap(i => [value(row, `${i}Median`), value(row, `${i}P999`)])]),
         {sortable: true}));
     show();
     return part(
@@ -259,7 +231,7 @@ function amplificationTable() {
         "Relative change of a pixel's result over that of its input, one step of which is changed: a code of the depth " +
             "format, 2⁻¹⁵ of the normal, 2⁻¹¹ of the lit colour. The median pixel, and that above 99.9 %.",
         h("div", {class: "controls"}, select("Case", choices, stabilityChoice.amplified, c => {
-              stabilityChoice.amplified = Number(c);
+              stabilityChoice.amplified = c;
               show();
           })), body);
 }

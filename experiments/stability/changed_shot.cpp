@@ -1,9 +1,8 @@
-#include "experiments/stability/changed_scene.h"
+#include "experiments/stability/changed_shot.h"
 
 #include "core/error.h"
 #include "core/scene/camera_reader.h"
 #include "core/scene/content_hash.h"
-#include "core/scene/load_scene.h"
 #include "core/scene/material_override.h"
 
 namespace {
@@ -110,9 +109,11 @@ void add_quad(Scene& scene, JsonObject quad) {
 
 }  // namespace
 
-ChangedScene changed_scene(const CaseScene& wanted, const std::vector<std::filesystem::path>& search_path) {
-    ChangedScene result{.scene = load_scene(wanted.scene, search_path), .camera = {}};
-    Scene& scene = result.scene;
+Shot changed_shot(const CaseScene& wanted, const std::vector<std::filesystem::path>& search_path) {
+    Shot shot = load_shot(wanted.shot, search_path);
+    shot.facts = {.camera_moves = true};  // by which nothing is left out
+    Scene& scene = shot.scene;
+    SceneCamera& camera = shot.camera;
     if (!wanted.quads.is_null()) {
         const nlohmann::json list = {{"quads", wanted.quads}};
         for (JsonObject& quad : JsonObject(list, "a case").objects("quads")) add_quad(scene, std::move(quad));
@@ -123,17 +124,16 @@ ChangedScene changed_scene(const CaseScene& wanted, const std::vector<std::files
         apply_override(object, scene);
     }
     if (wanted.radiance != 1.0f) brighten(scene, wanted.radiance);
-    result.camera = wanted.view.is_null() ? scene.camera(wanted.camera)
-                                          : read_camera(JsonObject(wanted.view, "a case's 'view'"), scene);
-    if (result.camera.far == 0.0f) result.camera.far = 1000.0f;
-    if (wanted.near) result.camera.near = *wanted.near;
-    if (wanted.far) result.camera.far = *wanted.far;
+    if (!wanted.view.is_null()) camera = read_camera(JsonObject(wanted.view, "a case's 'view'"), scene);
+    if (camera.far == 0.0f) camera.far = 1000.0f;
+    if (wanted.near) camera.near = *wanted.near;
+    if (wanted.far) camera.far = *wanted.far;
     if (wanted.instance_scale != glm::vec3(1.0f)) scale_instances(scene, wanted.instance_scale);
     if (wanted.scale != glm::vec3(1.0f)) {
         scale_nodes(scene, wanted.scale);
-        result.camera.node += result.camera.node >= 0;
-        if (wanted.scales_all) scale_lights(scene, wanted.scale.x), scale_camera(result.camera, wanted.scale.x);
+        camera.node += camera.node >= 0;
+        if (wanted.scales_all) scale_lights(scene, wanted.scale.x), scale_camera(camera, wanted.scale.x);
     }
     scene.content_hash = content_hash(scene);
-    return result;
+    return shot;
 }
