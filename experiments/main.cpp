@@ -361,7 +361,7 @@ int parse_and_run(int argc, char** argv) {
                                "Print a JSON Schema for configs, so that editors complete them");
     describe_command_.add_option("--fill", describe.document,
                                  "In place of printing make the tables of a config's keys in a document anew")
-        ->type_name("experiments/README.md");
+        ->type_name("FILE.md");
     describe_command_.callback([&] { describe_command(describe); });
 
     std::string what;

@@ -299,9 +299,10 @@ TEST(Configs, EachChangesOneParameterAtATime) {
 TEST(Configs, TablesAreCheckedBeforeTheStudyRuns) {
     const fs::path file = fs::path(testing::TempDir()) / "tables.json";
     const auto mistake_in = [&](const std::string& table, const std::string& costs = "false") -> std::string {
-        write_text(file,
-                   R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "none"}], "costs": )" + costs + R"(,
-            "tables": [{"name": "a", "caption": "", "rows": "stage", "columns": "quantity", )" + table + "}]}");
+        write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "none"}], "costs": )" + costs +
+                             R"(,
+            "tables": [{"name": "a", "caption": "", "rows": "stage", "columns": "quantity", )" +
+                             table + "}]}");
         try {
             read_config(file);
             return "none";
