@@ -357,6 +357,9 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("NAME");
     describe_command_.add_flag("--schema", describe.as_schema,
                                "Print a JSON Schema for configs, so that editors complete them");
+    describe_command_.add_option("--fill", describe.document,
+                                 "In place of printing make the tables of a config's keys in a document anew")
+        ->type_name("FILE.md");
     describe_command_.callback([&] { describe_command(describe); });
 
     std::string what;

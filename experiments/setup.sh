@@ -13,7 +13,7 @@ build_packages=(
 )
 # What only the tests need: the validation layer, a browser for the report, Snakemake for studies in parallel, and pandas for the
 # example that reads results.
-test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake python3-pandas)
+test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake python3-pandas python3-jsonschema)
 # What only tests/exporters.sh needs: Blender; RenderDoc, its Python module, and the header of its in-application API.
 exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)
 # What only experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.

@@ -127,6 +127,7 @@ int stability_figure(const std::filesystem::path& csv, const std::filesystem::pa
 struct DescribeOptions {
     std::string variant;  ///< "": all
     bool as_schema = false;
+    std::filesystem::path document;  ///< whose tables of config keys are made anew; "": none
 };
 void describe_command(const DescribeOptions& options);
 

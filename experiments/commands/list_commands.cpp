@@ -95,6 +95,7 @@ void describe_command(const DescribeOptions& options) {
         std::cout << config_schema(options.variant).dump(2) << '\n';
         return;
     }
+    if (!options.document.empty()) return write_text(options.document, with_key_tables(read_text(options.document)));
     if (is_tracer(options.variant)) {
         ParameterSet params;
         for (const TracerEntry& tracer : tracer_table())

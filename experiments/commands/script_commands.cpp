@@ -4,6 +4,7 @@
 #include "experiments/commands/child_process.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
+#include "experiments/config/config_parts.h"
 #include "experiments/config/config_schema.h"
 #include "experiments/evaluation/tradeoff.h"
 #include "metrics/estimators.h"
@@ -104,10 +105,8 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
                           {"baseline", v.is_baseline}});
     const json asked = {
         {"study", config.source},
-        {"tune", config.source["tune"]},
+        {"tune", tuning_of(config)},
         {"points", points},
-        {"primary",
-         {{"metric", config.primary.metric}, {"mask", config.primary.mask}, {"target", config.primary.target}}},
         {"parameters", config_schema(config.variants.front().variant)["properties"]},
         {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
     std::filesystem::create_directories(out);

@@ -90,7 +90,13 @@ std::string text_of(const PointCondition& condition) {
 
 }  // namespace
 
-std::vector<PointCondition> read_conditions(JsonObject& entry, const ParameterSet& declared) {
+Keys condition_keys() {
+    const Values tests = {{{"type", "object"}}, "an object of conditions", {}};
+    return {{"only_if", tests, otherwise("everywhere"), "where it is: all conditions hold"},
+            {"skip_if", tests, otherwise("nowhere"), "where it is left out: all conditions hold"}};
+}
+
+std::vector<PointCondition> read_conditions(ConfigObject& entry, const ParameterSet& declared) {
     if (!entry.has("only_if") && !entry.has("skip_if")) return {};
     json samples = values_of(Shot{});
     samples.update(declared.values());
@@ -99,14 +105,14 @@ std::vector<PointCondition> read_conditions(JsonObject& entry, const ParameterSe
     std::vector<PointCondition> conditions;
     for (const char* key : {"only_if", "skip_if"}) {
         if (!entry.has(key)) continue;
-        JsonObject tests = entry.object(key);
-        for (const auto& [name, test] : entry.any(key).items()) {
+        const JsonObject tests = entry.plain(key);
+        for (const auto& [name, test] : entry[key].items()) {
             if (!samples.contains(name))
                 fail(tests.at(name), ": '", shortened(name), "' is no parameter and nothing of a shot",
                      suggestion(name, known));
             check_test(test, samples[name], tests.at(name) + ": '" + name + "'");
         }
-        conditions.push_back({.skips = key == std::string("skip_if"), .tests = entry.any(key)});
+        conditions.push_back({.skips = key == std::string("skip_if"), .tests = entry[key]});
     }
     return conditions;
 }

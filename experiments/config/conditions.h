@@ -1,6 +1,7 @@
 #pragma once
-#include "core/json.h"
+#include "core/parameters.h"
 #include "experiments/config/config.h"
+#include "experiments/config/keys.h"
 #include "experiments/config/shot.h"
 
 // An entry of `variants` may hold for some points and shots only: `only_if` all of its conditions hold, and not
@@ -10,7 +11,10 @@
 // core/gbuffer/scene_facts.h.
 
 /// The conditions of an entry. Fails on what is neither a parameter of the variant nor a name of a shot.
-std::vector<PointCondition> read_conditions(JsonObject& entry, const ParameterSet& declared);
+std::vector<PointCondition> read_conditions(ConfigObject& entry, const ParameterSet& declared);
+
+/// `only_if` and `skip_if` of an entry.
+Keys condition_keys();
 
 /// Whether the point is to be at all, by the values of all its parameters. Conditions that they decide are taken out of
 /// `conditions`; those are left that depend on the shot.

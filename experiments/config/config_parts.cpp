@@ -2,11 +2,10 @@
 
 #include "core/error.h"
 #include "core/gpu/pass_cost.h"
-#include "core/near_miss.h"
 #include "experiments/config/conditions.h"
-#include "experiments/config/config_values.h"
 #include "experiments/config/design.h"
 #include "experiments/config/read_shots.h"
+#include "experiments/config/read_variants.h"
 #include "metrics/metric.h"
 #include "variants/registry.h"
 
@@ -14,127 +13,174 @@
 
 namespace {
 
-/// A text, or an array of texts that is not empty.
-void check_names(JsonObject& object, const std::string& key) {
-    const nlohmann::json& names = object.any(key);
-    const auto is_text = [](const nlohmann::json& name) { return name.is_string(); };
-    if (is_text(names) || (names.is_array() && !names.empty() && std::ranges::all_of(names, is_text))) return;
-    fail(object.at(key), ": '", key, "' must be a text or an array of texts, not ", shown(names));
-}
+using nlohmann::json;
 
-void check_object(JsonObject& object, const std::string& key) {
-    if (object.has(key) && !object.any(key).is_object())
-        fail(object.at(key), ": '", key, "' must be an object, not ", shown(object.any(key)));
-}
+const std::string milliseconds = "milliseconds";
 
 /// One variant, points that run everywhere with the study's seeds, one of them the baseline.
-void check_tuned_points(JsonObject& object, JsonObject& tune, Config& config) {
+void check_tuned_points(ConfigObject& study, ConfigObject& tune, Config& config) {
     std::vector<VariantConfig>& points = config.variants;
-    for (JsonObject& entry : object.objects("variants"))
+    for (JsonObject& entry : study.elements("variants"))
         for (const char* key : {"seeds", "only_if", "skip_if", "timing", "against"})
             if (entry.has(key)) fail(entry.at(key), ": '", key, "' is not for points of a study with 'tune'");
     std::vector<std::string> names;
     for (const VariantConfig& point : points) {
         if (point.variant != points.front().variant)
-            fail(object.at("variants"), ": 'tune' searches one variant, but here are '", points.front().variant,
+            fail(study.at("variants"), ": 'tune' searches one variant, but here are '", points.front().variant,
                  "' and '", point.variant, "'");
         names.push_back(point.point);
         if (point.depends_on_seed && point.seeds.size() < 2)
-            fail(object.at(object.has("seeds") ? "seeds" : "variants"), ": '", point.point,
+            fail(study.at(study.has("seeds") ? "seeds" : "variants"), ": '", point.point,
                  "' draws random numbers: a single seed tells no interval; name two seeds or more");
     }
     const auto baselines = std::ranges::count_if(points, &VariantConfig::is_baseline);
-    if (baselines > 1) fail(object.at("variants"), ": ", baselines, " points are baselines; 'tune' needs one");
+    if (baselines > 1) fail(study.at("variants"), ": ", baselines, " points are baselines; 'tune' needs one");
     if (baselines == 0) points.front().is_baseline = true;
-    tune.choice("start", names, names.front());
+    if (tune.has("start")) tune.known_texts("start", names);
 }
 
-/// Axes are arrays of values, {"lin": [from, to]} or {"log": [from, to]}; or an object of `values`, `lin` or `log` with
-/// `only_if` and `skip_if`, conditions on parameters.
-void check_axes(JsonObject axes, const nlohmann::json& written, const ParameterSet& declared) {
+Keys axis_keys() {
+    const Values ends = range_values(0);
+    return joined({{"values", array_of({json::object(), "a value", {}}), none, "what is tried"},
+                   {"lin", ends, none, "a range"},
+                   {"log", ends, none, "a range, whose logarithm is sampled evenly"}},
+                  condition_keys());
+}
+
+Keys judge_keys() {
+    return {{"shots", list_of_shots(), required, "the scenes to judge on"},
+            {"seeds", seeds(), otherwise("the study's"), "of the points there"}};
+}
+
+void check_axes(ConfigObject& tune, const ParameterSet& declared) {
+    JsonObject axes = tune.plain("axes");
+    const json& written = tune["axes"];
     if (written.empty()) fail(axes.where(), ": is empty; name parameters and what to try");
     for (const auto& [name, axis] : written.items()) {
-        nlohmann::json plain = axis;
+        json plain = axis;
         if (axis.is_object()) {
-            JsonObject object = axes.object(name);
+            ConfigObject object(axes.object(name), axis_keys());
             for (const PointCondition& condition : read_conditions(object, declared))
                 for (const auto& [what, test] : condition.tests.items())
                     if (what.starts_with("shot."))
                         fail(object.where(), ": '", what, "': an axis depends on parameters, not on shots");
             plain.erase("only_if"), plain.erase("skip_if");
-            if (plain.size() == 1 && plain.contains("values")) plain = nlohmann::json(plain["values"]);
+            if (plain.size() == 1 && plain.contains("values")) plain = json(plain["values"]);
         }
-        if (!plain.is_array() && !plain.is_object())
-            fail(axes.at(name), ": '", name,
-                 "' must be an array of values, {\"lin\": [from, to]} or {\"log\": ", "[from, to]}, not ", shown(axis));
         check_sample_axis(plain, declared, name, axes.at(name));
     }
 }
 
-void check_budgets(JsonObject& tune) {
-    if (!tune.has("budgets")) return;
-    const nlohmann::json& budgets = tune.any("budgets");
-    const auto is_positive = [](const nlohmann::json& b) { return b.is_number() && b.get<double>() > 0; };
-    if (!budgets.is_array() || budgets.empty() || !std::ranges::all_of(budgets, is_positive))
-        fail(tune.at("budgets"), ": 'budgets' must be an array of multiples of the baseline's time, not ",
-             shown(budgets));
-}
-
 }  // namespace
 
-void check_tables(JsonObject& object, const Config& config) {
+Values names_of_metrics() { return some_of(named(one_of(metric_names()), "a name from `ssrlab list metrics`")); }
+
+Keys table_keys() {
+    const Values names = some_of(any_text()),
+                 name = {{{"type", "string"}, {"pattern", "^[A-Za-z0-9_]+$"}}, "letters, digits and _", {}};
+    const Values any_object = {{{"type", "object"}}, "an object", {}};
+    return {{"name", name, required, "of its files"},
+            {"caption", any_text(), required, "what stands above it"},
+            {"of",
+             one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "limits", "agreement",
+                     "eye", "at_cost", "changes"}),
+             required, "where its numbers come from, below"},
+            {"where", any_object, otherwise("all rows"),
+             "column to the value, or array of values, of the rows that count; rows and columns of the table stand in "
+             "the order of such an array. `\"!value\"` leaves those rows out"},
+            {"rows", names, required,
+             "a column of the file, or several, names of parameters, or `group` and `shot_group` (of points and shots "
+             "that have one; else variant and scene): what each row of the table is named by. Points and shots with a "
+             "display name are called by it"},
+            {"columns", names, required, "the same of its columns"},
+            {"over", any_text(), otherwise("no mean"),
+             "in place of a cell for each `shot`, say, the geometric mean over them with their range, below"},
+            {"sort", any_text(), otherwise("as in the file"), "the column of the table that its rows are sorted by"},
+            {"best", one_of({"column", "row"}), otherwise("none is marked"),
+             "among which cells those that are the best of their shot are bold, and those that are tied italic, as "
+             "summary.csv says (`standing`). Of `results` and `limits`, without `over`"},
+            {"labels", any_object, none,
+             "names in the table to better ones: `{\"lobe = normals\": \"normals\"}`; \"\" leaves one out"}};
+}
+
+void check_tables(ConfigObject& study, const Config& config) {
     std::set<std::string> names;
-    for (JsonObject& table : object.objects("tables")) {
-        const std::string name = table.text("name");
-        const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-        if (name.empty() || !std::ranges::all_of(name, is_plain))
-            fail(table.at("name"), ": 'name' = \"", name, "\" names files: letters, digits and _ are allowed");
+    for (JsonObject& entry : study.elements("tables")) {
+        ConfigObject table(std::move(entry), table_keys());
+        const auto name = table.get<std::string>("name"), of = table.get<std::string>("of");
         if (!names.insert(name).second) fail(table.where(), ": two tables are called '", name, "'");
-        table.text("caption");
-        table.any("of");
-        if (table.choice("of", table_sources, "") == "costs" && !config.counts_costs)
+        if (of == "costs" && !config.counts_costs)
             fail(table.at("of"), ": the study counts no costs; add \"costs\": true");
-        check_object(table, "where");
-        check_names(table, "rows");
-        check_names(table, "columns");
-        table.text("over", "");
-        table.text("sort", "");
-        table.choice("best", {"", "column", "row"}, "");
-        check_object(table, "labels");
-        table.finish();
+        if (table.has("best") && of != "results" && of != "limits")
+            fail(table.at("best"), ": 'best' is of 'results' and 'limits', which have a standing, not of '", of, "'");
+        if (table.has("best") && table.has("over"))
+            fail(table.at("best"), ": means over ", table["over"].dump(),
+                 " have no 'best': `ssrlab tradeoff` compares over scenes");
     }
 }
 
-void check_tune(JsonObject& object, Config& config) {
-    if (!object.has("tune")) return;
-    JsonObject tune = object.object("tune");
+Keys tune_keys() {
+    std::vector<std::string> times = {milliseconds};
+    for (const CostQuantity& quantity : cost_quantities) times.push_back(quantity.name);
+    const Values values = array_of({json::object(), "a value", {}});
+    const Values axis = either(values, object_of(axis_keys()));
+    Values budget = {{{"type", "number"}, {"exclusiveMinimum", 0}}, "a number above 0", {}};
+    return {
+        {"axes",
+         {{{"type", "object"}, {"additionalProperties", axis.schema}}, "an object of axes", {}, {{"type", "object"}}},
+         otherwise("required, but for a config that others extend"),
+         "parameter to what is tried: an array of values, `{\"lin\": [from, to]}` or `{\"log\": [from, to]}`, or an "
+         "object of `values`, `lin` or `log` with `only_if` and `skip_if`, conditions on parameters: where they leave "
+         "an axis out, the parameter keeps the value that it has at the start"},
+        {"start", any_text(), otherwise("the baseline"), "the point that the axes change, by its name"},
+        {"time", one_of(times), milliseconds,
+         "what a point takes: the clock's, or a quantity of `costs.csv`, which is exact and needs no quiet machine"},
+        {"budgets", array_of(budget), json::array({0.5, 1, 2}),
+         "of each the point of least error is found that takes no more than so many times the baseline's time"},
+        {"metrics", names_of_metrics(), otherwise("the study's `primary`"),
+         "the error: geometric mean over shots and metrics of the ratio to the baseline's"},
+        {"target", one_of(target_names()), otherwise("the study's `primary`"), "of that error"},
+        {"mask", any_text(), otherwise("the study's `primary`"), "of that error"},
+        {"judge", object_of(judge_keys()), otherwise("none: nothing is judged"),
+         "other scenes, which the search does not see"},
+        {"most_runs", whole(1, 1 << 30), 1000, "where the search ends; a run is one seed of one point in one shot"},
+        {"most_minutes", number(0, 1e7), Default(1e7, "no limit"), "where the search ends"},
+        {"batch", whole(1, 256), 8, "points that are proposed together"},
+        {"seed", whole(0, 1 << 30), 0, "of the optimiser's random numbers"}};
+}
+
+void check_tune(ConfigObject& study, Config& config) {
+    if (!study.has("tune")) return;
+    ConfigObject tune(study.plain("tune"), tune_keys());
     config.is_tuned = true;
     if (config.variants.empty()) return;  // of which read_config() complains
-    check_tuned_points(object, tune, config);
+    check_tuned_points(study, tune, config);
     if (tune.has("axes"))  // which one that others extend may leave to them
-        check_axes(tune.object("axes"), tune.any("axes"), make_variant(config.variants.front().variant)->params);
-    const std::string time = tune.text("time", "milliseconds");
-    const bool has_clock = time == "milliseconds";
-    std::vector<std::string> counted;
-    for (const CostQuantity& quantity : cost_quantities) counted.push_back(quantity.name);
-    if (!has_clock && std::ranges::find(counted, time) == counted.end())
-        fail(tune.at("time"), ": 'time' = \"", time, "\" is neither \"milliseconds\" nor a count",
-             suggestion(time, counted));
-    if (has_clock && config.timing.frames == 0)
+        check_axes(tune, make_variant(config.variants.front().variant)->params);
+    if (tune["time"] == milliseconds && config.timing.frames == 0)
         fail(tune.where(), ": needs 'timing' of 15 frames or more, or a counted 'time', such as \"operations\"");
-    known_names(tune, "metrics", config.metrics, {});
-    tune.choice("target", config.targets, config.targets.front());
-    tune.choice("mask", config.masks, config.masks.front());
-    check_budgets(tune);
-    tune.integer("most_runs", 1, 1 << 30, 1000);
-    tune.number("most_minutes", 0.0f, 1e7f, 1e7f);
-    tune.integer("batch", 1, 256, 8);
-    tune.integer("seed", 0, 1 << 30, 0);
-    if (tune.has("judge")) {
-        JsonObject judge = tune.object("judge");
-        if (read_shots(judge, config.file.parent_path()).empty()) fail(judge.where(), ": names no shots to judge on");
-        read_seeds(judge);
-        judge.finish();
-    }
-    tune.finish();
+    if (tune.has("metrics")) tune.known_texts("metrics", config.metrics);
+    if (tune.has("target")) tune.known_texts("target", config.targets);
+    if (tune.has("mask")) tune.known_texts("mask", config.masks);
+    if (!tune.has("judge")) return;
+    ConfigObject judge = tune.object("judge");
+    if (read_shots(judge, study, config.file.parent_path()).empty())
+        fail(judge.where(), ": names no shots to judge on");
+    read_seeds(judge);
+}
+
+json tuning_of(const Config& config) {
+    const std::string where = config.file.string();
+    const auto start = std::ranges::find_if(config.variants, &VariantConfig::is_baseline);
+    json rules = {{"metrics", json::array({config.primary.metric})},
+                  {"target", config.primary.target},
+                  {"mask", config.primary.mask},
+                  {"start", start->point},
+                  {"judge", {{"shots", json::array()}}}};
+    rules.update(ConfigObject(JsonObject(config.source.at("tune"), where), tune_keys()).values());
+    if (rules["metrics"].is_string()) rules["metrics"] = json::array({rules["metrics"]});
+    const json seeds = config.source.value("seeds", json(default_seeds));
+    rules["seeds"] = numbers_of(seeds, where);
+    rules["judge"]["seeds"] = numbers_of(rules["judge"].value("seeds", seeds), where);
+    return rules;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -23,8 +24,6 @@ const Parameter& find_parameter(const ParameterSet& declared, const std::string&
          names.empty() ? "; this variant has none" : suggestion(name, names));
 }
 
-bool is_number(const Parameter& p) { return p.choices.empty() && p.glsl_type != "bool"; }
-
 /// The number as the parameter holds it: in whole steps, or as a float32.
 json rounded(const Parameter& p, double value) {
     if (p.glsl_type == "float") return json_number(float(value));
@@ -41,19 +40,26 @@ struct Range {
     }
 };
 
-/// The range of an axis with `more` numbers behind its ends.
-Range read_range(const json& axis, const Parameter& p, const std::string& where, size_t more) {
-    const std::string form = more ? "[from, to, count]" : "[from, to]";
-    const bool is_pair = axis.size() == 1 && (axis.contains("lin") || axis.contains("log"));
-    if (!is_pair)
-        fail(where, " must be an array of values, or {\"lin\": ", form, "} or {\"log\": ", form, "}, not ",
-             shown(axis));
-    if (!is_number(p)) fail(where, " is no number: name its values in an array; allowed are ", p.range_text());
+/// An axis: an array of such values, or, where they are numbers, a range with `more` numbers behind its ends.
+Values axis_of(const json& value, const std::string& values_text, bool has_range, int more) {
+    const Values values = {array_of({value, "", {}}).schema, "an array of values" + values_text, {}};
+    const auto range = [&](const char* kind) {
+        return Values{schema_of({{kind, range_values(more), required, ""}}),
+                      "`{\"" + std::string(kind) + "\": " + range_values(more).text + "}`",
+                      {}};
+    };
+    return has_range ? either(either(values, range("lin")), range("log")) : values;
+}
+
+void check_axis(const json& axis, const Parameter& p, const std::string& at, int more) {
+    const bool is_number = p.choices.empty() && p.glsl_type != "bool";
+    check(axis, axis_of(json::object(), is_number ? "" : " (" + p.range_text() + ")", is_number, more), p.name, at);
+}
+
+/// Of an axis that is one, as check_axis() says.
+Range read_range(const json& axis, const std::string& where) {
     const bool is_log = axis.contains("log");
     const json& numbers = axis.front();
-    const auto is_a_number = [](const json& v) { return v.is_number(); };
-    if (!numbers.is_array() || numbers.size() != 2 + more || !std::ranges::all_of(numbers, is_a_number))
-        fail(where, ": '", is_log ? "log" : "lin", "' must be ", form, ", not ", shown(numbers));
     const Range range{numbers[0].get<double>(), numbers[1].get<double>(), is_log};
     if (range.from == range.to) fail(where, ": both ends of the range are ", shown(numbers[0]));
     if (is_log && !(range.from > 0 && range.to > 0))
@@ -65,15 +71,12 @@ std::vector<json> axis_values(JsonObject& axes, const std::string& name, const P
     const std::string at = axes.at(name), where = at + ": '" + name + "'";
     const Parameter& p = find_parameter(declared, name, at);
     const json& axis = axes.any(name);
-    if (axis.is_array() && axis.empty()) fail(where, " has no values");
-    if (!axis.is_array() && !axis.is_object())
-        fail(where, " must be an array of values, or {\"lin\": [from, to, count]}, or {\"log\": ...}, not ",
-             shown(axis));
+    check_axis(axis, p, at, 1);
     std::vector<json> values;
     if (axis.is_array()) {
         values = axis.get<std::vector<json>>();
     } else {
-        const Range range = read_range(axis, p, where, 1);
+        const Range range = read_range(axis, where);
         const json& count = axis.front()[2];
         if (!count.is_number_integer() || count < 2 || count > most_points)
             fail(where, ": the count must be a whole number in [2, ", most_points, "], not ", shown(count));
@@ -154,20 +157,44 @@ std::optional<Range> read_sample_axis(const json& axis, const ParameterSet& decl
     const std::string where = at + ": '" + name + "'";
     const Parameter& p = find_parameter(declared, name, at);
     std::optional<Range> range;
-    if (axis.is_array() && axis.empty()) fail(where, " has no values");
-    if (!axis.is_array()) range = read_range(axis, p, where, 0);
+    check_axis(axis, p, at, 0);
+    if (!axis.is_array()) range = read_range(axis, where);
     const std::vector<json> extremes =
         range ? std::vector{rounded(p, range->from), rounded(p, range->to)} : axis.get<std::vector<json>>();
     for (const json& value : extremes) check_parameter(declared, name, value, at);
     return range;
 }
 
-std::vector<json> sampled(JsonObject design, const std::string& kind, const ParameterSet& declared) {
-    const auto count = size_t(design.integer("count", 1, int(most_points)));
-    const auto seed = uint32_t(design.integer("seed", 0, 1 << 30, 0));
-    JsonObject object = design.object("axes");
-    const json& axes = design.any("axes");
-    design.finish();
+/// Of each parameter an array of its values, or of numbers a range with `more` numbers behind its ends.
+Values axes_of(const ParameterSet& declared, int more) {
+    Values axes = {declared.schema(), "an object of axes, below", {}, {{"type", "object"}}};
+    for (auto& [name, schema] : axes.schema["properties"].items()) {
+        const json description = schema["description"];
+        schema = axis_of(schema, "", schema.contains("minimum"), more).schema;
+        schema["description"] = description;
+    }
+    return axes;
+}
+
+const std::map<std::string, std::string> sample_kinds = {
+    {"random", "points drawn at random"},
+    {"latin_hypercube", "points of which each of `count` equal parts of every axis has one"},
+    {"sobol",
+     "points of Sobol's sequence (Joe and Kuo 2008, shifted by the seed), even in several axes at once if `count` is a "
+     "power of two"}};
+
+Keys sample_keys(const ParameterSet& declared) {
+    return {{"count", whole(1, int(most_points)), required, "how many points"},
+            {"seed", whole(0, 1 << 30), 0, "the same seed gives the same points"},
+            {"axes", axes_of(declared, 0), required,
+             "ranges `{\"lin\": [from, to]}` or `{\"log\": [from, to]}`, or arrays"}};
+}
+
+std::vector<json> sampled(ConfigObject design, const std::string& kind, const ParameterSet& declared) {
+    const auto count = design.get<size_t>("count");
+    const auto seed = design.get<uint32_t>("seed");
+    const JsonObject object = design.plain("axes");
+    const json& axes = design["axes"];
     if (axes.empty()) fail(object.where(), ": is empty; name parameters and their ranges");
     const size_t dimensions = axes.size();
     const UnitSamples samples = kind == "random"  ? random_samples(count, dimensions, seed)
@@ -188,20 +215,35 @@ std::vector<json> sampled(JsonObject design, const std::string& kind, const Para
 
 }  // namespace
 
-std::vector<json> read_design(JsonObject& entry, const ParameterSet& declared) {
+Values range_values(int more) {
+    Values range = array_of({{{"type", "number"}}, "", {}}, 2 + more);
+    range.schema["maxItems"] = 2 + more;
+    return named(range, more ? "[from, to, count]" : "[from, to]");
+}
+
+Keys design_keys(const ParameterSet& declared) {
+    const Values axes = axes_of(declared, 1);
+    Keys keys = {{"sweep", axes, none, "all combinations of the axes' values"},
+                 {"zip", axes, none, "axes of one length: the first values together, the second together, and so on"},
+                 {"each", axes, none, "every value is a point of its own that changes nothing else"}};
+    for (const auto& [kind, meaning] : sample_kinds)
+        keys.push_back({kind, object_of(sample_keys(declared)), none, meaning});
+    return keys;
+}
+
+std::vector<json> read_design(ConfigObject& entry, const ParameterSet& declared) {
     std::string design;
-    for (const std::string name : {"sweep", "zip", "each", "random", "latin_hypercube", "sobol"}) {
-        if (!entry.has(name)) continue;
+    for (const Key& key : design_keys({})) {
+        if (!entry.has(key.name)) continue;
         if (!design.empty())
-            fail(entry.at(name), ": '", design, "' and '", name, "' exclude one another; write two entries");
-        design = name;
+            fail(entry.at(key.name), ": '", design, "' and '", key.name, "' exclude one another; write two entries");
+        design = key.name;
     }
     if (design.empty()) return {json::object()};
-    JsonObject object = entry.object(design);
-    if (design == "random" || design == "latin_hypercube" || design == "sobol")
-        return sampled(std::move(object), design, declared);
+    if (sample_kinds.contains(design)) return sampled(entry.object(design), design, declared);
+    JsonObject object = entry.plain(design);
     std::vector<std::string> names;
-    for (const auto& [name, values] : entry.any(design).items()) names.push_back(name);
+    for (const auto& [name, values] : entry[design].items()) names.push_back(name);
     if (names.empty() && design == "sweep") return {json::object()};
     if (names.empty()) fail(entry.at(design), ": '", design, "' is empty; name parameters with the values to try");
     const Axes axes = read_axes(object, names, declared);

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/json.h"
 #include "core/parameters.h"
+#include "experiments/config/keys.h"
 
 #include <vector>
 
@@ -11,7 +11,13 @@ inline constexpr size_t most_points = 100000;
 /// name), `zip` (values that stand at the same place), `each` (one value at a time, axes in the order of `declared`),
 /// `random`, `latin_hypercube` or `sobol`: the values that each of them changes; a single point without any if there is
 /// no design. Points of the latter three that are equal count once. Every mistake is an Error that names place and key.
-std::vector<nlohmann::json> read_design(JsonObject& entry, const ParameterSet& declared);
+std::vector<nlohmann::json> read_design(ConfigObject& entry, const ParameterSet& declared);
+
+/// Its keys, for a variant with these parameters.
+Keys design_keys(const ParameterSet& declared);
+
+/// [from, to], with `more` numbers behind.
+Values range_values(int more);
 
 /// Fails unless `axis` is what an axis of a sample may be: an array of values that the parameter may have, or
 /// {"lin": [from, to]} or {"log": [from, to]} of such; `at` begins the message.

@@ -1,7 +1,10 @@
 #include "experiments/config/point_name.h"
 
+#include "core/error.h"
 #include "core/files.h"
-#include "experiments/config/config_values.h"
+#include "core/near_miss.h"
+
+#include <cstdio>
 
 std::string label_of(const nlohmann::json& values) {
     std::string label;
@@ -22,4 +25,32 @@ std::string point_name(const std::string& preset, const nlohmann::json& swept) {
     // At the last space before which the words fit; a first word that does not is cut.
     const size_t room = longest_cut - end.size() - 1, space = name.rfind(' ', room);
     return name.substr(0, space == std::string::npos ? room : space) + " " + end;
+}
+
+std::string fill_in(const std::string& text, const nlohmann::json& values, const std::string& where) {
+    std::string filled;
+    for (size_t at = 0; at < text.size();) {
+        const size_t open = text.find('{', at), close = text.find('}', open);
+        if (open == std::string::npos || close == std::string::npos) {
+            filled += text.substr(at);
+            break;
+        }
+        const std::string name = text.substr(open + 1, close - open - 1);
+        if (!values.contains(name)) {
+            std::vector<std::string> known;
+            for (const auto& [key, value] : values.items()) known.push_back(key);
+            fail(where, " names {", shortened(name), "}, which is not known", suggestion(name, known));
+        }
+        const nlohmann::json& value = values[name];
+        char digits[32];  // a sampled number has eight, which nobody reads
+        std::snprintf(digits, sizeof digits, "%.4g", value.is_number_float() ? value.get<double>() : 0.0);
+        filled += text.substr(at, open - at) + (value.is_number_float() ? digits : plain_text(value));
+        at = close + 1;
+    }
+    while (filled.ends_with(' ')) filled.pop_back();  // where the last value is empty
+    return filled;
+}
+
+std::string plain_text(const nlohmann::json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
 }

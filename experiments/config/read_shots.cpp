@@ -1,9 +1,8 @@
 #include "experiments/config/read_shots.h"
 
 #include "core/error.h"
-#include "core/near_miss.h"
 #include "experiments/config/capture_folder.h"
-#include "experiments/config/config_values.h"
+#include "experiments/config/point_name.h"
 #include "metrics/ghost.h"
 
 #include <algorithm>
@@ -12,32 +11,65 @@
 namespace {
 
 constexpr int max_side = 16384;  // pixels; what Vulkan devices commonly allow for an image
-constexpr unsigned max_frames = 100000;
+constexpr int max_frames = 100000;
 
 /// A choice that shots differ by: its name in results is the word itself.
 template <class T>
 struct Words {
-    const char* key;
+    const char *key, *meaning;
     std::vector<std::pair<std::string, T>> values;  ///< the first is the default
     T ShotConfig::*member;
+
+    std::vector<std::string> names() const {
+        std::vector<std::string> names;
+        for (const auto& [word, value] : values) names.push_back(word);
+        return names;
+    }
 };
 
 /// Calls `use` for each of them, in the order in which names of shots have them.
 template <class Use>
 void for_each_choice(Use use) {
-    static const Words<bool> lit = {"lit", {{"path_traced", false}, {"direct", true}}, &ShotConfig::direct_lit};
+    static const Words<bool> lit = {
+        "lit",
+        "what SSR reads: `path_traced`, the truth's own emission and diffuse light, or `direct`, rasterised direct "
+        "light without shadows, for large scans; the report says so",
+        {{"path_traced", false}, {"direct", true}},
+        &ShotConfig::direct_lit};
     static const Words<DepthFormat> formats = {
         "depth_format",
+        "of the depth buffer",
         {{"d32f", DepthFormat::d32f}, {"d24", DepthFormat::d24}, {"d16", DepthFormat::d16}},
         &ShotConfig::depth_format};
     static const Words<DepthDirection> directions = {
         "depth_direction",
+        "of the depth buffer",
         {{"standard", DepthDirection::standard}, {"reversed", DepthDirection::reversed}},
         &ShotConfig::depth_direction};
     static const Words<unsigned> normals = {
-        "normal_encoding", {{"float", 0}, {"octahedral_16", 16}, {"octahedral_8", 8}}, &ShotConfig::normal_bits};
+        "normal_encoding",
+        "of the shading normals that techniques and composite read: two numbers of 16 or 8 bits are `octahedral_16` "
+        "and `octahedral_8` (Cigolle et al. 2014). The truth has its own",
+        {{"float", 0}, {"octahedral_16", 16}, {"octahedral_8", 8}},
+        &ShotConfig::normal_bits};
     use(lit), use(formats), use(directions), use(normals);
 }
+
+Values extents() {
+    Values extent =
+        named(array_of(whole(1, max_side), 2), "`[width, height]` in [1, " + std::to_string(max_side) + "]");
+    extent.schema["maxItems"] = 2;
+    return some_of(extent);
+}
+
+/// A range of frames, whose ends count.
+Values frame_range() {
+    const Values range = object_of(
+        {{"from", whole(0, max_frames), required, "the first"}, {"to", whole(0, max_frames), required, "the last"}});
+    return {range.schema, "`{\"from\": 20, \"to\": 51}`", {}};
+}
+
+Values playing() { return either(counts(max_frames), frame_range()); }
 
 /// Each of the shots once with each of `count` changes.
 template <class Change>
@@ -51,89 +83,63 @@ std::vector<ShotConfig> multiplied(const std::vector<ShotConfig>& shots, size_t 
     return all;
 }
 
-/// The words that an object has for a choice; empty if it has none.
-template <class T>
-std::vector<std::string> read_words(JsonObject& object, const Words<T>& choice) {
-    std::vector<std::string> known;
-    for (const auto& [word, value] : choice.values) known.push_back(word);
-    return known_names(object, choice.key, known, {});
-}
-
 /// What of a choice a shot has: its own words, else the study's. What is not the study's first becomes part of its
 /// name.
 template <class T>
-std::vector<ShotConfig> with_choice(const std::vector<ShotConfig>& shots, JsonObject& shot, JsonObject& study,
+std::vector<ShotConfig> with_choice(const std::vector<ShotConfig>& shots, ConfigObject& shot, ConfigObject& study,
                                     const Words<T>& choice) {
-    const std::vector<std::string> own = read_words(shot, choice), all = read_words(study, choice);
-    const std::string usual = all.empty() ? choice.values.front().first : all.front();
-    const std::vector<std::string> words = !own.empty() ? own : !all.empty() ? all : std::vector{usual};
+    const std::vector<std::string> all = study.texts(choice.key);
+    const std::vector<std::string> words = shot.has(choice.key) ? shot.texts(choice.key) : all;
     return multiplied(shots, words.size(), shot.at(choice.key) + ": '" + choice.key + "'",
                       [&](ShotConfig& config, size_t i) {
                           const auto is_named = [&](const auto& pair) { return pair.first == words[i]; };
                           config.*choice.member = std::ranges::find_if(choice.values, is_named)->second;
-                          if (words[i] != usual) config.name_suffix += "." + words[i];
+                          if (words[i] != all.front()) config.name_suffix += "." + words[i];
                       });
 }
 
-glm::uvec2 read_extent(const nlohmann::json& value, const std::string& where) {
-    const bool fits =
-        value.is_array() && value.size() == 2 && value[0].is_number_integer() && value[1].is_number_integer();
-    if (!fits) fail(where, ": 'resolution' must be [width, height] in pixels, or an array of such, not ", shown(value));
-    for (const auto& side : value)
-        if (side < 1 || side > max_side)
-            fail(where, ": 'resolution' ", shown(value), " is outside [1, ", max_side, "] pixels");
-    return {value[0].get<unsigned>(), value[1].get<unsigned>()};
-}
-
-bool is_list_of(const nlohmann::json& value, auto is_wanted) {
-    return value.is_array() && !value.empty() && std::ranges::all_of(value, is_wanted);
-}
-
 /// [width, height], or an array of such.
-std::vector<glm::uvec2> read_extents(JsonObject& object) {
-    const nlohmann::json& value = object.any("resolution");
-    if (!is_list_of(value, [](const auto& v) { return v.is_array(); }))
-        return {read_extent(value, object.at("resolution"))};
+std::vector<glm::uvec2> extents_of(const nlohmann::json& value) {
     std::vector<glm::uvec2> extents;
-    for (const nlohmann::json& extent : value) extents.push_back(read_extent(extent, object.at("resolution")));
+    for (const nlohmann::json& extent : value[0].is_array() ? value : nlohmann::json::array({value}))
+        extents.emplace_back(extent[0].get<unsigned>(), extent[1].get<unsigned>());
     return extents;
 }
 
 /// A count, an array of numbers, or {"from", "to"}, both included.
-std::vector<unsigned> read_frames(const nlohmann::json& value, const std::string& where) {
-    if (!value.is_object()) return read_numbers(value, where + ": 'frames'", max_frames);
-    JsonObject range(value, where + ": frames");
-    const int from = range.integer("from", 0, int(max_frames)), to = range.integer("to", from, int(max_frames));
-    range.finish();
+std::vector<unsigned> frames_of(const nlohmann::json& value, const std::string& where) {
+    if (!value.is_object()) return numbers_of(value, where);
     std::vector<unsigned> frames;
-    for (int frame = from; frame <= to; ++frame) frames.push_back(unsigned(frame));
+    for (unsigned frame = value["from"]; frame <= value["to"].get<unsigned>(); ++frame) frames.push_back(frame);
+    if (frames.empty()) fail(where, ": 'to' comes before 'from': ", shown(value));
     return frames;
 }
 
 /// One way to play the shot, or an array of arrays and ranges: several.
-std::vector<std::vector<unsigned>> read_playings(JsonObject& shot) {
-    if (!shot.has("frames")) return {{0}};
-    const nlohmann::json& value = shot.any("frames");
-    if (!is_list_of(value, [](const auto& v) { return v.is_structured(); }))
-        return {read_frames(value, shot.at("frames"))};
+std::vector<std::vector<unsigned>> read_playings(ConfigObject& shot) {
+    const nlohmann::json& value = shot["frames"];
+    const std::string where = shot.at("frames") + ": 'frames'";
+    if (!value.is_array() || !value[0].is_structured()) return {frames_of(value, where)};
     std::vector<std::vector<unsigned>> playings;
-    for (const nlohmann::json& frames : value) playings.push_back(read_frames(frames, shot.at("frames")));
+    for (const nlohmann::json& frames : value) playings.push_back(frames_of(frames, where));
     return playings;
 }
 
 /// How a shot is played, its frames known.
-void read_timeline(JsonObject& shot, ShotConfig& config) {
-    config.measure_from = unsigned(shot.integer("measure_from", int(config.frames.front()), int(config.frames.back()),
-                                                int(config.frames.front())));
-    config.warm_up = unsigned(shot.integer("warm_up", 0, int(max_frames), 0));
-    config.repeat = unsigned(shot.integer("repeat", 1, int(max_frames), 1));
-    config.measures_last_only = shot.choice("measure", {"all", "last"}, "all") == "last";
+void read_timeline(ConfigObject& shot, ShotConfig& config) {
+    const unsigned first = config.frames.front(), last = config.frames.back();
+    config.measure_from = shot.has("measure_from") ? shot.get<unsigned>("measure_from") : first;
+    if (config.measure_from < first || config.measure_from > last)
+        fail(shot.at("measure_from"), ": 'measure_from' = ", config.measure_from, " is outside [", first, ", ", last,
+             "], the shot's 'frames'");
+    config.warm_up = shot.get<unsigned>("warm_up");
+    config.repeat = shot.get<unsigned>("repeat");
+    config.measures_last_only = shot["measure"] == "last";
     if (!shot.has("change")) return;
-    config.change = unsigned(shot.integer("change", 0, int(max_frames)));
-    if (std::ranges::find(config.frames, *config.change) == config.frames.end() ||
-        config.change == config.frames.front())
+    config.change = shot.get<unsigned>("change");
+    if (std::ranges::find(config.frames, *config.change) == config.frames.end() || config.change == first)
         fail(shot.at("change"), ": 'change' = ", *config.change, " must be one of 'frames' after the first of them, ",
-             config.frames.front());
+             first);
     const size_t after =
         size_t(std::ranges::count_if(config.frames, [&](unsigned frame) { return frame >= *config.change; })) +
         config.repeat - 1;
@@ -142,8 +148,8 @@ void read_timeline(JsonObject& shot, ShotConfig& config) {
              least_ghost_frames, " must show how it fades: add 'frames', or a 'repeat' of the last");
 }
 
-void read_names(JsonObject& entry, std::vector<ShotConfig>& shots) {
-    const std::string label = entry.text("label", ""), group = entry.text("group", "");
+void read_names(ConfigObject& entry, std::vector<ShotConfig>& shots) {
+    const auto label = entry.get<std::string>("label"), group = entry.get<std::string>("group");
     for (ShotConfig& shot : shots) {
         const std::filesystem::path scene = shot.scene.empty() ? shot.gbuffer : std::filesystem::path(shot.scene);
         const nlohmann::json values = {
@@ -160,30 +166,22 @@ void read_names(JsonObject& entry, std::vector<ShotConfig>& shots) {
 
 /// G-buffers from files; their paths are relative to the config's folder. Their format is the files' own, its light may
 /// be the study's.
-std::vector<ShotConfig> read_capture(JsonObject& shot, JsonObject& study, const std::filesystem::path& folder) {
-    ShotConfig config{.gbuffer = folder / shot.text("gbuffer")};
-    if (shot.has("reference")) config.reference = folder / shot.text("reference");
+std::vector<ShotConfig> read_capture(ConfigObject& shot, const std::filesystem::path& folder) {
+    ShotConfig config{.gbuffer = folder / shot.get<std::string>("gbuffer")};
+    if (shot.has("reference")) config.reference = folder / shot.get<std::string>("reference");
     config.frames.clear();
     if (shot.has("frames"))
-        config.frames = read_frames(shot.any("frames"), shot.at("frames"));
+        config.frames = frames_of(shot["frames"], shot.at("frames") + ": 'frames'");
     else
         for (const auto& [frame, path] : capture_frames(config.gbuffer)) config.frames.push_back(frame);
     read_timeline(shot, config);
-    std::vector<ShotConfig> shots = {config};
-    for_each_choice([&](const auto& choice) { shots = with_choice(shots, shot, study, choice); });
-    read_names(shot, shots);
-    shot.finish();
-    return shots;
+    return {config};
 }
 
-/// All combinations of what the entry lists; frames stay together, since a history runs through them.
-std::vector<ShotConfig> read_entry(JsonObject shot, JsonObject& study, const std::filesystem::path& folder) {
-    if (shot.has("gbuffer")) return read_capture(shot, study, folder);
-    const std::vector<std::string> scenes = one_or_more(shot, "scene", ""), cameras = one_or_more(shot, "camera", "");
-    if (!shot.has("scene")) shot.text("scene");  // says that it is missing
-    std::vector<glm::uvec2> extents = {ShotConfig{}.extent};
-    if (study.has("resolution")) extents = read_extents(study);
-    if (shot.has("resolution")) extents = read_extents(shot);
+/// All combinations of scenes, cameras, frames and sizes; frames stay together, since a history runs through them.
+std::vector<ShotConfig> read_views(ConfigObject& shot, ConfigObject& study) {
+    const std::vector<std::string> scenes = shot.texts("scene"), cameras = shot.texts("camera");
+    const std::vector<glm::uvec2> extents = extents_of((shot.has("resolution") ? shot : study)["resolution"]);
     std::vector<ShotConfig> playings;
     for (std::vector<unsigned>& frames : read_playings(shot)) {
         playings.push_back({.frames = std::move(frames)});
@@ -197,7 +195,13 @@ std::vector<ShotConfig> read_entry(JsonObject shot, JsonObject& study, const std
         const ShotConfig before = std::exchange(config, playings[i]);
         config.scene = before.scene, config.camera = before.camera;
     });
-    shots = multiplied(shots, extents.size(), where, [&](ShotConfig& c, size_t i) { c.extent = extents[i]; });
+    return multiplied(shots, extents.size(), where, [&](ShotConfig& c, size_t i) { c.extent = extents[i]; });
+}
+
+std::vector<ShotConfig> read_entry(JsonObject entry, ConfigObject& study, const std::filesystem::path& folder) {
+    const bool is_capture = entry.has("gbuffer");
+    ConfigObject shot(std::move(entry), joined(is_capture ? capture_keys() : scene_keys(), keys_of_all_shots()));
+    std::vector<ShotConfig> shots = is_capture ? read_capture(shot, folder) : read_views(shot, study);
     for_each_choice([&](const auto& choice) { shots = with_choice(shots, shot, study, choice); });
     read_names(shot, shots);
     shot.finish();
@@ -222,16 +226,71 @@ void refuse_repetition(const std::vector<ShotConfig>& shots, const std::string& 
 
 }  // namespace
 
-std::vector<ShotConfig> read_shots(JsonObject& study, const std::filesystem::path& folder) {
-    for_each_choice([&](const auto& choice) { read_words(study, choice); });  // known, whatever the shots say
-    if (study.has("resolution")) read_extents(study);
+Keys scene_keys() {
+    return {
+        {"scene", some_of(any_text()), required, "names from `ssrlab list scenes`, or paths to a .json, .gltf or .glb"},
+        {"camera", some_of(any_text()), Default("", "the scene's first"), "names of its cameras"},
+        {"resolution", extents(), otherwise("the study's"), "in pixels"},
+        {"frames", either(playing(), array_of(either(ascending(max_frames), frame_range()))),
+         nlohmann::json::array({0}),
+         "the poses of camera and scene, rendered in this order; an array of arrays or ranges makes several shots"}};
+}
+
+Keys capture_keys() {
+    return {{"gbuffer", any_text(), required,
+             "the folder of a frame of another program or of several in a row (captures/README.md)"},
+            {"reference", any_text(), otherwise("none: results are rendered and timed, not measured"),
+             "files as `ssrlab reference` writes them, `truth_####.exr` one for each frame, without `#` one for all"},
+            {"frames", playing(), otherwise("all that are there"), "of which none may be left out between others"}};
+}
+
+Keys keys_of_all_shots() {
+    const ShotConfig plain;
+    Keys keys = {{"warm_up", whole(0, max_frames), plain.warm_up,
+                  "frames rendered at the first pose before it is played, so that histories converge; not measured"},
+                 {"repeat", whole(1, max_frames), plain.repeat,
+                  "how often the last pose is rendered in a row. In a shot of a single frame its flicker is measured, "
+                  "from 2 repetitions on"},
+                 {"change", whole(1, max_frames), otherwise("no step"),
+                  "one of `frames`, the first after a step of the scene, after which all stands still for 8 frames or "
+                  "more: how long the old image ghosts is measured"},
+                 {"measure", one_of({"all", "last"}), "all", "which of `frames` are measured"},
+                 {"measure_from", whole(0, max_frames), otherwise("the first"),
+                  "the first of `frames` that is measured: those before let histories get used to the motion"},
+                 {"label", any_text(), Default("", "its name"),
+                  "how tables and figures show the shot, with `{scene}`, `{camera}`, `{resolution}`, `{first_frame}`, "
+                  "`{last_frame}` and `{settings}` filled in"},
+                 {"group", any_text(), Default("", "none"), "what several shots belong to, with the same braces"}};
+    for_each_choice([&](const auto& choice) {
+        keys.push_back({choice.key, some_of(one_of(choice.names())), otherwise("the study's"), choice.meaning});
+    });
+    return keys;
+}
+
+Keys settings_of_shots() {
+    Keys keys = {{"resolution", extents(), nlohmann::json::array({ShotConfig{}.extent.x, ShotConfig{}.extent.y}),
+                  "of shots that have none of their own, in pixels"}};
+    for_each_choice([&](const auto& choice) {
+        keys.push_back({choice.key, some_of(one_of(choice.names())), choice.values.front().first, choice.meaning});
+    });
+    return keys;
+}
+
+Values list_of_shots() {
+    const Keys common = keys_of_all_shots();
+    const Values entry = either(object_of(joined(scene_keys(), common)), object_of(joined(capture_keys(), common)));
+    return named(checked_inside(array_of(entry), "array"), "an array of shots, below");
+}
+
+std::vector<ShotConfig> read_shots(ConfigObject& object, ConfigObject& study, const std::filesystem::path& folder) {
     std::vector<ShotConfig> shots;
-    for (JsonObject& entry : study.objects("shots")) {
-        std::ranges::move(read_entry(entry, study, folder), std::back_inserter(shots));
+    for (JsonObject& entry : object.elements("shots")) {
+        const std::string where = entry.where();
+        std::ranges::move(read_entry(std::move(entry), study, folder), std::back_inserter(shots));
         if (shots.size() > most_shots)
-            fail(entry.where(), ": with it the study has ", shots.size(), " shots; allowed are ", most_shots);
+            fail(where, ": with it the study has ", shots.size(), " shots; allowed are ", most_shots);
     }
-    refuse_repetition(shots, study.where());
+    refuse_repetition(shots, object.where());
     return shots;
 }
 

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "experiments/config/conditions.h"
-#include "experiments/config/config_values.h"
 #include "experiments/config/design.h"
 #include "experiments/config/point_name.h"
 #include "variants/registry.h"
@@ -36,11 +35,11 @@ std::unique_ptr<Variant> make_checked(const std::string& where, const std::strin
 }
 
 /// An object of parameter values; null if the key is absent.
-nlohmann::json read_values(JsonObject& entry, const std::string& key, const ParameterSet& declared) {
+nlohmann::json read_values(ConfigObject& entry, const std::string& key, const ParameterSet& declared) {
     if (!entry.has(key)) return {};
-    JsonObject values = entry.object(key);
-    for (const auto& [name, value] : entry.any(key).items()) check_parameter(declared, name, value, values.at(name));
-    return entry.any(key);
+    const JsonObject values = entry.plain(key);
+    for (const auto& [name, value] : entry[key].items()) check_parameter(declared, name, value, values.at(name));
+    return entry[key];
 }
 
 nlohmann::json with_values(nlohmann::json parameters, const nlohmann::json& changed) {
@@ -57,7 +56,7 @@ struct Shared {
 };
 
 /// The rest of a point that has its variant, preset and values. False if a condition leaves it out.
-bool complete_point(VariantConfig& point, const Shared& shared, JsonObject& object) {
+bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& object) {
     const auto made = make_checked(shared.where, point.variant, point.parameters, point.preset);
     nlohmann::json values = made->params.values();
     point.conditions = shared.conditions;
@@ -74,11 +73,14 @@ bool complete_point(VariantConfig& point, const Shared& shared, JsonObject& obje
     return true;
 }
 
-void read_entry(JsonObject object, const std::optional<std::vector<unsigned>>& study_seeds,
+void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& study_seeds,
                 std::vector<VariantConfig>& variants) {
-    const std::string name = object.text("variant");
-    const auto plain = make_checked(object.at("variant"), name);
-    const std::vector<std::string> presets = one_or_more(object, "preset", "");
+    const std::string name = entry.text("variant");
+    const auto plain = make_checked(entry.at("variant"), name);
+    ConfigObject object(std::move(entry), variant_keys(*plain));
+    if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
+    object.has("variant");
+    const std::vector<std::string> presets = object.texts("preset");
     for (const std::string& preset : presets) make_checked(object.at("preset"), name, {}, preset);
     nlohmann::json parameters = read_values(object, "parameters", plain->params);
     if (parameters.is_null()) parameters = nlohmann::json::object();
@@ -86,13 +88,13 @@ void read_entry(JsonObject object, const std::optional<std::vector<unsigned>>& s
     const nlohmann::json against = read_values(object, "against", plain->params);
     if (object.has("against") && against.empty())
         fail(object.at("against"), ": 'against' must be an object of parameter values, not ", shown(against));
-    const bool is_baseline = object.boolean("baseline", false);
+    const auto is_baseline = object.get<bool>("baseline");
     const Shared shared{.where = object.where(),
-                        .label = object.text("label", ""),
-                        .group = object.text("group", ""),
+                        .label = object.get<std::string>("label"),
+                        .group = object.get<std::string>("group"),
                         .own_seeds = read_seeds(object),
                         .study_seeds = study_seeds,
-                        .is_timed = object.boolean("timing", true),
+                        .is_timed = object.get<bool>("timing"),
                         .conditions = read_conditions(object, plain->params)};
     object.finish();
     if (variants.size() + presets.size() * points.size() > most_points)
@@ -131,10 +133,39 @@ void refuse_repetition(const std::vector<VariantConfig>& variants, const std::st
 
 }  // namespace
 
-std::vector<VariantConfig> read_variants(JsonObject& study) {
+Keys variant_keys(const Variant& variant) {
+    const Values parameters = {variant.params.schema(), "an object of parameter values", {}, {{"type", "object"}}};
+    const Keys keys = {
+        {"variant", any_text(), required, "a name from `ssrlab list variants`"},
+        {"preset", some_of(any_text()), Default("", "none"),
+         "what its points start from: names from `ssrlab list presets`"},
+        {"parameters", parameters, none,
+         "values in place of the preset's or default ones: `ssrlab describe VARIANT` explains them"},
+        {"label", any_text(), Default("", "its name"),
+         "how report, figures and tables show a point, with parameters and `{preset}` filled in"},
+        {"group", any_text(), Default("", "none"), "what several points belong to, with the same braces"},
+        {"seeds", seeds(), otherwise("the study's"), "in place of the study's, and obeyed to the letter"},
+        {"baseline", flag(), false,
+         "every other point is compared with this one, over the seeds that both have, in `effects.csv`"},
+        {"against", parameters, otherwise("nothing"),
+         "such as `{\"estimator\": \"a\"}`: each of its points is compared with the point that has these values and is "
+         "otherwise the same"},
+        {"timing", flag(), true, "false: results only, no times"},
+        {"remove", flag(), otherwise("false"), "takes the entry away from what the config `extends`"}};
+    return joined(joined(keys, design_keys(variant.params)), condition_keys());
+}
+
+Values seeds() { return counts(100000); }
+
+std::optional<std::vector<unsigned>> read_seeds(ConfigObject& object) {
+    if (!object.has("seeds")) return {};
+    return numbers_of(object["seeds"], object.at("seeds") + ": 'seeds'");
+}
+
+std::vector<VariantConfig> read_variants(ConfigObject& study) {
     const std::optional<std::vector<unsigned>> seeds = read_seeds(study);
     std::vector<VariantConfig> variants;
-    for (JsonObject& entry : study.objects("variants")) read_entry(std::move(entry), seeds, variants);
+    for (JsonObject& entry : study.elements("variants")) read_entry(std::move(entry), seeds, variants);
     refuse_repetition(variants, study.where());
     return variants;
 }

@@ -1,7 +1,15 @@
 #pragma once
-#include "core/json.h"
 #include "experiments/config/config.h"
+#include "experiments/config/keys.h"
+#include "variants/registry.h"
+
+/// An entry of `variants` that names this one.
+Keys variant_keys(const Variant& variant);
+
+/// The key `seeds` of a study or an entry; read_seeds() has none if it names none.
+Values seeds();
+std::optional<std::vector<unsigned>> read_seeds(ConfigObject& object);
 
 /// The key `variants` of a study, with its `seeds`: all points, in the order of their entries. Every mistake is an
 /// Error that names place and key.
-std::vector<VariantConfig> read_variants(JsonObject& study);
+std::vector<VariantConfig> read_variants(ConfigObject& study);

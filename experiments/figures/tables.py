@@ -64,7 +64,7 @@ def make(folder, out, summary_folder):
     tables, every = [], []
     os.makedirs(out, exist_ok=True)
     for entry in entries:
-        table, cells = cells_of(results, Table(entry, folder))
+        table, cells = cells_of(results, Table(entry))
         made_from = summary_file.made_from(origin, table, cells)
         write(os.path.join(out, table["name"] + ".md"), formats.markdown(table, cells, made_from))
         write(os.path.join(out, table["name"] + ".tex"), latex.latex(table, cells, made_from))

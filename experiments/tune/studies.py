@@ -9,7 +9,6 @@ import time
 from ssrlab.results import Results, ResultsError
 from race import NORMAL
 
-DEFAULT_SEEDS = 8  # experiments/config/config.h
 NOT_OF_STUDIES = ("tune", "tables", "variants", "shots", "seeds", "timing", "costs", "$schema")
 
 
@@ -47,17 +46,11 @@ class Studies:
         self.common = {k: v for k, v in asked["study"].items() if k not in NOT_OF_STUDIES}
         self.timing = asked["study"].get("timing", {})
         self.search_timing = self.timing | {"copies": False}  # of many points, whose ratios are compared with a slack of their own
-        seeds = asked["study"].get("seeds", DEFAULT_SEEDS)
-        self.seeds = seeds if isinstance(seeds, list) else list(range(seeds))
+        self.seeds, judge = self.rules["seeds"], self.rules["judge"]
         self.shots = self._placed(single_shots(asked["study"]["shots"]), asked["folder"])
-        judge = self.rules.get("judge", {})
-        self.judged_shots = self._placed(single_shots(judge.get("shots", [])), asked["folder"])
-        judge_seeds = judge.get("seeds", self.seeds)
-        self.judge_seeds = judge_seeds if isinstance(judge_seeds, list) else list(range(judge_seeds))
-        self.metrics = self.rules.get("metrics", asked["primary"]["metric"])
-        self.metrics = [self.metrics] if isinstance(self.metrics, str) else self.metrics
-        self.target, self.mask = (self.rules.get(key, asked["primary"][key]) for key in ("target", "mask"))
-        self.cost = self.rules.get("time", "milliseconds")
+        self.judged_shots = self._placed(single_shots(judge["shots"]), asked["folder"])
+        self.judge_seeds = judge["seeds"]
+        self.metrics, self.target, self.mask, self.cost = (self.rules[key] for key in ("metrics", "target", "mask", "time"))
         self.has_clock = self.cost == "milliseconds"
         self.out, self.command, self.baseline = out, command, baseline
         self.references = {}  # shot to the hashes of its references: errors are paired against the same pixels alone

@@ -44,13 +44,12 @@ class Tuning:
         self.rules, self.given = asked["tune"], asked["points"]
         self.names = [p["label"] or p["point"] for p in self.given]
         self.baseline = self.names[next(i for i, p in enumerate(self.given) if p["baseline"])]
-        start = next(i for i, p in enumerate(self.given) if p["point"] == self.rules.get("start", p["point"]) and (p["baseline"] or "start" in self.rules))
+        start = next(i for i, p in enumerate(self.given) if p["point"] == self.rules["start"])
         self.start_entry, self.start = self.given[start], self.names[start]
         self.declared = asked["parameters"]
         self.studies = Studies(asked, out, command, self.baseline)
         self.out = out
-        self.most_runs, self.most_minutes = self.rules.get("most_runs", 1000), self.rules.get("most_minutes", math.inf)
-        self.budgets = self.rules.get("budgets", [0.5, 1, 2])
+        self.most_runs, self.most_minutes, self.budgets = (self.rules[key] for key in ("most_runs", "most_minutes", "budgets"))
         self.tried = []  # Points, in order
         self.known = {}  # values as text to the Point that has them
 
@@ -79,7 +78,7 @@ class Tuning:
             if name != self.baseline:
                 self.race.add(self.points[name])
         self.space = Space(self.rules["axes"], self.declared, self.points[self.start].parameters)
-        self.proposals = Proposals(self.space, self.rules.get("seed", 0))
+        self.proposals = Proposals(self.space, self.rules["seed"])
         for name in dict.fromkeys([self.start, *self.names]):
             self.proposals.begin_with(self.points[name].parameters)
 
@@ -116,7 +115,7 @@ class Tuning:
     def do_batch(self, number):
         """Whether it had a point that is new."""
         most = int((self.most_runs - self.runs()) // self.runs_of_a_point())
-        proposed = self.proposals.ask(min(self.rules.get("batch", 8), most))
+        proposed = self.proposals.ask(min(self.rules["batch"], most))
         fresh = []
         for _, values in proposed:
             key = json.dumps(values, sort_keys=True)

@@ -26,8 +26,6 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "changes": (tradeoff.CHANGES, ("value", "low", "high")),  # ... what a change buys: see _change_rows()
 }
 NOT_SHARES = ("fetches", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
-KEYS = {"name", "caption", "of", "where", "rows", "columns", "over", "sort", "best", "labels"}
-COMPARED = ("results", "limits")  # of these points have a standing in their shot
 NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
 GROUPS = {  # what rows, columns and means are by, beside the columns of a file
     "group": lambda results, row: results.point_group(row.get("variant"), row.get("point")),
@@ -66,28 +64,13 @@ def _split_rows(rows):
 
 
 class Table:
-    """One entry of "tables", checked."""
+    """One entry of "tables", which ssrlab checked when it read the config."""
 
-    def __init__(self, entry, where_from):
-        unknown = sorted(set(entry) - KEYS)
-        if unknown:
-            raise ResultsError(f"{where_from}: unknown key '{unknown[0]}' of a table; known are {', '.join(sorted(KEYS))}")
-        for key in ("name", "caption", "of", "rows", "columns"):
-            if key not in entry:
-                raise ResultsError(f"{where_from}: a table needs '{key}'")
-        if entry["of"] not in SOURCES:
-            raise ResultsError(f"{where_from}: 'of' = \"{entry['of']}\", but must be one of {', '.join(SOURCES)}")
+    def __init__(self, entry):
         self.name, self.caption, self.of = entry["name"], entry["caption"], entry["of"]
         self.where = {k: v if isinstance(v, list) else [v] for k, v in entry.get("where", {}).items()}
         self.rows, self.columns = (v if isinstance(v, list) else [v] for v in (entry["rows"], entry["columns"]))
-        self.over, self.sort, self.labels = entry.get("over"), entry.get("sort"), entry.get("labels", {})
-        self.best = entry.get("best")
-        if self.best not in (None, "row", "column"):
-            raise ResultsError(f"{where_from}: 'best' = \"{self.best}\", but must be row or column")
-        if self.best and self.over is not None:
-            raise ResultsError(f"{where_from}: table '{self.name}' is of means over {self.over}, which have no 'best': `ssrlab tradeoff` compares over scenes")
-        if self.best and self.of not in COMPARED:
-            raise ResultsError(f"{where_from}: table '{self.name}' has a 'best', which only numbers of {', '.join(COMPARED)} have, not those of {self.of}")
+        self.over, self.sort, self.best, self.labels = entry.get("over"), entry.get("sort"), entry.get("best"), entry.get("labels", {})
 
 
 class Selection:

@@ -66,7 +66,8 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.stride": 1000}}]})");
     expect_mistake("run study.json", "[1, 64]");
     config(R"({"shots": [{"scene": "sky_only", "resolution": [0, 8]}], "variants": [{"variant": "none"}]})");
-    expect_mistake("run study.json", "'resolution' [0,8]");
+    expect_mistake("run study.json",
+                   "'resolution' must be `[width, height]` in [1, 16384], or an array of such, not [0,8]");
     config("{" + good_shot + R"(, "variants": [{"variant": "none"}], "refrence": {}})");
     expect_mistake("run study.json", "did you mean 'reference'?");
     config(

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/config/config.h"
+#include "experiments/config/config_schema.h"
 #include "experiments/config/shot.h"
 #include "variants/registry.h"
 
@@ -294,16 +295,36 @@ TEST(Configs, EachChangesOneParameterAtATime) {
     EXPECT_THROW(read_config(file), Error);
 }
 
-/// Else tables.py would say so after the study has run.
-TEST(Configs, TablesOfCostsNeedThemCounted) {
-    const fs::path file = fs::path(testing::TempDir()) / "tables_of_costs.json";
-    const auto write_counting = [&](const std::string& costs) {
-        write_text(file,
-                   R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "none"}], "costs": )" + costs + R"(,
-            "tables": [{"name": "a", "caption": "", "of": "costs", "rows": "stage", "columns": "quantity"}]})");
+/// Else tables.py would stumble after the study has run.
+TEST(Configs, TablesAreCheckedBeforeTheStudyRuns) {
+    const fs::path file = fs::path(testing::TempDir()) / "tables.json";
+    const auto mistake_in = [&](const std::string& table, const std::string& costs = "false") -> std::string {
+        write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "none"}], "costs": )" + costs +
+                             R"(,
+            "tables": [{"name": "a", "caption": "", "rows": "stage", "columns": "quantity", )" +
+                             table + "}]}");
+        try {
+            read_config(file);
+            return "none";
+        } catch (const Error& e) {
+            return std::string(e.what()).substr(file.string().size());
+        }
     };
-    write_counting("true");
-    EXPECT_TRUE(read_config(file).counts_costs);
-    write_counting("false");
-    EXPECT_THROW(read_config(file), Error);
+    EXPECT_EQ(mistake_in(R"("of": "costs")", "true"), "none");
+    EXPECT_EQ(mistake_in(R"("of": "results", "best": "row")"), "none");
+    for (const auto& [table, mistake] : std::map<std::string, std::string>{
+             {R"("of": "costs")", ":2:93: tables[0]: the study counts no costs; add \"costs\": true"},
+             {R"("of": "result")", ":2:93: tables[0]: 'of' = \"result\" is not known; did you mean 'results'?"},
+             {R"("of": "results", "row": "x")", ":2:110: tables[0]: unknown key 'row'; did you mean 'rows'?"},
+             {R"("of": "hits", "best": "row")",
+              ":2:107: tables[0]: 'best' is of 'results' and 'limits', which have a standing, not of 'hits'"},
+             {R"("of": "results", "best": "row", "over": "shot")",
+              ":2:110: tables[0]: means over \"shot\" have no 'best': `ssrlab tradeoff` compares over scenes"}})
+        EXPECT_EQ(mistake_in(table), mistake);
+}
+
+TEST(Configs, HaveTheKeysThatTheReadmeShows) {
+    const std::string readme = read_text(source / "experiments/README.md");
+    EXPECT_TRUE(with_key_tables(readme) == readme)
+        << "make its tables of keys anew: ssrlab describe --fill experiments/README.md";
 }

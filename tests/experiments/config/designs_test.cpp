@@ -151,7 +151,7 @@ TEST_F(Designs, AxesAreListsOrRanges) {
         expect_starts(mistake(dda(R"("sweep": {"dda.stride": )" + std::string(bad) + "}")),
                       "study.json:3:38: variants[0]: sweep: ");
     expect_starts(mistake(dda(R"("sweep": {"dda.refine": {"lin": [0, 1, 2]}})")),
-                  "study.json:3:38: variants[0]: sweep: 'dda.refine' is no number");
+                  "study.json:3:38: variants[0]: sweep: 'dda.refine' must be an array of values (true, false), not ");
 }
 
 TEST_F(Designs, CombineAxesInSeveralWays) {
@@ -367,6 +367,7 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     refuses(study(axes + R"(, "metrics": "flip")"), "flip");
     refuses(study(axes + R"(, "start": "best")"), "best");
     refuses(study(axes + R"(, "judge": {"shots": []})"), "names no shots");
+    refuses(study(axes + R"(, "judge": {"shots": [{"scene": "grazing"}], "lit": "direct"})"), "unknown key 'lit'");
     refuses(study(axes, R"({"variant": "mcguire_dda"})", R"("timing": {"frames": 0},)"), "counted 'time'");
     refuses(study(axes, R"({"variant": "mcguire_dda"}, {"variant": "none"})"), "searches one variant");
     refuses(study(axes, R"({"variant": "mcguire_dda", "timing": false})"), "'timing' is not for points");

@@ -172,7 +172,7 @@ class Folder(unittest.TestCase):
 
     def cells(self, **entry):
         """{(row, column): Cell} of a table, and what is said of it."""
-        about, cells = cells_of(Results(self.folder), Table({"name": "t", "caption": "", **entry}, "test"))
+        about, cells = cells_of(Results(self.folder), Table({"name": "t", "caption": "", **entry}))
         return {(c.row.split(", ")[-1], c.column): c for c in cells if c.row.startswith("first")}, about
 
     def test_answers_become_tables_of_documents(self):

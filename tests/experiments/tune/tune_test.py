@@ -110,9 +110,11 @@ def search(folder, fake, rules=None):
     """Exit code, what was said."""
     given = [("default", {}, True), ("rays=2", {"rays": 2}, False)]
     points = [{"variant": "sssr", "preset": "", "parameters": s, "swept": s, "point": n, "label": "", "baseline": b} for n, s, b in given]
-    rules = {"axes": AXES, "time": "operations", "budgets": [1, 2], "most_runs": 1000, "batch": 8,
-             "judge": {"shots": [{"scene": [f"unseen {i}" for i in range(4)]}], "seeds": 2}} | (rules or {})  # fmt: skip
-    asked = {"study": {"title": "made up", "shots": [{"scene": SHOTS}], "seeds": 4, "timing": {"frames": 15}}, "tune": rules, "points": points, "primary": {"metric": "mse", "target": "specular", "mask": "all"}, "parameters": DECLARED, "folder": folder}
+    rules = {"axes": AXES, "start": "default", "time": "operations", "metrics": ["mse"], "target": "specular", "mask": "all", "seeds": [0, 1, 2, 3],
+             "budgets": [1, 2], "most_runs": 1000, "most_minutes": 1e7, "batch": 8, "seed": 0,
+             "judge": {"shots": [{"scene": [f"unseen {i}" for i in range(4)]}], "seeds": [0, 1]}} | (rules or {})  # fmt: skip
+    study = {"title": "made up", "shots": [{"scene": SHOTS}], "seeds": 4, "timing": {"frames": 15}}
+    asked = {"study": study, "tune": rules, "points": points, "parameters": DECLARED, "folder": folder}
     file = os.path.join(folder, "asked.json")
     with open(file, "w", encoding="utf-8") as stream:
         json.dump(asked, stream)
