@@ -4,6 +4,7 @@ import copy
 import csv
 import json
 import os
+import sys
 from dataclasses import dataclass
 
 from ssrlab.exr import ExrError, read_exr_rgb
@@ -25,6 +26,19 @@ def read_manifest(folder):
 
 class ResultsError(Exception):
     """A mistake in the results folder or in what was asked of it: one sentence."""
+
+
+def exit_code(work, what):
+    """Of a script: what `work()` returns, else 0; 2 for a mistake in what was asked of it, 3 where `what` cannot be written, both of which
+    are said."""
+    try:
+        return work() or 0
+    except ResultsError as mistake:
+        print(f"error: {mistake}", file=sys.stderr)
+        return 2
+    except OSError as fault:
+        print(f"error: cannot write {what}: {fault}", file=sys.stderr)
+        return 3
 
 
 ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
