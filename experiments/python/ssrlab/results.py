@@ -44,7 +44,6 @@ def exit_code(work, what):
 ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
 BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
 EVALUATED = {"summary.csv": ("speaks", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
-OVER_FRAMES = ("", "all")  # `frame` of a row that speaks for all measured frames of its shot
 
 
 @dataclass
@@ -68,8 +67,8 @@ def label(variant, point):
 
 
 def is_over_frames(row):
-    """Whether it stands for all frames of its shot: such have no `frame`, in results of earlier versions "all"."""
-    return row["frame"] in OVER_FRAMES
+    """Whether it stands for all frames of its shot: such have no `frame`."""
+    return row["frame"] == ""
 
 
 def frame_number(row, file="summary.csv"):
