@@ -16,7 +16,7 @@ build_packages=(
 test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake python3-pandas python3-jsonschema)
 # What only tests/exporters.sh needs: Blender; RenderDoc, its Python module, and the header of its in-application API.
 exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)
-# What only experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.
+# What only tests/experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.
 cluster_packages=(snakemake slurmctld slurmd slurm-client munge)
 # What only the website of the documents needs.
 docs_packages=(python3-sphinx python3-myst-parser furo)

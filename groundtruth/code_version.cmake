@@ -5,7 +5,6 @@
 cmake_minimum_required(VERSION 3.25)
 file(GLOB todo RELATIVE ${ROOT} ${ROOT}/groundtruth/*.h ${ROOT}/groundtruth/*.cpp ${ROOT}/core/scene/*.h
   ${ROOT}/core/scene/*.cpp)
-list(FILTER todo EXCLUDE REGEX "_benchmark[.]cpp$")
 set(sources "")
 while(todo)
   list(POP_FRONT todo source)

@@ -44,7 +44,6 @@ public:
     /// The cell of LightChoice for a point (m) with a unit geometric normal on the side where light arrives.
     uint32_t cell(glm::vec3 position, glm::vec3 normal) const { return choice_.cell(position, normal); }
     const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< that shine
-    bool has_emitters() const { return !triangles_.empty(); }
     bool has_environment_table() const { return environment_index_ != none; }
 
     /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives; `cell`: its cell. The sampler must

@@ -56,7 +56,7 @@ void PathLanes::trace_rays() {
     uint32_t hits = 0;
     for_each_bit(busy_, [&](int lane) {
         const vec3 origin = origin_.get(lane), direction = direction_.get(lane);
-        count_ray(estimate_, origin, direction, infinite_distance, false);
+        ++estimate_.rays;
         if (!intersect(scene_.geometry.handle(), origin, direction, ray[lane])) return;
         hits |= 1u << lane;
         scene_.geometry.prefetch(ray[lane].hit.instID[0], ray[lane].hit.primID);

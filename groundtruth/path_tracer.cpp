@@ -158,26 +158,22 @@ void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsig
     }
 }
 
-/// Specular paths of a surface that reflects nothing: the price of not leaving them out.
-void trace_in_vain(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
-                   unsigned first_sample, unsigned count) {
-    PixelEstimate unused;
-    PathLanes paths(scene, sequence, PathGoal::reflection, unused);
+/// Specular paths alone, and what they found.
+PixelEstimate trace_specular(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
+                             unsigned first_sample, unsigned count, PathGoal goal) {
+    PixelEstimate estimate;
+    PathLanes paths(scene, sequence, goal, estimate);
     for (unsigned done = 0; done < count; done += lane_count)
         start_paths(vertex, sequence, first_sample + done, int(std::min(count - done, unsigned(lane_count))), true,
-                    paths, unused);
+                    paths, estimate);
     paths.finish();
+    return estimate;
 }
 
 /// The lower rungs of the truth ladder, along the same directions as the specular paths.
 void trace_lit_colors(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
                       unsigned first_sample, unsigned count, PixelEstimate& estimate) {
-    PixelEstimate lit{.record = estimate.record};
-    PathLanes paths(scene, sequence, PathGoal::lit_color, lit);
-    for (unsigned done = 0; done < count; done += lane_count)
-        start_paths(vertex, sequence, first_sample + done, int(std::min(count - done, unsigned(lane_count))), true,
-                    paths, lit);
-    paths.finish();
+    const PixelEstimate lit = trace_specular(scene, vertex, sequence, first_sample, count, PathGoal::lit_color);
     estimate.camera_radiance += lit.camera_radiance;
     estimate.on_screen += lit.on_screen;
     // Directions below the geometric horizon meet the surface itself, which the image shows, and carry no light.
@@ -259,17 +255,6 @@ PathTracer::~PathTracer() = default;
 
 const std::vector<LeftOut>& PathTracer::left_out() const { return state_->left_out; }
 
-size_t PathTracer::replay(std::span<const RecordedRay> rays) const {
-    const FlushDenormals flush;
-    const RTCScene scene = state_->scene.geometry.handle();
-    size_t hits = 0;
-    RTCRayHit hit;
-    for (const RecordedRay& ray : rays)
-        hits += ray.is_shadow ? is_occluded(scene, ray.origin, ray.direction, ray.far)
-                              : intersect(scene, ray.origin, ray.direction, hit);
-    return hits;
-}
-
 FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
     const FlushDenormals flush;
     const CameraRay camera_ray = ::camera_ray(state_->camera, state_->extent, {float(x) + 0.5f, float(y) + 0.5f});
@@ -326,6 +311,7 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
     paths.finish();
     if (scene.settings.ladder && vertex.wants_specular)
         trace_lit_colors(scene, vertex, sequence, first_sample, count, estimate);
-    if (scene.settings.keep_all && scene.settings.specular && !vertex.wants_specular)
-        trace_in_vain(scene, vertex, sequence, first_sample, count);
+    if (scene.settings.keep_all && scene.settings.specular &&
+        !vertex.wants_specular)  // the price of not leaving them out
+        trace_specular(scene, vertex, sequence, first_sample, count, PathGoal::reflection);
 }

@@ -4,7 +4,6 @@
 #include "core/scene/scene.h"
 
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -50,13 +49,6 @@ struct FirstHit {
     glm::vec3 fallback{0.0f};     ///< the environment over the specular lobe, as the G-buffer has it
 };
 
-/// A ray as it was traced, for comparing the path tracer with Embree's bare speed.
-struct RecordedRay {
-    glm::vec3 origin, direction;
-    float far;  ///< in units of `direction`
-    bool is_shadow;
-};
-
 struct LightObservation;
 
 /// Sums over the samples of one pixel, to be divided as written here.
@@ -78,7 +70,6 @@ struct PixelEstimate {
     uint64_t non_finite = 0;
     uint64_t rays = 0;                                      ///< traced, of both kinds
     uint64_t paths = 0;                                     ///< rays that left the first hit along a lobe
-    std::vector<RecordedRay>* record = nullptr;             ///< takes down each ray, if given
     std::vector<LightObservation>* light_record = nullptr;  ///< takes down what each light sample found, if given
 };
 
@@ -112,9 +103,6 @@ public:
     /// divides first_sample. Unlit hits and the background have nothing to estimate: only `samples` grows.
     void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
                PixelEstimate& estimate) const;
-
-    /// Traces the rays with nothing else: how many hit something.
-    size_t replay(std::span<const RecordedRay> rays) const;
 
     const std::vector<LeftOut>& left_out() const;
 

@@ -29,18 +29,14 @@ bool is_on_screen(const TracedScene& scene, glm::vec3 position, glm::vec3 error,
     const glm::vec3 to_eye = scene.camera.to_eye(position);
     if (glm::dot(normal, to_eye) <= 0 || !scene.camera.frames(position)) return false;
     const glm::vec3 origin = offset_origin(position, error, normal, to_eye), direction = position + to_eye - origin;
-    count_ray(estimate, origin, direction, 1.0f, true);
+    ++estimate.rays;
     return !is_occluded(scene.geometry.handle(), origin, direction, 1.0f);
 }
 
 bool is_on_screen(const TracedScene& scene, glm::vec3 direction, PixelEstimate& estimate) {
     if (!scene.camera.frames_direction(direction)) return false;
-    count_ray(estimate, scene.camera.eye(), direction, infinite_distance, true);
+    ++estimate.rays;
     return !is_occluded(scene.geometry.handle(), scene.camera.eye(), direction, infinite_distance);
-}
-
-void record_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow) {
-    estimate.record->push_back({origin, direction, far, is_shadow});
 }
 
 std::vector<LeftOut> left_out_features(const TracedScene& traced) {
@@ -52,7 +48,8 @@ std::vector<LeftOut> left_out_features(const TracedScene& traced) {
     };
     if (!traced.geometry.has_alpha_tests())
         features.push_back({"alpha tests", "no alpha masks",
-                            "Embree calls no intersection filter, so that every ray stays in its own code.", "", false});
+                            "Embree calls no intersection filter, so that every ray stays in its own code.", "",
+                            false});
     if (!traced.materials.any_varies())
         features.push_back({"texture lookups", "no textures", "Each material is one set of constants."});
     if (traced.lights.empty())

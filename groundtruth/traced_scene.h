@@ -52,15 +52,6 @@ inline bool is_occluded(RTCScene scene, glm::vec3 origin, glm::vec3 direction, f
 /// many in Embree's distance to a plane.
 inline constexpr float shadow_ray_rounding = rounding_bound(6);
 
-/// Out of line, since only benchmarks ask for it.
-void record_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow);
-
-inline void count_ray(PixelEstimate& estimate, glm::vec3 origin, glm::vec3 direction, float far, bool is_shadow) {
-    ++estimate.rays;
-    if (estimate.record) [[unlikely]]
-        record_ray(estimate, origin, direction, far, is_shadow);
-}
-
 /// Aims a shadow ray from a point to the light of a lane, offset at both ends. At the light's end the ray's own
 /// rounding errors, which grow with the places of both ends, add to the light's; a punctual light may lie in a surface,
 /// which must not hide it, so the ray ends before all of them. Branchless, for vector loops.
@@ -82,7 +73,7 @@ inline void aim_shadow_ray(glm::vec3 position, glm::vec3 error, glm::vec3 normal
 /// Whether the light of a lane reaches the point that aim_shadow_ray() was given.
 inline bool is_visible(const TracedScene& scene, const LightLanes& lights, int lane, PixelEstimate& estimate) {
     const glm::vec3 origin = lights.shadow_origin.get(lane), direction = lights.shadow_direction.get(lane);
-    count_ray(estimate, origin, direction, lights.shadow_far[lane], true);
+    ++estimate.rays;
     return !is_occluded(scene.geometry.handle(), origin, direction, lights.shadow_far[lane]);
 }
 

@@ -4,7 +4,7 @@
 #include "core/json.h"
 #include "core/near_miss.h"
 
-// One line for each technique; its entry stands in variants/<name>/entry.cpp.
+// One line for each technique; its entry stands in variants/<name>/<name>.cpp.
 VariantEntry none_entry();
 VariantEntry mcguire_dda_entry();
 VariantEntry amd_sssr_entry();

@@ -1,6 +1,5 @@
 #include "core/gbuffer/composite.h"
 
-#include "core/error.h"
 #include "core/shared/brdf.h"
 #include "core/split_sum.h"
 
@@ -13,20 +12,6 @@ glm::vec3 pixel_direction(const CameraData& camera, unsigned x, unsigned y) {
         (glm::vec2(x, y) + 0.5f + glm::vec2(camera.jitter)) * glm::vec2(camera.extent.z, camera.extent.w);
     const glm::vec4 point = camera.view_from_clip * glm::vec4(uv * 2.0f - 1.0f, 0.5f, 1.0f);
     return glm::mat3(camera.world_from_view) * glm::normalize(glm::vec3(point) / point.w);
-}
-
-glm::vec3 additive_weight_of(const HostGBuffer& g, size_t pixel, float weight) {
-    const unsigned width = g.extent().x;
-    const float *n = &g.normal.values[4 * pixel], *c = &g.base_color.values[4 * pixel];
-    const float mu_o = -glm::dot(glm::vec3(n[0], n[1], n[2]),
-                                 pixel_direction(g.camera, unsigned(pixel % width), unsigned(pixel / width)));
-    return additive_weight({c[0], c[1], c[2]}, c[3], mu_o, weight);
-}
-
-void check_extent(const HostGBuffer& gbuffer, const HostImage& image, const char* what) {
-    if (image.extent != gbuffer.extent())
-        fail(what, " is ", image.extent.x, " x ", image.extent.y, ", but the G-buffer is ", gbuffer.extent().x, " x ",
-             gbuffer.extent().y);
 }
 
 }  // namespace
@@ -59,25 +44,5 @@ HostImage specular_reflectance(const HostGBuffer& g) {
             const glm::vec3 f0 = specular_f0({c[0], c[1], c[2]}, c[3], specular);
             result.set_rgb(size_t(y) * g.extent().x + x, f0 * ab.x + specular_f90(c[3], specular) * ab.y);
         }
-    return result;
-}
-
-HostComposite composite(const HostGBuffer& g, const HostImage& radiance, const HostImage& confidence,
-                        CompositeFormula formula) {
-    check_extent(g, radiance, "the radiance");
-    check_extent(g, confidence, "the confidence");
-    check_extent(g, g.lit, "the lit colour");
-    HostComposite result{specular_reflectance(g), HostImage(g.extent(), 3)};
-    for (size_t i = 0; i < result.image.pixel_count(); ++i) {
-        const bool is_background = g.depth.values[i] == g.camera.depth.z;
-        const glm::vec3 fallback = g.fallback.values.empty() ? glm::vec3(0) : g.fallback.rgb(i);
-        const float weight = confidence.values[i * confidence.channels];
-        const bool is_added = formula == CompositeFormula::additive_fresnel;
-        glm::vec3 specular =
-            result.specular.rgb(i) * (is_added ? fallback : glm::mix(fallback, radiance.rgb(i), weight));
-        if (is_added) specular += radiance.rgb(i) * additive_weight_of(g, i, weight);
-        result.specular.set_rgb(i, is_background ? glm::vec3(0) : specular);
-        result.image.set_rgb(i, g.lit.rgb(i) + result.specular.rgb(i));
-    }
     return result;
 }

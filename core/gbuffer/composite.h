@@ -35,10 +35,3 @@ private:
 
 /// F0 A + F90 B of every pixel, RGB; 0 in the background, for unlit materials, and where the shading normal faces away.
 HostImage specular_reflectance(const HostGBuffer& gbuffer);
-
-/// The formula of Compositor on the CPU. `radiance` has 3 channels or more, `confidence` 1 or more. RGB.
-struct HostComposite {
-    HostImage specular, image;
-};
-HostComposite composite(const HostGBuffer& gbuffer, const HostImage& radiance, const HostImage& confidence,
-                        CompositeFormula formula = CompositeFormula::split_sum);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/device.h"
+#include "core/gpu/precision.h"
 #include "core/shared/drawn_light.h"
 
 struct Rasterizer::Frame {
@@ -15,8 +16,18 @@ Format format_of(DepthFormat format) {
     return format == DepthFormat::d32f ? Format::d32f : format == DepthFormat::d24 ? Format::d24 : Format::d16;
 }
 
-const char* name_of(DepthFormat format) {
-    return format == DepthFormat::d32f ? "d32f" : format == DepthFormat::d24 ? "d24" : "d16";
+/// What a fragment says of the surface that it shows.
+PassGraph::Pass& write_surface(PassGraph::Pass& pass, const GBuffer& g) {
+    for (const Image& image : {g.geometric_normal, g.normal, g.base_color, g.emission, g.motion, g.material_id})
+        pass.write(image);
+    return pass;
+}
+
+DepthTest nearest_in(const Image& depth_buffer, const CameraData& camera) {
+    const bool is_reversed = camera.depth.w == 1;
+    return {.compare = is_reversed ? DepthTest::Compare::greater : DepthTest::Compare::less,
+            .is_written = true,
+            .image = depth_buffer};
 }
 
 Buffer upload_lights(PassGraph& graph, const std::vector<PunctualLight>& lights) {
@@ -60,8 +71,8 @@ Rasterizer::Rasterizer(Device& device, const Scene& scene, const RasterizerOptio
       drawn_(graph_, scene, options.keep_all),
       environment_(graph_, scene.environment, options.keep_all || (facts_.has_geometry && facts_.has_environment)) {
     if (!device.supports(format_of(options.depth_format)))
-        fail_machine("the device ", device.info().name, " has no depth format ", name_of(options.depth_format),
-                     "; choose d32f or d16");
+        fail_machine("the device ", device.info().name, " has no depth format ",
+                     name_of(format_of(options.depth_format)), "; choose d32f or d16");
 }
 
 bool Rasterizer::needs_fallback() const {
@@ -71,14 +82,11 @@ bool Rasterizer::needs_fallback() const {
 Rasterizer::Frame Rasterizer::pose(const SceneCamera& camera, const FrameView& view) const {
     Frame frame{.scene = pose_scene(scene_, float(view.frame))};
     const CameraPose now = pose_camera(camera, frame.scene, float(view.frame));
-    if (const std::optional<unsigned> predecessor = view.predecessor()) {
-        frame.previous_scene = pose_scene(scene_, float(*predecessor));
-        const CameraPose before = pose_camera(camera, frame.previous_scene, float(*predecessor));
-        frame.camera = camera_data(now, &before, view);
-    } else {
-        frame.previous_scene = frame.scene;
-        frame.camera = camera_data(now, nullptr, view);
-    }
+    const std::optional<unsigned> predecessor = view.predecessor();
+    const float earlier = float(predecessor.value_or(view.frame));
+    frame.previous_scene = pose_scene(scene_, earlier);
+    const CameraPose before = pose_camera(camera, frame.previous_scene, earlier);
+    frame.camera = camera_data(now, predecessor ? &before : nullptr, view);
     return frame;
 }
 
@@ -134,14 +142,8 @@ GBuffer Rasterizer::draw(const Frame& frame) {
 
     const Image depth_buffer = graph_.image("depth_buffer", format_of(options_.depth_format));
     graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
-    graph_.fragment("gbuffer/background.frag")
-        .write(g.geometric_normal)
-        .write(g.normal)
-        .write(g.base_color)
-        .write(g.emission)
-        .write(g.motion)
-        .write(g.material_id)
-        .run();
+    auto background = graph_.fragment("gbuffer/background.frag");
+    write_surface(background, g).run();
     draw_kind(g, depth_buffer, DrawnScene::Kind::plain, "plain");
     draw_kind(g, depth_buffer, DrawnScene::Kind::textured, "textured");
     draw_kind(g, depth_buffer, DrawnScene::Kind::masked, "masked");
@@ -161,17 +163,9 @@ GBuffer Rasterizer::draw(const Frame& frame) {
 
 void Rasterizer::draw_kind(const GBuffer& g, const Image& depth_buffer, DrawnScene::Kind kind, const char* name) {
     if (drawn_.draws(kind).empty()) return;
-    const bool is_reversed = camera_.depth.w == 1;
-    graph_.draw("gbuffer/mesh.vert", std::string("gbuffer/") + name + ".frag", drawn_.draws(kind))
-        .write(g.geometric_normal)
-        .write(g.normal)
-        .write(g.base_color)
-        .write(g.emission)
-        .write(g.motion)
-        .write(g.material_id)
-        .depth({.compare = is_reversed ? DepthTest::Compare::greater : DepthTest::Compare::less,
-                .is_written = true,
-                .image = depth_buffer})
+    auto pass = graph_.draw("gbuffer/mesh.vert", std::string("gbuffer/") + name + ".frag", drawn_.draws(kind));
+    write_surface(pass, g)
+        .depth(nearest_in(depth_buffer, camera_))
         .set("normal_bits", options_.normal_bits)
         .label(std::string("gbuffer/draw_") + name)
         .run();
@@ -183,7 +177,6 @@ void Rasterizer::draw_depth_layers(GBuffer& g) {
     graph_.fragment("gbuffer/no_layers.frag").read(g.depth).write(g.second_depth).write(g.back_depth).run();
     const Image depth_buffer = graph_.image("second_depth_buffer", Format::d32f);
     graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
-    const bool is_reversed = camera_.depth.w == 1;
     // What the depth buffer rounds: half a step of its codes, and as much again for rounding on the way.
     const float depth_step = options_.depth_format == DepthFormat::d32f  ? 0.0f
                              : options_.depth_format == DepthFormat::d24 ? 0x1p-24f
@@ -198,9 +191,7 @@ void Rasterizer::draw_depth_layers(GBuffer& g) {
             .write(g.second_depth)
             .write(g.back_depth)
             .set("depth_step", depth_step)
-            .depth({.compare = is_reversed ? DepthTest::Compare::greater : DepthTest::Compare::less,
-                    .is_written = true,
-                    .image = depth_buffer})
+            .depth(nearest_in(depth_buffer, camera_))
             .label("gbuffer/draw_layers")
             .run();
     }

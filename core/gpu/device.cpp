@@ -79,22 +79,12 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& gpu) {
                     .driver = std::string(driver.driverName.data()) + " " + driver.driverInfo.data(),
                     .api = version_text(properties.apiVersion),
                     .type = "other"};
-    switch (properties.deviceType) {
-        case vk::PhysicalDeviceType::eCpu:
-            info.type = "cpu";
-            break;
-        case vk::PhysicalDeviceType::eDiscreteGpu:
-            info.type = "discrete";
-            break;
-        case vk::PhysicalDeviceType::eIntegratedGpu:
-            info.type = "integrated";
-            break;
-        case vk::PhysicalDeviceType::eVirtualGpu:
-            info.type = "virtual";
-            break;
-        default:
-            break;
-    }
+    using Type = vk::PhysicalDeviceType;
+    for (const auto& [type, name] : {std::pair(Type::eCpu, "cpu"),
+                                     {Type::eDiscreteGpu, "discrete"},
+                                     {Type::eIntegratedGpu, "integrated"},
+                                     {Type::eVirtualGpu, "virtual"}})
+        if (properties.deviceType == type) info.type = name;
     const vk::PhysicalDeviceMemoryProperties memory = gpu.getMemoryProperties();
     for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
         if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)

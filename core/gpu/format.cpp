@@ -1,98 +1,68 @@
 #include "core/gpu/format.h"
 
 #include "core/error.h"
+#include "core/gpu/precision.h"
 
 #include <Imath/half.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
-vk::Format vulkan_format(Format format) {
-    switch (format) {
-        case Format::r8:
-            return vk::Format::eR8Unorm;
-        case Format::rg8:
-            return vk::Format::eR8G8Unorm;
-        case Format::rgba8:
-            return vk::Format::eR8G8B8A8Unorm;
-        case Format::rgba8_srgb:
-            return vk::Format::eR8G8B8A8Srgb;
-        case Format::r16f:
-            return vk::Format::eR16Sfloat;
-        case Format::rg16f:
-            return vk::Format::eR16G16Sfloat;
-        case Format::rgba16f:
-            return vk::Format::eR16G16B16A16Sfloat;
-        case Format::r32f:
-            return vk::Format::eR32Sfloat;
-        case Format::rg32f:
-            return vk::Format::eR32G32Sfloat;
-        case Format::rgba32f:
-            return vk::Format::eR32G32B32A32Sfloat;
-        case Format::r11g11b10f:
-            return vk::Format::eB10G11R11UfloatPack32;
-        case Format::r32ui:
-            return vk::Format::eR32Uint;
-        case Format::d32f:
-            return vk::Format::eD32Sfloat;
-        case Format::d24:
-            return vk::Format::eX8D24UnormPack32;
-        case Format::d16:
-            return vk::Format::eD16Unorm;
-        case Format::d32f_s8:
-            return vk::Format::eD32SfloatS8Uint;
-    }
-    fail("no Vulkan format for Format ", int(format));
+namespace {
+
+/// The last two columns: OpenGL ES 3.0.6, section 3.8.3, the tables of sized internal formats and the completeness of
+/// depth textures (3.8.13); targets of floats: EXT_color_buffer_float.
+// clang-format off
+constexpr FormatFacts formats[] = {
+    {Format::r8,         "r8",         vk::Format::eR8Unorm,               1, 1,  TexelCoding::unorm_8,        "R8",                 true,  true},
+    {Format::rg8,        "rg8",        vk::Format::eR8G8Unorm,             2, 2,  TexelCoding::unorm_8,        "RG8",                true,  true},
+    {Format::rgba8,      "rgba8",      vk::Format::eR8G8B8A8Unorm,         4, 4,  TexelCoding::unorm_8,        "RGBA8",              true,  true},
+    {Format::rgba8_srgb, "rgba8_srgb", vk::Format::eR8G8B8A8Srgb,          4, 4,  TexelCoding::unorm_8,        "SRGB8_ALPHA8",       true,  true},
+    {Format::r16f,       "r16f",       vk::Format::eR16Sfloat,             1, 2,  TexelCoding::half,           "R16F",               true,  true},
+    {Format::rg16f,      "rg16f",      vk::Format::eR16G16Sfloat,          2, 4,  TexelCoding::half,           "RG16F",              true,  true},
+    {Format::rgba16f,    "rgba16f",    vk::Format::eR16G16B16A16Sfloat,    4, 8,  TexelCoding::half,           "RGBA16F",            true,  true},
+    {Format::r32f,       "r32f",       vk::Format::eR32Sfloat,             1, 4,  TexelCoding::float_32,       "R32F",               true,  false},
+    {Format::rg32f,      "rg32f",      vk::Format::eR32G32Sfloat,          2, 8,  TexelCoding::float_32,       "RG32F",              true,  false},
+    {Format::rgba32f,    "rgba32f",    vk::Format::eR32G32B32A32Sfloat,    4, 16, TexelCoding::float_32,       "RGBA32F",            true,  false},
+    {Format::r11g11b10f, "r11g11b10f", vk::Format::eB10G11R11UfloatPack32, 3, 4,  TexelCoding::float_11_11_10, "R11F_G11F_B10F",     true,  true},
+    {Format::r32ui,      "r32ui",      vk::Format::eR32Uint,               1, 4,  TexelCoding::uint_32,        "R32UI",              true,  false},
+    {Format::d32f,       "d32f",       vk::Format::eD32Sfloat,             1, 4,  TexelCoding::float_32,       "DEPTH_COMPONENT32F", false, false},
+    {Format::d24,        "d24",        vk::Format::eX8D24UnormPack32,      1, 4,  TexelCoding::unorm_24,       "DEPTH_COMPONENT24",  false, false},
+    {Format::d16,        "d16",        vk::Format::eD16Unorm,              1, 2,  TexelCoding::unorm_16,       "DEPTH_COMPONENT16",  false, false},
+    {Format::d32f_s8,    "d32f_s8",    vk::Format::eD32SfloatS8Uint,       1, 4,  TexelCoding::float_32,       "DEPTH32F_STENCIL8",  false, false},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const FormatFacts> all_formats() { return formats; }
+
+const FormatFacts& facts_of(Format format) {
+    const auto* const found = std::ranges::find(formats, format, &FormatFacts::format);
+    if (found == std::end(formats)) fail("nothing is known of Format ", int(format));
+    return *found;
 }
+
+vk::Format vulkan_format(Format format) { return facts_of(format).vulkan; }
 
 vk::ImageAspectFlags aspect_of(Format format) {
-    switch (format) {
-        case Format::d32f:
-        case Format::d24:
-        case Format::d16:
-            return vk::ImageAspectFlagBits::eDepth;
-        case Format::d32f_s8:
-            return vk::ImageAspectFlagBits::eDepth | vk::ImageAspectFlagBits::eStencil;
-        default:
-            return vk::ImageAspectFlagBits::eColor;
-    }
+    using Aspect = vk::ImageAspectFlagBits;
+    if (format == Format::d32f_s8) return Aspect::eDepth | Aspect::eStencil;
+    const bool is_depth = format == Format::d32f || format == Format::d24 || format == Format::d16;
+    return is_depth ? Aspect::eDepth : Aspect::eColor;
 }
 
-TexelLayout texel_layout(Format format) {
-    switch (format) {
-        case Format::r8:
-            return {1, 1};
-        case Format::rg8:
-            return {2, 2};
-        case Format::rgba8:
-        case Format::rgba8_srgb:
-            return {4, 4};
-        case Format::r16f:
-            return {1, 2};
-        case Format::rg16f:
-            return {2, 4};
-        case Format::rgba16f:
-            return {4, 8};
-        case Format::r32f:
-        case Format::r32ui:
-            return {1, 4};
-        case Format::rg32f:
-            return {2, 8};
-        case Format::rgba32f:
-            return {4, 16};
-        case Format::r11g11b10f:
-            return {3, 4};
-        case Format::d16:
-            return {1, 2};
-        case Format::d32f:
-        case Format::d24:
-        case Format::d32f_s8:
-            return {1, 4};
-    }
-    fail("no texel layout for Format ", int(format));
-}
+std::string name_of(Format format) { return facts_of(format).name; }
 
 namespace {
+
+/// `of_channels`: of one, of two, of more.
+Format with_channels(Format format, const std::array<Format, 3>& of_channels) {
+    const FormatFacts& facts = facts_of(format);
+    if (!facts.is_color_renderable || facts.coding == TexelCoding::uint_32) return format;
+    return of_channels[std::min(facts.channels, 3u) - 1];
+}
 
 template <class Texel>
 void write(std::byte* texels, size_t index, Texel value) {
@@ -110,87 +80,69 @@ Texel read(const std::byte* texels, size_t index) {
 uint32_t small_float(float value, int dropped_bits) {
     return uint32_t((half(std::max(value, 0.0f)).bits() + (1 << (dropped_bits - 1))) >> dropped_bits);
 }
-float from_small_float(uint32_t bits, int dropped_bits) {
+float from_half_bits(uint32_t bits) {
     half h;
-    h.setBits(uint16_t(bits << dropped_bits));
+    h.setBits(uint16_t(bits));
     return h;
 }
 
-float unorm(float value) { return std::clamp(value, 0.0f, 1.0f); }
+float clamped(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
 }  // namespace
 
+Format as_float32(Format format) { return with_channels(format, {Format::r32f, Format::rg32f, Format::rgba32f}); }
+Format as_float16(Format format) { return with_channels(format, {Format::r16f, Format::rg16f, Format::rgba16f}); }
+
 void encode_texels(Format format, std::span<const float> values, std::byte* texels) {
-    switch (format) {
-        case Format::r8:
-        case Format::rg8:
-        case Format::rgba8:
-        case Format::rgba8_srgb:
-            for (size_t i = 0; i < values.size(); ++i)
-                write(texels, i, uint8_t(std::lround(unorm(values[i]) * 255.0f)));
-            return;
-        case Format::r16f:
-        case Format::rg16f:
-        case Format::rgba16f:
-            for (size_t i = 0; i < values.size(); ++i) write(texels, i, half(values[i]).bits());
-            return;
-        case Format::r11g11b10f:
+    const auto each = [&](auto coded) {
+        for (size_t i = 0; i < values.size(); ++i) write(texels, i, coded(values[i]));
+    };
+    switch (facts_of(format).coding) {
+        case TexelCoding::unorm_8:
+            return each([](float v) { return uint8_t(std::lround(clamped(v) * 255.0f)); });
+        case TexelCoding::unorm_16:
+            return each([](float v) { return uint16_t(std::lround(clamped(v) * 65535.0f)); });
+        case TexelCoding::unorm_24:
+            return each([](float v) { return uint32_t(std::lround(double(clamped(v)) * 16777215.0)); });
+        case TexelCoding::half:
+            return each([](float v) { return half(v).bits(); });
+        case TexelCoding::uint_32:
+            return each([](float v) { return uint32_t(v); });
+        case TexelCoding::float_11_11_10:
             for (size_t i = 0; i + 2 < values.size(); i += 3)
                 write(texels, i / 3,
                       small_float(values[i], 4) | small_float(values[i + 1], 4) << 11 |
                           small_float(values[i + 2], 5) << 22);
             return;
-        case Format::r32ui:
-            for (size_t i = 0; i < values.size(); ++i) write(texels, i, uint32_t(values[i]));
-            return;
-        case Format::d16:
-            for (size_t i = 0; i < values.size(); ++i)
-                write(texels, i, uint16_t(std::lround(unorm(values[i]) * 65535.0f)));
-            return;
-        case Format::d24:
-            for (size_t i = 0; i < values.size(); ++i)
-                write(texels, i, uint32_t(std::lround(double(unorm(values[i])) * 16777215.0)));
-            return;
-        default:
+        case TexelCoding::float_32:
             std::memcpy(texels, values.data(), values.size_bytes());
     }
 }
 
 void decode_texels(Format format, const std::byte* texels, std::span<float> values) {
-    switch (format) {
-        case Format::r8:
-        case Format::rg8:
-        case Format::rgba8:
-        case Format::rgba8_srgb:
-            for (size_t i = 0; i < values.size(); ++i) values[i] = float(read<uint8_t>(texels, i)) / 255.0f;
-            return;
-        case Format::r16f:
-        case Format::rg16f:
-        case Format::rgba16f:
-            for (size_t i = 0; i < values.size(); ++i) {
-                half h;
-                h.setBits(read<uint16_t>(texels, i));
-                values[i] = h;
-            }
-            return;
-        case Format::r11g11b10f:
+    const auto each = [&]<class Texel>(Texel, auto decoded) {
+        for (size_t i = 0; i < values.size(); ++i) values[i] = decoded(read<Texel>(texels, i));
+    };
+    switch (facts_of(format).coding) {
+        case TexelCoding::unorm_8:
+            return each(uint8_t(), [](uint8_t v) { return float(v) / 255.0f; });
+        case TexelCoding::unorm_16:
+            return each(uint16_t(), [](uint16_t v) { return float(v) / 65535.0f; });
+        case TexelCoding::unorm_24:
+            return each(uint32_t(), [](uint32_t v) { return float(double(v & 0xffffff) / 16777215.0); });
+        case TexelCoding::half:
+            return each(uint16_t(), [](uint16_t v) { return from_half_bits(v); });
+        case TexelCoding::uint_32:
+            return each(uint32_t(), [](uint32_t v) { return float(v); });
+        case TexelCoding::float_11_11_10:
             for (size_t i = 0; i + 2 < values.size(); i += 3) {
                 const uint32_t bits = read<uint32_t>(texels, i / 3);
-                values[i] = from_small_float(bits & 0x7ff, 4), values[i + 1] = from_small_float(bits >> 11 & 0x7ff, 4),
-                values[i + 2] = from_small_float(bits >> 22, 5);
+                values[i] = from_half_bits((bits & 0x7ff) << 4),
+                values[i + 1] = from_half_bits((bits >> 11 & 0x7ff) << 4),
+                values[i + 2] = from_half_bits(bits >> 22 << 5);
             }
             return;
-        case Format::r32ui:
-            for (size_t i = 0; i < values.size(); ++i) values[i] = float(read<uint32_t>(texels, i));
-            return;
-        case Format::d16:
-            for (size_t i = 0; i < values.size(); ++i) values[i] = float(read<uint16_t>(texels, i)) / 65535.0f;
-            return;
-        case Format::d24:
-            for (size_t i = 0; i < values.size(); ++i)
-                values[i] = float(double(read<uint32_t>(texels, i) & 0xffffff) / 16777215.0);
-            return;
-        default:
+        case TexelCoding::float_32:
             std::memcpy(values.data(), texels, values.size_bytes());
     }
 }

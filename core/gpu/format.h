@@ -3,11 +3,20 @@
 
 #include <span>
 
-/// How the texels of a format lie in memory.
-struct TexelLayout {
-    unsigned channels, bytes;  ///< of one texel
+/// How a channel, or a texel that packs several, lies in memory.
+enum class TexelCoding { unorm_8, unorm_16, unorm_24, half, float_11_11_10, uint_32, float_32 };
+
+struct FormatFacts {
+    Format format;
+    const char* name;
+    vk::Format vulkan;
+    unsigned channels, bytes;  ///< of one texel; of depth with stencil the depth alone
+    TexelCoding coding;
+    const char* opengl_name;
+    bool is_color_renderable, is_filterable;  ///< in WebGL 2 with EXT_color_buffer_float
 };
-TexelLayout texel_layout(Format format);
+const FormatFacts& facts_of(Format format);
+std::span<const FormatFacts> all_formats();
 
 /// Texels of the format from float32 channels and back. Halves are rounded to the nearest even, unorm bytes to the
 /// nearest.

@@ -1,8 +1,7 @@
 #include "core/gpu/limits.h"
 
+#include "core/gpu/format.h"
 #include "core/gpu/pass_graph_impl.h"
-
-#include <algorithm>
 
 namespace {
 
@@ -11,57 +10,10 @@ namespace {
 constexpr size_t max_draw_buffers = 4, max_texture_image_units = 16, max_uniform_block_size = 16384;
 static_assert(uniforms_size <= max_uniform_block_size);
 
-/// A format as WebGL 2 knows it.
-struct Webgl2Format {
-    const char* name;  ///< OpenGL's
-    bool is_color_renderable, is_filterable;
-};
-
-/// OpenGL ES 3.0.6, section 3.8.3: the tables of sized internal formats and the completeness of depth textures
-/// (3.8.13); targets of floats: EXT_color_buffer_float.
-Webgl2Format webgl2_format(Format format) {
-    switch (format) {
-        case Format::r8:
-            return {"R8", true, true};
-        case Format::rg8:
-            return {"RG8", true, true};
-        case Format::rgba8:
-            return {"RGBA8", true, true};
-        case Format::rgba8_srgb:
-            return {"SRGB8_ALPHA8", true, true};
-        case Format::r16f:
-            return {"R16F", true, true};
-        case Format::rg16f:
-            return {"RG16F", true, true};
-        case Format::rgba16f:
-            return {"RGBA16F", true, true};
-        case Format::r32f:
-            return {"R32F", true, false};
-        case Format::rg32f:
-            return {"RG32F", true, false};
-        case Format::rgba32f:
-            return {"RGBA32F", true, false};
-        case Format::r11g11b10f:
-            return {"R11F_G11F_B10F", true, true};
-        case Format::r32ui:
-            return {"R32UI", true, false};
-        case Format::d32f:
-            return {"DEPTH_COMPONENT32F", false, false};
-        case Format::d24:
-            return {"DEPTH_COMPONENT24", false, false};
-        case Format::d16:
-            return {"DEPTH_COMPONENT16", false, false};
-        case Format::d32f_s8:
-            return {"DEPTH32F_STENCIL8", false, false};
-    }
-    fail("no OpenGL format for Format ", int(format));
-}
-
-std::string formats_that(bool Webgl2Format::*can) {
+std::string formats_that(bool FormatFacts::*can) {
     std::string names;
-    for (int i = 0; i <= int(Format::d32f_s8); ++i)
-        if (const Webgl2Format format = webgl2_format(Format(i)); format.*can)
-            names += (names.empty() ? "" : ", ") + std::string(format.name);
+    for (const FormatFacts& format : all_formats())
+        if (format.*can) names += (names.empty() ? "" : ", ") + std::string(format.opengl_name);
     return names;
 }
 
@@ -76,9 +28,9 @@ void check_targets(const std::string& pass, const std::vector<Image>& targets) {
         refuse(pass, "guarantees " + std::to_string(max_draw_buffers), "draws to ", targets.size(),
                " colour targets, the last of them '", targets.back().name, "'");
     for (const Image& target : targets)
-        if (const Webgl2Format format = webgl2_format(target.format); !format.is_color_renderable)
-            refuse(pass, "with EXT_color_buffer_float has " + formats_that(&Webgl2Format::is_color_renderable),
-                   "has the colour target '", target.name, "' of format ", format.name);
+        if (const FormatFacts& format = facts_of(target.format); !format.is_color_renderable)
+            refuse(pass, "with EXT_color_buffer_float has " + formats_that(&FormatFacts::is_color_renderable),
+                   "has the colour target '", target.name, "' of format ", format.opengl_name);
 }
 
 /// Adds the images of the tests, which count as drawn to even where they are not written.
@@ -100,9 +52,9 @@ void check_texture(const std::string& pass, const Image& texture, const Sampling
     if (texture.mips != mips)
         refuse(pass, "has no views of textures and reads all mips", "reads ", texture.mips, " of the ", mips,
                " mips of '", texture.name, "'");
-    if (const Webgl2Format format = webgl2_format(texture.format); sampling.is_linear && !format.is_filterable)
-        refuse(pass, "filters " + formats_that(&Webgl2Format::is_filterable), "filters '", texture.name, "' of format ",
-               format.name, " linearly");
+    if (const FormatFacts& format = facts_of(texture.format); sampling.is_linear && !format.is_filterable)
+        refuse(pass, "filters " + formats_that(&FormatFacts::is_filterable), "filters '", texture.name, "' of format ",
+               format.opengl_name, " linearly");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ class PassGraph;
 /// webgl2: WebGL 2 with EXT_color_buffer_float, no more than every implementation must offer.
 /// - Passes are fragment shaders over the whole image, valid as GLSL ES 3.00; push_constant blocks stand for uniforms.
 ///   No compute shaders, storage images or storage buffers, no meshes (their vertices lie in storage buffers).
-/// - 4 colour targets, 16 textures. Formats: webgl2_format() in limits.cpp.
+/// - 4 colour targets, 16 textures. Formats: the table in format.cpp.
 /// - No pass reads an image that it draws to. OpenGL ES 3.0 (section 4.4.3) allows it for mips that the texture's base
 ///   and maximum level exclude; drivers have failed there, so techniques copy, and so do we.
 /// - An image is read with all its mips: there are no views of some of them.

@@ -104,7 +104,7 @@ PassCost PassGraph::Impl::cost_of(const Pass& pass, const std::vector<ShaderCoun
         const Image& image = image_of(name, sampling);
         const uint64_t each = is_gathered ? 4 : is_sampled ? texels_of(image, sampling) : 1;
         cost.fetches += fetches, cost.texels += fetches * each;
-        traffic[name].read += fetches * each * texel_layout(image.format).bytes, traffic[name].size = bytes_of(image);
+        traffic[name].read += fetches * each * facts_of(image.format).bytes, traffic[name].size = bytes_of(image);
     };
     uint64_t completed = 0;
     for (size_t i = 0; i < counters.size(); ++i) {
@@ -139,7 +139,7 @@ PassCost PassGraph::Impl::cost_of(const Pass& pass, const std::vector<ShaderCoun
             case What::texel_writes: {
                 Sampling sampling;
                 const Image& image = image_of(resource, sampling);
-                traffic[resource].written += count * texel_layout(image.format).bytes;
+                traffic[resource].written += count * facts_of(image.format).bytes;
                 traffic[resource].size = bytes_of(image);
                 break;
             }
@@ -156,7 +156,7 @@ PassCost PassGraph::Impl::cost_of(const Pass& pass, const std::vector<ShaderCoun
     }
     if (!pass.is_compute_) cost.idle = cost.invocations - completed;
     for (const Image& target : targets) {
-        traffic[target.name].written += completed * texel_layout(target.format).bytes;
+        traffic[target.name].written += completed * facts_of(target.format).bytes;
         traffic[target.name].size = bytes_of(target);
     }
     for (const auto& [name, t] : traffic) {

@@ -105,7 +105,7 @@ void PassGraph::clear(const Buffer& buffer, uint32_t value) {
 }
 
 void PassGraph::upload(const Image& image, const HostImage& pixels) {
-    const TexelLayout layout = texel_layout(image.format);
+    const FormatFacts& layout = facts_of(image.format);
     if (pixels.extent != image.extent || pixels.channels != layout.channels)
         fail("image '", image.name, "' is ", image.extent.x, "x", image.extent.y, " with ", layout.channels,
              " channels and cannot take ", pixels.extent.x, "x", pixels.extent.y, " with ", pixels.channels);
@@ -135,7 +135,7 @@ void PassGraph::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
 HostImage PassGraph::download(const Image& image) {
     impl_->flush();
     const std::vector<std::byte> texels = download_texels(impl_->gpu, image);
-    HostImage pixels(image.extent, texel_layout(image.format).channels);
+    HostImage pixels(image.extent, facts_of(image.format).channels);
     decode_texels(image.format, texels.data(), pixels.values);
     return pixels;
 }

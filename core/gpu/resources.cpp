@@ -123,7 +123,7 @@ uint64_t bytes_of(const Image& image) {
         const Image mip = image.mip(level);
         texels += uint64_t(mip.extent.x) * mip.extent.y;
     }
-    return texels * texel_layout(image.format).bytes;
+    return texels * facts_of(image.format).bytes;
 }
 
 void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::byte> texels) {
@@ -138,7 +138,7 @@ void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::b
 }
 
 std::vector<std::byte> download_texels(Device::Impl& gpu, const Image& image) {
-    const size_t size = size_t(image.extent.x) * image.extent.y * texel_layout(image.format).bytes;
+    const size_t size = size_t(image.extent.x) * image.extent.y * facts_of(image.format).bytes;
     const DeviceBuffer staging(gpu, size, vk::BufferUsageFlagBits::eTransferDst, true);
     gpu.submit([&](auto& commands) {
         full_barrier(commands);

@@ -30,9 +30,6 @@ SHARED float smith_root(float mu, float alpha) {
     return sqrt(a2 + (1.0f - a2) * mu * mu);
 }
 
-/// Smith's masking of one direction, for mu > 0.
-SHARED float smith_g1(float mu, float alpha) { return 2.0f * mu / (mu + smith_root(mu, alpha)); }
-
 /// Height-correlated Smith masking and shadowing over 4 mu_o mu_i (glTF 2.0, Appendix B.3.2; Heitz 2014, eq. 99).
 SHARED float smith_visibility(float mu_o, float mu_i, float alpha) {
     return 0.5f / (mu_o * smith_root(mu_i, alpha) + mu_i * smith_root(mu_o, alpha));
@@ -67,12 +64,6 @@ SHARED vec3 additive_weight(vec3 base_color, float metalness, float mu_o, float 
 SHARED float ggx_specular(vec3 o, vec3 i, float alpha) {
     if (o.z <= 0.0f || i.z <= 0.0f) return 0.0f;
     return ggx_distribution(normalize(o + i), alpha) * smith_visibility(o.z, i.z, alpha);
-}
-
-/// Density (sr^-1) over directions i of sample_ggx_reflection() without `bounded`: Heitz 2018, eq. 17, rearranged so
-/// that nothing is divided by mu_o. Directions below the horizon have a density too: such samples count as zero.
-SHARED float ggx_reflection_pdf(vec3 o, vec3 i, float alpha) {
-    return ggx_distribution(normalize(o + i), alpha) / (2.0f * (o.z + smith_root(o.z, alpha)));
 }
 
 /// The weight f mu_i / pdf of a sample, without Fresnel: at most 1, and 0 below the horizon.
@@ -119,22 +110,10 @@ SHARED vec3 sample_ggx_normal(vec3 o, float alpha, vec2 u, float bound) {
     return normalize(vec3(alpha * n.x, alpha * n.y, max(n.z, 0.0f)));
 }
 
-/// o mirrored about the visible normal; may lie below the horizon.
-SHARED vec3 sample_ggx_reflection(vec3 o, float alpha, vec2 u) {
-    vec3 m = sample_ggx_normal(o, alpha, u, 1.0f);
-    return 2.0f * dot(o, m) * m - o;
-}
-
-/// As sample_ggx_reflection(), from the bounded cap.
+/// o mirrored about a visible normal of the bounded cap; may lie below the horizon.
 SHARED vec3 sample_ggx_reflection_bounded(vec3 o, float alpha, vec2 u) {
     vec3 m = sample_ggx_normal(o, alpha, u, ggx_cap_bound(o.z, alpha));
     return 2.0f * dot(o, m) * m - o;
-}
-
-/// Density (sr^-1) of sample_ggx_reflection_bounded().
-SHARED float ggx_reflection_bounded_pdf(vec3 o, vec3 i, float alpha) {
-    return ggx_distribution(normalize(o + i), alpha) /
-           (2.0f * (ggx_cap_bound(o.z, alpha) * o.z + smith_root(o.z, alpha)));
 }
 
 /// A unit vector over the hemisphere of +z with density mu / pi (Malley's method), for u in [0, 1)^2.

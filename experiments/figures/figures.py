@@ -43,7 +43,7 @@ from paper_figures import (
     temporal,
 )
 from paper_figures.crop_choice import read_crops
-from ssrlab.results import Results, ResultsError
+from ssrlab.results import Results, ResultsError, exit_code
 
 # Kind of figure to what draws it: of one shot at a time, or of all that are asked for.
 SHOT_FIGURES = {"stage_times": stages.draw_times, "stage_costs": stages.draw_costs, "crops": crops.draw}
@@ -123,38 +123,29 @@ def make(results, requests, look, out):
 def main():
     arguments = parse_arguments()
     matplotlib.use("Agg")
-    try:
-        results = Results(arguments.results)
-        file = arguments.choice
-        content = request.read_json(file) if file else {}
-        texts = {key: getattr(arguments, key) or content.get(key) for key in request.TEXTS}
-        texts = {
-            "target": texts["target"] or "specular",
-            "metric": texts["metric"] or results.headline_metric(),
-            "mask": texts["mask"] or "reflective",
-        }
-        look = request.read_look(file, content)
-        requests = request.read_requests(file, content, results, texts, (*UNASKED_OF_SHOTS, *UNASKED))
-        collected = read_crops(file, content, results)
-        results.colors = request.read_colors(file, content, results)
-        if "figures" not in content:
-            requests = for_each_shot(results, requests)
-        for chosen in requests:
-            chosen.crops = collected
-        if results.errors:
-            results.errors_of(**texts)  # a mistake in what is asked for is said before anything is written
-        out = arguments.out or os.path.join(arguments.results, "figures")
-        os.makedirs(out, exist_ok=True)
-        count = make(results, requests, look, out)
-    except ResultsError as mistake:
-        print(f"error: {mistake}", file=sys.stderr)
-        return 2
-    except OSError as fault:
-        print(f"error: cannot write the figures: {fault}", file=sys.stderr)
-        return 3
-    print(f"{count} files in {out}")
-    return 0
+    results = Results(arguments.results)
+    file = arguments.choice
+    content = request.read_json(file) if file else {}
+    texts = {key: getattr(arguments, key) or content.get(key) for key in request.TEXTS}
+    texts = {
+        "target": texts["target"] or "specular",
+        "metric": texts["metric"] or results.headline_metric(),
+        "mask": texts["mask"] or "reflective",
+    }
+    look = request.read_look(file, content)
+    requests = request.read_requests(file, content, results, texts, (*UNASKED_OF_SHOTS, *UNASKED))
+    collected = read_crops(file, content, results)
+    results.colors = request.read_colors(file, content, results)
+    if "figures" not in content:
+        requests = for_each_shot(results, requests)
+    for chosen in requests:
+        chosen.crops = collected
+    if results.errors:
+        results.errors_of(**texts)  # a mistake in what is asked for is said before anything is written
+    out = arguments.out or os.path.join(arguments.results, "figures")
+    os.makedirs(out, exist_ok=True)
+    print(f"{make(results, requests, look, out)} files in {out}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(exit_code(main, "the figures"))

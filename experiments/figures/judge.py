@@ -24,8 +24,7 @@ except ImportError as missing:
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
 
-from paper_figures.crops import display  # noqa: E402
-from ssrlab.exr import read_exr_rgb  # noqa: E402
+from paper_figures.crops import REFERENCE, display  # noqa: E402
 from ssrlab.results import Results, ResultsError  # noqa: E402
 from paper_tables.agreement import JUDGEMENTS  # noqa: E402
 
@@ -66,25 +65,19 @@ def draw_pairs(results, count, rng):
     return [(shot, *rng.sample((a, b), 2)) for shot, a, b in chosen]
 
 
-def picture(results, shot, point):
-    """The specular light, at the shot's exposure; `point` None: the truth."""
-    for image in results.manifest["images"]:
-        is_wanted = image["kind"] == "reference" if point is None else (image["variant"], image.get("point")) == point and image["kind"] == "result"
-        if image["shot"] == shot and image["target"] == "specular" and is_wanted:
-            exposure = next(s["exposure_ev"] for s in results.manifest["shots"] if s["shot"] == shot)
-            shown = np.round(255 * display(read_exr_rgb(os.path.join(results.folder, image["exr"])), exposure))
-            return np.kron(shown.astype(np.uint8), np.ones((SCALE, SCALE, 1), dtype=np.uint8))
-    raise ResultsError(f"{results.folder} has no picture of {shot}, {point}")
-
-
 def sheet(results, shot, left, right):
-    """The truth above the two."""
-    truth = picture(results, shot, None)
-    height, width, _ = truth.shape
+    """The truth above the two: their specular light, at the shot's exposure."""
+    images = results.images_of(shot, "specular", keys=[REFERENCE, left, right])
+    for key in (REFERENCE, left, right):
+        if key not in images:
+            raise ResultsError(f"{results.folder} has no picture of {shot}, {key}")
+        shown = np.round(255 * display(images[key], results.exposure(shot))).astype(np.uint8)
+        images[key] = np.kron(shown, np.ones((SCALE, SCALE, 1), dtype=np.uint8))
+    height, width, _ = images[REFERENCE].shape
     page = np.full((2 * height + GAP, 2 * width + GAP, 3), 128, dtype=np.uint8)
-    page[:height, (width + GAP) // 2 : (width + GAP) // 2 + width] = truth
-    page[height + GAP :, :width] = picture(results, shot, left)
-    page[height + GAP :, width + GAP :] = picture(results, shot, right)
+    page[:height, (width + GAP) // 2 : (width + GAP) // 2 + width] = images[REFERENCE]
+    page[height + GAP :, :width] = images[left]
+    page[height + GAP :, width + GAP :] = images[right]
     return page
 
 

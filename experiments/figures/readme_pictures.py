@@ -34,7 +34,7 @@ sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "python"))
 from paper_figures import crops, style  # noqa: E402
 from paper_figures.crop_choice import read_crops  # noqa: E402
 from paper_figures.request import Request, read_json  # noqa: E402
-from ssrlab.results import Results, ResultsError, label  # noqa: E402
+from ssrlab.results import Results, exit_code, label  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
@@ -162,19 +162,14 @@ def main():
     parser.add_argument("--findings", metavar="COMPARISON", help="the results folder of the comparison, for the findings' pictures")
     arguments = parser.parse_args()
     style.apply()
-    try:
-        draw_error_time()
-        if arguments.results:
-            draw_comparison(arguments.results)
-        if arguments.report:
-            draw_report(arguments.report)
-        if arguments.findings:
-            draw_findings(arguments.findings)
-    except ResultsError as mistake:
-        print(f"error: {mistake}", file=sys.stderr)
-        return 2
-    return 0
+    draw_error_time()
+    if arguments.results:
+        draw_comparison(arguments.results)
+    if arguments.report:
+        draw_report(arguments.report)
+    if arguments.findings:
+        draw_findings(arguments.findings)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(exit_code(main, "the pictures"))

@@ -12,7 +12,7 @@ import sys
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
 
-from ssrlab.results import Results, ResultsError  # noqa: E402
+from ssrlab.results import Results, ResultsError, exit_code  # noqa: E402
 from paper_tables import documents, formats, latex, summary_file  # noqa: E402
 from paper_tables.cells import Table, cells_of  # noqa: E402
 
@@ -81,27 +81,19 @@ def make(folder, out, summary_folder):
 def main():
     arguments = parse_arguments()
     summaries = os.path.join(arguments.root, "experiments", "summaries")
-    try:
-        if arguments.check is not None:
-            found = documents.mistakes(arguments.root, summaries, arguments.check)
-            for sentence in found:
-                print(f"error: {sentence}", file=sys.stderr)
-            return 2 if found else 0
-        if arguments.results:
-            out = arguments.out or default_folder(arguments.results)
-            count = make(arguments.results, out, summaries if arguments.keep else None)
-            print(f"{count} tables in {out}")
-        if arguments.fill or arguments.keep:
-            changed = documents.rewrite(arguments.root, summaries)
-            print(f"{len(changed)} documents changed" + "".join(f"\n{file}" for file in changed))
-    except ResultsError as mistake:
-        print(f"error: {mistake}", file=sys.stderr)
-        return 2
-    except OSError as fault:
-        print(f"error: cannot write the tables: {fault}", file=sys.stderr)
-        return 3
-    return 0
+    if arguments.check is not None:
+        found = documents.mistakes(arguments.root, summaries, arguments.check)
+        for sentence in found:
+            print(f"error: {sentence}", file=sys.stderr)
+        return 2 if found else 0
+    if arguments.results:
+        out = arguments.out or default_folder(arguments.results)
+        count = make(arguments.results, out, summaries if arguments.keep else None)
+        print(f"{count} tables in {out}")
+    if arguments.fill or arguments.keep:
+        changed = documents.rewrite(arguments.root, summaries)
+        print(f"{len(changed)} documents changed" + "".join(f"\n{file}" for file in changed))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(exit_code(main, "the tables"))

@@ -5,13 +5,14 @@
 #include "core/json.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/report/answers.h"
-#include "experiments/report/html_template.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <kainjow/mustache.hpp>
+#include <map>
 
 namespace {
 
@@ -130,6 +131,36 @@ json without_scripts(const json& data, const Headline& headline, std::span<const
     if (!others.empty() && others.front()->metric == headline.perceptual_metric)
         values["error_tables"].push_back(error_table(others, data["metrics"]));
     return values;
+}
+
+kainjow::mustache::data mustache_data(const json& value) {
+    using kainjow::mustache::data;
+    if (value.is_object()) {
+        data object;
+        for (const auto& [key, part] : value.items()) object.set(key, mustache_data(part));
+        return object;
+    }
+    if (value.is_array()) {
+        data list(data::type::list);
+        for (const json& part : value) list.push_back(mustache_data(part));
+        return list;
+    }
+    if (value.is_boolean()) return data(value.get<bool>());
+    return data(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+/// A text with the tags of Mustache (mustache(5)), filled in: {{name}} is escaped for HTML, {{{name}}} is put in as it
+/// is (both are empty where `values` has no such name), and a section {{#name}} ... {{/name}} is repeated for each
+/// element of an array, or left out where `values` has no such name, an empty array or false. `partials`: the texts,
+/// with tags of their own, that {{>name}} stands for. Fails with Error if the template is malformed.
+std::string filled_template(const std::string& text, const json& values,
+                            const std::map<std::string, std::string>& partials) {
+    kainjow::mustache::mustache page(text);
+    kainjow::mustache::data all = mustache_data(values);
+    for (const auto& [name, partial] : partials) all.set(name, kainjow::mustache::data(partial));
+    const std::string filled = page.render(all);
+    if (!page.is_valid()) fail("a template of the report is malformed: ", page.error_message());
+    return filled;
 }
 
 /// `values`: those of page/template.html that are not the same on all pages, and of page/no_scripts.html.

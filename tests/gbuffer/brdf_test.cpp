@@ -8,15 +8,15 @@
 
 namespace {
 
-const char* const names[16] = {"D alpha^2", "G1",  "V",      "Schlick",   "m.x",    "m.y", "m.z", "i.x",
-                               "i.y",       "i.z", "weight", "cap bound", "cosine", "F0",  "F90", "basis"};
+const char* const names[16] = {"D alpha^2", "root", "V",      "Schlick",   "m.x",    "m.y", "m.z", "i.x",
+                               "i.y",       "i.z",  "weight", "cap bound", "cosine", "F0",  "F90", "basis"};
 
 std::array<float, 16> on_the_cpu(glm::vec4 in) {
     const float alpha = ggx_alpha(in.w);
     const glm::vec3 o(std::sqrt(1 - in.z * in.z), 0, in.z);
     const glm::vec3 m = sample_ggx_normal(o, alpha, in, 1), i = sample_ggx_reflection_bounded(o, alpha, in);
     return {ggx_distribution(m, alpha) * alpha * alpha,
-            smith_g1(o.z, alpha),
+            smith_root(o.z, alpha),
             smith_visibility(o.z, in.x + 0.01f, alpha),
             schlick_weight(o.z),
             m.x,

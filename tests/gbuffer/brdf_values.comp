@@ -15,7 +15,7 @@ void main() {
     vec3 i = sample_ggx_reflection_bounded(o, alpha, input_value.xy);
     vec3 tangent = basis_from_normal(m)[0];
     float results[16] = float[](
-        ggx_distribution(m, alpha) * alpha * alpha, smith_g1(o.z, alpha), smith_visibility(o.z, input_value.x + 0.01, alpha), schlick_weight(o.z),
+        ggx_distribution(m, alpha) * alpha * alpha, smith_root(o.z, alpha), smith_visibility(o.z, input_value.x + 0.01, alpha), schlick_weight(o.z),
         m.x, m.y, m.z, i.x, i.y, i.z,
         ggx_reflection_weight(o.z, i.z, alpha), ggx_cap_bound(o.z, alpha), sample_cosine(input_value.xy).z,
         specular_f0(vec3(input_value.x), input_value.y, 0.5).x, specular_f90(input_value.y, 0.5), dot(tangent, vec3(1.0, 2.0, 3.0)));

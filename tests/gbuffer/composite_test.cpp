@@ -1,5 +1,6 @@
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_transfer.h"
+#include "core/gbuffer/pixel_position.h"
 #include "core/shared/brdf.h"
 #include "core/split_sum.h"
 #include "tests/gbuffer/test_scenes.h"
@@ -7,6 +8,30 @@
 #include <gtest/gtest.h>
 
 namespace {
+
+/// The formula of Compositor on the CPU. `radiance` has 3 channels or more, `confidence` 1 or more. RGB.
+struct HostComposite {
+    HostImage specular, image;
+};
+HostComposite composite(const HostGBuffer& g, const HostImage& radiance, const HostImage& confidence,
+                        CompositeFormula formula = CompositeFormula::split_sum) {
+    HostComposite result{specular_reflectance(g), HostImage(g.extent(), 3)};
+    for (size_t i = 0; i < result.image.pixel_count(); ++i) {
+        const glm::vec3 fallback = g.fallback.values.empty() ? glm::vec3(0) : g.fallback.rgb(i);
+        const float weight = confidence.values[i * confidence.channels];
+        const bool is_added = formula == CompositeFormula::additive_fresnel;
+        glm::vec3 specular =
+            result.specular.rgb(i) * (is_added ? fallback : glm::mix(fallback, radiance.rgb(i), weight));
+        if (is_added) {
+            const float *n = &g.normal.values[4 * i], *c = &g.base_color.values[4 * i];
+            const float mu_o = -float(glm::dot(glm::dvec3(n[0], n[1], n[2]), view_direction(g, i)));
+            specular += radiance.rgb(i) * additive_weight({c[0], c[1], c[2]}, c[3], mu_o, weight);
+        }
+        result.specular.set_rgb(i, is_background(g, i) ? glm::vec3(0) : specular);
+        result.image.set_rgb(i, g.lit.rgb(i) + result.specular.rgb(i));
+    }
+    return result;
+}
 
 /// Confidence in an image of its own, or in the alpha channel of the radiance, whose other channels hold numbers that
 /// would do for a confidence.

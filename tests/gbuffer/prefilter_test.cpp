@@ -1,6 +1,6 @@
 #include "core/gbuffer/prefiltered_environment.h"
-#include "core/shared/brdf.h"
 #include "core/shared/environment.h"
+#include "tests/groundtruth/ggx_densities.h"
 
 #include <gtest/gtest.h>
 #include <cstdio>

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/gpu/device.h"
 #include "core/gpu/pass_graph.h"
+#include "tests/error_message.h"
 
 #include <gtest/gtest.h>
 #include <functional>
@@ -23,12 +24,7 @@ struct Webgl2Limits : testing::Test {
 
     std::string message(const std::function<void()>& action) {
         const LimitScope limits(graph, Limits::webgl2);
-        try {
-            action();
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "no error";
+        return error_message(action);
     }
 };
 

@@ -1,5 +1,6 @@
 #include "core/parameters.h"
 #include "core/error.h"
+#include "tests/error_message.h"
 
 #include <gtest/gtest.h>
 #include <bit>
@@ -19,15 +20,6 @@ struct Demo {
     Choice filter{params, "filter", "bilinear", {"nearest", "bilinear"}, {"", "how colours are read", "ssrlab"}};
     // clang-format on
 };
-
-std::string message_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 const Parameter& named(const ParameterSet& params, const std::string& name) {
     return *std::ranges::find(params, name, &Parameter::name);
@@ -50,7 +42,9 @@ TEST(Parameters, ReadLikePlainValues) {
 TEST(Parameters, KeepShortDecimals) { EXPECT_EQ(Demo{}.params.values().at("thickness").dump(), "0.05"); }
 
 TEST(Parameters, RejectMistakesBySayingWhatIsAllowed) {
-    const auto assign = [](const nlohmann::json& values) { return message_of([&] { Demo{}.params.assign(values); }); };
+    const auto assign = [](const nlohmann::json& values) {
+        return error_message([&] { Demo{}.params.assign(values); });
+    };
     EXPECT_EQ(assign({{"thicknes", 0.1}}), "unknown parameter 'thicknes'; did you mean 'thickness'?");
     EXPECT_EQ(assign({{"speed", 1}}),
               "unknown parameter 'speed'; known are: thickness, max_steps, offset, refine, filter");
@@ -94,11 +88,11 @@ TEST(Parameters, OfAPartBeginWithItsName) {
     EXPECT_EQ(params.glsl(true),
               "const bool dda_refine = bool(true);\n"
               "layout(std140) uniform Params {\n    float dda_thickness;\n};\n");
-    EXPECT_EQ(message_of([&] {
+    EXPECT_EQ(error_message([&] {
                   params.assign({{"thickness", 0.1}});
               }),
               "unknown parameter 'thickness'; did you mean 'dda.thickness'?");
-    EXPECT_EQ(message_of([&] {
+    EXPECT_EQ(error_message([&] {
                   params.assign({{"dda_thickness", 0.1}});
               }),
               "unknown parameter 'dda_thickness'; did you mean 'dda.thickness'?");
@@ -120,7 +114,7 @@ TEST(Parameters, HaveDefaultsThatATechniqueChanges) {
 
     EXPECT_THROW(demo.params.change_defaults({{"offset", 2}, {"thickness", 5}}), Error);
     EXPECT_EQ(demo.offset, -1);
-    EXPECT_EQ(message_of([&] {
+    EXPECT_EQ(error_message([&] {
                   demo.params.change_defaults({{"thicknes", 0.1}});
               }),
               "unknown parameter 'thicknes'; did you mean 'thickness'?");

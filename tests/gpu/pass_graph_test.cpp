@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/gpu/device.h"
 #include "core/gpu/shader.h"
+#include "tests/error_message.h"
 
 #include <gtest/gtest.h>
 #include <cstring>
@@ -31,15 +32,6 @@ HostImage ramp(glm::uvec2 extent, unsigned channels, float scale) {
     HostImage image(extent, channels);
     for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = float(i) * scale;
     return image;
-}
-
-std::string message(const auto& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "no error";
 }
 
 }  // namespace
@@ -197,11 +189,11 @@ TEST_F(Graph, PassesDecideWhatAnIncludeStandsFor) {
         const LimitScope limits(graph, Limits::webgl2);
         EXPECT_EQ(drawn(five), 5.0f);
         EXPECT_EQ(drawn(of_file), 7.0f);
-        const std::string refused = message([&] { drawn(no_glsl_es); });
+        const std::string refused = error_message([&] { drawn(no_glsl_es); });
         EXPECT_NE(refused.find("GLSL ES 3.00"), std::string::npos) << refused;
         EXPECT_NE(refused.find("decided:1"), std::string::npos) << refused;
     }
-    const std::string undecided = message([&] { graph.fragment("decided_include.frag").write(color).run(); });
+    const std::string undecided = error_message([&] { graph.fragment("decided_include.frag").write(color).run(); });
     EXPECT_NE(undecided.find("which decided_include.frag:1 includes"), std::string::npos) << undecided;
 }
 
@@ -210,15 +202,16 @@ TEST_F(Graph, MistakesNameTheCulprit) {
     begin(graph);
     const Image sum = graph.image("sum", Format::rgba32f), other = graph.image("other", Format::rgba32f),
                 unwritten = graph.image("previous_sum", Format::rgba32f);
-    EXPECT_EQ(message([&] { graph.compute("add_one.comp").write(sum).run(); }),
+    EXPECT_EQ(error_message([&] { graph.compute("add_one.comp").write(sum).run(); }),
               "add_one.comp uses 'previous_sum', which the pass does not provide; it provides: sum");
-    EXPECT_EQ(message([&] { graph.compute("add_one.comp").read(unwritten).write(sum).run(); }),
+    EXPECT_EQ(error_message([&] { graph.compute("add_one.comp").read(unwritten).write(sum).run(); }),
               "pass add_one reads 'previous_sum', which nothing has written yet");
     graph.clear(unwritten, glm::vec4(0.0f));
-    EXPECT_EQ(message([&] { graph.compute("add_one.comp").read(unwritten).read(other).write(sum).run(); }),
+    EXPECT_EQ(error_message([&] { graph.compute("add_one.comp").read(unwritten).read(other).write(sum).run(); }),
               "pass add_one reads 'other', which add_one.comp does not use");
-    EXPECT_NE(message([&] { graph.compute("no_such.comp").write(sum).run(); }).find("no shader file no_such.comp"),
-              std::string::npos);
+    EXPECT_NE(
+        error_message([&] { graph.compute("no_such.comp").write(sum).run(); }).find("no shader file no_such.comp"),
+        std::string::npos);
 }
 
 TEST(Devices, AreChosenByIndexOrName) {
@@ -226,7 +219,7 @@ TEST(Devices, AreChosenByIndexOrName) {
     ASSERT_FALSE(devices.empty());
     EXPECT_EQ(Device("0").info().name, devices[0].name);
     EXPECT_EQ(Device(devices[0].name.substr(0, 4)).info().name, devices[0].name);
-    EXPECT_NE(message([] { Device("no such device"); }).find("no Vulkan device fits 'no such device'"),
+    EXPECT_NE(error_message([] { Device("no such device"); }).find("no Vulkan device fits 'no such device'"),
               std::string::npos);
 }
 

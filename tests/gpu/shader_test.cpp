@@ -1,6 +1,7 @@
 #include "core/gpu/shader.h"
 #include "core/error.h"
 #include "core/parameters.h"
+#include "tests/error_message.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>
@@ -8,12 +9,7 @@
 namespace {
 
 std::string error_of(const std::string& file, ShaderLanguage language = ShaderLanguage::vulkan) {
-    try {
-        compile(file, "", "", {}, language);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
+    return error_message([&] { compile(file, "", "", {}, language); });
 }
 
 }  // namespace

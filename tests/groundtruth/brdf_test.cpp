@@ -3,6 +3,7 @@
 #include "core/split_sum.h"
 #include "groundtruth/lobes.h"
 #include "groundtruth/sobol.h"
+#include "tests/groundtruth/ggx_densities.h"
 #include "tests/groundtruth/vectors.h"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/exr.h"
 #include "core/png.h"
+#include "tests/error_message.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -38,12 +39,7 @@ HostImage noise(glm::uvec2 extent, unsigned seed) {
 }
 
 std::string message(const CompareOptions& options) {
-    try {
-        compare(options);
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "no error";
+    return error_message([&] { compare(options); });
 }
 
 double value(const Comparison& comparison, const std::string& name) {

@@ -1,5 +1,6 @@
 #include "metrics/masks.h"
 #include "core/error.h"
+#include "tests/error_message.h"
 
 #include <gtest/gtest.h>
 #include <limits>
@@ -109,18 +110,9 @@ TEST(Masks, WithoutAFrameBeforeNothingIsDisoccluded) { EXPECT_EQ(Images({4, 4}).
 
 TEST(Masks, MistakesAreNamed) {
     Images images({4, 4});
-    try {
-        images.mask("reflectiv");
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "no mask named 'reflectiv'; did you mean 'reflective'?");
-    }
-    try {
-        check_mask_name("x");
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("roughness_FROM_BELOW"), std::string::npos);
-    }
+    EXPECT_EQ(error_message([&] { images.mask("reflectiv"); }),
+              "no mask named 'reflectiv'; did you mean 'reflective'?");
+    EXPECT_NE(error_message([] { check_mask_name("x"); }).find("roughness_FROM_BELOW"), std::string::npos);
     images.roughness = HostImage({3, 4}, 1);
     EXPECT_THROW(images.mask("all"), Error);
 }

@@ -1,5 +1,6 @@
 #include "metrics/metric.h"
 #include "core/error.h"
+#include "tests/error_message.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -25,15 +26,6 @@ HostImage noise(glm::uvec2 extent, unsigned seed, float scale) {
 
 double value(const std::string& name, const ImagePair& pair, const Mask* mask = nullptr) {
     return measure(metric_named(name), pair, mask);
-}
-
-std::string message(const auto& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "no error";
 }
 
 // Sums of a few values in double.
@@ -173,19 +165,19 @@ TEST(Metric, NamesAreUniqueAndMistakesAreNamed) {
         EXPECT_TRUE(names.insert(metric.name).second) << metric.name;
         EXPECT_TRUE(formulas.insert(metric.formula).second) << metric.formula;
     }
-    EXPECT_NE(message([] { metric_named("relms"); }).find("no metric named 'relms'; did you mean 'relmse'?"),
+    EXPECT_NE(error_message([] { metric_named("relms"); }).find("no metric named 'relms'; did you mean 'relmse'?"),
               std::string::npos);
-    EXPECT_NE(message([] {
+    EXPECT_NE(error_message([] {
                   image_pair(HostImage({2, 2}, 3), HostImage({2, 3}, 3), {});
               }).find("2x2 pixels, but the test image has 2x3"),
               std::string::npos);
-    EXPECT_NE(message([] {
+    EXPECT_NE(error_message([] {
                   image_pair(HostImage({0, 0}, 3), HostImage({0, 0}, 3), {});
               }).find("zero size"),
               std::string::npos);
     const ImagePair small = image_pair(noise({100, 10}, 1, 1), noise({100, 10}, 2, 1), {});
-    EXPECT_NE(message([&] { value("ssim", small); }).find("at least 11x11 pixels, but these have 100x10"),
+    EXPECT_NE(error_message([&] { value("ssim", small); }).find("at least 11x11 pixels, but these have 100x10"),
               std::string::npos);
-    EXPECT_NE(message([&] { value("ms_ssim", small); }).find("at least 176x176"), std::string::npos);
-    EXPECT_NE(message([&] { value("hdr_flip", small); }).find("range of exposures"), std::string::npos);
+    EXPECT_NE(error_message([&] { value("ms_ssim", small); }).find("at least 176x176"), std::string::npos);
+    EXPECT_NE(error_message([&] { value("hdr_flip", small); }).find("range of exposures"), std::string::npos);
 }

@@ -59,9 +59,9 @@ TEST_F(AnimatedGltf, KeysThatDoNotAscendAreErrors) {
     writer.json["animations"] = {
         {{"samplers", {{{"input", times}, {"output", values}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
-    EXPECT_NE(message([&] { load(); }).find("do not ascend"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("do not ascend"), std::string::npos);
     writer.json["animations"][0]["samplers"][0]["input"] = writer.floats({0, 1, 2}, "SCALAR");
-    EXPECT_NE(message([&] { load(); }).find("3 keys and 2 values"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("3 keys and 2 values"), std::string::npos);
 }
 
 TEST_F(AnimatedGltf, LightsAndCamerasFollowTheirNodes) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/error.h"
 #include "core/scene/load_scene.h"
+#include "tests/error_message.h"
 #include "tests/scene/gltf_writer.h"
 
 #include <gtest/gtest.h>
@@ -26,15 +27,6 @@ struct Gltf : testing::Test {
     }
     Scene load() { return load_gltf(writer.write_glb(folder / "a.glb")); }
 };
-
-inline std::string message(const auto& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "no error";
-}
 
 inline bool mentions(const std::vector<std::string>& warnings, const std::string& text) {
     return std::ranges::any_of(warnings, [&](const std::string& w) { return w.find(text) != std::string::npos; });

@@ -102,14 +102,14 @@ TEST_F(Geometry, InvalidNumbersAreErrors) {
     const size_t position_view = writer.json["accessors"][size_t(quad["attributes"]["POSITION"])]["bufferView"];
     const size_t offset = writer.json["bufferViews"][position_view]["byteOffset"];
     std::memcpy(&writer.bytes[offset + 16], &nan, 4);
-    EXPECT_NE(message([&] { load(); }).find("element 1 is not finite"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("element 1 is not finite"), std::string::npos);
 }
 
 TEST_F(Geometry, IndicesOutOfRangeAreErrors) {
     nlohmann::json quad = writer.quad();
     quad["indices"] = writer.indices({0, 1, 9});
     writer.add_mesh_node(quad);
-    EXPECT_NE(message([&] { load(); }).find("has the index 9, but only 4 vertices"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("has the index 9, but only 4 vertices"), std::string::npos);
 }
 
 TEST(Tangents, SplitVerticesWhoseTexturesAreMirrored) {

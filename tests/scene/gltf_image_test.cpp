@@ -68,15 +68,15 @@ TEST_F(Images, BuffersMayBeDataUris) {
 
 TEST_F(Images, MissingOrBrokenOnesAreErrors) {
     writer.json["images"] = {{{"uri", "none.png"}}};
-    EXPECT_NE(message([&] { load(); }).find("none.png"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("none.png"), std::string::npos);
     write_text(folder / "cut.png", png.substr(0, png.size() / 2));
     writer.json["images"] = {{{"uri", "cut.png"}}};
-    EXPECT_NE(message([&] { load(); }).find("cannot decode image 0 ('cut.png')"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("cannot decode image 0 ('cut.png')"), std::string::npos);
     std::string empty = png;
     empty[19] = 0;  // the lowest byte of the width in the header: 0 x 1 texels
     write_text(folder / "empty.png", empty);
     writer.json["images"] = {{{"uri", "empty.png"}}};
-    EXPECT_NE(message([&] { load(); }).find("empty.png"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("empty.png"), std::string::npos);
 }
 
 TEST_F(Images, OfUnknownKindsAreReported) {

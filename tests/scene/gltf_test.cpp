@@ -53,7 +53,7 @@ TEST_F(Gltf, MaterialsFollowTheExtensions) {
 TEST_F(Gltf, UnknownRequiredExtensionsAreRefused) {
     writer.add_mesh_node(writer.quad());
     writer.json["extensionsRequired"] = {"EXT_meshopt_compression"};
-    EXPECT_NE(message([&] { load(); }).find("EXT_meshopt_compression"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("EXT_meshopt_compression"), std::string::npos);
 }
 
 TEST_F(Gltf, HierarchyAndAnimationPoseInstances) {
@@ -128,20 +128,20 @@ TEST_F(Gltf, BrokenFilesAreErrors) {
     writer.add_mesh_node(writer.quad());
     writer.write_gltf(folder / "b.gltf");
     fs::remove(folder / "b.bin");
-    EXPECT_NE(message([&] { load_gltf(folder / "b.gltf"); }).find("b.gltf"), std::string::npos);
-    EXPECT_NE(message([&] { load_gltf(folder / "none.glb"); }).find("none.glb"), std::string::npos);
+    EXPECT_NE(error_message([&] { load_gltf(folder / "b.gltf"); }).find("b.gltf"), std::string::npos);
+    EXPECT_NE(error_message([&] { load_gltf(folder / "none.glb"); }).find("none.glb"), std::string::npos);
     writer.json["accessors"][3]["count"] = 7;  // indices beyond the buffer
-    EXPECT_NE(message([&] { load(); }), "no error");
+    EXPECT_NE(error_message([&] { load(); }), "no error");
     writer.json["accessors"][3]["count"] = 6;
     writer.json["nodes"][0]["children"] = {0};
-    EXPECT_NE(message([&] { load(); }), "no error");
+    EXPECT_NE(error_message([&] { load(); }), "no error");
     writer.json["nodes"][0] = {{"mesh", 5}};
-    EXPECT_NE(message([&] { load(); }), "no error");
+    EXPECT_NE(error_message([&] { load(); }), "no error");
 }
 
 TEST_F(Gltf, NumbersThatOverflowAreRefusedByKey) {
     const auto refuses = [&](const std::string& what) {
-        const std::string said = message([&] { load_scene(writer.write_glb(folder / "a.glb").string(), {}); });
+        const std::string said = error_message([&] { load_scene(writer.write_glb(folder / "a.glb").string(), {}); });
         EXPECT_NE(said.find("a.glb"), std::string::npos) << said;
         EXPECT_NE(said.find(what), std::string::npos) << said;
     };
@@ -172,9 +172,9 @@ TEST_F(Gltf, NumbersThatOverflowAreRefusedByKey) {
     std::string text = read_text(writer.write_gltf(folder / "a.gltf"));
     text.replace(text.find("\"lamp\""), 6, "\"lamp\", \"alphaCutoff\": 1e999");
     write_text(folder / "a.gltf", text);
-    EXPECT_NE(message([&] { load_gltf(folder / "a.gltf"); }).find("materials[0]: alphaCutoff: the number 1e999"),
+    EXPECT_NE(error_message([&] { load_gltf(folder / "a.gltf"); }).find("materials[0]: alphaCutoff: the number 1e999"),
               std::string::npos)
-        << message([&] { load_gltf(folder / "a.gltf"); });
+        << error_message([&] { load_gltf(folder / "a.gltf"); });
     // Squares of the quaternion's parts overflow, but the rotation is clear.
     set("/nodes/0/rotation", {0, 0, 1e30, 1e30});
     const glm::vec4 rotation = load().nodes.at(0).rotation;
@@ -190,7 +190,8 @@ TEST_F(Gltf, AnimationOutOfRangeIsRefusedWhereItIs) {
          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
     const Scene scene = load();
     EXPECT_NO_THROW(pose_scene(scene, 0));
-    EXPECT_NE(message([&] { pose_scene(scene, 10); }).find("at frame 10 animation takes node ''"), std::string::npos);
+    EXPECT_NE(error_message([&] { pose_scene(scene, 10); }).find("at frame 10 animation takes node ''"),
+              std::string::npos);
 }
 
 TEST_F(Gltf, CamerasAndLightsNeedAnOrientation) {
@@ -199,11 +200,11 @@ TEST_F(Gltf, CamerasAndLightsNeedAnOrientation) {
     writer.json["nodes"].push_back({{"camera", 0}, {"scale", {1, 1, 0}}});
     writer.json["scenes"][0]["nodes"] = {0, 1};
     const auto load_whole = [&] { load_scene(writer.write_glb(folder / "a.glb").string(), {}); };
-    EXPECT_NE(message(load_whole).find("camera 'c' hangs on a node with a scale of 0"), std::string::npos);
+    EXPECT_NE(error_message(load_whole).find("camera 'c' hangs on a node with a scale of 0"), std::string::npos);
     writer.json["nodes"][1] = {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {1, 1, 0}}};
     writer.json["extensionsUsed"] = {"KHR_lights_punctual"};
     writer.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"name", "sun"}, {"type", "directional"}}};
-    EXPECT_NE(message(load_whole).find("light 'sun' hangs on a node with a scale of 0"), std::string::npos);
+    EXPECT_NE(error_message(load_whole).find("light 'sun' hangs on a node with a scale of 0"), std::string::npos);
 }
 
 TEST_F(Gltf, DeepOrRepeatedKeysEndInASentence) {
@@ -211,10 +212,10 @@ TEST_F(Gltf, DeepOrRepeatedKeysEndInASentence) {
     const std::string text = read_text(writer.write_gltf(folder / "a.gltf"));
     const std::string brackets = std::string(300'000, '[') + std::string(300'000, ']');
     write_text(folder / "deep.gltf", "{\"extras\": " + brackets + "," + text.substr(text.find('{') + 1));
-    EXPECT_EQ(message([&] { load_gltf(folder / "deep.gltf"); }),
+    EXPECT_EQ(error_message([&] { load_gltf(folder / "deep.gltf"); }),
               (folder / "deep.gltf").string() + ": its JSON nests more than 100 levels");
     write_text(folder / "twice.gltf", "{\"nodes\": []," + text.substr(text.find('{') + 1));
-    EXPECT_EQ(message([&] { load_gltf(folder / "twice.gltf"); }),
+    EXPECT_EQ(error_message([&] { load_gltf(folder / "twice.gltf"); }),
               (folder / "twice.gltf").string() + ": the key 'nodes' comes twice in one object");
 }
 

@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "core/scene/camera.h"
 #include "core/scene/load_scene.h"
+#include "tests/error_message.h"
 #include "tests/scene/gltf_writer.h"
 
 #include <gtest/gtest.h>
@@ -36,12 +37,7 @@ struct SceneFile : testing::Test {
         return load_scene("room", {root});
     }
     std::string mistake(const std::string& json) {
-        try {
-            load(json);
-        } catch (const Error& e) {
-            return e.what();
-        }
-        return "no error";
+        return error_message([&] { load(json); });
     }
 };
 
@@ -153,12 +149,7 @@ TEST_F(SceneFile, FurtherFilesAreMergedAndWarningsOfTheHiddenDropped) {
 
 TEST_F(SceneFile, UnknownScenesAndBareFiles) {
     load(R"({"gltf": "room.glb", )" + camera + "}");
-    try {
-        load_scene("rom", {root});
-        FAIL();
-    } catch (const Error& e) {
-        EXPECT_EQ(std::string(e.what()), "unknown scene 'rom'; did you mean 'room'?");
-    }
+    EXPECT_EQ(error_message([&] { load_scene("rom", {root}); }), "unknown scene 'rom'; did you mean 'room'?");
     const Scene bare = load_scene((root / "room/room.glb").string(), {});
     EXPECT_EQ(bare.environment.color, glm::vec3(1));
     const CameraPose pose = pose_camera(bare.cameras.at(0), pose_scene(bare, 0), 0);

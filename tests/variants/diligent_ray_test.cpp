@@ -1,5 +1,5 @@
 // Directions and densities of rays, where every pixel looks straight at a surface whose normal is chosen.
-#include "core/shared/brdf.h"
+#include "tests/groundtruth/ggx_densities.h"
 #include "tests/variants/diligent_trace.h"
 
 #include <array>
@@ -153,7 +153,8 @@ TEST_F(DiligentRay, NormalsAreThoseOfTheDistribution) {
                 const double turn = std::atan2(m.y, m.x) / (2 * glm::pi<double>()) + 0.5;
                 counts[std::min(size_t(8 * share), size_t(7)) * 8 + std::min(size_t(8 * turn), size_t(7))] += 1;
                 const double a2 = alpha * alpha, t = m.z * m.z * a2 + 1 - m.z * m.z;
-                const double density = a2 / (glm::pi<double>() * t * t) * m.z / (4 * std::abs(glm::dot(ray.to_viewer, m)));
+                const double density =
+                    a2 / (glm::pi<double>() * t * t) * m.z / (4 * std::abs(glm::dot(ray.to_viewer, m)));
                 ASSERT_NEAR(found.values[4 * i + 3], density, 1e-3 * density);
             }
             double sum = 0;

@@ -1,4 +1,4 @@
-#include "core/shared/brdf.h"
+#include "tests/groundtruth/ggx_densities.h"
 #include "tests/variants/reconstruction_bench.h"
 #include "tests/variants/variant_fixture.h"
 

@@ -1,37 +1,17 @@
 // Frostbite's technique from the G-buffer to the image.
 #include "tests/variants/amd_scenes.h"
+#include "tests/variants/held_camera.h"
 #include "tests/variants/other_subgroups.h"
-#include "tests/variants/variant_fixture.h"
-
-#include <glm/gtc/matrix_transform.hpp>
 
 namespace {
 
-struct FrostbiteVariantTest : VariantTest {
-    /// Rolled a little, so that rows of pixels do not meet rows of what they reflect.
-    CameraPose pose{.world_from_view = glm::rotate(glm::mat4(1), 0.07f, glm::vec3(0.3f, 0, 1)),
-                    .vertical_fov = 1.2f,
-                    .near = 0.1f,
-                    .far = 100.0f};
-    FrameView view{.extent = {160, 120}};
-    std::vector<PassTime> times;
-
-    /// The last of `count` frames of a held camera. Channels: radiance, confidence. `environment`: where rays meet
-    /// nothing.
+struct FrostbiteVariantTest : HeldCamera {
+    /// Channels: radiance, confidence.
     HostImage render(Variant& variant, const SyntheticScene& scene, unsigned count = 1, float environment = 0) {
-        PassGraph graph(device(), view.extent);
-        Reflections reflections;
-        for (view.frame = 0; view.frame < count; ++view.frame) {
-            const CameraData camera = camera_data(pose, view.frame > 0 ? &pose : nullptr, view);
-            const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-            graph.upload(gbuffer.fallback, HostImage(view.extent, 4, environment));
-            graph.begin_frame(camera, variant.params, gbuffer.images());
-            reflections = variant.render(graph, gbuffer);
-            times = graph.times();
-        }
+        const HostImage found = HeldCamera::render(variant, scene, count, environment).radiance;
         EXPECT_EQ(reflections.confidence.storage, reflections.radiance.storage);
         EXPECT_EQ(reflections.confidence_channel, 3u);
-        return graph.download(reflections.radiance);
+        return found;
     }
     HostImage render(const nlohmann::json& parameters, const std::string& preset, const SyntheticScene& scene,
                      unsigned count = 1, float environment = 0) {

@@ -20,7 +20,7 @@ struct MirrorFloor : VariantTest {
         graph.begin_frame(camera, variant->params, gbuffer.images());
         const Reflections reflections = variant->render(graph, gbuffer);
         radiance = graph.download(reflections.radiance);
-        confidence = graph.download(reflections.confidence);
+        confidence = download_confidence(graph, reflections);
         hit = graph.download(graph.image("hit", Format::rgba32f));
     }
 

@@ -1,6 +1,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/shader.h"
+#include "tests/error_message.h"
 #include "tests/variants/variant_fixture.h"
 #include "variants/tracers/tracers.h"
 
@@ -9,29 +10,20 @@
 
 namespace {
 
-std::string message_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 TEST(Registry, NamesTheNearestVariant) {
-    EXPECT_EQ(message_of([] { make_variant("mcguire_dad"); }),
+    EXPECT_EQ(error_message([] { make_variant("mcguire_dad"); }),
               "unknown variant 'mcguire_dad'; did you mean 'mcguire_dda'?");
-    EXPECT_EQ(message_of([] {
+    EXPECT_EQ(error_message([] {
                   make_variant("mcguire_dda", {{"thicknes", 1}});
               }),
               "variant 'mcguire_dda': unknown parameter 'thicknes'; did you mean 'dda.thickness'?");
-    EXPECT_EQ(message_of([] {
+    EXPECT_EQ(error_message([] {
                   make_variant("mcguire_dda", {{"dda.stride", 0}});
               }),
               "variant 'mcguire_dda': parameter 'dda.stride' = 0 is outside of its range: [1, 64]");
-    EXPECT_EQ(message_of([] { make_variant("mcguire_dda", {}, "corse"); }),
+    EXPECT_EQ(error_message([] { make_variant("mcguire_dda", {}, "corse"); }),
               "unknown preset of variant 'mcguire_dda': 'corse'; did you mean 'coarse'?");
-    EXPECT_EQ(message_of([] { make_variant("none", {}, "fast"); }),
+    EXPECT_EQ(error_message([] { make_variant("none", {}, "fast"); }),
               "unknown preset of variant 'none': 'fast'; there are none");
 }
 
@@ -56,9 +48,9 @@ TEST(Registry, TakesPresetsThatASearchFound) {
     EXPECT_EQ(found.meaning, "made up");
     EXPECT_EQ(found.parameters, nlohmann::json({{"dda.stride", 2}}));
     const std::string rest = R"("description": "", "parameters": {}})";
-    EXPECT_EQ(message_of([&] { add(dda, R"({"variant": "amd_sssr", "name": "best_4x", )" + rest); }),
+    EXPECT_EQ(error_message([&] { add(dda, R"({"variant": "amd_sssr", "name": "best_4x", )" + rest); }),
               file.string() + ":1:15: presets[0]: 'amd_sssr' is not 'mcguire_dda'");
-    EXPECT_EQ(message_of([&] { add(dda, R"({"variant": "mcguire_dda", "name": "coarse", )" + rest); }),
+    EXPECT_EQ(error_message([&] { add(dda, R"({"variant": "mcguire_dda", "name": "coarse", )" + rest); }),
               file.string() + ":1:41: presets[0]: 'mcguire_dda' has a preset 'coarse' already");
 }
 

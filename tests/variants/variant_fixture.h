@@ -4,6 +4,15 @@
 
 #include <gtest/gtest.h>
 
+/// One channel, in whichever image it is.
+inline HostImage download_confidence(PassGraph& graph, const Reflections& reflections) {
+    const HostImage all = graph.download(reflections.confidence);
+    HostImage confidence(all.extent, 1);
+    for (size_t i = 0; i < confidence.values.size(); ++i)
+        confidence.values[i] = all.values[i * all.channels + reflections.confidence_channel];
+    return confidence;
+}
+
 /// One device for all tests of the program; every test ends with a silent validation layer.
 struct VariantTest : testing::Test {
     static Device& device() {

@@ -1,15 +1,35 @@
-#include "variants/amd_sssr/amd_sssr.h"
-
+#include "variants/amd_sssr/denoiser_parameters.h"
 #include "variants/amd_sssr/mirror.h"
 #include "variants/amd_sssr/passes.h"
+#include "variants/amd_sssr/tracing_parameters.h"
+#include "variants/common/blue_noise.h"
+#include "variants/common/variant_entry.h"
+#include "variants/tracers/tracing_variant.h"
+
+/// AMD FidelityFX Stochastic Screen-Space Reflections with its reflection denoiser, as the shaders of FidelityFX SDK
+/// 1.1.4 compute them (effects SSSR 1.5 and Denoiser 1.3, MIT licence). Defaults are those of AMD's sample.
+///
+/// README.md explains the passes, lists the deviations, and names the parameter that fixes each defect of the original.
+class AmdSssr final : public TracingVariant {
+public:
+    bool depends_on_seed() const override;
+    std::string not_repeatable() const override;
+
+private:
+    Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
+    Needless find_needless(const SceneFacts& facts) override;
+    Image noise(PassGraph& graph);
+    const Tracers& chosen_tracers() const override { return tracing_.tracers; }
+
+    AmdTracingParameters tracing_{params};
+    AmdDenoiserParameters denoiser_{params};
+    BlueNoise noise_;
+    bool draws_nothing_ = false;
+};
 
 Reflections AmdSssr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     const Image confidence = graph.image("confidence", Format::r8);
     const AmdHistories histories = amd_histories(graph, denoiser_.float_histories, tracing_.float_roughness);
-    if (is_left_out_) {
-        for (const Image& image : {histories.radiance.current, confidence}) graph.clear(image, {});
-        return {histories.radiance.current, confidence};
-    }
     const Tracers::Images traced_images = tracing_.tracers.images(graph, gbuffer.depth);
     const AmdWork work = amd_classify(graph, gbuffer, histories, confidence);
     const Image noise = draws_nothing_ ? noise_.table(graph) : this->noise(graph);
@@ -36,7 +56,7 @@ TracingVariant::Needless AmdSssr::find_needless(const SceneFacts& facts) {
     Needless needless{
         .such_a_surface = "below roughness_threshold_alpha",
         .stages = {"amd_sssr/classify", "common/blue_noise", "amd_sssr/prepare_arguments", "amd_sssr/intersect"}};
-    needless.rays = is_left_out_ = !facts.has_reflective || smoothest >= tracing_.roughness_threshold_alpha;
+    needless.rays = !facts.has_reflective || smoothest >= tracing_.roughness_threshold_alpha;
     if (tracing_.tracers.needs_pyramid()) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
     if (denoiser_.denoise)
         needless.stages.insert(needless.stages.end(),
@@ -71,4 +91,77 @@ std::string AmdSssr::not_repeatable() const {
                "denoiser_form = faithful without barrier_before_average: a tile's average may overwrite moments that "
                "other threads have still to read";
     return why;
+}
+
+namespace {
+
+const nlohmann::json amd_corrected = {{"hierarchy.min_traversal_occupancy", 0},
+                                      {"hierarchy.thickness_at_hit_mip", true},
+                                      {"independent_noise_shifts", true},
+                                      {"trace_orphans", true},
+                                      {"hierarchy.clip_ray_to_near_plane", true},
+                                      {"hierarchy.zero_direction", "nudged"},
+                                      {"guard_mirror_normal", true},
+                                      {"redraw_below_horizon", true},
+                                      {"inward_rays", "black"},
+                                      {"hierarchy.stop_outside_screen", true},
+                                      {"hierarchy.partial_texels", "near_plane"},
+                                      {"hierarchy.reject_unfinished", true},
+                                      {"hierarchy.finite_length", true},
+                                      {"repair_inputs", true},
+                                      {"rate_stored_roughness", true},
+                                      {"barrier_before_average", true},
+                                      {"current_sample_count", true},
+                                      {"no_dark_exit", true},
+                                      {"running_variance", true},
+                                      {"round_up_tiles", true},
+                                      {"reproject_history_depth", true},
+                                      {"guard_previous_clip", true},
+                                      {"finite_neighborhood", true},
+                                      {"fresh_neighborhood", true},
+                                      {"float_histories", true}};
+
+}  // namespace
+
+VariantEntry amd_sssr_entry() {
+    return {
+        .name = "amd_sssr",
+        .title = "AMD FidelityFX stochastic screen-space reflections, with their denoiser",
+        .source =
+            "FidelityFX SDK 1.1.4 (SSSR 1.5, Denoiser 1.3), MIT licence, Copyright (C) 2024 Advanced Micro "
+            "Devices, Inc.",
+        .description =
+            "One ray per quad or pixel, drawn from the visible normals with blue noise, is marched through a depth "
+            "pyramid; rays are accumulated over frames, filtered in space and clipped to their neighbourhood.",
+        .presets =
+            {{"slides",
+              "distances in the traversal loop as the slides of 2020 print them",
+              {{"hierarchy.march", "slides"}}},
+             {"sdk_1_5",
+              "the shaders of FidelityFX SDK 1.1.4 with the defaults of its sample; of what its host code binds "
+              "wrongly, "
+              "the stale sample count is kept, as in version 1.3, the stale averages and the pyramid's are not",
+              nlohmann::json::object()},
+             {"repeatable",
+              "as sdk_1_5, but subgroups do not give up their last rays: repeatable for every size of subgroups",
+              {{"hierarchy.min_traversal_occupancy", 0}}},
+             {"corrected",
+              "every defect fixed, and no early exit of thinly occupied subgroups; deliberate choices of the original "
+              "are unchanged",
+              amd_corrected},
+             {"best",
+              "the least error that a search before `ssrlab tune` found (commit 5cf9fef), from `corrected` on: "
+              "rougher "
+              "surfaces traced, contact hits and thicker surfaces accepted, narrower filters, history clipped closer",
+              changed(amd_corrected, {{"hierarchy.max_traversal_intersections", 4096},
+                                      {"roughness_threshold_alpha", 0.4},
+                                      {"hierarchy.accept_contact_hits", true},
+                                      {"hierarchy.depth_buffer_thickness", 0.15},
+                                      {"average_pull", 0.0},
+                                      {"prefilter_variance_weight", 2.2},
+                                      {"radiance_weight_bias", 0.3},
+                                      {"temporal_stability_factor", 0.5},
+                                      {"clip_scale", 1.4}})}},
+        .create = [] { return std::make_unique<AmdSssr>(); },
+    };
 }

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <bit>
 
-namespace {
-
-Image reduce(PassGraph& graph, const Image& depth, unsigned mips, const char* name, bool keeps_farthest) {
+Image depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips, bool keeps_farthest) {
     const glm::uvec2 extent = depth.extent;
     mips = std::min(mips, unsigned(std::bit_width(std::max(extent.x, extent.y))));
-    const Image pyramid = graph.image_of(name, Format::r32f, extent, mips);
+    const Image pyramid =
+        graph.image_of(keeps_farthest ? "farthest_depth_pyramid" : "depth_pyramid", Format::r32f, extent, mips);
     const glm::uvec2 groups = (extent + 63u) / 64u;
     PassGraph::Pass pass = graph.compute("common/depth_pyramid.comp");
     pass.read(depth).use(graph.buffer("depth_pyramid_counter", 4));
@@ -21,18 +20,4 @@ Image reduce(PassGraph& graph, const Image& depth, unsigned mips, const char* na
         pass.write((level < mips ? pyramid.mip(level) : missing).as("mip_" + std::to_string(level)));
     pass.dispatch_groups({groups, 1});
     return pyramid;
-}
-
-}  // namespace
-
-Image nearest_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips) {
-    return reduce(graph, depth, mips, "depth_pyramid", false);
-}
-
-Image farthest_depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips) {
-    return reduce(graph, depth, mips, "farthest_depth_pyramid", true);
-}
-
-Image depth_pyramid(PassGraph& graph, const Image& depth, unsigned mips, bool keeps_farthest) {
-    return keeps_farthest ? farthest_depth_pyramid(graph, depth, mips) : nearest_depth_pyramid(graph, depth, mips);
 }

@@ -1,19 +1,33 @@
-#include "variants/diligent_ssr/diligent_ssr.h"
-
+#include "variants/common/blue_noise.h"
+#include "variants/common/lit_history.h"
+#include "variants/common/variant_entry.h"
+#include "variants/diligent_ssr/filter_parameters.h"
 #include "variants/diligent_ssr/passes.h"
+#include "variants/diligent_ssr/tracing_parameters.h"
+#include "variants/tracers/tracing_variant.h"
 
-namespace {
+/// DiligentFX's screen-space reflection (Apache-2.0 licence), an adaptation of AMD FidelityFX SSSR to machines without
+/// compute shaders. Defaults are those of the effect as of July 2026.
+///
+/// README.md explains the passes, lists the deviations, and names the parameter that fixes each defect of the original.
+class DiligentSsr final : public TracingVariant {
+public:
+    bool depends_on_seed() const override;
 
-constexpr unsigned alpha = 3;  // channel of `reflections` that holds the confidence
+private:
+    Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
+    Needless find_needless(const SceneFacts& facts) override;
+    Image noise(PassGraph& graph);
+    const Tracers& chosen_tracers() const override { return tracing_.tracers; }
 
-}  // namespace
+    DiligentTracingParameters tracing_{params};
+    DiligentFilterParameters filter_{params};
+    BlueNoise noise_;
+    LitHistory lit_;
+    bool has_mirrors_only_ = false, is_still_ = false;
+};
 
 Reflections DiligentSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
-    if (is_left_out_) {
-        const Image nothing = graph.image("reflections", Format::rgba16f);
-        graph.clear(nothing, {});
-        return {nothing, nothing, alpha};
-    }
     const Image noise = has_mirrors_only_ ? noise_.table(graph) : this->noise(graph);
     const Image reprojected_depth =
         is_still_ ? gbuffer.depth.as("reprojected_depth") : diligent_reprojected_depth(graph, gbuffer);
@@ -26,7 +40,7 @@ Reflections DiligentSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
     diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter_);
     const Image reflections =
         diligent_cleanup(graph, gbuffer, histories.radiance.current, histories.variance.current, mask, filter_);
-    return {reflections, reflections, alpha};
+    return {reflections, reflections, 3};
 }
 
 /// Perfect mirrors draw nothing, nor does a lobe of which the mirror direction alone is left.
@@ -54,7 +68,7 @@ TracingVariant::Needless DiligentSsr::find_needless(const SceneFacts& facts) {
                                  "diligent_ssr/intersection", "diligent_ssr/spatial_reconstruction",
                                  "diligent_ssr/temporal_accumulation",
                                  is_guided ? "diligent_ssr/guided_cleanup" : "diligent_ssr/bilateral_cleanup"}};
-    needless.rays = is_left_out_ = !facts.has_reflective || stored(facts.min_roughness) > tracing_.roughness_threshold;
+    needless.rays = !facts.has_reflective || stored(facts.min_roughness) > tracing_.roughness_threshold;
     if (is_guided) needless.stages.push_back("diligent_ssr/guided_coefficients");
     if (tracing_.tracers.needs_pyramid()) needless.stages.push_back("diligent_ssr/depth_hierarchy");
     if (tracing_.half_resolution) needless.stages.push_back("diligent_ssr/half_resolution_mask");
@@ -78,4 +92,66 @@ TracingVariant::Needless DiligentSsr::find_needless(const SceneFacts& facts) {
     if (tracing_.previous_frame) needless.motion_readers.push_back("diligent_ssr/intersection");
     if (tracing_.misses.is("fallback")) needless.environment_readers = {"diligent_ssr/intersection"};
     return needless;
+}
+
+namespace {
+
+const nlohmann::json diligent_corrected = {{"temporal_radiance_stability_factor", 0.9},
+                                           {"hierarchy.partial_texels", "clamped"},
+                                           {"hierarchy.unproject_jitter", true},
+                                           {"bias_towards_mirror", true},
+                                           {"hierarchy.clip_ray_to_near_plane", true},
+                                           {"hierarchy.relative_ray_step", true},
+                                           {"inward_rays", "missed"},
+                                           {"hierarchy.stop_outside_screen", true},
+                                           {"hierarchy.reject_unfinished", true},
+                                           {"hierarchy.finite_length", true},
+                                           {"repair_inputs", true},
+                                           {"independent_noise_shifts", true},
+                                           {"float_rays", true},
+                                           {"premultiply_confidence", true},
+                                           {"nearest_half_rays", true},
+                                           {"axial_hit_depth", true},
+                                           {"linear_hit_depth", true},
+                                           {"centered_search", true},
+                                           {"guard_previous_clip", true},
+                                           {"finite_weights", true},
+                                           {"float_histories", true}};
+
+}  // namespace
+
+VariantEntry diligent_ssr_entry() {
+    return {
+        .name = "diligent_ssr",
+        .title = "DiligentFX screen-space reflections, for machines without compute shaders",
+        .source = "DiligentFX (2024-04 and 2026-07), Apache-2.0 licence, Copyright Diligent Graphics LLC",
+        .description =
+            "An adaptation of FidelityFX SSSR to fragment shaders: one ray per pixel through a hierarchy of depths, "
+            "with a "
+            "confidence in place of an environment; neighbours' rays are reused by ratio estimators, history is "
+            "accumulated, and what stays noisy is filtered.",
+        .presets = {{"documented",
+                     "April 2024, as its document describes it",
+                     {{"mask", "stencil"},
+                      {"spatial_kernel", "double_gaussian"},
+                      {"distribution_floor", false},
+                      {"short_ray_guard", false},
+                      {"history_search", "device_depth"}}},
+                    {"current", "July 2026, with its defaults", nlohmann::json::object()},
+                    {"corrected",
+                     "every defect fixed, and history that averages; deliberate choices of the original are unchanged",
+                     diligent_corrected},
+                    {"best",
+                     "the least error that a search before `ssrlab tune` found (commit 5cf9fef), from `corrected` on: "
+                     "rougher surfaces traced",
+                     changed(diligent_corrected, {{"hierarchy.max_traversal_intersections", 4096},
+                                                  {"roughness_threshold", 0.6},
+                                                  {"float_roughness", true},
+                                                  {"hierarchy.accept_contact_hits", true},
+                                                  {"temporal_radiance_stability_factor", 0.8},
+                                                  {"spatial_reconstruction_radius", 2},
+                                                  {"ggx_importance_sample_bias", 0.15}})}},
+        .limits = {.api = Limits::webgl2, .lifted_by = {{"hierarchy", "mip_views"}, {"tracer", "exact_scene"}}},
+        .create = [] { return std::make_unique<DiligentSsr>(); },
+    };
 }

@@ -136,10 +136,6 @@ bool Tracers::needs_pyramid() const {
     return all.nearest_mips > 0 || all.farthest_mips > 0;
 }
 
-bool Tracers::fit_webgl2() const {
-    return std::ranges::all_of(slots_, [&](const TracerSlot& slot) { return chosen(slot.name).fits_webgl2; });
-}
-
 std::string Tracers::not_repeatable() const {
     for (const TracerSlot& slot : slots_)
         if (std::string why = tracer_of(slot.name).not_repeatable(); !why.empty()) return why;

@@ -37,7 +37,6 @@ public:
     TracerNeeds needs() const;  ///< of all slots
     TracerNeeds needs(const std::vector<std::string>& slots) const;
     bool needs_pyramid() const;
-    bool fit_webgl2() const;             ///< all chosen ones
     std::string not_repeatable() const;  ///< of the first that says so
 
     /// What slots need, made for this frame.

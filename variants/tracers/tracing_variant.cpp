@@ -4,6 +4,7 @@ std::vector<LeftOut> TracingVariant::leave_out(const SceneFacts& facts) {
     const Needless needless = find_needless(facts);
     std::vector<LeftOut> left_out;
     constants_ = {};
+    has_no_rays_ = needless.rays;
     if (needless.rays) {
         const std::string fact = facts.has_reflective ? "no reflective surface " + needless.such_a_surface
                                                       : std::string("nothing reflective");

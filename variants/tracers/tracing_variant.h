@@ -9,6 +9,11 @@ public:
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) final {
         graph.set_constants(constants_);
         const RepairedInputs inputs(graph, gbuffer, repair_inputs_ && !is_sound_);
+        if (has_no_rays_) {
+            const Image nothing = graph.image("reflections", Format::rgba16f);
+            graph.clear(nothing, {});
+            return {nothing, nothing, 3};
+        }
         return render_passes(graph, inputs.gbuffer());
     }
     std::vector<LeftOut> leave_out(const SceneFacts& facts) final;
@@ -33,7 +38,8 @@ protected:
 
     virtual const Tracers& chosen_tracers() const = 0;
     virtual Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) = 0;  ///< Variant::render()
-    /// Of Variant::leave_out(). render_passes() skips the stages from then on; `constants` are set for it.
+    /// Of Variant::leave_out(). render_passes() skips `parts` from then on, for which `constants` are set; it is not
+    /// called where no pixel would start a ray.
     virtual Needless find_needless(const SceneFacts& facts) = 0;
 
 private:
@@ -46,6 +52,6 @@ private:
          "background, black, still or faces the viewer, and no other pixel sees its fault. Left out where the inputs "
          "are known to be sound",
          "ssrlab"}};
-    bool is_sound_ = false;
+    bool is_sound_ = false, has_no_rays_ = false;  // until leave_out()
     Constants constants_;
 };

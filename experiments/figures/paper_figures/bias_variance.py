@@ -1,5 +1,7 @@
 """Bias^2 and variance of each point: what all seeds get wrong alike, and what differs from seed to seed."""
 
+from dataclasses import replace
+
 from paper_figures import style
 
 NAMES = {"bias_squared": "bias\N{SUPERSCRIPT TWO}, 95 % interval", "variance": "variance, 95 % interval"}
@@ -51,13 +53,6 @@ def _draw_part(axes, row, index, name, measured, limits):
     if measured.value <= 0:
         axes.text(limits[0] * 1.1, y, "about 0", color=color, va="center")
         return
-    below, above = measured.whiskers()
-    axes.errorbar(
-        [measured.value],
-        [y],
-        xerr=[[min(below[0], measured.value - limits[0])], above],
-        fmt=mark,
-        color=color,
-        markerfacecolor=color if index == 0 else "white",
-        label=NAMES[name],
-    )
+    if measured.low is not None:
+        measured = replace(measured, low=max(measured.low, limits[0]))
+    style.draw_mark(axes, measured, y, mark, color, is_hollow=index > 0, label=NAMES[name])

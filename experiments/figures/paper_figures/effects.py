@@ -140,16 +140,7 @@ def _draw_shot(results, axes, rows, keys):
             )
             continue
         is_significant = e["verdict"] in ("less", "more")
-        axes.errorbar(
-            [ratio.value],
-            [row],
-            xerr=ratio.whiskers(),
-            fmt=mark,
-            color=color,
-            markersize=3.4 * style.scale(),
-            markeredgewidth=0.8,
-            markerfacecolor=color if is_significant else "white",
-        )
+        style.draw_mark(axes, ratio, row, mark, color, not is_significant, markersize=3.4 * style.scale(), markeredgewidth=0.8)
 
 
 def _is_near(ratio):

@@ -59,19 +59,8 @@ def _draw_none(axes, results, errors, shot):
 
 def draw_mark(axes, cost, error, mark, color, is_hollow=False, alpha=1.0):
     """A mark with the whiskers of both; returns where these are, which no label may cover."""
+    style.draw_mark(axes, cost, error, mark, color, is_hollow, elinewidth=0.7, markeredgewidth=0.8 if is_hollow else 0, alpha=alpha)
     x, y = cost.whiskers(), error.whiskers()
-    axes.errorbar(
-        [cost.value],
-        [error.value],
-        xerr=x,
-        yerr=y,
-        fmt=mark,
-        color=color,
-        elinewidth=0.7,
-        markerfacecolor="white" if is_hollow else color,
-        markeredgewidth=0.8 if is_hollow else 0,
-        alpha=alpha,
-    )
     return [
         (cost.value - x[0][0], error.value, cost.value + x[1][0], error.value),
         (cost.value, error.value - y[0][0], cost.value, error.value + y[1][0]),

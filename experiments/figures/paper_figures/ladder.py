@@ -45,16 +45,7 @@ def draw(results, chosen):
                 continue
             color = results.colors.get(key, style.COLORS[0])
             axes.hlines(row, min(limit, error.value), max(limit, error.value), color=color, linewidth=2.2 * style.scale(), alpha=0.45)
-            axes.errorbar(
-                [error.value],
-                [row],
-                xerr=error.whiskers(),
-                fmt="o",
-                color=color,
-                markersize=3.4 * style.scale(),
-                markerfacecolor="white" if error.is_one_seed else color,
-                markeredgewidth=0.8,
-            )
+            style.draw_mark(axes, error, row, "o", color, error.is_one_seed, markersize=3.4 * style.scale(), markeredgewidth=0.8)
         style.log_axis(axes.xaxis)
         axes.margins(x=0.08)
         axes.grid(axis="y", visible=False)

@@ -91,6 +91,13 @@ def series(index, color=None):
     return color or COLORS[index % len(COLORS)], MARKS[(index + index // len(COLORS)) % len(MARKS)]
 
 
+def draw_mark(axes, x, y, mark, color, is_hollow=False, **options):
+    """`x`, `y`: Measured, drawn with their whiskers, or numbers."""
+    places = [[getattr(v, "value", v)] for v in (x, y)]
+    bars = {name: v.whiskers() for name, v in (("xerr", x), ("yerr", y)) if hasattr(v, "whiskers")}
+    axes.errorbar(*places, **bars, fmt=mark, color=color, markerfacecolor="white" if is_hollow else color, **options)
+
+
 def darker(color):
     """Of a mark's colour one that letters can be read in, on white."""
     return tuple(0.55 * part for part in to_rgb(color))

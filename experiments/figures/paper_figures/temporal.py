@@ -44,16 +44,8 @@ def _draw_metric(results, axes, rows, metric):
             text = "cannot be told" if value is None else "0"
             axes.text(0.01, y, text, color=color, va="center", transform=axes.get_yaxis_transform())
             continue
-        axes.errorbar(
-            [value.value],
-            [y],
-            xerr=value.whiskers(),
-            fmt=mark,
-            color=color,
-            markerfacecolor="white" if value.is_one_seed else color,
-            markeredgewidth=0.8 if value.is_one_seed else 0,
-            label=results.point_label(r["variant"], r["point"]),
-        )
+        edge = 0.8 if value.is_one_seed else 0
+        style.draw_mark(axes, value, y, mark, color, value.is_one_seed, markeredgewidth=edge, label=results.point_label(r["variant"], r["point"]))
     if is_log:
         axes.set_xscale("log")
         style.log_axis(axes.xaxis)

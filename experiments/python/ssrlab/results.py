@@ -4,6 +4,7 @@ import copy
 import csv
 import json
 import os
+import sys
 from dataclasses import dataclass
 
 from ssrlab.exr import ExrError, read_exr_rgb
@@ -27,10 +28,22 @@ class ResultsError(Exception):
     """A mistake in the results folder or in what was asked of it: one sentence."""
 
 
+def exit_code(work, what):
+    """Of a script: what `work()` returns, else 0; 2 for a mistake in what was asked of it, 3 where `what` cannot be written, both of which
+    are said."""
+    try:
+        return work() or 0
+    except ResultsError as mistake:
+        print(f"error: {mistake}", file=sys.stderr)
+        return 2
+    except OSError as fault:
+        print(f"error: cannot write {what}: {fault}", file=sys.stderr)
+        return 3
+
+
 ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
 BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
 EVALUATED = {"summary.csv": ("speaks", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
-OVER_FRAMES = ("", "all")  # `frame` of a row that speaks for all measured frames of its shot
 
 
 @dataclass
@@ -54,8 +67,8 @@ def label(variant, point):
 
 
 def is_over_frames(row):
-    """Whether it stands for all frames of its shot: such have no `frame`, in results of earlier versions "all"."""
-    return row["frame"] in OVER_FRAMES
+    """Whether it stands for all frames of its shot: such have no `frame`."""
+    return row["frame"] == ""
 
 
 def frame_number(row, file="summary.csv"):

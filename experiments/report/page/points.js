@@ -159,6 +159,17 @@ const metricName = key => {
     const [metric, formula] = key.split("|");
     return metric === formula || !formula ? metric : `${metric} (${formula})`;
 };
+/// A box for each of the `keys` (target, metric, mask) of `choice`, with the values that `rows` have; it begins with the
+/// headline's.
+const choiceBoxes = (choice, keys, rows, changed) => keys.map(key => {
+    const isMetric = key === "metric", values = unique(rows.map(isMetric ? metricKey : r => r[key]));
+    choice[key] = isMetric ? headlineMetric(rows) : preferred(values, headline[key]);
+    const label = key[0].toUpperCase() + key.slice(1);
+    return select(label, isMetric ? values.map(m => [m, metricName(m)]) : values, choice[key], value => {
+        choice[key] = value;
+        changed();
+    });
+});
 /// Which frames a row of errors speaks for; empty for a shot of one frame.
 function framesText(row) {
     const frames = list(manifestShots().find(s => s.shot === row.shot)?.frames);

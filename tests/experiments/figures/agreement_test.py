@@ -20,7 +20,7 @@ def rows(metric, values, shot="s"):
 
 
 class Directions:
-    """What a results folder says of its metrics (paper_figures/results.py)."""
+    """What a results folder says of its metrics (ssrlab/results.py)."""
 
     def shortfall(self, metric, value):
         return -value if metric in ("ssim", "ms_ssim", "ssim_luma") else value

@@ -75,7 +75,7 @@ TEST_F(StudyPlanTest, AnEditRedoesTheCellsThatItMayChange) {
           "experiments/figures/tables.py", "experiments/run/study_results.cpp", "experiments/run/progress.cpp",
           "experiments/config/config.cpp", "experiments/stability/stability.cpp", "variants/README.md"})
         EXPECT_EQ(changed(file), Cells()) << file;
-    for (const char* file : {"variants/amd_sssr/intersect.comp", "variants/amd_sssr/denoise.cpp"})
+    for (const char* file : {"variants/amd_sssr/intersect.comp", "variants/amd_sssr/passes.cpp"})
         EXPECT_EQ(changed(file), Cells({"amd_sssr default", "times"})) << file;
     for (const char* file : {"variants/tracers/dda/dda.glsl", "variants/tracers/dda/dda.cpp"})
         EXPECT_EQ(changed(file), Cells({dda, "times"})) << file;

@@ -1,10 +1,6 @@
 // The summary table, and the choice of target, metric and mask that it shares with the matrix and the charts.
 
-const choice = {
-    target: null,
-    metric: null,
-    mask: null
-};
+const choice = {};
 const choiceListeners = [];
 const longTable = 20;  // rows; longer tables are folded
 
@@ -20,21 +16,8 @@ const otherRows = () => rowsOfMetric(otherMetric(choice.metric, report.errors));
 /// The value if it is present, else the first one.
 const preferred = (values, value) => values.includes(value) ? value : values[0];
 
-function showChoice() {
-    const targets = unique(report.errors.map(r => r.target)), metrics = unique(report.errors.map(metricKey)),
-          masks = unique(report.errors.map(r => r.mask));
-    choice.target = preferred(targets, headline.target);
-    choice.metric = headlineMetric(report.errors);
-    choice.mask = preferred(masks, headline.mask);
-    const changed = key => value => {
-        choice[key] = value;
-        choiceListeners.forEach(f => f());
-    };
-    at("choice").append(
-        select("Target", targets, choice.target, changed("target")),
-        select("Metric", metrics.map(m => [m, metricName(m)]), choice.metric, changed("metric")),
-        select("Mask", masks, choice.mask, changed("mask")));
-}
+const showChoice = () => at("choice").append(...choiceBoxes(
+    choice, ["target", "metric", "mask"], report.errors, () => choiceListeners.forEach(f => f())));
 
 /// Distance from perfect, so that less is better for every metric; null if its direction is not known.
 function badness(metric, value) {

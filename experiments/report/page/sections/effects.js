@@ -29,10 +29,7 @@ const againstLabel = e => e.against === "baseline" ? pointLabel({variant: e.agai
 
 function showEffects() {
     const rows = effectsShown();
-    if (!rows.length) {
-        leaveOut("effects");
-        return;
-    }
+    if (!rows.length) return leaveOut("effects");
     const options = {
         against: unique(rows.map(againstLabel)),
         target: unique(rows.map(e => e.target)),

@@ -1,8 +1,6 @@
 // Where rays ended, against what they truly meet: hits.csv.
 
-const hitChoice = {
-    mask: null
-};
+const hitChoice = {};
 const errorStage = "error";  // rows of that stage share out the squared error, not the rays
 
 // Okabe and Ito's colours, as in the maps of the verdicts; `short` is written into bars that have room.
@@ -32,17 +30,10 @@ const verdictLegend = some => legend(some.map(v => ({label: v.name, swatch: colo
 function showHits() {
     const rays = report.hits.filter(r => r.stage !== errorStage);
     showErrorShares();
-    if (!rays.length) {
-        leaveOut("hits");
-        return;
-    }
-    const masks = unique(rays.map(r => r.mask));
-    hitChoice.mask = preferred(masks, headline.mask);
+    if (!rays.length) return leaveOut("hits");
+    const boxes = choiceBoxes(hitChoice, ["mask"], rays, pointsChanged);
     const parts = shotParts(unique(rays.map(r => r.shot)), hitPart);
-    at("hits").append(h("div", {class: "controls"}, select("Mask", masks, hitChoice.mask, value => {
-                            hitChoice.mask = value;
-                            pointsChanged();
-                        })), verdictLegend(verdicts), parts);
+    at("hits").append(h("div", {class: "controls"}, boxes), verdictLegend(verdicts), parts);
 }
 
 /// Rows of one point, frame and pass, by quantity.

@@ -8,10 +8,7 @@ function roughnessClass(mask) {
 
 function showRoughness() {
     const rows = report.errors.filter(r => r.value !== null && roughnessClass(r.mask));
-    if (!rows.length) {
-        leaveOut("roughness");
-        return;
-    }
+    if (!rows.length) return leaveOut("roughness");
     const body = h("div");
     at("roughness").append(body);
     const draw = () => body.replaceChildren(pointLegend(rows), ...roughnessParts(chartedRows(rows)));

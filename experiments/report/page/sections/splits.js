@@ -1,25 +1,11 @@
 // Bias and variance: what of an error all seeds share, and what differs from seed to seed.
 
-const splitChoice = {
-    target: null,
-    mask: null
-};
+const splitChoice = {};
 
 function showSplits() {
-    if (!report.splits.some(mayShow)) {
-        leaveOut("splits");
-        return;
-    }
-    const targets = unique(report.splits.map(s => s.target)), masks = unique(report.splits.map(s => s.mask));
-    splitChoice.target = preferred(targets, "specular");
-    splitChoice.mask = preferred(masks, "reflective");
-    const changed = key => value => {
-        splitChoice[key] = value;
-        drawSplits();
-    };
+    if (!report.splits.some(mayShow)) return leaveOut("splits");
     at("splits").append(
-        h("div", {class: "controls"}, select("Target", targets, splitChoice.target, changed("target")),
-          select("Mask", masks, splitChoice.mask, changed("mask"))),
+        h("div", {class: "controls"}, choiceBoxes(splitChoice, ["target", "mask"], report.splits, drawSplits)),
         legend([{label: "bias²", style: splitStyles[0]}, {label: "variance", style: splitStyles[1], isHollow: true}]),
         scroller(h("div", {class: "strips", id: "split-table"})));
     pointListeners.push(drawSplits);

@@ -31,10 +31,7 @@ const stageChoice = {
 
 function showStages() {
     const shots = unique([...report.times, ...report.costs].map(t => t.shot));
-    if (!shots.length) {
-        leaveOut("stages");
-        return;
-    }
+    if (!shots.length) return leaveOut("stages");
     const ofTimes = report.times.length ? [["times", "times"], ["shares", "shares of each point's total"]] : [],
           ofCosts = report.costs.length ? Object.entries(costKinds).map(([kind, {name}]) => [kind, name]) : [];
     if (!ofTimes.length) stageChoice.bars = "fetches";

@@ -8,35 +8,22 @@ const temporalTables = [
     },
     {title: "After a change: ghosts", metrics: ["ghost_length", "settling_length"]}
 ];
-const temporalChoice = {
-    mask: null
-};
-const frameChoice = {
-    metric: null,
-    mask: null
-};
+const temporalChoice = {}, frameChoice = {};
 
 function showTemporal() {
     const rows =
         report.errors.filter(r => temporalTables.some(t => t.metrics.includes(r.metric)) && !isSingleChange(r));
     const frames = report.frames.filter(r => r.value !== null);
-    if (!rows.length && !frames.length) {
-        leaveOut("temporal");
-        return;
-    }
+    if (!rows.length && !frames.length) return leaveOut("temporal");
     if (rows.length) showTemporalTables(rows);
     if (frames.length) showFrames(frames);
 }
 
 function showTemporalTables(rows) {
-    const masks = unique(rows.map(r => r.mask)), tables = h("div", {id: "temporal-tables"});
+    const tables = h("div", {id: "temporal-tables"});
     const draw = () => tables.replaceChildren(
         ...temporalTables.flatMap(t => temporalTable(t, rows.filter(r => r.mask === temporalChoice.mask))));
-    temporalChoice.mask = preferred(masks, "reflective");
-    at("temporal").append(h("div", {class: "controls"}, select("Mask", masks, temporalChoice.mask, mask => {
-                                temporalChoice.mask = mask;
-                                draw();
-                            })), tables);
+    at("temporal").append(h("div", {class: "controls"}, choiceBoxes(temporalChoice, ["mask"], rows, draw)), tables);
     draw();
 }
 
@@ -93,21 +80,14 @@ function whyMissing(row) {
 }
 
 function showFrames(rows) {
-    const metrics = unique(rows.map(metricKey)), masks = unique(rows.map(r => r.mask));
-    Object.assign(frameChoice, {metric: headlineMetric(rows), mask: preferred(masks, "reflective")});
-    const changed = key => value => {
-        frameChoice[key] = value;
-        drawFrames(rows);
-    };
+    const draw = () => drawFrames(rows);
     at("temporal")
         .append(
             h("h3", {}, "Frame by frame"),
-            h("div", {class: "controls"},
-              select("Metric", metrics.map(m => [m, metricName(m)]), frameChoice.metric, changed("metric")),
-              select("Mask", masks, frameChoice.mask, changed("mask"))),
+            h("div", {class: "controls"}, choiceBoxes(frameChoice, ["metric", "mask"], rows, draw)),
             h("div", {id: "frame-legend"}), h("div", {class: "grid", id: "frame-charts"}));
-    pointListeners.push(() => drawFrames(rows));
-    drawFrames(rows);
+    pointListeners.push(draw);
+    draw();
 }
 
 /// Charts of the chosen metric and of the one beside it, shot by shot.

@@ -3,12 +3,12 @@
 # (slurmctld, slurmd and munged of Debian) and takes down at its end. A job is killed twice: its process, then the job. Tables must be those of
 # one process, with all jobs in one folder and with folders of their own. Needs root, as slurmd does. Minutes.
 #
-# usage: experiments/cluster/slurm_test.sh [CONFIG.json]     SSRLAB names the program; default: build/release/ssrlab
+# usage: tests/experiments/cluster/slurm_test.sh [CONFIG.json]     SSRLAB names the program; default: build/release/ssrlab
 set -euo pipefail
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 . experiments/setup.sh
 ssrlab=$(realpath "${SSRLAB:-build/release/ssrlab}")
-study=$(realpath "${1:-experiments/cluster/slurm_test.json}")
+study=$(realpath "${1:-tests/experiments/cluster/slurm_test.json}")
 [ "$(id -u)" -eq 0 ] || die "slurmd needs root"
 install_packages "${cluster_packages[@]}"
 

@@ -1,5 +1,63 @@
 #include "variants/amd_sssr/passes.h"
 
+#include "core/gbuffer/environment_images.h"
+
+#include <cmath>
+
+AmdHistories amd_histories(PassGraph& graph, bool is_float, bool is_float_roughness) {
+    const Format radiance = is_float ? Format::rgba32f : Format::rgba16f;
+    const Format scalar = is_float ? Format::r32f : Format::r16f;
+    const Format average = is_float ? Format::rgba32f : Format::r11g11b10f;
+    const glm::uvec2 tiles = (graph.extent() + 7u) / 8u;
+    return {.radiance = graph.history("radiance", radiance),
+            .variance = graph.history("variance", scalar),
+            .sample_count = graph.history("sample_count", scalar),
+            .average_radiance = graph.history("average_radiance", average, tiles),
+            .roughness = graph.history("roughness", is_float_roughness ? Format::r32f : Format::r8)};
+}
+
+float amd_alpha_of_8_bits(float alpha) { return std::floor(alpha * 255.0f + 0.5f) / 255.0f; }  // as lists.glsl
+
+AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence) {
+    const glm::uvec2 extent = graph.extent(), tiles = (extent + 7u) / 8u;
+    const AmdWork work{.ray_list = graph.buffer("ray_list", size_t(extent.x) * extent.y * 4),
+                       .tile_list = graph.buffer("tile_list", size_t(tiles.x) * tiles.y * 4),
+                       .counters = graph.buffer("counters", 16),
+                       .indirect_arguments = graph.buffer("indirect_arguments", 36)};
+    graph.compute("amd_sssr/classify.comp")
+        .read(gbuffer.fallback)
+        .read(histories.variance.previous)
+        .write(histories.radiance.current)
+        .write(histories.roughness.current)
+        .write(confidence)
+        .use(work.ray_list)
+        .use(work.tile_list)
+        .use(work.counters)
+        .dispatch_groups({tiles, 1});
+    return work;
+}
+
+void amd_prepare_arguments(PassGraph& graph, const AmdWork& work) {
+    graph.compute("amd_sssr/prepare_arguments.comp")
+        .use(work.counters)
+        .use(work.indirect_arguments)
+        .dispatch_groups({1, 1, 1});
+}
+
+void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Images& images, const Image& noise,
+                   const AmdWork& work, const AmdHistories& histories, const AmdTracingParameters& parameters,
+                   RayProbe* probe) {
+    PassGraph::Pass pass = graph.compute("amd_sssr/intersect.comp");
+    pass.read(noise)
+        .read(histories.roughness.current)
+        .read(gbuffer.lit)
+        .read(gbuffer.fallback)
+        .write(histories.radiance.current);
+    bind_environment(pass, gbuffer).use(work.ray_list).use(work.counters);
+    parameters.tracers.run(graph, pass, {"tracer"}, images, probe, 1,
+                           [&](PassGraph::Pass& tracing) { tracing.dispatch(work.indirect_arguments); });
+}
+
 namespace {
 
 /// Each form has shaders of its own. A group of the faithful form denoises one tile, of the fast form eight.
