@@ -127,13 +127,12 @@ std::vector<EffectRow> effects_of_rows(const SeedsOfPoint& point, const SeedsOfP
         return {row};
     }
     const Jackknifed error = jackknifed_mean(errors), base_error = jackknifed_mean(base_errors);
-    const bool has_noise = point.noise && baseline.noise, has_growth = has_noise && !point.noise->growth.empty();
+    const bool has_noise = point.noise && baseline.noise, are_positive = error.value > 0 && base_error.value > 0;
     SharedScatter shared;
-    if (has_growth) {
+    if (has_noise && are_positive && !point.noise->growth.empty()) {
         const auto scatter = extrapolated_scatter(point.noise->growth, baseline.noise->growth);
         if (!scatter) {
-            row.interval = interval::no_end;
-            if (error.value > 0 && base_error.value > 0) row.ratio = error.value / base_error.value;
+            row.ratio = error.value / base_error.value, row.interval = interval::no_end;
             return {row};
         }
         shared = *scatter;
@@ -142,7 +141,7 @@ std::vector<EffectRow> effects_of_rows(const SeedsOfPoint& point, const SeedsOfP
     }
     const bool is_exact = has_noise && shared.variance == 0;
     for (LitNoise* part : {&lit, &base_lit}) part->added /= double(row.seeds), part->half_width /= double(row.seeds);
-    if (error.value > 0 && base_error.value > 0) add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
+    if (are_positive) add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
     set_ratio(row, error, base_error, shared);
     if (!row.ratio) return {row};
     const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;
