@@ -22,6 +22,7 @@ struct ResultRow {
     std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
     size_t pixels = 0, non_finite = 0, negative = 0;
     bool speaks_for_shot = false;  ///< see mark_what_speaks(); false in cells
+    NoiseGrowth growth = {};       ///< no column: Score::growth while frames are measured; empty in cells
 
     static constexpr auto columns() {
         return std::tuple(
