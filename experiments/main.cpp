@@ -86,6 +86,8 @@ int parse_and_run(int argc, char** argv) {
                           "Remove cells and images that earlier versions of the study left in its folder");
     run_command_.add_flag("--times-here", run.takes_times_here,
                           "Take times on this machine in place of those that another took; else they are kept");
+    run_command_.add_flag("--times-again", run.takes_times_again,
+                          "Take times again that other programs disturbed; the less disturbed are kept");
     run_command_
         .add_option(
             "--cells", run.cells,

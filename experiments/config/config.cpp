@@ -67,6 +67,7 @@ Config read_config(const std::filesystem::path& file) {
         JsonObject timing = object.object("timing");
         config.timing.frames = unsigned(timing.integer("frames", 0, 100000, int(config.timing.frames)));
         config.timing.warm_up = unsigned(timing.integer("warm_up", 1, 1000, int(config.timing.warm_up)));
+        config.timing.most_share = timing.number("most_share", 0, 1e6f, config.timing.most_share);
         config.timing.has_copies = timing.boolean("copies", config.timing.has_copies);
         timing.finish();
         if (config.timing.frames > 0 && config.timing.frames < 15)

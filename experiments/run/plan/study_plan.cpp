@@ -66,7 +66,8 @@ public:
     std::string of_times(const std::string& request, const std::vector<bool>& runs) {
         std::vector<std::string> sources = {"experiments/measuring/times/timing.cpp",
                                             "experiments/run/shots/open_shot.cpp"};
-        std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up)};
+        std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up),
+                                         std::to_string(config_.timing.most_share)};
         if (!config_.timing.has_copies) what.push_back("alone");
         for (size_t i = 0; i < points_.size(); ++i) {
             const VariantConfig& v = config_.variants[i];
