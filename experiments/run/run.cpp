@@ -1,11 +1,15 @@
 #include "experiments/run/run.h"
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/json.h"
 #include "experiments/run/shots/shot_cells.h"
 #include "experiments/run/study_results.h"
+#include "experiments/store/finished_run.h"
 #include "experiments/store/folder_owner.h"
 #include "experiments/store/manifest.h"
+
+#include <algorithm>
 
 namespace {
 
@@ -27,12 +31,27 @@ nlohmann::json read_manifest_before(const std::filesystem::path& file) {
 }
 
 /// What a reader wants to know first.
-void say_answers(StudySession& study, const std::vector<ShotAnswer>& answers) {
+std::vector<std::string> lines_of(const std::vector<ShotAnswer>& answers) {
+    std::vector<std::string> lines;
     for (const ShotAnswer& answer : answers)
-        study.progress.say("\n" + answer.shot + ": " + answer.sentence +
-                           (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence));
+        lines.push_back("\n" + answer.shot + ": " + answer.sentence +
+                        (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence));
+    return lines;
+}
+
+void say_end(StudySession& study, const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) study.progress.say(line);
     study.progress.say("\nReport: " +
                        std::filesystem::absolute(study.settings.out / "report.html").lexically_normal().string());
+}
+
+/// All that decides what a run of the whole study leaves.
+std::string key_of_run(const StudySession& study) {
+    ContentHash hash;
+    hash.add(study.maker.dump()), hash.add(study.config.source.dump()), hash.add(int(study.settings.keep_all));
+    for (const PlannedShot& shot : study.plan.shots)
+        for (const PlannedCell& cell : shot.cells) hash.add(cell.name);
+    return hash.hex();
 }
 
 /// The selected cells of all shots, and the work that they are.
@@ -60,11 +79,16 @@ public:
         : study_(study), selection_(selection), before_(read_manifest_before(study.settings.out / "manifest.json")) {}
 
     void run() {
+        if (const auto said = find_finished()) return say_end(study_, *said);
         for (const PlannedShot& shot : study_.plan.shots) {
             do_cells(study_, shot, selection_);
             if (selection_.is_all() && &shot != &study_.plan.shots.back() && are_results_due()) write(false);
         }
-        if (selection_.is_all()) return say_answers(study_, write(true));
+        if (selection_.is_all()) {
+            const std::vector<std::string> lines = lines_of(write(true));
+            keep_finished(lines);
+            return say_end(study_, lines);
+        }
         study_.progress.say(std::to_string(study_.made) + " cells done, " +
                             std::to_string(study_.finished.size() - study_.made) +
                             " found done before; `ssrlab merge` makes tables and report once all are there");
@@ -72,8 +96,26 @@ public:
 
 private:
     /// Tables and report are of all shots so far: of a long study's time half a hundredth goes into those that
-    /// it does not end with.
-    bool are_results_due() const { return std::chrono::steady_clock::now() - written_ > 200 * took_; }
+    /// it does not end with. Where nothing was made, those that are there will do.
+    bool are_results_due() const {
+        return study_.made > 0 && std::chrono::steady_clock::now() - written_ > 200 * took_;
+    }
+
+    /// What the run said that left the folder as it is; nothing if there is something to do, or to ask for.
+    std::optional<std::vector<std::string>> find_finished() const {
+        const RunSettings& settings = study_.settings;
+        if (!selection_.is_all() || settings.prunes || settings.takes_times_here || settings.takes_times_again)
+            return {};
+        return find_finished_run(settings.out, key_of_run(study_));
+    }
+
+    /// Not with times of another machine, of which every run says so.
+    void keep_finished(const std::vector<std::string>& lines) const {
+        const bool has_others_times = std::ranges::any_of(study_.finished, [&](const Cell& cell) {
+            return !cell.timing.is_null() && cell.provenance.at("host") != study_.maker.at("host");
+        });
+        if (!has_others_times) keep_finished_run(study_.settings.out, key_of_run(study_), lines);
+    }
 
     std::vector<ShotAnswer> write(bool is_complete) {
         const auto start = std::chrono::steady_clock::now();

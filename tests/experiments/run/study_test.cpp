@@ -180,6 +180,37 @@ TEST_F(StudyTest, WhatWasMeasuredAgainstAnotherTruthIsNotUsed) {
         Error);
 }
 
+TEST_F(StudyTest, WhatIsFinishedIsNotReadAgain) {
+    const Config study = config(R"("fence")");
+    const fs::path out = run(study, "a");
+    const std::string manifest = read_text(out / "manifest.json"), results = read_text(out / "results.csv");
+    fs::remove_all(folder / "cache");
+    run(study, "a");
+    EXPECT_EQ(read_text(out / "manifest.json"), manifest) << "not even written again";
+    EXPECT_FALSE(fs::exists(folder / "cache"));
+
+    // Tables that are gone or were touched are made again, damaged images too.
+    fs::remove(out / "report.html");
+    run(study, "a");
+    EXPECT_TRUE(fs::exists(out / "report.html"));
+    write_text(out / "results.csv", "edited\n");
+    run(study, "a");
+    EXPECT_EQ(read_text(out / "results.csv"), results);
+    const auto made = [&] { return read_json(out / "manifest.json")["run"]["cells_made"].get<int>(); };
+    EXPECT_EQ(made(), 0);
+    const std::string image = read_json(out / "manifest.json")["images"].back()["exr"];
+    write_text(out / image, "damaged");
+    run(study, "a");
+    EXPECT_EQ(made(), 1);
+
+    // Another study in the same folder is no end of this one.
+    Config other = study;
+    other.variants.front().seeds = {5};
+    run(other, "a");
+    EXPECT_EQ(made(), 1);
+    EXPECT_NE(read_text(out / "results.csv"), results);
+}
+
 TEST_F(StudyTest, OtherSeedsMakeNewCells) {
     Config study = config(R"("fence")");
     for (const unsigned seed : {0, 7}) {
