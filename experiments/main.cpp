@@ -59,7 +59,7 @@ void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), in
 int parse_and_run(int argc, char** argv) {
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
-        "Exit codes: 0 done, 2 a mistake in what was asked for, 3 a fault of this machine."};
+        "Exit codes: 0 done, 2 a mistake in what was asked for, 3 a fault of this machine, 130 stopped by Ctrl-C."};
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     app.set_version_flag(

@@ -9,13 +9,17 @@
 #include "experiments/store/folder_owner.h"
 #include "experiments/store/manifest.h"
 
+#include <unistd.h>
 #include <algorithm>
+#include <csignal>
 
 namespace {
 
-// First guesses of seconds per unit, for a small study; what is measured replaces them (workload.h).
-const std::map<CellKind, double> guessed_seconds = {
-    {CellKind::references, 20}, {CellKind::renders, 0.2}, {CellKind::costs, 0.2}, {CellKind::times, 5}};
+/// A first guess of what a unit of a cell takes, in seconds; what is measured corrects it (workload.h).
+double guessed_seconds(const PlannedCell& cell) {
+    constexpr double reference_seconds = 200, render_seconds = 1.5;  // of a million pixels
+    return 1e-6 * double(cell.pixels) * (cell.kind == CellKind::references ? reference_seconds : render_seconds);
+}
 
 /// What a run before left, which may be of any version; null if it cannot be read.
 nlohmann::json read_manifest_before(const std::filesystem::path& file) {
@@ -59,12 +63,19 @@ void plan_work(StudySession& study, const CellSelection& selection) {
     const SpentTime::Span span(study.spent, "planning");
     study.plan = plan_study(study.config, study.device.info(), study.settings.search_path, study.settings.keep_all);
     size_t selected = 0;
-    for (const PlannedShot& shot : study.plan.shots)
+    for (const PlannedShot& shot : study.plan.shots) {
+        double others = 0;
         for (const PlannedCell& cell : shot.cells) {
+            const bool is_times = cell.kind == CellKind::times;
+            // A budget of nothing is not kept, and one of more than all is hardly used.
+            const double share = std::clamp(double(study.config.timing.most_share), 0.1, 1.0);
+            const double guess = is_times ? share * others : guessed_seconds(cell);
+            others += cell.units * guess;
             if (!selection.holds(cell)) continue;
             ++selected;
-            study.work.plan(name_of(cell.kind), cell.units, guessed_seconds.at(cell.kind));
+            study.work.plan(name_of(cell.kind), kind_of_work(cell), cell.units, guess);
         }
+    }
     if (selected == 0 && selection.is_shard())
         study.progress.say("note: this part of the study has no cell");
     else if (selected == 0)
@@ -131,9 +142,32 @@ private:
     std::chrono::steady_clock::duration took_ = {};       ///< ... and how long that took
 };
 
+/// While it lives Ctrl-C ends the program with a sentence, unless whoever started it ignores it. Nothing is lost:
+/// cells are written as a whole.
+class ExplainedInterrupt {
+public:
+    ExplainedInterrupt() {
+        struct sigaction explain {};
+        explain.sa_handler = [](int) {
+            constexpr char text[] = "\nstopped; the same command continues where it was\n";
+            [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+            _exit(130);
+        };
+        sigaction(SIGINT, nullptr, &before_);
+        if (before_.sa_handler != SIG_IGN) sigaction(SIGINT, &explain, nullptr);
+    }
+    ~ExplainedInterrupt() { sigaction(SIGINT, &before_, nullptr); }
+    ExplainedInterrupt(const ExplainedInterrupt&) = delete;
+    ExplainedInterrupt& operator=(const ExplainedInterrupt&) = delete;
+
+private:
+    struct sigaction before_ {};
+};
+
 }  // namespace
 
 void run_study(const Config& config, const RunSettings& settings) {
+    const ExplainedInterrupt explained;
     const CellSelection selection(settings.cells);
     StudySession study(config, settings);
     const auto say = [&](const std::string& text) { study.progress.say(text); };

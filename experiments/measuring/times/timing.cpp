@@ -323,7 +323,8 @@ ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& con
             if (copy.plays) copy.record();
         load.end_round();
         if (load.quiet() + load.untold() >= wanted) load.tell_rest();
-        report(std::min(std::max(double(rounds) / wanted, load.seconds() / std::max(budget, 1e-9)), 0.99));
+        const double of_budget = std::min(load.seconds() / std::max(budget, 1e-9), double(rounds + 1) / least_rounds);
+        report(std::min(std::max(double(rounds + 1) / wanted, of_budget), 0.99));
     }
     load.tell_rest();
 

@@ -172,11 +172,13 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
         planned.config = shot.config, planned.name = shot.name();
         planned.entry = shot_entry(shot, config, keep_all);
         const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
-            return planned.cells.emplace_back(PlannedCell{.kind = kind,
-                                                          .name = std::move(name),
-                                                          .what = planned.name + ": " + what,
-                                                          .shot = planned.name,
-                                                          .units = units});
+            return planned.cells.emplace_back(
+                PlannedCell{.kind = kind,
+                            .name = std::move(name),
+                            .what = planned.name + ": " + what,
+                            .shot = planned.name,
+                            .units = units,
+                            .pixels = size_t(shot.config.extent.x) * shot.config.extent.y});
         };
         std::vector<bool> runs;
         for (const VariantConfig& variant : config.variants) {

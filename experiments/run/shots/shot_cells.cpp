@@ -91,12 +91,13 @@ std::optional<Cell> do_cell(StudySession& study, const CellTask& task, const std
                             bool waits) {
     const PlannedCell& planned = task.planned;
     // References were rendered when the shot was opened.
-    study.work.start(name_of(planned.kind), planned.kind == CellKind::references ? 0 : planned.units);
+    study.work.start(name_of(planned.kind), kind_of_work(planned),
+                     planned.kind == CellKind::references ? 0 : planned.units);
     study.report(0, planned.what);
     std::optional<Cell> found = load_cell(study, planned, truth);
     const bool is_tried_again = found && !task.why_again(*found).empty();
     if (found && !is_tried_again) {
-        study.work.skip();
+        study.work.found(found->seconds);
         say_whose_times(study, planned, *found);
         return found;
     }
@@ -105,7 +106,7 @@ std::optional<Cell> do_cell(StudySession& study, const CellTask& task, const std
     found = load_cell(study, planned, truth);  // another may have made it since
     const std::string why = found ? task.why_again(*found) : "";
     if (found && why.empty()) {
-        study.work.skip();
+        study.work.found(found->seconds);
         return found;
     }
     if (found) study.progress.say("note: " + planned.what + ": " + why);
@@ -237,7 +238,8 @@ std::optional<std::vector<Cell>> load_finished(StudySession& study, const std::v
         cells.push_back(std::move(*cell));
     }
     for (size_t i = 0; i < planned.size(); ++i) {
-        study.work.start(name_of(planned[i]->kind), planned[i]->units), study.work.skip();
+        study.work.start(name_of(planned[i]->kind), kind_of_work(*planned[i]), planned[i]->units);
+        study.work.found(cells[i].seconds);
         say_whose_times(study, *planned[i], cells[i]);
     }
     return cells;
@@ -245,7 +247,8 @@ std::optional<std::vector<Cell>> load_finished(StudySession& study, const std::v
 
 std::unique_ptr<OpenShot> opened(StudySession& study, const PlannedShot& shot) {
     const SpentTime::Span span(study.spent, name_of(CellKind::references));
-    study.work.start(name_of(CellKind::references), shot.cells.front().units);
+    const PlannedCell& references = shot.cells.front();
+    study.work.start(name_of(CellKind::references), kind_of_work(references), references.units);
     const auto start = std::chrono::steady_clock::now();
     std::unique_ptr<OpenShot> open =
         open_shot(study.device, shot.config, study.config,
@@ -256,7 +259,7 @@ std::unique_ptr<OpenShot> opened(StudySession& study, const PlannedShot& shot) {
                    .say = [&](const std::string& text) { study.progress.say(text); },
                    .report = [&](double share, const std::string& what) { study.report(share, what); }});
     open->opening_seconds = seconds_since(start);
-    open->has_rendered_references ? study.work.finish() : study.work.skip();
+    open->has_rendered_references ? study.work.finish() : study.work.found(0);
     return open;
 }
 
