@@ -135,6 +135,7 @@ struct Cell {
     std::vector<std::string> notes;                   ///< sentences for the manifest: what is unknown, and why
     std::string truth;    ///< ShotTruth::content_hash() of what its numbers were measured against
     nlohmann::json shot;  ///< what the manifest says of the shot once its references are there; null in other cells
+    double seconds = 0;   ///< that making it took, with the opening of the shot for its references
     nlohmann::json provenance;  ///< what made it, where and when, see experiments/store/provenance.h
     std::string name;           ///< as CellStore knows it
 };
