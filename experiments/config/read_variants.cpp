@@ -66,7 +66,7 @@ bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& ob
     point.label = fill_in(shared.label, values, object.at("label") + ": 'label'");
     point.group = fill_in(shared.group, values, object.at("group") + ": 'group'");
     point.depends_on_seed = made->depends_on_seed();
-    point.is_timed = shared.is_timed && !made->asks_scene();
+    point.is_timed = shared.is_timed && !made->uses_scene_data();
     point.seeds = seeds_of(shared.own_seeds, shared.study_seeds, point.depends_on_seed);
     if (!point.against.is_null())
         make_checked(object.at("against"), point.variant, with_values(point.parameters, point.against), point.preset);

@@ -149,7 +149,7 @@ void judge_front(TradeoffShot& shot, const std::map<std::pair<PointName, PointNa
         const FrontRow& row = p.row;
         const bool has_interval = p.error->holds_all_noise && row.error_low && row.error_high;
         p.row.machine = shot.machine;
-        p.row.verdict = using_scene.contains(p.name())  ? "asks the scene"
+        p.row.verdict = using_scene.contains(p.name())  ? "uses scene data"
                         : !has_interval                 ? "not ranked"
                         : !row.cost || !(*row.cost > 0) ? "no cost"
                         : !(*row.error > 0)             ? "error not above 0"
@@ -269,7 +269,7 @@ std::vector<AcrossRow> across_points(const std::vector<TradeoffShot>& shots, con
         contest.shots.push_back(&shot);
         std::map<PointName, PointName>& here = contest.stands_for.emplace_back();
         for (const TradeoffPoint& p : shot.points)
-            if (p.row.verdict != "asks the scene" && p.row.verdict != "not ranked") here[p.name()] = p.name();
+            if (p.row.verdict != "uses scene data" && p.row.verdict != "not ranked") here[p.name()] = p.name();
     }
     return across_of(contest, most_lacking, less);
 }

@@ -35,7 +35,7 @@ def _judged(results, shot, places):
     if rows and all(rows[k]["unit"] == "ms" for k in places):
         line = [k for k in places if rows[k]["is_nominal_front"] == "1" and rows[k]["verdict"] in ("front", "undecided", "dominated")]
         return sorted(line, key=lambda k: places[k][0].value), {k for k in places if rows[k]["verdict"] == "dominated"}
-    fair = {k: p for k, p in places.items() if not results.variants.get(k, {}).get("asks_scene")}
+    fair = {k: p for k, p in places.items() if not results.variants.get(k, {}).get("uses_scene_data")}
     return front(fair), {k for k, p in places.items() if is_beaten(p, fair.values())}
 
 

@@ -9,7 +9,7 @@ from ssrlab.results import Results, commits_of, rows_that_speak
 
 TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
 JUDGED = ("front", "dominated", "undecided")  # front.csv's verdicts of points that are compared by error and cost
-NEVER_RANKED = ("asks the scene", "not ranked")
+NEVER_RANKED = ("uses scene data", "not ranked")
 TEXTS = ("shot", "scene", "machine", "variant", "point", "label", "unit", "verdict", "dominated_by", "undecided_with", "baseline", "standing", "against_variant", "against_point", "change")
 
 

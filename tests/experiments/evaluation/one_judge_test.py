@@ -202,7 +202,7 @@ def over_scenes(folder, manifest, found, summary, sentence):
         if (r["variant"], r["point"]) == (found[0]["baseline_variant"], found[0]["baseline_point"]) and r["low"] and float(r["low"]) > 0:
             if float(r["value"]) > max(2 * float(r["floor"] or 0), 1e-6 * largest[r["shot"]]):
                 base[r["shot"]] = float(r["value"])
-    logs, asks = {}, {(v["variant"], v["point"]) for v in manifest["variants"] if v.get("asks_scene")}
+    logs, asks = {}, {(v["variant"], v["point"]) for v in manifest["variants"] if v.get("uses_scene_data")}
     for r in speaking:
         key = (r["variant"], r["point"])
         if r["ranked"] == "1" and r["low"] and key not in asks and r["shot"] in base and float(r["value"]) > 0:

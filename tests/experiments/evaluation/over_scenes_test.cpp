@@ -188,7 +188,7 @@ TEST(OverScenes, EveryErrorHasItsRows) {
     const nlohmann::json manifest = {
         {"variants",
          {{{"variant", "none"}, {"point", "default"}},
-          {{"variant", "exact"}, {"point", "default"}, {"asks_scene", true}}}},
+          {{"variant", "exact"}, {"point", "default"}, {"uses_scene_data", true}}}},
         {"shots", {{{"shot", "u"}, {"asset", "same"}}, {{"shot", "v"}, {"asset", "same"}}}}};
     const std::vector<OverScenesRow> rows = errors_over_scenes(errors, manifest);
     ASSERT_EQ(rows.size(), 2u) << "of mse alone, for which less is better, and without what uses scene data";

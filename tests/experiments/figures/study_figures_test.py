@@ -138,7 +138,7 @@ def test_front(folder):
     exact = lambda v: Measured(v, 0.95 * v, 1.05 * v)
     places = {("v", name): (exact(t), exact(e)) for name, t, e in (("a", 1, 4), ("b", 2, 2), ("c", 2.05, 2.1), ("d", 4, 3), ("oracle", 1, 1))}
     results = Results(folder)
-    results.variants = {("v", "oracle"): {"asks_scene": True}}
+    results.variants = {("v", "oracle"): {"uses_scene_data": True}}
     line, beaten = error_time._judged(results, "s", places)
     check(line == [("v", "a"), ("v", "b")] and beaten == {("v", "d")}, f"{line}, {beaten}")
     os.makedirs(os.path.join(folder, "tradeoff"))
@@ -147,7 +147,7 @@ def test_front(folder):
             writer = csv.writer(file)
             writer.writerow(["shot", "variant", "point", "error", "unit", "is_nominal_front", "verdict"])
             for (variant, name), (_, error) in places.items():
-                verdict = "dominated" if name == "c" else "asks the scene" if name == "oracle" else "undecided"
+                verdict = "dominated" if name == "c" else "uses scene data" if name == "oracle" else "undecided"
                 writer.writerow(["s", variant, name, factor * error.value, "ms", int(name in "abd"), verdict])
         line, beaten = error_time._judged(results, "s", places)
         check(([k[1] for k in line], {k[1] for k in beaten}) == ((["a", "b", "d"], {"c"}) if is_same else (["a", "b"], {"d"})), f"{line}, {beaten}")

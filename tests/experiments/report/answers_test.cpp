@@ -13,7 +13,7 @@ using nlohmann::json;
 const json manifest = {
     {"primary", {{"metric", "mse"}, {"mask", "reflective"}, {"target", "specular"}}},
     {"clock", {{"aa_floors", {{"s", 0.1}}}, {"proofs", {{{"verdict", "passed"}, {"shots", {"s"}}}}}}},
-    {"variants", {{{"variant", "exact"}, {"point", "default"}, {"asks_scene", true}}}},
+    {"variants", {{{"variant", "exact"}, {"point", "default"}, {"uses_scene_data", true}}}},
     {"shots",
      {{{"shot", "s"},
        {"truth_ladder",

@@ -98,7 +98,7 @@ def write_study(folder):
         "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in (*shots, "sky")],
         "variants": [{"variant": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
     }
-    manifest["variants"].append({"variant": "oracle", "point": "default", "asks_scene": True, "parameters": {}})
+    manifest["variants"].append({"variant": "oracle", "point": "default", "uses_scene_data": True, "parameters": {}})
     with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
         json.dump(manifest, stream)
 
@@ -147,7 +147,7 @@ class Folder(unittest.TestCase):
         self.assertEqual(fit["point_names"], "rays=1; rays=2; rays=4; rays=8")
         self.assertEqual((at["floor", "v", 4.1]["fits"], at["floor", "v", 10]["fits"]), ("maybe", "surely"))  # 4.04 ms and 2 %
         self.assertEqual({s for s, _ in front}, {"floor", "wall", "roof", "sky"})  # moon was left out
-        self.assertEqual(front["floor", "oracle"]["verdict"], "asks the scene")
+        self.assertEqual(front["floor", "oracle"]["verdict"], "uses scene data")
         self.assertEqual({r["shot"] for r in read(self.out, "limits.csv")}, {"floor", "wall", "roof"})
         (limit, *_) = read(self.out, "limits.csv")
         self.assertEqual((limit["label"], float(limit["over_rung"])), ("v rays=8", 2.5))
