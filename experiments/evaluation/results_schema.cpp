@@ -57,7 +57,7 @@ const std::map<std::string, Meaning>& meanings() {
         {"pixels", {"pixel", "finite pixels under the mask; over frames their sum"}},
         {"non_finite", {"pixel", "pixels of the result that are NaN or infinite"}},
         {"negative", {"pixel", "pixels of the result below zero"}},
-        {"speaks", {"", "whether the row speaks for its shot"}},
+        {"represents_shot", {"", "whether the row represents its shot"}},
         {"standing", {"", "best, tied or behind among the points of its shot; empty: not ranked"}},
         {"over_best", {"", "value over that of the best measured point of its shot, paired by seed"}},
         {"over_best_low", {"", "low end of its 95 % interval"}},

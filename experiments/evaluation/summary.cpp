@@ -82,7 +82,7 @@ MetricSummary summary_of(const std::vector<const ResultRow*>& rows, bool depends
     MetricSummary s{first.shot,   first.frame,  first.variant, first.point,
                     first.target, first.metric, first.formula, first.mask};
     s.seeds = unsigned(rows.size());
-    s.is_corrected = first.is_corrected, s.speaks_for_shot = first.speaks_for_shot;
+    s.is_corrected = first.is_corrected, s.represents_shot = first.represents_shot;
     for (const ResultRow* row : rows) {
         s.pixels = std::max(s.pixels, row->pixels);
         s.non_finite = std::max(s.non_finite, row->non_finite);

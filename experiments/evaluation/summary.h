@@ -23,7 +23,7 @@ struct MetricSummary {
     std::optional<double> lit_noise;       ///< what the noise of the lit colour adds to the value (LitNoise)
     bool is_corrected = false;
     size_t pixels = 0, non_finite = 0, negative = 0;  ///< the last two are the worst seed's
-    bool speaks_for_shot = false;                     ///< see mark_what_speaks()
+    bool represents_shot = false;                     ///< see mark_representative_rows()
     std::string standing = {};  ///< among the points of its shot, see evaluation/standings.h; empty: not ranked
     std::optional<double> over_best, over_best_low, over_best_high;  ///< value / the least ranked one, where paired
     std::optional<double> p_best;  ///< Holm-adjusted p of "no worse than the best measured"
@@ -41,7 +41,7 @@ struct MetricSummary {
             Column{"seed_deviation", &MetricSummary::seed_deviation}, Column{"floor", &MetricSummary::floor},
             Column{"lit_noise", &MetricSummary::lit_noise}, Column{"corrected", &MetricSummary::is_corrected},
             Column{"pixels", &MetricSummary::pixels}, Column{"non_finite", &MetricSummary::non_finite},
-            Column{"negative", &MetricSummary::negative}, Column{"speaks", &MetricSummary::speaks_for_shot},
+            Column{"negative", &MetricSummary::negative}, Column{"represents_shot", &MetricSummary::represents_shot},
             Column{"standing", &MetricSummary::standing}, Column{"over_best", &MetricSummary::over_best},
             Column{"over_best_low", &MetricSummary::over_best_low},
             Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},

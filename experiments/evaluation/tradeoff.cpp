@@ -81,7 +81,7 @@ std::string label_of(const Labels& labels, const PointName& name) {
 std::vector<TradeoffShot> shots_of(const StudyTables& tables, const TradeoffQuestion& question, const Labels& labels) {
     std::vector<TradeoffShot> shots;
     for (const MetricSummary& e : tables.errors) {
-        if (!e.speaks_for_shot || !e.value || e.target != question.error.target || e.metric != question.error.metric ||
+        if (!e.represents_shot || !e.value || e.target != question.error.target || e.metric != question.error.metric ||
             e.mask != question.error.mask)
             continue;
         auto shot = std::ranges::find(shots, e.shot, &TradeoffShot::name);
@@ -320,7 +320,7 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
     if (shots.empty()) {
         std::set<std::string> known;
         for (const MetricSummary& e : tables.errors)
-            if (e.speaks_for_shot) known.insert(e.target + " " + e.metric + " " + e.mask);
+            if (e.represents_shot) known.insert(e.target + " " + e.metric + " " + e.mask);
         std::string list;
         for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
         fail("the study has no errors of ", question.error.target, " ", question.error.metric, " ", question.error.mask,

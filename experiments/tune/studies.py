@@ -126,7 +126,7 @@ class Studies:
         if not hasattr(results, "speaking"):
             wanted = {(self.target, m, self.mask) for m in self.metrics}
             every = results.read_csv("results.csv")
-            results.speaking = [r for r in every if r["speaks"] == "1" and (r["target"], r["metric"], r["mask"]) in wanted]
+            results.speaking = [r for r in every if r["represents_shot"] == "1" and (r["target"], r["metric"], r["mask"]) in wanted]
         return results.speaking
 
     @staticmethod

@@ -43,7 +43,7 @@ def exit_code(work, what):
 
 ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
 BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
-EVALUATED = {"summary.csv": ("speaks", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
+EVALUATED = {"summary.csv": ("represents_shot", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
 
 
 @dataclass
@@ -81,7 +81,7 @@ def frame_number(row, file="summary.csv"):
 
 def rows_that_speak(rows):
     """Of each shot those over its frames, or of its last one, as `ssrlab run` decided."""
-    return [r for r in rows if r["speaks"] == "1"]
+    return [r for r in rows if r["represents_shot"] == "1"]
 
 
 def commits_of(manifest):

@@ -34,7 +34,7 @@ const std::vector<VariantConfig> two_points = {{.variant = "v", .point = "base",
 
 std::vector<EffectRow> effects_of(std::vector<ResultRow> rows, const std::vector<VariantConfig>& variants,
                                   const PointSet& not_repeatable = {}) {
-    mark_what_speaks(rows);
+    mark_representative_rows(rows);
     return paired_effects(rows, variants, not_repeatable);
 }
 

@@ -194,7 +194,7 @@ def over_scenes(folder, manifest, found, summary, sentence):
     """over_scenes.csv against its rules; what the report and tradeoff say is what stands there."""
     entries = {s["shot"]: s for s in manifest["shots"]}
     asset_of = {r["shot"]: entries[r["shot"]].get("asset") or entries[r["shot"]].get("scene") or r["shot"] for r in summary}
-    speaking = [r for r in summary if r["speaks"] == "1" and r["value"]]
+    speaking = [r for r in summary if r["represents_shot"] == "1" and r["value"]]
     base, largest = {}, {}
     for r in speaking:
         largest[r["shot"]] = max(largest.get(r["shot"], 0), float(r["value"]))

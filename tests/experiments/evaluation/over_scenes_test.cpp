@@ -179,7 +179,7 @@ TEST(OverScenes, EveryErrorHasItsRows) {
                         .target = "specular",
                         .metric = metric,
                         .mask = "all"};
-        e.value = value, e.low = 0.9 * value, e.high = 1.1 * value, e.holds_all_noise = e.speaks_for_shot = true;
+        e.value = value, e.low = 0.9 * value, e.high = 1.1 * value, e.holds_all_noise = e.represents_shot = true;
         errors.push_back(e);
     };
     for (const char* shot : {"s", "t", "u", "v"})

@@ -25,7 +25,7 @@ struct MadeStudy {
                         .metric = "mse",
                         .mask = "reflective"};
         e.value = error, e.low = 0.99 * error, e.high = 1.01 * error;
-        e.holds_all_noise = e.speaks_for_shot = true;
+        e.holds_all_noise = e.represents_shot = true;
         tables.errors.push_back(e);
         TimeSummary t{
             .shot = shot, .variant = variant, .point = point, .stage = "total", .clock = "host_fence", .frames = 15};

@@ -41,7 +41,7 @@ struct Made {
                         .formula = metric,
                         .mask = "reflective"};
         e.value = value, e.low = value - half, e.high = value + half;
-        e.holds_all_noise = true, e.speaks_for_shot = true;
+        e.holds_all_noise = true, e.represents_shot = true;
         e.interval = interval::reference;
         tables.errors.push_back(e);
         if (milliseconds > 0)

@@ -50,7 +50,7 @@ TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
     const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
     size_t over_frames = 0, of_last = 0;
     for (const MetricSummary& e : tables.errors) {
-        if (!e.speaks_for_shot || e.metric != "relmse" || e.mask != "reflective") continue;
+        if (!e.represents_shot || e.metric != "relmse" || e.mask != "reflective") continue;
         const bool has_frames = e.shot == study_moving_shot || e.shot == study_step_shot;
         EXPECT_EQ(e.frame, has_frames ? "" : "0") << e.shot;
         ++(has_frames ? over_frames : of_last);

@@ -26,8 +26,8 @@ PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "
 
 
 COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
-    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,speaks,standing,over_best,over_best_low,over_best_high,p_best,fronts",
-    "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,speaks",
+    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,fronts",
+    "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,represents_shot",
     "times.csv": "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
     "time_summary.csv": "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
     "effects.csv": "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,interval,p,family,p_holm,low_holm,high_holm,verdict",
@@ -35,7 +35,7 @@ COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
     "time_effects.csv": "shot,variant,point,against,against_variant,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
     "costs.csv": "shot,variant,point,stage,quantity,value",
 }
-NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "frames", "rounds", "width", "height", "seed", "disturbed", "speaks", "ranked", "frame")  # where a row says nothing of them, 0
+NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "frames", "rounds", "width", "height", "seed", "disturbed", "represents_shot", "ranked", "frame")  # where a row says nothing of them, 0
 
 
 def write_csv(folder, name, rows):
@@ -59,8 +59,8 @@ def write_study(folder):
     keys = {name: tuple(name.partition(":")[::2]) for name in PRESETS}
     keys = {name: (v, p or "default") for name, (v, p) in keys.items()}
     errors, times, counts, effects = [], [], [], []
-    errors += [{"shot": "moon", "variant": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "speaks": 1}]
-    oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "speaks": 1, "seed": 0}
+    errors += [{"shot": "moon", "variant": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "represents_shot": 1}]
+    oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "represents_shot": 1, "seed": 0}
     errors += [oracle | {"shot": s, "value": 0.01, "low": 0.01, "high": 0.01, "ranked": 1} for s in shots]
     # Over the frames of `sky` there is next to no error, and no time.
     nearly_none = {"shot": "sky", "variant": "none", "frame": "", "value": 0.0015, "low": 0.0014, "high": 0.0016, "ranked": 1, "floor": 0.001}
@@ -68,7 +68,7 @@ def write_study(folder):
     for number, a_shot in enumerate(shots):
         for name, (ms, error) in PRESETS.items():
             own = {"shot": a_shot, "variant": keys[name][0], "point": keys[name][1]}
-            row = own | {"frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": error * (number + 1), "speaks": 1}
+            row = own | {"frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": error * (number + 1), "represents_shot": 1}
             standing = {"standing": "best"} if name == "v:rays=8" else {"standing": "behind", "p_best": 0.001}
             errors.append(row | {"low": row["value"] * 0.99, "high": row["value"] * 1.01, "ranked": 1, "floor": 0.001, "seed": 0} | standing)
             for frame in range(FRAMES):
