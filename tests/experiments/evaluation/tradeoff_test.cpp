@@ -112,10 +112,10 @@ TEST(Tradeoff, ChangesOfOneParameterHaveTheirVerdicts) {
                           {verdict::more, verdict::less, "saves cost"},
                           {verdict::less, verdict::less, "better in both"},
                           {verdict::more, verdict::more, "worse in both"},
-                          {verdict::not_distinguishable, verdict::more, "dearer, no error told"},
-                          {verdict::not_distinguishable, verdict::less, "cheaper, no error told"},
-                          {verdict::less, verdict::not_distinguishable, "less error, no cost told"},
-                          {verdict::not_distinguishable, verdict::not_distinguishable, "nothing told"}};
+                          {verdict::not_distinguishable, verdict::more, "dearer, error not significant"},
+                          {verdict::not_distinguishable, verdict::less, "cheaper, error not significant"},
+                          {verdict::less, verdict::not_distinguishable, "less error, cost not significant"},
+                          {verdict::not_distinguishable, verdict::not_distinguishable, "not significant"}};
     for (const Case& c : cases) {
         MadeStudy made;
         made.add_point("v", "a", {{"rays", 1}, {"wide", false}}),
