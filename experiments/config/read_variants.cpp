@@ -124,10 +124,10 @@ void refuse_repetition(const std::vector<VariantConfig>& variants, const std::st
     for (const VariantConfig& v : variants) {
         if (!points.insert({v.variant, v.point}).second)
             fail(where, ": variants: '", v.variant, "' comes twice with the point '", v.point,
-                 "'; give the second a preset or a sweep that tells them apart");
+                 "'; give the second a preset or a sweep that distinguishes them");
         if (!v.label.empty() && !labels.insert(v.label).second)
             fail(where, ": variants: two points have the label '", v.label,
-                 "'; tell them apart by {preset} or the name of a parameter in braces");
+                 "'; distinguish them by {preset} or the name of a parameter in braces");
     }
 }
 

@@ -41,7 +41,7 @@ const std::map<std::string, Meaning>& meanings() {
         {"metric", {"", "name of the metric"}},
         {"formula", {"", "id of the metric's formula"}},
         {"mask", {"", "which pixels count"}},
-        {"value", {"", "value of the metric; empty where it is not finite or cannot be told"}},
+        {"value", {"", "value of the metric; empty where it is not finite or cannot be determined"}},
         {"hits.value",
          {"", "mean over the seeds: a share of the rays, of distance_error the median, of fetches per ray"}},
         {"low", {"", "low end of the 95 % interval of value or ratio; empty where none can be given"}},

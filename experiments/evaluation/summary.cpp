@@ -42,8 +42,7 @@ std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>
 /// Whether a row's interval is open to one side: the length of a ghost that may never end has no upper end.
 bool is_one_sided(const ResultRow* row) { return row->low.has_value() != row->high.has_value(); }
 
-/// Flicker and ghosts are told from the pixels of one sequence: their rows' intervals are those of the choice of
-/// pixels.
+/// Flicker and ghosts are of the pixels of one sequence: their rows' intervals are those of the choice of pixels.
 bool is_of_pixels(const std::string& metric) {
     return std::ranges::count(temporal_metrics(), metric, &TemporalMetric::name) > 0 &&
            !metric.starts_with("frame_difference");

@@ -17,7 +17,7 @@ struct MetricSummary {
     std::optional<double> value;           ///< mean over the seeds; none if one of them has none
     std::optional<double> low, high;       ///< 95 % interval, see summarise()
     std::string interval = {};             ///< what it holds, or why there is none (interval.h)
-    bool holds_all_noise = false;          ///< so that it can be told from those of other points: only such are ranked
+    bool holds_all_noise = false;          ///< so that it can be compared with other points': only such are ranked
     std::optional<double> seed_deviation;  ///< standard deviation over the seeds; none for a single one
     std::optional<double> floor;           ///< what the reference's own noise scores
     std::optional<double> lit_noise;       ///< what the noise of the lit colour adds to the value (LitNoise)

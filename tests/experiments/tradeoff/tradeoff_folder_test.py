@@ -165,7 +165,7 @@ class Folder(unittest.TestCase):
         self.assertIn("2 scenes are too few for an interval", answers)
         self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-52, -48] |", answers)
         self.assertIn("Multiples leave out sky:", answers)
-        self.assertIn("The clock did not prove itself in 1 of 3 shots", answers)
+        self.assertIn("Timer validation failed in 1 of 3 shots", answers)
         rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
         self.assertEqual(len([r for r in read(self.out, "stages.csv") if not r["shot"]]), 2)
@@ -184,7 +184,7 @@ class Folder(unittest.TestCase):
         changes, _ = self.cells(of="changes", rows=["machine", "change"], columns="quantity")
         self.assertAlmostEqual(changes["rays: 1 -> 2", "error"].value, 0.5)
         self.assertAlmostEqual(changes["rays: 1 -> 2", "cost"].value, 4.04)
-        self.assertIsNone(changes["rays: 1 -> 2", "cost per % of error"].value, "two scenes are too few to tell it")
+        self.assertIsNone(changes["rays: 1 -> 2", "cost per % of error"].value, "two scenes are too few to give it")
         # What was answered of other errors is none of these.
         summary = os.path.join(self.folder, "summary.csv")
         with open(summary, encoding="utf-8") as stream:
@@ -217,11 +217,11 @@ class Folder(unittest.TestCase):
     def test_the_readme_has_every_column(self):
         with open(os.path.join(TRADEOFF, "README.md"), encoding="utf-8") as stream:
             sections = re.split(r"^`(\w+\.csv)`", stream.read(), flags=re.M)
-        told = {name: set(re.findall(r"`(\w+)`", text)) for name, text in zip(sections[1::2], sections[2::2])}
+        explained = {name: set(re.findall(r"`(\w+)`", text)) for name, text in zip(sections[1::2], sections[2::2])}
         for name in (*FILES, "front.csv", "pairs.csv", "across.csv", "stages.csv"):
             with open(os.path.join(self.out, name), encoding="utf-8") as stream:
                 columns = stream.readline().strip().split(",")
-            self.assertEqual(set(columns) - told[name], set(), name)
+            self.assertEqual(set(columns) - explained[name], set(), name)
 
 
 if __name__ == "__main__":
