@@ -22,10 +22,10 @@ TEST(Repeatability, IsWhatTheOrderOfThreadsCannotChange) {
     EXPECT_NE(reason(both).find("hierarchy.min_traversal_occupancy"), std::string::npos);
 
     EXPECT_EQ(reason({{"hierarchy.min_traversal_occupancy", 0}}), "") << "the fast form shares no moments";
-    nlohmann::json mended = faithful, raw = faithful;
-    mended["barrier_before_average"] = true;
+    nlohmann::json fixed = faithful, raw = faithful;
+    fixed["barrier_before_average"] = true;
     raw["denoise"] = false;
-    EXPECT_EQ(reason(mended), "");
+    EXPECT_EQ(reason(fixed), "");
     EXPECT_EQ(reason(raw), "");
     EXPECT_EQ(make_variant("mcguire_dda")->not_repeatable(), "");
 }

@@ -72,7 +72,7 @@ const answerText = shot =>
 // Of many shots only the chosen one's sentence is shown whole, of others two lines or one.
 const mostWhole = 3, mostTwoLines = 6;
 
-/// Rows of the shot that the headline speaks of, by the name of a metric.
+/// Rows of the shot of the headline's target and mask, by the name of a metric.
 const headlineRows = (shot, metric) => {
     const {target, mask} = headline;
     const of = report.errors.filter(r => r.shot === shot && r.metric === metric && r.value !== null);

@@ -13,9 +13,9 @@ function showBudget() {
     };
     at("answer-budget")
         .append(
-            h("label", {}, "Reflections may take ",
+            h("label", {}, "Time budget per frame ",
               h("input", {type: "number", id: "budget", min: 0, step: "any", placeholder: "any", input: changed}),
-              " ms a frame"),
+              " ms"),
             h("p", {id: "budget-answer", "aria-live": "polite"}));
 }
 
@@ -28,7 +28,7 @@ function drawBudget(shot) {
     if (!at("budget-answer")) return;
     const parts = budget.milliseconds === null ? [] : headlineMetrics().flatMap(metric => budgetParts(shot, metric));
     if (parts.length && !answerOf(shot)?.is_clock_proven)
-        parts.push("The clock did not prove itself: take the times with care. ");
+        parts.push("Timer validation failed: take the times with care. ");
     if (parts.length) parts.push(floorText(shot));
     at("budget-answer").replaceChildren(...parts);
 }
@@ -36,8 +36,8 @@ function drawBudget(shot) {
 /// From where on times differ, by two copies of a point.
 function floorText(shot) {
     const floor = aaFloor(shot);
-    if (floor === undefined) return "No point was timed twice: how near times are the same is not known.";
-    return floor > 0 ? `Times nearer than ${percent(floor)} are the same.` : "";
+    if (floor === undefined) return "No point was timed twice: the noise of times is not known.";
+    return floor > 0 ? `Times within ${percent(floor)} are not distinguishable.` : "";
 }
 
 /// "By mse A, 0.05 [0.04, 0.06], in 9 ms [8, 11]": the least error of the points whose median is within the budget, and
@@ -63,9 +63,9 @@ function budgetParts(shot, metric) {
     const best = timed.find(p => p.time.value <= limit), sure = timed.find(p => p.time.fitsFromMs <= limit);
     const doubtful = timed.filter(
         p => p.time.value > limit && p.time.mayFitFromMs <= limit && !(p.badness > best?.badness));
-    if (!best && !doubtful.length) return [`By ${metric}: nothing that was timed fits. `];
+    if (!best && !doubtful.length) return [`By ${metric}: no timed point fits. `];
     return [
-        ...(best ? [`By ${metric} `, ...parts(best)] : [`By ${metric}: nothing that was timed surely fits`]),
+        ...(best ? [`By ${metric} `, ...parts(best)] : [`By ${metric}: no timed point surely fits`]),
         ...(best && best !== sure ? [", which may not fit", ...(sure ? ["; surely fits ", ...parts(sure)] : [])] : []),
         ". ",
         ...(doubtful.length ? ["It is open whether ",
