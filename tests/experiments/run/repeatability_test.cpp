@@ -59,7 +59,7 @@ TEST_F(StudyTest, SaysWhichPointsDifferFromRunToRun) {
         }
     EXPECT_EQ(warnings, 1u);
 
-    // The same feature is left out by two: each must be told apart.
+    // The same feature is left out by two: each has its own entry.
     size_t alpha_tests = 0;
     for (const auto& part : manifest["shots"][0]["left_out"]) {
         const std::string what = part["what"];
