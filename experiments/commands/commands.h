@@ -20,8 +20,8 @@ struct ShotOptions {
     unsigned frame = 0;
 };
 
-/// A study, by its config. Fails with Error where it is none, where it is `ssrlab tune`'s, and where its tables name what
-/// results do not have.
+/// A study, by its config. Fails with Error where it is none, where it is `ssrlab tune`'s, and where its tables name
+/// what results do not have.
 struct Config config_of_study(const std::filesystem::path& file);
 std::filesystem::path default_results(const std::filesystem::path& config);
 
