@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/near_miss.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -52,9 +53,11 @@ void write_exr(const std::filesystem::path& file, const LayeredImage& image) {
     std::vector<std::vector<uint32_t>> integers;
     for (const Layer& layer : image.layers) {
         const HostImage& source = layer.image;
-        if (source.extent != extent) fail("cannot write ", file.string(), ": layer '", layer.name, "' has another size");
+        if (source.extent != extent)
+            fail("cannot write ", file.string(), ": layer '", layer.name, "' has another size");
         if (layer.channel_names.size() != source.channels)
-            fail("cannot write ", file.string(), ": layer '", layer.name, "' names ", layer.channel_names.size(), " channels but has ", source.channels);
+            fail("cannot write ", file.string(), ": layer '", layer.name, "' names ", layer.channel_names.size(),
+                 " channels but has ", source.channels);
         for (size_t c = 0; c < source.channels; ++c) {
             const std::string name = channel_name(layer, c);
             header.channels().insert(name, Imf::Channel(file_type(layer.type)));
@@ -70,7 +73,8 @@ void write_exr(const std::filesystem::path& file, const LayeredImage& image) {
                 for (size_t i = 0; i < converted.size(); ++i) converted[i] = uint32_t(value(i));
                 base = reinterpret_cast<char*>(converted.data()), stride = sizeof(uint32_t);
             } else {
-                base = reinterpret_cast<char*>(const_cast<float*>(source.values.data() + c)), stride = source.channels * sizeof(float);
+                base = reinterpret_cast<char*>(const_cast<float*>(source.values.data() + c)),
+                stride = source.channels * sizeof(float);
             }
             frame.insert(name, Imf::Slice(file_type(layer.type), base, stride, stride * extent.x));
         }
@@ -107,12 +111,17 @@ LayeredImage read_exr(const std::filesystem::path& file) {
             const size_t dot = name.rfind('.');
             const std::string layer_name = dot == std::string::npos ? "" : name.substr(0, dot);
             auto layer = std::ranges::find(image.layers, layer_name, &Layer::name);
-            if (layer == image.layers.end()) layer = image.layers.insert(layer, Layer{.name = layer_name, .channel_names = {}, .image = {}, .type = {}});
+            if (layer == image.layers.end())
+                layer =
+                    image.layers.insert(layer, Layer{.name = layer_name, .channel_names = {}, .image = {}, .type = {}});
             const std::string letter = dot == std::string::npos ? name : name.substr(dot + 1);
-            if (letter.size() != 1) fail("cannot read ", file.string(), ": channel '", name, "' does not end in a single letter");
+            if (letter.size() != 1)
+                fail("cannot read ", file.string(), ": channel '", name, "' does not end in a single letter");
             layer->channel_names += letter;
             const Imf::PixelType type = channel.channel().type;
-            layer->type = type == Imf::HALF ? PixelType::half : type == Imf::UINT ? PixelType::uint32 : PixelType::float32;
+            layer->type = type == Imf::HALF   ? PixelType::half
+                          : type == Imf::UINT ? PixelType::uint32
+                                              : PixelType::float32;
         }
 
         Imf::FrameBuffer frame;
@@ -123,8 +132,10 @@ LayeredImage read_exr(const std::filesystem::path& file) {
             const size_t stride = channels * sizeof(float);
             const ptrdiff_t origin = ptrdiff_t(window.min.y) * ptrdiff_t(extent.x) + window.min.x;
             for (size_t c = 0; c < channels; ++c)
-                frame.insert(channel_name(layer, c),
-                             Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(layer.image.values.data() + c) - origin * ptrdiff_t(stride), stride, stride * extent.x));
+                frame.insert(channel_name(layer, c), Imf::Slice(Imf::FLOAT,
+                                                                reinterpret_cast<char*>(layer.image.values.data() + c) -
+                                                                    origin * ptrdiff_t(stride),
+                                                                stride, stride * extent.x));
         }
         in.setFrameBuffer(frame);
         in.readPixels(window.min.y, window.max.y);
@@ -137,22 +148,28 @@ LayeredImage read_exr(const std::filesystem::path& file) {
 }
 
 void write_exr(const std::filesystem::path& file, const HostImage& rgb, PixelType type) {
-    write_exr(file, LayeredImage{.layers = {{.name = "", .channel_names = "RGB", .image = rgb, .type = type}}, .attributes = {}});
+    write_exr(file, LayeredImage{.layers = {{.name = "", .channel_names = "RGB", .image = rgb, .type = type}},
+                                 .attributes = {}});
 }
 
-HostImage read_exr_rgb(const std::filesystem::path& file) {
+HostImage read_exr_rgb(const std::filesystem::path& file, const std::string& name) {
     const LayeredImage all = read_exr(file);
-    const Layer* layer = all.find("");
-    if (!layer && all.layers.size() == 1) layer = &all.layers.front();
+    const Layer* layer = all.find(name);
+    const bool is_single = all.layers.size() == 1;
+    if (!layer && is_single && (name.empty() || all.layers.front().name.empty())) layer = &all.layers.front();
+    if (!layer && name.empty()) layer = all.find("image");
     if (!layer) {
-        std::string names;
-        for (const Layer& l : all.layers) names += " " + l.name;
-        fail(file.string(), " has several layers and none without a name; it has:", names);
+        std::vector<std::string> names;
+        for (const Layer& l : all.layers) names.push_back(l.name);
+        if (name.empty())
+            fail(file.string(), " has several layers, none of them without a name", suggestion("", names));
+        fail(file.string(), " has no layer '", name, "'", suggestion(name, names));
     }
     const HostImage& source = layer->image;
     if (source.channels == 2) fail(file.string(), ": layer '", layer->name, "' has two channels, not a colour");
     HostImage rgb(source.extent, 3);
     for (size_t i = 0; i < rgb.pixel_count(); ++i)
-        for (unsigned c = 0; c < 3; ++c) rgb.values[i * 3 + c] = source.values[i * source.channels + (source.channels == 1 ? 0 : c)];
+        for (unsigned c = 0; c < 3; ++c)
+            rgb.values[i * 3 + c] = source.values[i * source.channels + (source.channels == 1 ? 0 : c)];
     return rgb;
 }

@@ -36,5 +36,7 @@ LayeredImage read_exr(const std::filesystem::path& file);
 /// One RGB image in the default layer.
 void write_exr(const std::filesystem::path& file, const HostImage& rgb, PixelType type = PixelType::float32);
 
-/// The RGB colour of a file: its default layer, else its only layer; a single channel is repeated three times.
-HostImage read_exr_rgb(const std::filesystem::path& file);
+/// The RGB colour of a file's `layer`, or, if that is "", of its default layer, else its only one, else "image", as
+/// references call what the camera sees. A file that has one layer without a name has it under every name. A single
+/// channel is repeated three times. Fails, with the names that there are, if the file has no such layer.
+HostImage read_exr_rgb(const std::filesystem::path& file, const std::string& layer = "");

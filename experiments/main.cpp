@@ -1,7 +1,7 @@
 // The command line. Over 400 lines: the options of all commands, so that one place says what each takes.
 #include "core/error.h"
+#include "core/near_miss.h"
 #include "experiments/commands/commands.h"
-#include "experiments/report/report.h"
 #include "experiments/store/host_info.h"
 #include "metrics/tone_map.h"
 
@@ -55,6 +55,16 @@ void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), in
     command.callback([&command, call, &status] { status = call(command.remaining()); });
 }
 
+/// CLI11 would only say that some command is missing.
+void refuse_unknown_command(const CLI::App& app, const std::string& name) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == name) return;
+        if (!command->get_group().empty()) names.push_back(command->get_name());
+    }
+    fail("unknown command '", shortened(name), "'", suggestion(name, names));
+}
+
 /// CLI11 reports its own mistakes; they exit with 2 as all mistakes of the user do.
 int parse_and_run(int argc, char** argv) {
     CLI::App app{
@@ -84,7 +94,7 @@ int parse_and_run(int argc, char** argv) {
     run_command_.add_flag("--prune", run.prunes,
                           "Remove cells and images of earlier versions of the study from its folder");
     run_command_.add_flag("--times-here", run.takes_times_here,
-                           "Take times on this machine again; by default those of another machine are kept");
+                          "Take times on this machine again; by default those of another machine are kept");
     run_command_.add_flag("--times-again", run.takes_times_again,
                           "Take times again that other programs disturbed; the less disturbed are kept");
     run_command_
@@ -139,7 +149,7 @@ int parse_and_run(int argc, char** argv) {
     bool links_images = false;
     report_command_.add_flag("--link-images", links_images,
                              "Keep all images beside the page, in report_images/, even if they are small");
-    report_command_.callback([&] { write_report(report_folder, links_images); });
+    report_command_.callback([&] { report_command(report_folder, links_images); });
 
     hand_on(*app.add_subcommand("figures", "Draw the figures of a paper (PDF, SVG, PNG) from a results folder"),
             figures_command, status);
@@ -218,6 +228,11 @@ int parse_and_run(int argc, char** argv) {
                     "May be repeated; see: ssrlab list metrics; default: mse, relmse, relmse_trimmed, outliers, mae, "
                     "smape, bias, energy_ratio, psnr, flip, where the image is large enough ssim and "
                     "ms_ssim, and hdr_flip of an EXR reference")
+        ->type_name("NAME");
+    compare_command_
+        .add_option("--layer", compare.layer,
+                    "Layer of EXR files that have several, such as specular; default: that without a name, else image, "
+                    "as of files by `ssrlab reference`")
         ->type_name("NAME");
     compare_command_
         .add_option("--map", compare.map,
@@ -359,8 +374,9 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("NAME");
     describe_command_.add_flag("--schema", describe.as_schema,
                                "Print a JSON Schema for configs, so that editors complete them");
-    describe_command_.add_option("--fill", describe.document,
-                                 "In place of printing make the tables of a config's keys in a document anew")
+    describe_command_
+        .add_option("--fill", describe.document,
+                    "In place of printing make the tables of a config's keys in a document anew")
         ->type_name("FILE.md");
     describe_command_.callback([&] { describe_command(describe); });
 
@@ -374,6 +390,7 @@ int parse_and_run(int argc, char** argv) {
     add_scene_path(list_command_, common);
     list_command_.callback([&] { list_command(what, common); });
 
+    if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

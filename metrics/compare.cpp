@@ -23,9 +23,10 @@ struct Source {
     HostImage linear, codes;
 };
 
-Source read_source(const std::filesystem::path& file, const MetricSettings& settings) {
+Source read_source(const std::filesystem::path& file, const CompareOptions& options) {
+    const MetricSettings& settings = options.settings;
     if (extension(file) == ".exr") {
-        const HostImage linear = read_exr_rgb(file);
+        const HostImage linear = read_exr_rgb(file, options.layer);
         return {linear, display_codes(linear, settings.exposure_ev, settings.tone_map)};
     }
     if (extension(file) != ".png") fail("cannot compare ", file.string(), ": images are read from .exr and .png files");
@@ -116,8 +117,8 @@ void check(const CompareOptions& options) {
 Comparison compare(const CompareOptions& options) {
     check(options);
     Comparison comparison{.options = options};
-    const Source reference = read_source(options.reference, options.settings),
-                 test = read_source(options.test, options.settings);
+    const Source reference = read_source(options.reference, options),
+                 test = read_source(options.test, options);
     if (reference.linear.extent != test.linear.extent)
         fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y,
              " pixels, but ", options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y,
@@ -169,6 +170,7 @@ nlohmann::json to_json(const Comparison& comparison) {
                            {"value", number(r.value)}});
     return {{"reference", options.reference.string()},
             {"test", options.test.string()},
+            {"layer", options.layer},
             {"width", comparison.extent.x},
             {"height", comparison.extent.y},
             {"pixels", comparison.pixels},

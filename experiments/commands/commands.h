@@ -20,7 +20,8 @@ struct ShotOptions {
     unsigned frame = 0;
 };
 
-/// A study, by its config. Fails with Error where it is none, and where it is `ssrlab tune`'s.
+/// A study, by its config. Fails with Error where it is none, where it is `ssrlab tune`'s, and where its tables name
+/// what results do not have.
 struct Config config_of_study(const std::filesystem::path& file);
 std::filesystem::path default_results(const std::filesystem::path& config);
 
@@ -45,6 +46,9 @@ struct MergeOptions {
     bool keep_all = false, replaces = false;
 };
 int merge_command(const MergeOptions& options, const CommonOptions& common);  ///< 1 if cells are missing, else 0
+
+/// Writes a folder's report.html again and says where it is.
+void report_command(const std::filesystem::path& folder, bool links_images);
 
 /// The commands that are Python scripts, which parse the arguments. Each returns the exit code: 0, 2 or 3.
 int figures_command(const std::vector<std::string>& arguments);
@@ -75,6 +79,7 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
 
 struct CompareCommandOptions {
     std::filesystem::path reference, test, map;
+    std::string layer;
     std::vector<std::string> metrics;
     bool as_json = false, fail_on_non_finite = false;
     float exposure_ev = 0.0f, map_max = 1.0f;

@@ -1,6 +1,7 @@
 // The commands that list things: describe, list.
 #include "core/files.h"
 #include "core/gpu/device.h"
+#include "core/json.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config_schema.h"
@@ -16,8 +17,6 @@
 #include <sstream>
 
 namespace {
-
-std::string part_of(const TracerEntry& tracer) { return tracer.part.empty() ? tracer.name : tracer.part; }
 
 void describe_tracer(const TracerEntry& tracer, const ParameterSet& params) {
     std::cout << tracer.name << ": " << tracer.title << "\n  " << tracer.description << "\n  Source: " << tracer.source
@@ -54,14 +53,29 @@ std::string indented(const std::string& text, size_t indent) {
     return lines + std::string(indent, ' ') + line + '\n';
 }
 
+/// The first folder of the search path that has the scene, of which list_scenes() found one.
+std::filesystem::path folder_of_scene(const std::string& name, const std::vector<std::filesystem::path>& search_path) {
+    return *std::ranges::find_if(search_path, [&](const std::filesystem::path& folder) {
+        return std::filesystem::exists(folder / name / "scene.json");
+    }) / name;
+}
+
 /// What a scene tests: the line of about.txt beside its scene.json; "" where there is none.
-std::string about_scene(const std::string& name, const std::vector<std::filesystem::path>& search_path) {
-    for (const std::filesystem::path& folder : search_path) {
-        if (!std::filesystem::exists(folder / name / "scene.json")) continue;
-        const std::filesystem::path about = folder / name / "about.txt";
-        const std::string text = std::filesystem::exists(about) ? read_text(about) : "";
-        return text.substr(0, text.find('\n'));
-    }
+std::string about_scene(const std::filesystem::path& folder) {
+    const std::filesystem::path about = folder / "about.txt";
+    const std::string text = std::filesystem::exists(about) ? read_text(about) : "";
+    return text.substr(0, text.find('\n'));
+}
+
+/// "main, dolly": those that scene.json names, of which the first is the default; "" where the glTF's own are used,
+/// which only loading it would tell, and of a malformed file, whose mistake loading it tells.
+std::string cameras_of_scene(const std::filesystem::path& folder) try {
+    const nlohmann::json scene = read_json(folder / "scene.json");
+    std::string names;
+    for (const nlohmann::json& camera : scene.value("cameras", nlohmann::json::array()))
+        names += (names.empty() ? "" : ", ") + camera.value("name", "");
+    return names;
+} catch (const std::exception&) {
     return "";
 }
 
@@ -70,8 +84,10 @@ void list_scenes_with_tests(const std::vector<std::filesystem::path>& search_pat
     size_t width = 0;
     for (const std::string& name : names) width = std::max(width, name.size());
     for (const std::string& name : names) {
-        const std::string about = about_scene(name, search_path);
-        std::cout << name << (about.empty() ? "" : std::string(width + 2 - name.size(), ' ') + about) << '\n';
+        const std::filesystem::path folder = folder_of_scene(name, search_path);
+        const std::string about = about_scene(folder), cameras = cameras_of_scene(folder), indent(width + 2, ' ');
+        std::cout << name << (about.empty() ? "" : indent.substr(name.size()) + about) << '\n';
+        if (!cameras.empty()) std::cout << indent << "Cameras: " << cameras << '\n';
     }
 }
 

@@ -92,7 +92,8 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
     const RunSettings settings{.out = options.out.empty() ? default_results(options.config) : options.out,
                                .device = common.device,
                                .search_path = scene_search_path(common.scene_path),
-                               .keep_all = options.keep_all};
+                               .keep_all = options.keep_all,
+                               .cells = options.cells};
     Device device(settings.device);
     const StudyPlan plan = plan_study(config, device.info(), settings.search_path, settings.keep_all);
     const CellStore store(settings.out, [](const std::string& note) { std::fprintf(stderr, "%s\n", note.c_str()); });
@@ -107,8 +108,8 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
     }
     if (!options.json.empty()) write_text(options.json, json_of(work).dump(1) + "\n");
     if (options.has_list) return print_list(work);
-    std::printf("%s: %zu shots, %zu points\n\n", options.config.string().c_str(), config.shots.size(),
-                config.variants.size());
+    std::printf("%s: %s, %s\n\n", options.config.string().c_str(), counted(config.shots.size(), "shot").c_str(),
+                counted(config.variants.size(), "point").c_str());
     print_kinds(work);
     if (!is_estimated) return;
     double memory = 0;
@@ -117,5 +118,6 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
         "\nOn this machine and %s while nothing else runs; at most about %lld MiB of memory. Estimated from small "
         "images and references at their limit of samples; cached references are reused.\n",
         device.info().name.c_str(), std::llround(memory));
+    std::printf("\nIt is run by:\n  %s\n", command_line("run", config, settings).c_str());
     refuse_absurd(work, options.json.empty());
 }

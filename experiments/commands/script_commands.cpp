@@ -7,6 +7,7 @@
 #include "experiments/config/config_parts.h"
 #include "experiments/config/config_schema.h"
 #include "experiments/evaluation/tradeoff.h"
+#include "experiments/store/host_info.h"
 #include "metrics/estimators.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@
 #include <nlohmann/json.hpp>
 
 namespace {
-
-std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
 /// Runs a script of experiments/: 0 done, 2 a mistake of the user, else a fault of the machine (3). Scripts ask this
 /// program for their statistics (experiments/python/ssrlab/statistics.py).
@@ -103,15 +102,15 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
                           {"point", v.point},
                           {"label", v.label},
                           {"baseline", v.is_baseline}});
-    const json asked = {
-        {"study", config.source},
-        {"tune", tuning_of(config)},
-        {"points", points},
-        {"parameters", config_schema(config.variants.front().variant)["properties"]},
-        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
+    const json asked = {{"study", config.source},
+                        {"tune", tuning_of(config)},
+                        {"points", points},
+                        {"parameters", config_schema(config.variants.front().variant)["properties"]},
+                        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
     std::filesystem::create_directories(out);
     write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
-    std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--", this_program()};
+    std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",
+                                          this_program().string()};
     arguments.insert(arguments.end(), run_options.begin(), run_options.end());
     return run_script("tune/tune.py", arguments);
 }

@@ -1,4 +1,4 @@
-// The commands of studies and of what they can be made from: run, gbuffer, capture.
+// The commands of studies and of what they can be made from: run, merge, report, gbuffer, capture.
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gbuffer/rasterizer.h"
@@ -6,7 +6,9 @@
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/shot.h"
+#include "experiments/evaluation/table_columns.h"
 #include "experiments/measuring/frames/capture.h"
+#include "experiments/report/report.h"
 #include "experiments/run/run.h"
 #include "groundtruth/reference_cache.h"
 
@@ -15,6 +17,7 @@
 Config config_of_study(const std::filesystem::path& file) {
     Config config = read_config(file);
     if (config.is_tuned) fail(file.string(), ": has a 'tune': `ssrlab tune` runs it");
+    check_table_columns(config);
     return config;
 }
 
@@ -46,6 +49,11 @@ int merge_command(const MergeOptions& options, const CommonOptions& common) {
                                         .replaces = options.replaces},
                                        options.folders.empty() ? std::vector{out} : options.folders);
     return missing > 0 ? 1 : 0;
+}
+
+void report_command(const std::filesystem::path& folder, bool links_images) {
+    write_report(folder, links_images);
+    std::printf("Report: %s\n", std::filesystem::absolute(folder / "report.html").lexically_normal().c_str());
 }
 
 void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common) {

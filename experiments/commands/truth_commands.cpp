@@ -27,6 +27,17 @@ Shot load_single_shot(const ShotOptions& options, const CommonOptions& common) {
     return load_shot(config, scene_search_path(common.scene_path));
 }
 
+/// "76900 rays", "4.61 million rays", "1.2 billion rays".
+std::string rays_text(double rays) {
+    char text[64];
+    if (rays < 1e6)
+        std::snprintf(text, sizeof text, "%.0f rays", rays);
+    else
+        std::snprintf(text, sizeof text, "%.3g %s rays", rays / (rays < 1e9 ? 1e6 : 1e9),
+                      rays < 1e9 ? "million" : "billion");
+    return text;
+}
+
 /// Root of a noise-free mean square with its interval, in percent of `unit`.
 std::string rms_percent(const LadderDifference& difference, double unit) {
     const auto root = [&](double square) { return 100 * std::sqrt(std::max(square, 0.0)) / unit; };
@@ -81,8 +92,8 @@ void reference_command(const ReferenceCommandOptions& options, const CommonOptio
     write_reference(out, reference, options.settings);
 
     progress.say(out.string() + (reference.from_cache ? " (from the cache)" : ""));
-    std::printf("passes %s samples per pixel, %s, %.3g Gray\n", reference.passes.c_str(),
-                format_duration(reference.seconds).c_str(), reference.rays * 1e-9);
+    std::printf("passes %s samples per pixel, %s, %s\n", reference.passes.c_str(),
+                format_duration(reference.seconds).c_str(), rays_text(double(reference.rays)).c_str());
     std::printf(
         "relative standard error of the specular light at a pixel: median %.2f %%, 95 %% of pixels below %.2f %%\n",
         100 * error.median, 100 * error.p95);
@@ -100,6 +111,7 @@ void compare_images_command(const CompareCommandOptions& options) {
     const Comparison result =
         compare({.reference = options.reference,
                  .test = options.test,
+                 .layer = options.layer,
                  .metrics = options.metrics,
                  .map = options.map,
                  .map_max = options.map_max,

@@ -116,6 +116,7 @@ void check_tables(ConfigObject& study, const Config& config) {
         if (table.has("best") && table.has("over"))
             fail(table.at("best"), ": means over ", table["over"].dump(),
                  " have no 'best': `ssrlab tradeoff` compares over scenes");
+        if (of == "hits" && !config.hits) fail(table.at("of"), ": the study judges no rays; add \"hits\": {}");
     }
 }
 

@@ -1,14 +1,18 @@
 #include "experiments/config/read_variants.h"
 
 #include "core/error.h"
+#include "core/near_miss.h"
 #include "experiments/config/conditions.h"
 #include "experiments/config/design.h"
 #include "experiments/config/point_name.h"
 #include "variants/registry.h"
+#include "variants/tracers/tracers.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
+#include <span>
 
 namespace {
 
@@ -73,6 +77,42 @@ bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& ob
     return true;
 }
 
+/// The parameter of a chosen tracer whose name is like that of another's; "" if there is none.
+std::string meant_by(const std::string& name, const ParameterSet& params) {
+    const auto leaf = [](const std::string& whole) { return whole.substr(whole.find('.') + 1); };
+    std::vector<std::string> leaves;
+    std::map<std::string, std::string> names;
+    for (const Parameter& p : params)
+        if (!p.part().empty() && is_read(params, p.name))
+            if (names.try_emplace(leaf(p.name), p.name).second) leaves.push_back(leaf(p.name));
+    std::string near = nearest_name(leaf(name), leaves);
+    for (const std::string& other : leaves)  // "thickness" of "depth_buffer_thickness"
+        if (near.empty() && leaf(name).ends_with("_" + other)) near = other;
+    return near.empty() ? "" : names.at(near);
+}
+
+/// Fails if a design varies a parameter that none of its points reads: all its values would be one point.
+void refuse_unread(std::span<const VariantConfig> points, const std::string& where) {
+    std::set<std::string> read, varied;
+    for (const VariantConfig& point : points) {
+        std::vector<std::string> names;  // that are not known to be read
+        for (const auto& [name, value] : point.swept.items())
+            if (!read.contains(name)) names.push_back(name);
+        if (names.empty()) continue;
+        varied.insert(names.begin(), names.end());
+        const auto made = make_variant(point.variant, point.parameters, point.preset);
+        for (const std::string& name : names)
+            if (is_read(made->params, name)) read.insert(name);
+    }
+    for (const std::string& name : varied) {
+        if (read.contains(name)) continue;
+        const VariantConfig& first = points.front();
+        const std::string meant = meant_by(name, make_variant(first.variant, first.parameters, first.preset)->params);
+        fail(where, ": no point reads '", name, "', a parameter of a tracer that none of them uses",
+             meant.empty() ? "" : "; did you mean '" + meant + "'?");
+    }
+}
+
 void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& study_seeds,
                 std::vector<VariantConfig>& variants) {
     const std::string name = entry.text("variant");
@@ -114,6 +154,7 @@ void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& st
             if (complete_point(point, shared, object)) variants.push_back(std::move(point));
         }
     if (variants.size() == before) fail(object.where(), ": its conditions leave none of its points");
+    refuse_unread(std::span(variants).subspan(before), object.where());
 }
 
 /// The pairs (variant, point) name cells and rows, so they must differ, and one label for two would hide which is

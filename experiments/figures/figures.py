@@ -89,6 +89,7 @@ def drawn(results, chosen):
     """(name, figure) of a request; several of one that makes a figure for each shot or baseline."""
     view = results.narrowed(chosen.shots, chosen.points)
     view.labels = chosen.labels
+    view.rounds_names = True
     if chosen.kind == "effects":
         for name, rows in effects.comparisons(view, chosen).items():
             yield name.replace("effects", chosen.name, 1), effects.draw(view, chosen, rows)

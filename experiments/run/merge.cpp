@@ -87,9 +87,8 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
              folders.size() > 1 ? " or the folders beside it" : "",
              "; were they made by this version of ssrlab, on a device like ", study.device.info().name, "?");
     write_results(study, missing.empty(), {});
-    say(std::to_string(study.finished.size()) + " cells merged, " + std::to_string(missing.size()) + " missing");
+    say(counted(study.finished.size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");
     for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);
-    if (!missing.empty())
-        say("`ssrlab run " + config.file.string() + " --out " + settings.out.string() + "` does them");
+    if (!missing.empty()) say("They are done by:\n  " + command_line("run", config, settings));
     return missing.size();
 }

@@ -3,15 +3,19 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/scene/load_scene.h"
 #include "experiments/run/shots/shot_cells.h"
 #include "experiments/run/study_results.h"
 #include "experiments/store/finished_run.h"
 #include "experiments/store/folder_owner.h"
+#include "experiments/store/host_info.h"
 #include "experiments/store/manifest.h"
 
 #include <unistd.h>
 #include <algorithm>
+#include <cctype>
 #include <csignal>
+#include <cstring>
 
 namespace {
 
@@ -80,8 +84,8 @@ void plan_work(StudySession& study, const CellSelection& selection) {
     if (selected == 0 && selection.is_shard())
         study.progress.say("note: this part of the study has no cell");
     else if (selected == 0)
-        fail("--cells selects none of the ", study.plan.cell_count(), " cells of this study; `ssrlab plan ",
-             study.config.file.string(), " --list` names them");
+        fail("--cells selects none of the ", study.plan.cell_count(), " cells of this study; `",
+             command_line("plan", study.config, study.settings), " --list` names them");
 }
 
 /// Runs the cells of one study after another, and lets results be read meanwhile.
@@ -103,7 +107,8 @@ public:
         }
         study_.progress.say(std::to_string(study_.made) + " cells done, " +
                             std::to_string(study_.finished.size() - study_.made) +
-                            " found done before; `ssrlab merge` makes tables and report once all are there");
+                            " found done before; once all are there, tables and report are made by:\n  " +
+                            command_line("merge", study_.config, study_.settings));
     }
 
 private:
@@ -165,7 +170,37 @@ private:
     struct sigaction before_ {};
 };
 
+/// As a POSIX shell takes it for one word.
+std::string quoted(const std::string& text) {
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./:=,@%+", c); };
+    if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+    return word + "'";
+}
+
 }  // namespace
+
+std::string command_line(const std::string& command, const Config& config, const RunSettings& settings) {
+    const auto whole = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal().string();
+    };
+    std::vector<std::string> words = {this_program().string(), command, whole(config.file),
+                                      "--out=" + whole(settings.out)};
+    if (settings.keep_all) words.push_back("--keep-all");
+    if (!settings.device.empty()) words.push_back("--device=" + settings.device);
+    const std::vector<std::filesystem::path> usual = scene_search_path();
+    for (const std::filesystem::path& folder : settings.search_path)
+        if (!std::ranges::count(usual, folder)) words.push_back("--scene-path=" + whole(folder));
+    if (command == "run" && !settings.cells.empty()) {
+        words.push_back("--cells=");
+        for (const std::string& term : settings.cells)
+            words.back() += (&term == &settings.cells.front() ? "" : ",") + term;
+    }
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+    return line;
+}
 
 void run_study(const Config& config, const RunSettings& settings) {
     const ExplainedInterrupt explained;

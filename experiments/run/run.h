@@ -23,6 +23,10 @@ struct RunSettings {
 /// end. Of a part of the cells nothing but these is written: merge_study() makes the tables once all are there.
 void run_study(const Config& config, const RunSettings& settings);
 
+/// `command` (run, merge, plan) on this study as a shell takes it in any folder: this program, the config and the
+/// results folder by their absolute paths, and those of the settings that the command's user gave.
+std::string command_line(const std::string& command, const Config& config, const RunSettings& settings);
+
 /// Fills settings.out with the cells that folders of the same study hold, and makes tables and report of all that
 /// are there; nothing is rendered. `folders` may be settings.out itself alone. Of cells that several have (times, on
 /// several machines) the least disturbed counts, else that of the folder named first. Returns how many cells are

@@ -56,9 +56,11 @@ nlohmann::json host_info() {
             {"kernel", std::string(kernel.sysname) + " " + kernel.release}};
 }
 
+fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
+
 nlohmann::json build_info() {
     nlohmann::json build = {{"commit", ""}, {"dirty", false}};
-    const fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / "build_commit.json";
+    const fs::path file = this_program().parent_path() / "build_commit.json";
     const std::string code = code_hash();
     if (fs::exists(file)) {
         build = read_json(file);

@@ -1,11 +1,15 @@
 #pragma once
 #include "experiments/store/source_code.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 /// The machine: {"name", "cpu", "cores", "memory_gib", "kernel"}; for the manifest.
 nlohmann::json host_info();
+
+/// The path of this program's file.
+std::filesystem::path this_program();
 
 /// This program: {"version", "commit", "dirty", "code", "compiler", "build"}. Commit and dirty are those of the source
 /// tree when it was built, as build_commit.json beside the program says; "" and false without that file. Dirty too if

@@ -80,7 +80,7 @@ TracerNeeds both(const TracerNeeds& a, const TracerNeeds& b) {
 
 /// Fails if a parameter has the name of a technique's, so that it would be taken for one of that.
 std::unique_ptr<Tracer> created(const TracerEntry& entry, ParameterSet& params) {
-    const std::string part = entry.part.empty() ? entry.name : entry.part;
+    const std::string part = part_of(entry);
     const auto before = std::distance(params.begin(), params.end());
     std::unique_ptr<Tracer> tracer = entry.create(params);
     for (auto p = params.begin() + before; p != params.end(); ++p)
@@ -103,6 +103,16 @@ const TracerEntry& find_tracer(const std::string& name) {
     for (const TracerEntry& entry : tracer_table())
         if (entry.name == name) return entry;
     fail("unknown tracer '", name, "'", suggestion(name, tracer_names()));
+}
+
+std::string part_of(const TracerEntry& tracer) { return tracer.part.empty() ? tracer.name : tracer.part; }
+
+bool is_read(const ParameterSet& params, const std::string& name) {
+    const std::string part = std::ranges::find(params, name, &Parameter::name)->part();
+    if (!std::ranges::count(tracer_table(), part, part_of)) return true;
+    return std::ranges::any_of(params, [&](const Parameter& slot) {
+        return slot.choices == tracer_names() && part_of(find_tracer(slot.value.get<std::string>())) == part;
+    });
 }
 
 Tracers::Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std::string& source,

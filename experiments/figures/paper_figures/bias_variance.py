@@ -26,6 +26,7 @@ def draw(results, chosen):
     for axes, shot in zip(panels, shots):
         axes.set_xscale("log")
         axes.set_xlim(limits)
+        style.log_axis(axes.xaxis)
         for index, (name, part) in enumerate(parts.items()):
             for row, measured in zip(rows, part):
                 if row["shot"] == shot:

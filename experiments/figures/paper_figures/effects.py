@@ -1,14 +1,13 @@
 """Forest plots, one panel per shot: what each change does to the error of its baseline, and what points do to the error of
 those that differ in one value alone."""
 
-import json
-
 import matplotlib.pyplot as plt
 
 from paper_figures import style
+from paper_figures.sweeps import value_text
 from ssrlab.results import label
 
-LONG_LABEL = 40  # characters, beyond which labels would leave the panels no room
+LABELS = 0.36  # of the figure's width at most; longer labels are broken
 FARTHEST = 20.0  # ratios further from 1 would squeeze all others; they are written at the border of their panel
 CUT = 2.0  # intervals reach at most this factor beyond the outermost ratio
 
@@ -23,7 +22,7 @@ def _groups(results, rows):
     found = dict.fromkeys((e["variant"], e["point"]) for e in rows)
     preset = _preset(rows[0]["against_point"])
     changes = {k: c for k, c in results.single_changes.items() if k in found and _preset(k[1]) == preset}
-    singles = {k: f"{p} = {json.dumps(v)}" for k, (p, v) in changes.items()}
+    singles = {k: f"{p} = {value_text(v)}" for k, (p, v) in changes.items()}
     return singles | {k: results.point_label(*k) for k in found if k not in singles}
 
 
@@ -59,22 +58,12 @@ def draw(results, chosen, rows):
     return _draw(results, chosen, rows, _groups(results, rows), baseline)
 
 
-def _short(groups, letters):
-    """Long labels as the values of all swept parameters alone, and what these are in which order; "" if none is long."""
-    if max(map(len, groups.values())) <= LONG_LABEL:
-        return groups, ""
-    values = {key: dict(t.split("=", 1) for t in key[1].split() if "=" in t) for key in groups}
-    names = sorted({name for of_point in values.values() for name in of_point})
-    short = {key: "  ".join(of.get(name, "–") for name in names) if of else groups[key] for key, of in values.items()}
-    legend = style.wrapped(f"rows: {', '.join(names)} (–: as in the variant's default)", letters)
-    return short, legend + "\n"
-
-
 def _draw(results, chosen, rows, groups, against):
     width = style.width_of(chosen, 2)
     letters = style.letters(width)
-    groups, legend = _short(groups, letters)
-    below = legend + style.wrapped(
+    groups = {key: style.wrapped(text, style.letters(LABELS * width)) for key, text in groups.items()}
+    row = 0.38 + 0.3 * max(text.count("\n") for text in groups.values())  # cm
+    below = style.wrapped(
         f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
         f"95 % intervals; {_family(rows)}",
         letters,
@@ -89,7 +78,7 @@ def _draw(results, chosen, rows, groups, against):
         columns,
         figsize=(
             width * style.CENTIMETRE,
-            (grid_rows * (1.5 + 0.38 * len(groups)) + lines * 0.32) * style.scale() * style.CENTIMETRE,
+            (grid_rows * (1.5 + row * len(groups)) + lines * 0.32) * style.scale() * style.CENTIMETRE,
         ),
         layout="constrained",
         sharex=True,

@@ -100,7 +100,7 @@ def _own_text(results, key, groups):
     label = results.own_label(*key)
     if label:
         return label if label not in groups else ""
-    return "" if key[1] in ("", "default") else key[1]
+    return "" if key[1] in ("", "default") else results.point_name(*key)
 
 
 def draw(results, chosen):

@@ -48,7 +48,7 @@ def draw(results, chosen):
     is_one_variant = len({variant for variant, _ in keys}) == 1
 
     def name_of(key):
-        return results.own_label(*key) or (key[1] if is_one_variant else results.point_label(*key))
+        return results.own_label(*key) or (results.point_name(*key) if is_one_variant else results.point_label(*key))
 
     names = [name_of(key) for key in keys]
     figure, panels = style.panels(len(scenes), chosen, most_columns=3, height=5.2)

@@ -16,7 +16,8 @@ def draw(results, chosen):
     shots = [s for s in results.shots() if len({r["frame"] for r in rows if r["shot"] == s}) > 1]
     if not shots:
         return None
-    figure, panels = style.panels(len(shots), chosen)
+    names = [results.point_label(*k) for k in results.points()]
+    figure, panels = style.panels(len(shots), chosen, names=names)
     for axes, shot in zip(panels, shots):
         own = sorted((r for r in rows if r["shot"] == shot), key=frame_number)
         lines = {
@@ -34,5 +35,5 @@ def draw(results, chosen):
         axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
         axes.set_title(style.panel_title(results.shot_label(shot), axes))
         axes.set(xlabel="frame", ylabel=f"{chosen.metric}, {chosen.target}, {chosen.mask}")
-    style.draw_legend(figure, panels, [results.point_label(*k) for k in results.points()])
+    style.draw_legend(figure, panels, names)
     return figure

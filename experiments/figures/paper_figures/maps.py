@@ -31,6 +31,7 @@ def _panel(axes, measured, values, norm):
         ratios[place[key]] = m.value / least
     axes.imshow(ratios, cmap=PALETTE, norm=norm, aspect="auto", origin="lower", interpolation="nearest")
     palette = plt.get_cmap(PALETTE)
+    room = style.panel_width(axes) / len(values[0])
     for key, m in measured.items():
         row, column = place[key]
         red, green, blue, _ = palette(norm(ratios[row, column]))
@@ -43,7 +44,9 @@ def _panel(axes, measured, values, norm):
             axes.add_patch(Rectangle((column - 0.43, row - 0.43), 0.86, 0.86, fill=False, edgecolor=color, linewidth=width))
     axes.grid(False)
     for index, axis in ((0, axes.xaxis), (1, axes.yaxis)):
-        axis.set_ticks(range(len(values[index])), [sweeps.value_text(v) for v in values[index]])
+        texts = [sweeps.value_text(v) for v in values[index]]
+        is_slanted = index == 0 and max(map(style.text_width, texts)) > 0.9 * room
+        axis.set_ticks(range(len(texts)), texts, **({"rotation": 30, "ha": "right", "rotation_mode": "anchor"} if is_slanted else {}))
         axis.set_tick_params(length=0)
     for spine in axes.spines.values():
         spine.set_visible(False)
@@ -68,15 +71,17 @@ def draw(results, chosen):
             maps[shot] = found
     if not maps:
         return None
-    figure, panels = style.panels(len(maps), chosen, height=1.6 + 0.62 * len(values[1]))
+    number = 1.3 * style.text_width("1.00")
+    beside = max(int(0.75 * style.width_of(chosen, len(maps)) / (number * len(values[0]))), 1) if len(values[0]) <= MOST_NUMBERS else 3
+    figure, panels = style.panels(len(maps), chosen, most_columns=min(beside, 3), height=1.9 + 0.62 * len(values[1]))
     most = max(m.value / min(o.value for o in of_shot.values()) for of_shot in maps.values() for m in of_shot.values())
     norm = LogNorm(1.0, max(most, 1.01))
     for axes, (shot, measured) in zip(panels, maps.items()):
         _panel(axes, measured, values, norm)
         least = min(measured.values(), key=lambda m: m.value)
         axes.set_title(style.panel_title(results.shot_label(shot), axes) + f"\nleast: {style.number(least.value)}" + (" ms" if show == "time" else ""))
-        axes.set_xlabel(names[0])
-    panels[0].set_ylabel(names[1])
+        axes.set_xlabel(sweeps.axis_text(results, names[0]))
+    panels[0].set_ylabel(sweeps.axis_text(results, names[1]))
     bar = figure.colorbar(ScalarMappable(norm, PALETTE), ax=panels, aspect=30, pad=0.02)
     what = "time of a frame" if show == "time" else f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels"
     bar.set_label("over the least")

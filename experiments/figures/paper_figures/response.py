@@ -40,8 +40,12 @@ def set_parameter_axis(axes, values, is_numeric):
         return
     if min(values) > 0 and max(values) >= 10 * min(values):
         axes.set_xscale("log")
+        style.log_axis(axes.xaxis)
     if len(values) <= 8:
-        axes.set_xticks(values, [sweeps.value_text(v) for v in values])
+        shares = [float(axes.xaxis.get_transform().transform(v)) for v in values]
+        span = shares[-1] - shares[0] or 1.0
+        places = [s / span * style.panel_width(axes) / 1.16 for s in shares]  # 0.08 of it at both ends are margins
+        axes.set_xticks(values, style.with_room([sweeps.value_text(v) for v in values], places))
         axes.minorticks_off()
     axes.margins(x=0.08)
 
@@ -72,7 +76,7 @@ def draw(results, chosen):
             if row == 0:
                 axes.set_title(style.panel_title(results.shot_label(shot), axes))
             if row == len(shown) - 1:
-                axes.set_xlabel(parameter)
+                axes.set_xlabel(sweeps.axis_text(results, parameter))
             if column == 0:
                 axes.set_ylabel("time of a frame (ms)" if what == "time" else f"{chosen.metric} of {chosen.target}")
     if len(families) > 1:

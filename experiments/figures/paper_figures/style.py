@@ -103,15 +103,18 @@ def darker(color):
     return tuple(0.55 * part for part in to_rgb(color))
 
 
-def width_of(chosen, count):
-    """cm: as asked for, else of a column for one panel and of a page for several."""
-    return getattr(chosen, "width", None) or WIDTHS["column" if count == 1 else "page"]
+MOST_NAMES = 8  # that a legend in a column has room for
 
 
-def panels(count, chosen=None, most_columns=3, height=4.6, **shared):
+def width_of(chosen, count, names=()):
+    """cm: as asked for, else of a column for one panel and of a page for several, or for a legend of many names."""
+    return getattr(chosen, "width", None) or WIDTHS["column" if count == 1 and len(names) <= MOST_NAMES else "page"]
+
+
+def panels(count, chosen=None, most_columns=3, height=4.6, names=(), **shared):
     """A figure with `count` axes in rows (height of a row in cm). `chosen`: its width and the height of a row, where they
-    are asked for. `shared`: sharex, sharey, as in pyplot.subplots."""
-    width = width_of(chosen, count)
+    are asked for. `names`: of its legend. `shared`: sharex, sharey, as in pyplot.subplots."""
+    width = width_of(chosen, count, names)
     most = min(count, most_columns, max(int(width / 5.0), 1))
     rows = -(-count // most)
     columns = -(-count // rows)
@@ -144,6 +147,7 @@ def draw_legend(figure, panels, names=()):
         if box.width <= figure.bbox.width or columns == 1:
             break
         legend.remove()
+    figure.set_figheight(max(figure.get_figheight(), 1.5 * box.height / figure.dpi))  # a legend is smaller than its plot
     _grow(figure, above=box.height / figure.dpi)
 
 
@@ -188,6 +192,20 @@ def panel_title(text, axes):
     """In lines as long as the panel's share of its figure."""
     columns = axes.get_subplotspec().get_gridspec().ncols
     return wrapped(text, letters(0.8 * axes.figure.get_figwidth() / CENTIMETRE / columns))
+
+
+def panel_width(axes):
+    """cm of a panel between its axis' ends, about."""
+    return 0.75 * axes.figure.get_figwidth() / CENTIMETRE / axes.get_subplotspec().get_gridspec().ncols
+
+
+def with_room(texts, places):
+    """Labels of ticks at `places` (cm), "" in place of those that would lie on another: the ends come first."""
+    kept, widths = [], [text_width(text) for text in texts]
+    for i in dict.fromkeys([0, len(texts) - 1, *range(len(texts))]):
+        if all(abs(places[i] - places[j]) >= (widths[i] + widths[j]) / 2 + 0.15 for j in kept):
+            kept.append(i)
+    return [text if i in kept else "" for i, text in enumerate(texts)]
 
 
 class _LogTicks(LogLocator):

@@ -2,6 +2,7 @@
 
 import json
 
+from paper_figures import style
 from paper_figures.request import near
 from ssrlab.results import ResultsError
 
@@ -48,7 +49,7 @@ def _name(results, rest, every):
     variant, words = rest
     own = [w for v, w in every if v == variant]
     common = frozenset.intersection(*own)
-    values = [f"{name} = {json.loads(value)}" for name, value in sorted(words - common)]
+    values = [f"{name} = {value_text(json.loads(value))}" for name, value in sorted(words - common)]
     variants = {v for v, _ in every}
     name = results.labels.get(variant, variant)
     return ", ".join(([name] if len(variants) > 1 or not values else []) + values)
@@ -62,4 +63,10 @@ def axis_values(families_found, index):
 
 
 def value_text(value):
-    return f"{value:g}" if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)
+    return style.number(value) if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def axis_text(results, parameter):
+    """dda.thickness (m)"""
+    unit = results.unit_of(parameter)
+    return f"{parameter} ({unit})" if unit else parameter

@@ -22,13 +22,12 @@ def draw(results, chosen):
     if not metrics:
         return None
     most = max(len({r["shot"] for r in rows if r["metric"] == m}) for m in metrics)
-    figure, panels = style.panels(
-        len(metrics), chosen, most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(results.points()))
-    )
+    names = [results.point_label(*k) for k in results.points()]
+    figure, panels = style.panels(len(metrics), chosen, most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(names)), names=names)
     for axes, metric in zip(panels, metrics):
         _draw_metric(results, axes, [r for r in rows if r["metric"] == metric], metric)
         axes.set_xlabel(style.panel_title(f"{METRICS[metric]}, {chosen.mask}", axes))
-    style.draw_legend(figure, panels, [results.point_label(*k) for k in results.points()])
+    style.draw_legend(figure, panels, names)
     return figure
 
 

@@ -228,6 +228,8 @@ def _about(selection, filled):
     return {
         "name": table.name,
         "caption": table.caption,
+        "rows": table.rows,
+        "columns": table.columns,
         "shots": [s["shot"] for s in shots],
         "resolutions": sorted({f"{s['width']}x{s['height']}" for s in shots}),
         "over": over,

@@ -7,7 +7,7 @@ from paper_figures.texts import wrapped
 from paper_tables.formats import DISTURBED, NO_VALUE, cell_text, grid, is_bold, notes
 
 ESCAPES = str.maketrans(
-    {c: "\\" + c for c in "_%&#${}"}
+    {c: "\\" + c for c in "_%&#${}"} | {"\N{SUPERSCRIPT TWO}": r"\textsuperscript{2}"}
     | {"\\": r"\textbackslash{}", "^": r"\^{}", "~": r"\textasciitilde{}", "|": r"\textbar{}", "<": r"\textless{}", ">": r"\textgreater{}"}
     | {"\N{DAGGER}": r"\dag{}", "\N{DOUBLE DAGGER}": r"\ddag{}", "\N{PILCROW SIGN}": r"\P{}", DISTURBED: r"\S{}", NO_VALUE: "--", "\N{NO-BREAK SPACE}": "~"}
 )
@@ -16,6 +16,22 @@ LETTER, SMALL_LETTER, GAP = 4.9, 3.9, 8
 COLUMN, TEXT = 240, 345  # a column of two; the text of the class article, the narrowest that spans a page
 HEAD = 14  # letters of a column's name in a line, at least
 MOST_LINES = 45  # that a page has room for, with a caption and notes
+
+
+# What a reader calls what the files' columns and values are named.
+HEADS = {"variant": "technique", "shot_group": "shots", "mse": "MSE", "relmse": "relMSE", "mae": "MAE", "smape": "SMAPE", "psnr": "PSNR (dB)", "flip": "FLIP"}
+HEADS |= {"hdr_flip": "HDR-FLIP", "ssim": "SSIM", "ms_ssim": "MS-SSIM", "bias_squared": "bias\N{SUPERSCRIPT TWO}"}
+WORDS = ("metric", "quantity", "mask", "target", "change", "what")  # whose values are words; others are names, which stay as they are
+
+
+def readable(text):
+    return HEADS.get(text, text.replace("_", " "))
+
+
+def head_of(column, keys):
+    """`keys`: what the table's columns are of, as its config says."""
+    parts = column.split(", ")
+    return ", ".join(readable(p) if k in WORDS else p for p, k in zip(parts, keys)) if len(parts) == len(keys) else column
 
 
 def escaped(text):
@@ -86,6 +102,8 @@ def latex(table, cells, made_from):
         return lines
 
     explained = notes(table, cells)
+    heads = [_head(head_of(c, table.get("columns", [])), w) for c, w in zip(columns, widths)]
+    corner = escaped(", ".join(readable(key) for key in table.get("rows", [])))
 
     def page(rows, number, count):
         is_last = number == count
@@ -99,7 +117,7 @@ def latex(table, cells, made_from):
             r"\resizebox{\ifdim\width>\linewidth\linewidth\else\width\fi}{!}{%",
             f"\\begin{{tabular}}{{l{'r' * len(columns)}}}",
             "\\toprule",
-            " & ".join(["", *(_head(c, w) for c, w in zip(columns, widths))]).lstrip() + r" \\",
+            " & ".join([corner, *heads]).lstrip() + r" \\",
             "\\midrule",
             *body(rows),
             "\\bottomrule",

@@ -4,6 +4,7 @@ import copy
 import csv
 import json
 import os
+import re
 import sys
 from dataclasses import dataclass
 
@@ -66,6 +67,11 @@ def label(variant, point):
     return variant if point in ("", "default") else f"{variant} {point}"
 
 
+def rounded(text):
+    """A point's name with three digits of its values: dda.thickness=0.00949 of dda.thickness=0.009486833."""
+    return re.sub(r"(?<==)-?\d+\.\d+(?=\s|$)", lambda number: f"{float(number.group()):.3g}", text)
+
+
 def is_over_frames(row):
     """Whether it stands for all frames of its shot: such have no `frame`."""
     return row["frame"] == ""
@@ -104,6 +110,7 @@ class Results:
         self.single_changes = self._single_changes()
         self.hidden = set(self.single_changes)  # of figures of whole points: these have figures of their own
         self.colors = {}  # (variant, point) to "#rrggbb", before those of the palette
+        self.rounds_names = False  # those of points, in figures; tables and answers have all digits
         self.labels = {}  # names of points and shots to what stands in their place, before the study's own labels
         self.variants = {(v["variant"], v["point"]): v for v in self.manifest.get("variants", [])}
         self.shot_entries = {s.get("shot"): s for s in self.manifest.get("shots", [])}
@@ -114,7 +121,22 @@ class Results:
 
     def point_label(self, variant, point):
         """How a point is called in tables and figures."""
-        return self.own_label(variant, point) or label(variant, point)
+        return self.own_label(variant, point) or label(variant, self.point_name(variant, point))
+
+    def point_name(self, variant, point):
+        """Rounded in figures, unless another point of the variant then has the same name."""
+        if not self.rounds_names or any(v == variant and p != point and rounded(p) == rounded(point) for v, p in self.variants):
+            return point
+        return rounded(point)
+
+    def unit_of(self, parameter):
+        """Of a parameter, as schema.json says; "" without one."""
+        file = os.path.join(self.folder, "schema.json")
+        if not os.path.exists(file):
+            return ""
+        with open(file, encoding="utf-8") as text:
+            fields = (field for table in json.load(text)["resources"] if table["name"] == "parameters" for field in table["schema"]["fields"])
+            return next((field.get("unit", "") for field in fields if field["name"] == parameter), "")
 
     def point_group(self, variant, point):
         """What a point is counted with: its group's display name, else its variant's."""

@@ -85,7 +85,7 @@ TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
         "variants": [{"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}]})");
     const Outcome small = ssrlab("plan study.json");
     EXPECT_EQ(small.code, 0) << small.text;
-    EXPECT_NE(small.text.find("1 shots, 2 points"), std::string::npos) << small.text;
+    EXPECT_NE(small.text.find("1 shot, 2 points"), std::string::npos) << small.text;
     config(
         "{" +
         std::string(
@@ -94,6 +94,31 @@ TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
     EXPECT_EQ(large.code, 2);
     EXPECT_NE(large.text.find("MiB of memory, and this machine has"), std::string::npos) << large.text;
     EXPECT_EQ(elsewhere.code, 0) << elsewhere.text;
+}
+
+TEST_F(CommandLine, PrintsCommandsThatAShellTakesAsTheyAre) {
+    config(R"({"shots": [{"scene": "sky_only", "resolution": [16, 16]}], "variants": [{"variant": "none"}],
+               "timing": {"frames": 0}, "reference": {"samples": 16}})");
+    fs::create_directories(folder / "it's here");
+    fs::rename(folder / "study.json", folder / "it's here/my study.json");
+    const std::string study = " \"it's here/my study.json\" --out 'to here'";
+    const auto printed_command = [](const Outcome& o) { return o.text.substr(o.text.rfind("\n  ") + 1); };
+    const auto run_elsewhere = [&](const std::string& command) {
+        write_text(folder / "command.sh", "cd /\n" + command);
+        return std::system(
+            ("SSRLAB_CACHE='" + folder.string() + "/cache' sh " + (folder / "command.sh").string() + " >/dev/null 2>&1")
+                .c_str());
+    };
+    const std::string planned = printed_command(ssrlab("plan" + study)),
+                      merging = printed_command(ssrlab("run" + study + " --cells references"));
+    EXPECT_NE(run_elsewhere(merging), 0) << "cells are missing, but was it run?\n" << merging;
+    ASSERT_TRUE(fs::exists(folder / "to here/results.csv")) << merging;
+    EXPECT_EQ(printed_command(ssrlab("merge" + study)), planned);
+    EXPECT_EQ(run_elsewhere(planned), 0) << planned;
+    EXPECT_NE(read_text(folder / "to here/manifest.json").find("\"is_complete\": true"), std::string::npos);
+
+    const Outcome report = ssrlab("report 'to here'");
+    EXPECT_EQ(report.text, "Report: " + (folder / "to here/report.html").string() + "\n");
 }
 
 TEST_F(CommandLine, NamesBrokenFiles) {
@@ -112,7 +137,8 @@ TEST_F(CommandLine, NamesBrokenFiles) {
     expect_mistake("figures .", "manifest.json");
     expect_mistake("describe mcguire", "unknown variant 'mcguire'");
     EXPECT_EQ(ssrlab("reference fence --size 0 10").code, 2);
-    EXPECT_EQ(ssrlab("frobnicate").code, 2);
+    expect_mistake("rnu study.json", "unknown command 'rnu'; did you mean 'run'?");
+    expect_mistake("frobnicate", "known are: run, plan, merge");
 }
 
 TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
@@ -168,6 +194,22 @@ TEST_F(CommandLine, ComparesByOneNumberPerLine) {
     EXPECT_NEAR(read_exr_rgb(folder / "m.exr").values[0], 0.0625f, 1e-7f);
 }
 
+TEST_F(CommandLine, ComparesLayersOfReferences) {
+    const std::string small = "reference roughness_gradient --size 16 9 --samples ";
+    const Outcome few = ssrlab(small + "16 --out few.exr");
+    EXPECT_NE(few.text.find(" s, 2603 rays\n"), std::string::npos) << few.text;  // not 2.6e-06 Gray
+    EXPECT_EQ(ssrlab(small + "64 --out more.exr").code, 0);
+    const Outcome image = ssrlab("compare more.exr few.exr --metric mse"),
+                  named = ssrlab("compare more.exr few.exr --metric mse --layer image"),
+                  specular = ssrlab("compare more.exr few.exr --metric mse --layer specular");
+    EXPECT_EQ(image.code, 0) << image.text;
+    EXPECT_EQ(image.text, named.text);
+    EXPECT_EQ(specular.code, 0) << specular.text;
+    EXPECT_NE(specular.text, image.text);
+    expect_mistake("compare more.exr few.exr --layer speculr",
+                   "more.exr has no layer 'speculr'; did you mean 'specular'?");
+}
+
 TEST_F(CommandLine, EveryCommandExplainsItself) {
     for (const char* command : {"", "run", "figures", "compare", "reference", "gbuffer", "needs", "describe", "list"}) {
         const Outcome o = ssrlab(std::string(command) + " --help");
@@ -186,6 +228,7 @@ TEST_F(CommandLine, ListsWhatEachThingIs) {
     const std::string scenes = ssrlab("list scenes --scene-path more").text;
     EXPECT_NE(scenes.find("\nfence   "), std::string::npos) << scenes;
     EXPECT_NE(scenes.find(" Poles of 2 cm"), std::string::npos) << scenes;
+    EXPECT_NE(scenes.find("  Cameras: main, lateral\n"), std::string::npos) << scenes;
     EXPECT_NE(scenes.find("\nmy_scene\n"), std::string::npos) << "it has no about.txt\n" << scenes;
     const std::string variants = ssrlab("list variants").text;
     EXPECT_NE(variants.find("none: No screen-space reflections\n    Confidence 0 everywhere"), std::string::npos)

@@ -311,6 +311,7 @@ TEST(Configs, TablesAreCheckedBeforeTheStudyRuns) {
         }
     };
     EXPECT_EQ(mistake_in(R"("of": "costs")", "true"), "none");
+    EXPECT_EQ(mistake_in(R"("of": "hits")"), ":2:93: tables[0]: the study judges no rays; add \"hits\": {}");
     EXPECT_EQ(mistake_in(R"("of": "results", "best": "row")"), "none");
     for (const auto& [table, mistake] : std::map<std::string, std::string>{
              {R"("of": "costs")", ":2:93: tables[0]: the study counts no costs; add \"costs\": true"},

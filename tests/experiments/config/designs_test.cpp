@@ -388,3 +388,21 @@ TEST(PointNames, StayShort) {
     EXPECT_NE(point_name("best", many), name);
     EXPECT_EQ(point_name("", {{"a", std::string(100, 'x')}}).size(), 48u);
 }
+
+TEST_F(Designs, WhatNoPointReadsIsNotVaried) {
+    const std::string of_another = "a parameter of a tracer that none of them uses";
+    EXPECT_NE(mistake(dda(R"("sweep": {"hierarchy.depth_buffer_thickness": [0.1, 0.2]})"))
+                  .find("no point reads 'hierarchy.depth_buffer_thickness', " + of_another +
+                        "; did you mean 'dda.thickness'?"),
+              std::string::npos);
+    EXPECT_NE(mistake(dda(R"("parameters": {"tracer": "hzb"}, "each": {"dda.stride": [1, 2]})")).find(of_another),
+              std::string::npos);
+    // Read by some of the points, by the other of two tracers, or of no tracer.
+    EXPECT_EQ(points(of(dda(R"("sweep": {"tracer": ["dda", "hzb"], "dda.stride": [1, 2]})"))).size(), 4u);
+    EXPECT_EQ(points(of(dda(R"("parameters": {"tracer": "hzb"}, "sweep": {"max_roughness": [0.1, 0.2]})"))).size(), 2u);
+    EXPECT_EQ(
+        points(of(R"({"variant": "frostbite_sssr", "parameters": {"tracer": "dda", "rough_tracer": "frostbite_linear"},
+                            "sweep": {"frostbite.relative_thickness": [0.01, 0.1]}})"))
+            .size(),
+        2u);
+}

@@ -119,7 +119,7 @@ function parameterTables(points, variant) {
     const shown = scroller(table(columns, rows));
     return [
         ...(differing.length ?
-                [isLong ? folded(`${rows.length} points, their ${differing.length} parameters that differ`, shown) :
+                [isLong ? folded(`${points.length} points, their ${differing.length} parameters that differ`, shown) :
                           shown] :
                 []),
         ...(equal.length ?
