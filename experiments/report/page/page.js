@@ -21,6 +21,7 @@ function fill(element, attributes, children) {
 
 const at = id => document.getElementById(id);
 const unique = list => [...new Set(list)];
+const manifestShots = () => list(report.manifest.shots);
 const list = value => Array.isArray(value) ? value : [];
 /// How the study names points and shots, where it does.
 const pointLabels =

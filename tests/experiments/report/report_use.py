@@ -20,6 +20,7 @@ def with_answers(folder):
     def point(name):
         return {"variant": name[0], "point": name[1], "value": 0.125, "low": 0.12, "high": 0.13}
 
+    data["over_scenes"] = "Over 2 scenes one errs least."
     data["answers"] = [
         {
             "shot": shot["shot"],
@@ -43,12 +44,16 @@ def texts(page, selector):
 
 def test_answers(page, shots):
     """All of the first screen, at the size that it is made for."""
-    sentences = texts(page, "#answer-shots button")
-    equal(sentences[:2], [f"{s.split('.')[0]} In <{i}> one errs least, surely." for i, s in enumerate(shots)], "sentences")
-    check("No technique is named" in sentences[2], f"a shot without answer: {sentences[2]}")
+    equal(texts(page, "#over-scenes"), ["Over 2 scenes one errs least."], "what is said first")
+    first = page.execute_script("return [...document.querySelectorAll('#answers p, #answers button')].find(e => e.innerText).id")
+    equal(first, "over-scenes", "the first text of the first screen")
     equal(len(page.find_elements(By.CSS_SELECTOR, "#answer-charts .chart")), 2, "charts of both errors")
     for shot in (1, 0):
         page.find_elements(By.CSS_SELECTOR, "#answer-shots button")[shot].click()
+        names, sentences = [s.split(".")[0] for s in shots], texts(page, "#answer-shots button")
+        equal(sentences[shot], f"{names[shot]} In <{shot}> one errs least, surely.", "the chosen shot's sentence")
+        equal(sentences[1 - shot], f"{names[1 - shot]} mcguire_dda · stride=1, mse 0.125 [0.12, 0.13]", "another shot's best")
+        check("No technique is named" in sentences[2], f"a shot without answer: {sentences[2]}")
         check(texts(page, "#answer-note")[0].startswith(f"To eyes, too, in {shot}."), "the chosen shot's note")
         captions = page.execute_script("return [...document.querySelectorAll('#answer-charts figcaption')].map(c => c.innerText)")
         check(all(c.startswith(shots[shot].split(".")[0]) for c in captions), f"charts of the chosen shot: {captions}")
@@ -63,6 +68,10 @@ def test_answers(page, shots):
         c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => (a * 31 + b) % 1e9))"""
     )
     equal(len(set(colours)), 3, "three pictures that differ")
+    cut = "return [...document.querySelectorAll('#answers *')].filter(e => ['ellipsis'].includes(getComputedStyle(e).textOverflow) || getComputedStyle(e).webkitLineClamp !== 'none').length"
+    equal(page.execute_script(cut), 0, "texts of the first screen that may be cut off")
+    names = page.execute_script("return [...document.querySelectorAll('#answer-charts .chart:first-child .mark-label')].map(t => t.textContent)")
+    equal([n for n in names if n in ("stride=1", "stride=4")], ["stride=1", "stride=4"], "names at the marks")
     bottom = page.execute_script("return document.querySelector('#answers').getBoundingClientRect().bottom")
     check(bottom <= 800, f"the first screen ends at {bottom}")
     check(page.execute_script("return document.body.scrollWidth <= innerWidth"), "the page is wider than the window")
@@ -70,7 +79,8 @@ def test_answers(page, shots):
 
 
 def test_budget(page, folder, shot):
-    """Of what fits into the time, the least error; and what may fit or not."""
+    """Of what fits into the time the least error, what may fit, and what just misses; each with its picture."""
+    check(float(page.find_element(By.ID, "budget").get_attribute("value")) > 0, "a budget to begin with")
     of_shot = dict(shot=shot, stage="total")
     times = {(r["variant"], r["point"]): [float(r[c]) for c in ("median_ms", "low_ms")] for r in rows_of(folder, "time_summary.csv", **of_shot)}
     errors = {
@@ -78,6 +88,7 @@ def test_budget(page, folder, shot):
         for r in rows_of(folder, "summary.csv", shot=shot, metric="mse", mask="reflective", target="specular")
     }
     high_of = lambda point: max(float(r["fits_from_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["variant"], r["point"]) == point)
+    least_of = lambda point: max(float(r["may_fit_from_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["variant"], r["point"]) == point)
     label = lambda point: point[0] if point[1] == "default" else " · ".join(point)
     by_error = sorted(times, key=errors.get)
     best, cheapest = by_error[0], min(times, key=times.get)
@@ -85,17 +96,39 @@ def test_budget(page, folder, shot):
     between = (times[best][1] + times[best][0]) / 2  # within the interval of the best one's time
     for budget, fits in ((times[best][0] + 1, best), (times[best][0] + 1e-6, best), (between, cheapest), (times[cheapest][1] / 2, None)):
         page.execute_script("const b = at('budget'); b.value = arguments[0]; b.dispatchEvent(new Event('input'))", budget)
-        text = texts(page, "#budget-answer")[0]
-        wanted = f"By mse {label(fits)}, " if fits else "By mse: nothing that was timed fits."
-        check(wanted in text, f"within {budget} ms: {text}")
-        equal("It is open whether " + label(best) in text, budget == between, f"doubts at {budget} ms: {text}")
-        check("The clock did not prove itself" in text, text)
-        equal(", which may not fit" in text.split("By flip")[0], bool(fits) and high_of(fits) > budget, f"may not fit {budget} ms: {text}")
-        check("Times nearer than 2 % are the same" in text, f"the A/A floor: {text}")
+        rows = page.execute_script(
+            """return [...document.querySelectorAll('#budget-answer tr')].map(r => [r.cells[0].innerText, r.cells[1].innerText])"""
+        )
+        equal([r[0] for r in rows], ["fits", "may fit", "just misses"], "rows of the budget")
+        surely = [p for p in by_error if high_of(p) <= budget]
+        better = by_error[: by_error.index(surely[0])] if surely else by_error
+        may = [p for p in better if least_of(p) <= budget]
+        misses = sorted((p for p in better if least_of(p) > budget), key=least_of)
+        for (kind, text), own in zip(rows, (surely, may, misses)):
+            wanted = f"{label(own[0])} mse" if own else "nothing"
+            check(text.strip().startswith(wanted), f"{kind} {budget} ms: {text!r}, expected {wanted!r}")
+        note = texts(page, "#budget-note")[0]
+        check("Timer validation failed" in note and "Times nearer than 2 % are the same" in note, f"the clock and the A/A floor: {note}")
     axes = page.execute_script("return [...document.querySelectorAll('#answer-charts svg')].map(s => s.textContent)")
     check(axes and all(re.search(r"total time \(ms\), .*\d+x\d+", a) for a in axes), f"machine and size at the axes of times: {axes}")
     page.execute_script("const b = at('budget'); b.value = ''; b.dispatchEvent(new Event('input'))")
-    equal(texts(page, "#budget-answer"), [""], "without a budget")
+    equal(texts(page, "#budget-answer") + texts(page, "#budget-note"), ["", ""], "without a budget")
+
+
+def test_chosen_point(page, shot):
+    """Pictures, marks and the reason follow a row of the budget and a mark."""
+    chosen = "return [...new Set([...document.querySelectorAll('#answer-charts .point.chosen')].map(m => m.dataset.point))]"
+    equal(page.execute_script(chosen), ["stride=1"], "the best is chosen first")
+    page.execute_script("const b = at('budget'); b.value = 1e6; b.dispatchEvent(new Event('input'))")
+    WebDriverWait(page, 20).until(lambda p: p.find_elements(By.CSS_SELECTOR, "#budget-answer .thumbnail canvas"))
+    page.execute_script("document.querySelector('#answer-charts .point[data-point=\"stride=4\"]').dispatchEvent(new Event('click'))")
+    equal(page.execute_script(chosen), ["stride=4"], "the mark that was clicked")
+    page.execute_script("answerOf(answerChoice.shot).baseline = null; return drawAnswerPictures()")
+    equal(texts(page, "#answer-pictures b")[2:], ["chosen: mcguire_dda · stride=4"], "its picture")
+    page.find_element(By.CSS_SELECTOR, "#budget-answer button").click()
+    equal(page.execute_script(chosen), ["stride=1"], "the budget's row that was clicked")
+    WebDriverWait(page, 20).until(lambda p: len(texts(p, "#answer-pictures b")) == 2)
+    page.execute_script("answerChoice.point = null; return drawChosenPoint()")
 
 
 def opened(page):
@@ -123,7 +156,7 @@ def test_matrix(page, shots):
     equal(focused, 7, "the cell that an arrow key goes to")
     equal(page.execute_script("return document.querySelectorAll('#matrix button[tabindex=\"0\"]').length"), 1, "tab stops")
     check("[" in cells[7].get_attribute("aria-label"), "a cell tells its interval")
-    page.find_element(By.CSS_SELECTOR, "#answer-charts .point").send_keys("\ue007")  # Enter
+    page.find_element(By.CSS_SELECTOR, "#scatter .point").send_keys("\ue007")  # Enter
     equal(opened(page), wanted, "what a mark opens")
     page.find_element(By.CSS_SELECTOR, "#answer-pictures [role=button]").click()
     equal(opened(page), wanted, "what a picture opens")
@@ -139,12 +172,12 @@ def test_points(page):
 
     box = page.find_element(By.ID, "filter")
     box.send_keys("stride 4")
-    equal(rows(), ["3 mcguire_dda · stride=4"], "filtered points")
+    equal(rows(), ["mcguire_dda · stride=4"], "filtered points")
     equal(len(page.find_elements(By.CSS_SELECTOR, "#scatter .point")), 6, "filtered marks")
     equal(page.find_element(By.ID, "match").text, "1 of 3 points", "how many match")
     box.send_keys("\b" * 8)
     choose_in(page, "results", "Sort by", "mean error")
-    equal([r[0] for r in rows()], ["2", "3", "1"], "points by error")
+    equal(rows(), ["mcguire_dda · stride=1", "mcguire_dda · stride=4", "none"], "points by error")
     page.find_element(By.ID, "isGrouped").click()
     equal(texts(page, "#matrix tr.variant"), ["mcguire_dda", "none"], "groups")
     page.find_element(By.ID, "isGrouped").click()
@@ -217,6 +250,7 @@ def test_use(page, url, folder):
     test_answers(page, shots)
     test_budget(page, folder, shots[0])
     test_matrix(page, shots)
+    test_chosen_point(page, shots[0])
     test_points(page)
     test_mistakes(page)
     test_provenance(page)

@@ -12,9 +12,10 @@ const frontOf = timed =>
 
 const rowText = row => `${row.metric} ${number(row.value)} ${interval(row)}${unitText(row.metric)}`;
 
-/// `all`: rows of one shot and metric. Without times the points stand beside each other. None is a line alone: its
-/// time and error would push all others together. Null where no row is shown.
-function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
+/// `all`: rows of one shot and metric; `open`: what a click on a mark does with its row. Without times the points stand
+/// beside each other. None is a line alone: its time and error would push all others together. Null where no row is
+/// shown.
+function errorTimeChart(shot, all, {width = 440, height = 320, open = openPoint} = {}) {
     const shown = chartedRows(all).filter(r => r.value !== null), none = shown.find(r => r.variant === "none");
     const rows = shown.length > 1 ? shown.filter(r => r !== none) : shown;
     if (!rows.length) return null;
@@ -36,6 +37,7 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
         ({row, time}) => pointMark(row, {
             x: time.value,
             y: row.value,
+            open: () => open(row),
             spanX: time.low === null ? null : [time.low, time.high],
             spanY: row.low === null ? null : [row.low, row.high],
             size: rows.length > 40 ? 3.6 : 4.5,

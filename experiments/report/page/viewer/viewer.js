@@ -76,7 +76,7 @@ function showViewer() {
         at("viewer").append(h("p", {class: "note"}, "This study has no images."));
         return;
     }
-    if (typeof DecompressionStream === "undefined") {
+    if (!hasInflate) {
         at("viewer").append(h("p", {class: "note"}, "Images need a browser of 2023 or later (DecompressionStream)."));
         return;
     }
