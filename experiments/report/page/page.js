@@ -127,6 +127,48 @@ function clickable(element, act) {
     });
 }
 
+/// Whether `act` may be done here: what browsers may refuse (clipboard, address, full screen) throws.
+async function attempt(act) {
+    try {
+        await act();
+        return true;
+    } catch {
+        return false;
+    }
+}
+
+function saveFile(blob, name) {
+    const href = URL.createObjectURL(blob);
+    h("a", {href, download: name}).click();
+    setTimeout(() => URL.revokeObjectURL(href), 1000);
+}
+
+async function copyText(text) {
+    if (await attempt(() => navigator.clipboard.writeText(text))) return;
+    const area = h("textarea", {readonly: true});  // where a page that is a file has no clipboard of its own
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+}
+
+/// Buttons that copy a table as it is shown, for a spreadsheet, and save it.
+function tableActions(whole, name) {
+    const text = c => c.textContent.replace(/\s+/g, " ").trim();
+    const quoted = c => /[",]/.test(text(c)) ? `"${text(c).replaceAll("\"", "\"\"")}"` : text(c);
+    const lines = (of, separator) => [...whole.rows].map(row => [...row.cells].map(of).join(separator) + "\n").join("");
+    const said = h("output");
+    const copy = async () => {
+        await copyText(lines(text, "\t"));
+        said.textContent = "Copied.";
+    };
+    const save = () => saveFile(new Blob([lines(quoted, ",")], {type: "text/csv"}), name);
+    return h(
+        "div", {class: "controls"}, h("button", {click: copy}, "Copy table"), h("button", {click: save}, "Save table"),
+        said);
+}
+
 /// A word of warning beside what it concerns; `why` is read out, and shown beside the pointer.
 function badge(text, why) {
     const element = h("span", {class: "badge"}, text);

@@ -13,12 +13,14 @@ import tempfile
 from report_browser import By, Select, check, choose, equal, open_browser, until_ready
 from report_use import test_use
 from report_viewer import (
+    test_address,
     test_chooser,
     test_crops,
     test_exposure_and_tone_curves,
     test_false_color,
     test_flip_and_split,
     test_inspector,
+    test_keeping,
     test_linked_images,
     test_linked_zoom,
     test_loss_maps,
@@ -221,6 +223,10 @@ def main():
             test_sorting(page)
             test_charts(page, folder)
             test_labels(page)
+            test_address(page, url)
+            test_keeping(page)
+            page.get(url)
+            until_ready(page)
             test_linked_zoom(page)
             test_flip_and_split(page)
             test_exposure_and_tone_curves(page)

@@ -4,19 +4,27 @@ import json
 import os
 import re
 
-from report_browser import By, WebDriverWait, check, choose_in, equal, rows_of, until_ready
+from report_browser import By, WebDriverWait, check, choose_in, equal, rows_of, table_of, until_ready
 
 AXE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vendor", "axe.min.js")
 BEST, BASELINE = ("mcguire_dda", "stride=1"), ("mcguire_dda", "stride=4")
 
 
-def with_answers(folder):
-    """The report with answers of its first two shots made up, as a file beside it."""
+def changed_report(folder, change):
+    """The address of the report with `change` made to its data, as a file beside it."""
     with open(os.path.join(folder, "report.html")) as file:
         text = file.read()
     before, data, after = re.match(r'(.*<script type="application/json" id="data">)(.*?)(</script>.*)', text, re.S).groups()
     data = json.loads(data)
+    change(data)
+    path = os.path.join(folder, change.__name__ + ".html")
+    with open(path, "w") as file:
+        file.write(before + json.dumps(data).replace("<", "\\u003c") + after)
+    return "file://" + path
 
+
+def answered(data):
+    """Answers of its first two shots, made up."""
     def point(name):
         return {"variant": name[0], "point": name[1], "value": 0.125, "low": 0.12, "high": 0.13}
 
@@ -32,10 +40,37 @@ def with_answers(folder):
         }
         for i, shot in enumerate(data["manifest"]["shots"][:2])
     ]
-    path = os.path.join(folder, "answers.html")
-    with open(path, "w") as file:
-        file.write(before + json.dumps(data).replace("<", "\\u003c") + after)
-    return [a["shot"] for a in data["answers"]], "file://" + path
+
+
+def test_without_truth(page, folder):
+    """A capture has no errors: its pictures and times come first."""
+    def capture(data):
+        data["errors"]["rows"] = data["frames"]["rows"] = []
+
+    page.get(changed_report(folder, capture))
+    until_ready(page)
+    check("without truth" in texts(page, "#over-scenes")[0], "what is said first")
+    check("3 variant points" in texts(page, "#subtitle")[0], "the points that it ran")
+    shots = rows_of(folder, "time_summary.csv", stage="total")
+    of_first = [r for r in shots if r["shot"] == shots[0]["shot"] and r["variant"] != "none"]
+    check(texts(page, "#answer-shots button")[0].startswith("mirror_pillars 3 points, "), "the shots")
+    shown = [float(row[1][1]) for row in table_of(page, "#answer-charts")]
+    equal(shown, sorted(float(r["median_ms"]) for r in of_first), "times")
+    equal(len(page.find_elements(By.CSS_SELECTOR, "#answer-pictures canvas")), 3, "a picture of each point")
+    check(not page.find_elements(By.ID, "results"), "a section of errors")
+    equal([e["message"] for e in page.get_log("browser")], [], "console messages")
+
+
+def test_sampled_rays(page, folder):
+    """Where a study judged some rays alone it says why nothing is said of causes."""
+    def sampled(data):
+        data["manifest"].setdefault("config", {})["hits"] = {"every": 2}
+
+    page.get(changed_report(folder, sampled))
+    until_ready(page)
+    for selector in ("#why-answer", "#error-shares .note:last-child"):
+        said = texts(page, selector)[0]
+        check("one pixel in 2 along each axis" in said and '"every": 1' in said, f"{selector} says {said!r}")
 
 
 def texts(page, selector):
@@ -243,10 +278,11 @@ def test_axe(page):
 
 def test_use(page, url, folder):
     """Uses a page of its own, and leaves `url` open as it was."""
-    shots, answers = with_answers(folder)
+    answers = changed_report(folder, answered)
     page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 1280, "height": 800, "deviceScaleFactor": 1, "mobile": False})
     page.get(answers)
     until_ready(page)
+    shots = page.execute_script("return report.answers.map(a => a.shot)")
     test_answers(page, shots)
     test_budget(page, folder, shots[0])
     test_matrix(page, shots)
@@ -256,6 +292,9 @@ def test_use(page, url, folder):
     test_provenance(page)
     test_paper(page)
     test_axe(page)
+    test_without_truth(page, folder)
+    test_axe(page)
+    test_sampled_rays(page, folder)
     page.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     page.get(url)
     until_ready(page)

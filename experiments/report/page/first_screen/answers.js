@@ -30,7 +30,7 @@ function openPoint(row) {
 /// Resolves when the pictures are there.
 function showAnswers() {
     const shots = unique((report.errors.length ? report.errors : manifestShots()).map(r => r.shot));
-    answerChoice.shot = shots[0];
+    answerChoice.shot = preferred(shots, addressedView()?.get("shot"));
     at("over-scenes").textContent = report.errors.length ?
         report.overScenes :
         "This study has no errors: it ran without truth. What it has are pictures and times.";
