@@ -24,6 +24,7 @@ std::optional<MachineTimes> parse_proc_stat(std::string_view text, double ticks_
         for (int field = 0; field < 8 && fields >> ticks; ++field) {
             elapsed += ticks;
             if (field != 3 && field != 4) times.busy += ticks / ticks_per_second;
+            if (field == 7) times.stolen = ticks / ticks_per_second;
         }
     }
     if (times.cpus == 0 || elapsed == 0) return {};
@@ -35,7 +36,7 @@ CpuTimes read_cpu_times() {
     std::ifstream in("/proc/stat");
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     if (const auto machine = parse_proc_stat(text, double(sysconf(_SC_CLK_TCK))))
-        times.machine = machine->busy, times.cpus = machine->cpus;
+        times.machine = machine->busy, times.stolen = machine->stolen, times.cpus = machine->cpus;
     timespec own{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &own);
     times.own = double(own.tv_sec) + 1e-9 * double(own.tv_nsec);
@@ -48,4 +49,9 @@ std::optional<double> foreign_load(const CpuTimes& before, const CpuTimes& after
     if (!before.machine || !after.machine || !(available > 0)) return {};
     const double others = (*after.machine - *before.machine) - (after.own - before.own);
     return std::clamp(others / available, 0.0, 1.0);
+}
+
+double stolen_share(const CpuTimes& before, const CpuTimes& after) {
+    const double available = (after.wall - before.wall) * after.cpus;
+    return available > 0 ? std::clamp((after.stolen - before.stolen) / available, 0.0, 1.0) : 0.0;
 }

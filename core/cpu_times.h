@@ -7,6 +7,7 @@
 struct CpuTimes {
     std::optional<double> machine;  ///< of all CPUs and all processes, and what other virtual machines took from this
                                     ///< one; none where the system does not report it
+    double stolen = 0;              ///< of these, what other virtual machines took; 0 where it is not reported
     double own = 0;                 ///< of this process
     double wall = 0;                ///< elapsed
     unsigned cpus = 1;              ///< of the machine
@@ -21,7 +22,8 @@ using CpuTimesReader = std::function<CpuTimes()>;
 /// Busy seconds of all CPUs and their number, from the text of /proc/stat (proc(5)); none if it is another text, or all
 /// zeros, as some containers have it.
 struct MachineTimes {
-    double busy = 0;
+    double busy = 0;    ///< `stolen` among them
+    double stolen = 0;  ///< by other virtual machines
     unsigned cpus = 0;
 };
 std::optional<MachineTimes> parse_proc_stat(std::string_view text, double ticks_per_second);
@@ -29,6 +31,9 @@ std::optional<MachineTimes> parse_proc_stat(std::string_view text, double ticks_
 /// The share of the machine's CPU time between two moments that others took, in [0, 1]; none where the system does not
 /// report it.
 std::optional<double> foreign_load(const CpuTimes& before, const CpuTimes& after);
+
+/// Of it, what other virtual machines took from this one; 0 where it is not reported.
+double stolen_share(const CpuTimes& before, const CpuTimes& after);
 
 /// Above this share of foreign load times count as disturbed. An idle Linux takes below 1 %, and sampling errs by some
 /// 2 % in a second on two CPUs.

@@ -284,6 +284,16 @@ std::string JsonObject::text(const std::string& key, const std::string& fallback
     return find(key) ? text(key) : fallback;
 }
 
+std::vector<std::string> JsonObject::texts(const std::string& key) {
+    const nlohmann::json* value = find(key);
+    if (!value) return {};
+    if (value->is_string()) return {value->get<std::string>()};
+    const bool fits = value->is_array() && !value->empty() &&
+                      std::ranges::all_of(*value, [](const nlohmann::json& v) { return v.is_string(); });
+    if (!fits) fail(at(key), ": '", key, "' must be a text or an array of texts, not ", shown(*value));
+    return value->get<std::vector<std::string>>();
+}
+
 std::string JsonObject::choice(const std::string& key, const std::vector<std::string>& choices,
                                const std::string& fallback) {
     const std::string value = text(key, fallback);

@@ -60,6 +60,7 @@ public:
     bool boolean(const std::string& key, bool fallback);
     std::string text(const std::string& key);
     std::string text(const std::string& key, const std::string& fallback);
+    std::vector<std::string> texts(const std::string& key);  ///< a text, or an array of one or more; empty if absent
     std::string choice(const std::string& key, const std::vector<std::string>& choices, const std::string& fallback);
     /// The value that stands beside the name; the first of them if the key is absent.
     template <class T>

@@ -59,7 +59,7 @@ void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), in
 int parse_and_run(int argc, char** argv) {
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
-        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine."};
+        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C."};
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     app.set_version_flag(
@@ -84,7 +84,9 @@ int parse_and_run(int argc, char** argv) {
     run_command_.add_flag("--prune", run.prunes,
                           "Remove cells and images of earlier versions of the study from its folder");
     run_command_.add_flag("--times-here", run.takes_times_here,
-                          "Take times on this machine again; by default those of another machine are kept");
+                           "Take times on this machine again; by default those of another machine are kept");
+    run_command_.add_flag("--times-again", run.takes_times_again,
+                          "Take times again that other programs disturbed; the less disturbed are kept");
     run_command_
         .add_option(
             "--cells", run.cells,

@@ -4,11 +4,22 @@
 #include "metrics/tiles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 namespace {
+
+using enum GrowthColumn;
+constexpr size_t growth_columns = size_t(swapped) + 1;
+
+std::vector<double> column(const NoiseGrowth& growth, GrowthColumn which) {
+    const auto first = growth.begin() + std::ptrdiff_t(size_t(which) * growth_groups);
+    return {first, first + growth_groups};
+}
+
+/// The columns that means are extrapolated from, as jackknife_variance() takes them.
+std::vector<std::vector<double>> mean_columns(const NoiseGrowth& growth) {
+    return {column(growth, share), column(growth, at_one), column(growth, at_two), column(growth, at_four)};
+}
 
 Mask within_margin(const Mask& mask, const Plane& map) {
     Mask inside = mask;
@@ -16,57 +27,117 @@ Mask within_margin(const Mask& mask, const Plane& map) {
     return inside;
 }
 
-/// Of the mean over `count` pixels, from the sums of both maps by tile.
-std::optional<double> swapped_half_width(const std::vector<double>& a, const std::vector<double>& b,
-                                         const std::vector<double>& counts) {
-    double squares = 0, fourths = 0, tiles = 0, count = 0;
-    for (size_t t = 0; t < a.size(); ++t) {
-        const double square = (a[t] - b[t]) * (a[t] - b[t]) / 4;
-        squares += square, fourths += square * square, tiles += counts[t] > 0, count += counts[t];
-    }
-    if (tiles < 2) return std::nullopt;
-    if (squares == 0) return 0.0;
-    const double degrees = std::clamp(3 * squares * squares / fourths, 1.0, tiles);
-    return student_t_quantile(0.975, degrees) * std::sqrt(squares) / count;
+/// The variance of a sum of independent terms, each known by its own size alone; at most as many degrees as `terms`.
+SharedScatter scatter_of(std::span<const double> changes, double terms) {
+    double squares = 0, fourths = 0;
+    for (const double change : changes) squares += change * change, fourths += std::pow(change, 4);
+    if (squares == 0) return {};
+    return {.variance = squares, .degrees = std::clamp(3 * squares * squares / fourths, 1.0, terms)};
+}
+
+double occupied(const std::vector<double>& shares) {
+    return double(std::ranges::count_if(shares, [](double share) { return share > 0; }));
+}
+
+/// `sums` as mean_columns(), in total.
+Extrapolated extrapolated(std::span<const double> sums) {
+    return without_noise(sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]);
 }
 
 /// From what is measured to the farther of both laws.
 double correction(std::span<const double> sums) {
-    const double own = sums[1] / sums[0];
-    const Extrapolated found = without_noise(own, sums[2] / sums[0], sums[3] / sums[0]);
-    return own - found.low > found.high - own ? found.low - own : found.high - own;
+    const Extrapolated found = extrapolated(sums);
+    return found.own - found.low() > found.high() - found.own ? found.low() - found.own : found.high() - found.own;
 }
 
 }  // namespace
 
+double Extrapolated::low() const { return std::min({own, of_power, of_bounded}); }
+double Extrapolated::high() const { return std::max({own, of_power, of_bounded}); }
+
 Extrapolated without_noise(double at_one, double at_two, double at_four) {
     const double first = at_two - at_one, second = at_four - at_two;
-    if (first == 0) return {at_one, at_one};
+    if (first == 0) return {at_one, at_one, at_one};
     const double growth = second / first;
     // m + b v^p: the growth is 2^p.
     const double of_power = at_one - first / (std::clamp(growth, std::sqrt(std::sqrt(2.0)), 2.0) - 1);
     // a + b / (c + v - 1): the growth is 2 c / (c + 3), and there is a pole before v = 0 where it is 0.5 or less.
     const double bounded_growth = std::max(growth, 0.6), c = 3 * bounded_growth / (2 - bounded_growth);
-    const double of_bounded = growth < 2 ? at_one - first * (c + 1) / (c - 1) : at_one - first;
-    return {std::min({at_one, of_power, of_bounded}), std::max({at_one, of_power, of_bounded})};
+    return {at_one, of_power, growth < 2 ? at_one - first * (c + 1) / (c - 1) : at_one - first};
 }
 
-MapInterval extrapolated_interval(const Plane& map, std::span<const Plane> halves, std::span<const Plane> moved_on,
-                                  const Mask& mask) {
-    const Mask inside = within_margin(mask, map);
-    const std::vector<double> of_a = tile_sums(halves[0], inside), of_b = tile_sums(halves[1], inside),
-                              moved_a = tile_sums(moved_on[0], inside), moved_b = tile_sums(moved_on[1], inside);
-    std::array<std::vector<double>, 4> columns{tile_counts(inside), tile_sums(map, inside), of_a, moved_a};
-    for (size_t t = 0; t < of_a.size(); ++t) {
-        columns[2][t] = (of_a[t] + of_b[t]) / 2;
-        columns[3][t] = (moved_a[t] + moved_b[t]) / 2;
+NoiseGrowth noise_growth(const NoisierMaps& maps, const Mask& mask) {
+    const Mask inside = within_margin(mask, maps.own);
+    const std::vector<double> counts = tile_counts(inside), own = tile_sums(maps.own, inside),
+                              of_a = tile_sums(maps.half_a, inside), of_b = tile_sums(maps.half_b, inside),
+                              moved_a = tile_sums(maps.moved_to_a, inside),
+                              moved_b = tile_sums(maps.moved_to_b, inside);
+    const double count = double(inside.count());
+    if (occupied(counts) < 2) return {};
+    NoiseGrowth growth(growth_columns * growth_groups);
+    std::vector<double> sums(growth.size());
+    for (size_t t = 0; t < counts.size(); ++t) {
+        const auto add = [&](GrowthColumn which, double sum) {
+            sums[size_t(which) * growth_groups + t % growth_groups] += sum;
+        };
+        add(share, counts[t]), add(at_one, own[t]), add(at_two, (of_a[t] + of_b[t]) / 2);
+        add(at_four, (moved_a[t] + moved_b[t]) / 2), add(swapped, (of_a[t] - of_b[t]) / 2);
     }
-    const std::optional<double> half_width = swapped_half_width(of_a, of_b, columns[0]),
-                                of_correction = jackknife_half_width(columns, correction);
-    if (!half_width || !of_correction) return {};
-    const std::vector<double> sums = totals(columns);
-    const double own = sums[1] / sums[0];
-    const Extrapolated found = without_noise(own, sums[2] / sums[0], sums[3] / sums[0]);
-    const auto widened = [&](double end) { return std::hypot(*half_width, end == own ? 0.0 : *of_correction); };
-    return {found.low - widened(found.low), found.high + widened(found.high)};
+    std::ranges::transform(sums, growth.begin(), [&](double sum) { return float(sum / count); });
+    return growth;
+}
+
+MapInterval extrapolated_interval(const NoiseGrowth& growth) {
+    if (growth.empty()) return {};
+    const std::vector<std::vector<double>> columns = mean_columns(growth);
+    const double groups = occupied(columns[0]);
+    const std::optional<double> of_correction = jackknife_variance(columns, correction);
+    if (!of_correction) return {};
+    const SharedScatter noise = scatter_of(column(growth, swapped), groups);
+    const double t = noise.variance > 0 ? student_t_quantile(0.975, noise.degrees) : 0.0;
+    const double half_width = t * std::sqrt(noise.variance),
+                 correction_half_width = student_t_quantile(0.975, groups - 1) * std::sqrt(*of_correction);
+    const Extrapolated found = extrapolated(totals(columns));
+    const auto widened = [&](double end) {
+        return std::hypot(half_width, end == found.own ? 0.0 : correction_half_width);
+    };
+    return {found.low() - widened(found.low()), found.high() + widened(found.high())};
+}
+
+std::optional<SharedScatter> extrapolated_scatter(const NoiseGrowth& a, const NoiseGrowth& b) {
+    std::vector<std::vector<double>> columns = mean_columns(a);
+    const double groups = occupied(columns[0]);
+    for (std::vector<double>& of_b : mean_columns(b)) columns.push_back(std::move(of_b));
+    const std::vector<double> sums = totals(columns), swapped_a = column(a, swapped), swapped_b = column(b, swapped);
+    std::vector<double> changes;
+    for (size_t g = 0; g < growth_groups; ++g) changes.push_back(swapped_a[g] / sums[1] - swapped_b[g] / sums[5]);
+    SharedScatter shared = scatter_of(changes, groups);
+
+    // By each law, how far the logarithm of the ratio lies from that of what is measured.
+    const auto shifts = [](std::span<const double> totals) {
+        const std::array<double, 3> of_a = extrapolated(totals.first(4)).all(),
+                                    of_b = extrapolated(totals.last(4)).all();
+        std::array<double, 3> shifts{};
+        for (size_t law = 1; law < shifts.size(); ++law)
+            shifts[law] = std::log(of_a[law] / of_a[0]) - std::log(of_b[law] / of_b[0]);
+        return shifts;
+    };
+    const std::array<double, 3> found = shifts(sums);
+    for (const double shift : found)
+        if (!std::isfinite(shift)) return {};
+    shared.excess_of_a = -std::expm1(std::ranges::min(found));
+    shared.excess_of_b = -std::expm1(-std::ranges::max(found));
+    double of_shift = 0;
+    for (size_t law = 1; law < found.size(); ++law) {
+        const auto variance =
+            jackknife_variance(columns, [&](std::span<const double> totals) { return shifts(totals)[law]; });
+        if (!variance) return {};
+        of_shift = std::max(of_shift, *variance);
+    }
+    const double variance = shared.variance + of_shift;
+    if (variance > 0)
+        shared.degrees = variance * variance /
+                         (shared.variance * shared.variance / shared.degrees + of_shift * of_shift / (groups - 1));
+    shared.variance = variance;
+    return shared;
 }

@@ -1,8 +1,11 @@
 #pragma once
 #include "metrics/plane.h"
+#include "metrics/statistics.h"
 
+#include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 // Intervals of metrics that are no means of squares (FLIP, SSIM, absolute differences), extrapolated to a reference
 // without noise: metrics/README.md, "Intervals of FLIP, SSIM and absolute differences".
@@ -12,25 +15,55 @@ inline constexpr double extrapolation_step = 1.7320508075688772;  // sqrt(3)
 
 /// Range of a mean without noise: of two laws of its growth, and the mean itself.
 struct Extrapolated {
-    double low = 0, high = 0;
+    double own, of_power, of_bounded;
+
+    std::array<double, 3> all() const { return {own, of_power, of_bounded}; }
+    double low() const;
+    double high() const;
 };
 
 /// `at_one`, `at_two`, `at_four`: the mean against references whose noise has so many times the variance v of the
 /// reference's own. Laws: m + b v^p with 0.25 <= p <= 1, and a + b / (c + v).
 Extrapolated without_noise(double at_one, double at_two, double at_four);
 
+/// How the mean of a map over a mask grows with the reference's noise: `growth_groups` numbers of each of GrowthColumn,
+/// one column after another. Tiles (metrics/tiles.h) take turns in the groups, the same for all images of one extent.
+/// Parts of the mean, so that they add up to it, and those of several seeds or frames can be averaged. Empty where it
+/// is not known: below two tiles.
+using NoiseGrowth = std::vector<float>;
+inline constexpr size_t growth_groups = 32;
+enum class GrowthColumn {
+    share,    ///< of the pixels
+    at_one,   ///< of the mean against the reference
+    at_two,   ///< against its halves
+    at_four,  ///< against both moved on
+    swapped   ///< half the change when half A is believed in place of half B
+};
+
+/// Maps of one metric against the reference, its halves, and the reference moved on to either side.
+struct NoisierMaps {
+    const Plane &own, &half_a, &half_b, &moved_to_a, &moved_to_b;
+};
+NoiseGrowth noise_growth(const NoisierMaps& maps, const Mask& mask);
+
 struct MapInterval {
     std::optional<double> low, high;
 };
 
-/// The 95 % interval of the mean of `map` over the mask due to the reference's noise. `halves` and `moved_on`: the maps
-/// against A and B, and against both moved on. The range of the mean without noise, widened by
+/// The 95 % interval that the reference's noise leaves to the mean. Where the mean would lie without noise, widened by
 ///
-/// - half its change between half A and half B, summed over tiles, whose squares add up like those of pixels in
-///   noise_half_width(): windows make neighbours share noise, but are smaller than a tile (metrics/tiles.h). Student's
-///   t has 3 (sum of s^2)^2 / (sum of s^4) degrees of freedom, the number of tiles where all are alike;
-/// - on the extrapolated side, the uncertainty of the extrapolation over tiles (jackknife_half_width()).
+/// - half its change when half A is believed in place of half B, summed over tiles, whose squares add up as those of
+///   pixels do in noise_half_width(): windows make neighbours share noise, but reach less far than a tile
+///   (metrics/tiles.h). Student's t has 3 (sum of s^2)^2 / (sum of s^4) degrees of freedom, the number of tiles where
+///   all are alike;
+/// - on the side that is extrapolated to, by how well the tiles agree on how far (jackknife_variance()).
 ///
-/// None below two tiles. metrics/README.md has the measured coverage.
-MapInterval extrapolated_interval(const Plane& map, std::span<const Plane> halves, std::span<const Plane> moved_on,
-                                  const Mask& mask);
+/// None of an empty one. metrics/README.md has the measured coverage.
+MapInterval extrapolated_interval(const NoiseGrowth& growth);
+
+/// What the noise of their common reference leaves of ln(a / b), two means over one mask: the change of the ratio when
+/// half A is believed in place of half B, in which what both share cancels, and how well the tiles agree on how far it
+/// is to the ratio without noise. Both are extrapolated by the same law, so that points of like errors stay alike;
+/// how far either law moves the ratio is in `excess_of_a` and `excess_of_b`. None where a mean is lost in the noise: a
+/// law, with or without one of the groups, says that nothing is left of it.
+std::optional<SharedScatter> extrapolated_scatter(const NoiseGrowth& a, const NoiseGrowth& b);

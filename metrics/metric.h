@@ -65,6 +65,11 @@ struct Metric {
     /// Id of the formula where the weight is that of a path-traced reference's guide in place of its own noisy pixels;
     /// empty if the weight does not depend on the reference.
     std::string guided_formula = {};
+
+    /// A map whose mean over the mask is the value, or what `of_mean` makes into it, and whose tiles move that as those
+    /// of the images do, to first order; nullptr for metrics that are no such mean, or for which `layers` has the map.
+    Plane (*mean_map)(std::span<const Plane> layers, const Mask& mask) = nullptr;
+    double (*of_mean)(double mean) = nullptr;  ///< monotonic; nullptr: the mean itself
 };
 
 /// All metrics, in the order of lists and tables.

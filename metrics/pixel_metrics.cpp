@@ -30,20 +30,10 @@ double one(double) { return 1; }
 double weight_a(double r) { return 1 / (r * r + 0.01); }
 double weight_b(double r) { return 1 / square(r + 0.01); }
 double weight_c(double r) { return 1 / (r * r + 0.001); }
-double weight_d(double r) { return 1 / (r * r + 0.0001); }
 
 template <double (*weight)(double)>
 std::vector<Plane> weighted_squares(const ImagePair& pair) {
     return mean_of_channels(pair.reference, pair.test, [](double r, double x) { return weight(r) * square(x - r); });
-}
-
-std::vector<Plane> squares_over_luminance(const ImagePair& pair) {
-    Plane map(pair.reference.extent);
-    for (size_t i = 0; i < map.values.size(); ++i) {
-        const glm::dvec3 r = pair.reference.rgb(i), d = glm::dvec3(pair.test.rgb(i)) - r;
-        map.values[i] = glm::dot(d, d) / 3 * weight_a(luminance(r.x, r.y, r.z));
-    }
-    return {std::move(map)};
 }
 
 std::vector<Plane> code_squares(const ImagePair& pair) {
@@ -54,21 +44,11 @@ std::vector<Plane> absolutes(const ImagePair& pair) {
     return mean_of_channels(pair.reference, pair.test, [](double r, double x) { return std::abs(x - r); });
 }
 
-std::vector<Plane> relative_absolutes(const ImagePair& pair) {
-    return mean_of_channels(pair.reference, pair.test,
-                            [](double r, double x) { return std::abs(x - r) / (std::abs(r) + 0.01); });
-}
-
 std::vector<Plane> symmetric_ratios(const ImagePair& pair) {
     return mean_of_channels(pair.reference, pair.test, [](double r, double x) {
         const double sum = std::abs(x) + std::abs(r);
         return sum > 0 ? std::abs(x - r) / sum : 0.0;
     });
-}
-
-std::vector<Plane> damped_symmetric_ratios(const ImagePair& pair) {
-    return mean_of_channels(pair.reference, pair.test,
-                            [](double r, double x) { return std::abs(x - r) / (std::abs(x) + std::abs(r) + 0.01); });
 }
 
 std::vector<Plane> differences(const ImagePair& pair) {
@@ -90,9 +70,9 @@ std::vector<Plane> outlier_flags(const ImagePair& pair) {
     return sums;
 }
 
-double root_of_mean(std::span<const Plane> layers, const Mask& mask) { return std::sqrt(masked_mean(layers[0], mask)); }
-double decibels(std::span<const Plane> layers, const Mask& mask) {
-    return -10 * std::log10(masked_mean(layers[0], mask));
+double decibels(double mean) { return -10 * std::log10(mean); }
+double decibels_of_mean(std::span<const Plane> layers, const Mask& mask) {
+    return decibels(masked_mean(layers[0], mask));
 }
 
 double sum(std::span<const Plane> layers, const Mask& mask) {
@@ -104,14 +84,43 @@ double ratio_of_means(std::span<const Plane> layers, const Mask& mask) {
     return masked_mean(layers[0], mask) / masked_mean(layers[1], mask);
 }
 
+Plane first_layer(std::span<const Plane> layers, const Mask&) { return layers[0]; }
+
+Plane times_pixels(std::span<const Plane> layers, const Mask& mask) {
+    Plane map = layers[0];
+    const double count = double(mask.count());
+    for (double& v : map.values) v *= count;
+    return map;
+}
+
+std::vector<double> sorted_inside(const Plane& map, const Mask& mask) {
+    std::vector<double> inside;
+    for (size_t i = 0; i < map.values.size(); ++i)
+        if (mask.inside[i]) inside.push_back(map.values[i]);
+    std::ranges::sort(inside);
+    return inside;
+}
+
+size_t kept_of(size_t pixels) { return pixels - pixels / 1000; }
+
 /// The mean without the floor(0.1 %) largest.
 double trimmed_mean(std::span<const Plane> layers, const Mask& mask) {
-    std::vector<double> inside;
-    for (size_t i = 0; i < layers[0].values.size(); ++i)
-        if (mask.inside[i]) inside.push_back(layers[0].values[i]);
-    std::ranges::sort(inside);
-    const size_t kept = inside.size() - inside.size() / 1000;
+    const std::vector<double> inside = sorted_inside(layers[0], mask);
+    const size_t kept = kept_of(inside.size());
     return ordered_sum(kept, [&](size_t i) { return inside[i]; }) / double(kept);
+}
+
+/// Each value up to the largest that is kept, less what those beyond would add: what a trimmed mean changes by if a
+/// few pixels do (Huber 1981, "Robust Statistics", 3.3).
+Plane winsorised(std::span<const Plane> layers, const Mask& mask) {
+    const std::vector<double> inside = sorted_inside(layers[0], mask);
+    const size_t count = inside.size(), kept = kept_of(count);
+    Plane map = layers[0];
+    if (kept == count) return map;
+    const double largest = inside[kept - 1];
+    for (double& v : map.values)
+        v = (std::min(v, largest) * double(count) - largest * double(count - kept)) / double(kept);
+    return map;
 }
 
 }  // namespace
@@ -124,35 +133,54 @@ std::vector<Metric> pixel_metrics() {
     // denominator of those that are corrected, and the formula shows it: mean d^2 / (g^2 + 0.01).
     return {
         {"mse", "mse", "radiance^2", lower, linear, "mean d^2", weighted_squares<one>, pooled_mean, one},
-        {"rmse", "rmse", "radiance", lower, linear, "sqrt(mean d^2), the root taken once, at the end",
-         weighted_squares<one>, root_of_mean, one},
         {"mae", "mae", "radiance", lower, linear, "mean |d|", absolutes, pooled_mean},
-        {"mape", "mape_0.01", "1", lower, linear, "mean |d| / (|r| + 0.01), as OIDN's training", relative_absolutes,
-         pooled_mean},
         {"relmse", "relmse_a", "1", lower, linear,
          "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO); relmse_a_guided: with the guide of a "
          "path-traced reference in the denominator",
          weighted_squares<weight_a>, pooled_mean, weight_a, "relmse_a_guided"},
-        {"relmse_b", "relmse_b", "1", lower, linear, "mean d^2 / (r + 0.01)^2 (pbrt-v4 imgtool MRSE)",
+        {"relmse_b", "relmse_b", "1", lower, linear,
+         "mean d^2 / (r + 0.01)^2; to compare with other programs only (MRSE of pbrt-v4's imgtool)",
          weighted_squares<weight_b>, pooled_mean, weight_b, "relmse_b_guided"},
-        {"relmse_c", "relmse_c", "1", lower, linear, "mean d^2 / (r^2 + 0.001) (Tungsten and Falcor, who call it rmse)",
+        {"relmse_c", "relmse_c", "1", lower, linear,
+         "mean d^2 / (r^2 + 0.001); to compare with other programs only (Tungsten and Falcor, who call it rmse)",
          weighted_squares<weight_c>, pooled_mean, weight_c, "relmse_c_guided"},
-        {"relmse_d", "relmse_d", "1", lower, linear, "mean d^2 / (r^2 + 0.0001) (figure-gen)",
-         weighted_squares<weight_d>, pooled_mean, weight_d, "relmse_d_guided"},
-        {"relmse_luminance", "relmse_a_luminance", "1", lower, linear,
-         "mean d^2 / (L(r)^2 + 0.01), L the Rec. 709 luminance of the pixel", squares_over_luminance, pooled_mean},
-        {"relmse_trimmed", "relmse_a_trimmed_0.1%", "1", lower, linear,
+        {"relmse_trimmed",
+         "relmse_a_trimmed_0.1%",
+         "1",
+         lower,
+         linear,
          "relmse of each pixel, without the 0.1 % largest: hides fireflies, so read it beside relmse and outliers",
-         weighted_squares<weight_a>, trimmed_mean},
-        {"outliers", "relative_error_above_10", "pixels", lower, linear,
-         "pixels with |d| / (|r| + 0.01) > 10 in any channel", outlier_flags, sum},
+         weighted_squares<weight_a>,
+         trimmed_mean,
+         nullptr,
+         {},
+         winsorised},
+        {"outliers",
+         "relative_error_above_10",
+         "pixels",
+         lower,
+         linear,
+         "pixels with |d| / (|r| + 0.01) > 10 in any channel",
+         outlier_flags,
+         sum,
+         nullptr,
+         {},
+         times_pixels},
         {"smape", "smape_0_1", "1", lower, linear, "mean |d| / (|x| + |r|), 0 where both are 0 (figure-gen)",
          symmetric_ratios, pooled_mean},
-        {"smape_damped", "smape_0.01", "1", lower, linear, "mean |d| / (|x| + |r| + 0.01) (OIDN's training)",
-         damped_symmetric_ratios, pooled_mean},
         {"bias", "bias", "radiance", near_zero, linear, "mean d", differences, pooled_mean},
         {"energy_ratio", "energy_ratio", "1", near_one, linear, "mean x / mean r", both_means, ratio_of_means},
-        {"psnr", "psnr_code", "dB", higher, display,
-         "-10 log10(mean d^2) of sRGB codes in [0, 1]; inf for equal images", code_squares, decibels},
+        {"psnr",
+         "psnr_code",
+         "dB",
+         higher,
+         display,
+         "-10 log10(mean d^2) of sRGB codes in [0, 1]; inf for equal images",
+         code_squares,
+         decibels_of_mean,
+         nullptr,
+         {},
+         first_layer,
+         decibels},
     };
 }

@@ -1,7 +1,6 @@
 #include "metrics/score.h"
 
 #include "core/error.h"
-#include "metrics/extrapolation.h"
 #include "metrics/pooling.h"
 
 #include <cmath>
@@ -36,9 +35,6 @@ std::vector<Plane> layers_of(const Metric& metric, const ImagePair& pair,
     return {cross_error(pair.test, pair.reference, pair.reference, halves->guide, metric.squared_error_weight)};
 }
 
-/// An error whose square is not above 0 after the correction is lost in the reference's noise: 0.
-double root(double square) { return std::sqrt(square < 0 ? 0.0 : square); }
-
 /// From raw +- half_width by `finish`, which is monotonic between the two.
 template <class Finish>
 void set_interval(Score& row, double raw, double half_width, const Finish& finish) {
@@ -51,13 +47,10 @@ void set_interval(Score& row, double raw, double half_width, const Finish& finis
 using Slope = std::optional<double>;
 
 Slope set_corrected(Score& row, double raw, std::optional<double> half_width) {
-    const bool is_root = row.metric->name == "rmse";
-    const auto finish = [&](double v) { return is_root ? root(v) : v; };
-    row.value = finish(raw);
+    row.value = raw;
     row.corrected = true;
-    if (half_width) set_interval(row, raw, *half_width, finish);
-    if (!is_root) return 1.0;
-    return half_width && raw > *half_width ? Slope(0.5 / row.value) : std::nullopt;
+    if (half_width) row.low = raw - *half_width, row.high = raw + *half_width;
+    return 1.0;
 }
 
 /// The mean of the test image is fixed, so the interval is exact where that of the reference's mean is.
@@ -98,28 +91,43 @@ NoisierPairs noisier_pairs(const MetricReference& reference, const HostImage& te
     return pairs;
 }
 
-/// Means over pixels of a map that are no means of squares: FLIP, SSIM, absolute differences.
+/// All but means of squares, and differences and ratios of means.
 bool is_extrapolated(const Metric& metric) {
-    return !metric.squared_error_weight && metric.pool == pooled_mean && metric.name != "bias";
+    return metric.mean_map || (!metric.squared_error_weight && metric.pool == pooled_mean && metric.name != "bias");
 }
 
-/// Maps of one metric against references of more noise.
-struct NoisierMaps {
-    std::vector<Plane> halves, moved_on;
+/// Layers of one metric against references of more noise.
+struct NoisierLayers {
+    std::vector<std::vector<Plane>> halves, moved_on;
 };
 
-NoisierMaps noisier_maps(const Metric& metric, const NoisierPairs& pairs) {
-    NoisierMaps maps;
-    for (const ImagePair& pair : pairs.halves) maps.halves.push_back(metric.layers(pair).front());
-    for (const ImagePair& pair : pairs.moved_on) maps.moved_on.push_back(metric.layers(pair).front());
-    return maps;
+NoisierLayers noisier_layers(const Metric& metric, const NoisierPairs& pairs) {
+    NoisierLayers layers;
+    for (const ImagePair& pair : pairs.halves) layers.halves.push_back(metric.layers(pair));
+    for (const ImagePair& pair : pairs.moved_on) layers.moved_on.push_back(metric.layers(pair));
+    return layers;
 }
 
-/// The value stays the usual one of both images; the interval extends to the value without the reference's noise.
-void set_extrapolated(Score& row, const Plane& own, const NoisierMaps& maps, const Mask& inside) {
-    const MapInterval found = extrapolated_interval(own, maps.halves, maps.moved_on, inside);
+/// The value stays what everyone computes from both images; the interval reaches to where it would lie without the
+/// reference's noise.
+void set_extrapolated(Score& row, const std::vector<Plane>& own, const NoisierLayers& noisier, const Mask& inside) {
+    const Metric& metric = *row.metric;
+    std::vector<Plane> made;
+    made.reserve(5);
+    const auto map = [&](const std::vector<Plane>& layers) -> const Plane& {
+        return metric.mean_map ? made.emplace_back(metric.mean_map(layers, inside)) : layers.front();
+    };
+    row.growth = noise_growth(
+        {map(own), map(noisier.halves[0]), map(noisier.halves[1]), map(noisier.moved_on[0]), map(noisier.moved_on[1])},
+        inside);
+    const MapInterval found = extrapolated_interval(row.growth);
     row.low = found.low, row.high = found.high;
-    if (row.low && row.metric->better == Better::lower) row.low = std::max(*row.low, 0.0);
+    if (!found.low) return;
+    if (metric.of_mean) {
+        const double ends[] = {metric.of_mean(std::max(*found.low, 0.0)), metric.of_mean(*found.high)};
+        row.low = std::min(ends[0], ends[1]), row.high = std::max(ends[0], ends[1]);
+    }
+    if (metric.better == Better::lower) row.low = std::max(*row.low, 0.0);
 }
 
 /// Corrects the row where it can be, and gives it its interval; returns how noise moves its value.
@@ -172,10 +180,10 @@ std::vector<Score> score(const MetricReference& reference, const HostImage& test
         const Metric& metric = *reference.metrics[m];
         const std::vector<Plane> layers = layers_of(metric, pair, reference.halves);
         const NoiseMaps maps = reference.halves ? noise_maps(metric, *reference.halves, pair.test) : NoiseMaps{};
-        std::optional<NoisierMaps> extrapolated;
+        std::optional<NoisierLayers> extrapolated;
         if (reference.halves && is_extrapolated(metric)) {
             if (!noisier) noisier = noisier_pairs(reference, test);
-            extrapolated = noisier_maps(metric, *noisier);
+            extrapolated = noisier_layers(metric, *noisier);
         }
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, finite);
@@ -191,7 +199,7 @@ std::vector<Score> score(const MetricReference& reference, const HostImage& test
             const bool has_noise = reference.halves && row.pixels > 0;
             if (has_noise) row.floor = metric.pool(reference.floor_layers[m], inside);
             NoiseTerms terms = has_noise ? set_noise(row, maps, layers, inside, noise != nullptr) : NoiseTerms{};
-            if (has_noise && extrapolated) set_extrapolated(row, layers.front(), *extrapolated, inside);
+            if (has_noise && extrapolated) set_extrapolated(row, layers, *extrapolated, inside);
             if (noise) noise->push_back(std::move(terms));
         }
     }

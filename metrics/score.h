@@ -1,4 +1,5 @@
 #pragma once
+#include "metrics/extrapolation.h"
 #include "metrics/metric.h"
 #include "metrics/noise.h"
 
@@ -19,6 +20,7 @@ struct Score {
     std::optional<double> floor;  ///< metric(half A, half B): overestimates the score of the reference's noise, as each
                                   ///< half has twice its variance
     size_t pixels;                ///< finite ones inside the mask
+    NoiseGrowth growth = {};      ///< of the mean that `value` is, where the interval is extrapolated from it
 };
 
 /// A reference and all that does not depend on the test image, made once and used for many tests.
@@ -41,9 +43,9 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
 /// if given, gets for each score how the reference's noise moves its value, to first order, for the noise of means
 /// of several scores: 0 outside of the mask; empty where unknown.
 ///
-/// Intervals: of metrics that are corrected (means of weighted squares, and rmse, the root of one), `bias` and
-/// `energy_ratio`, the ratio of a fixed mean to that of the reference. Other means of a map (flip, hdr_flip, ssim, mae)
-/// include the reference's noise in their value, and their intervals extend to the value without it
-/// (metrics/extrapolation.h). The rest have no interval; `floor` gives the size of their noise.
+/// Intervals: of metrics that are corrected (means of weighted squares), `bias` and `energy_ratio`, the ratio of a
+/// fixed mean to that of the reference. All others are means of a map, or made of one (Metric::mean_map), and carry the
+/// reference's noise in their value; their intervals reach to where it would lie without (metrics/extrapolation.h). But
+/// for ms_ssim, which has none: its windows are larger than a tile.
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
                          PixelCounts* counts = nullptr, std::vector<NoiseTerms>* noise = nullptr);

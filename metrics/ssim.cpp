@@ -90,15 +90,6 @@ Plane channel(const HostImage& image, int c) {
     return plane;
 }
 
-Plane luma(const HostImage& codes) {
-    Plane plane(codes.extent);
-    for (size_t i = 0; i < plane.values.size(); ++i) {
-        const glm::dvec3 c = codes.rgb(i);
-        plane.values[i] = luminance(c.x, c.y, c.z);
-    }
-    return plane;
-}
-
 std::vector<Plane> channel_mean_map(const ImagePair& pair, double covariance_scale) {
     Plane map(pair.reference_codes.extent);
     map.margin = radius;
@@ -115,10 +106,6 @@ std::vector<Plane> channel_map(const ImagePair& pair) { return channel_mean_map(
 std::vector<Plane> sample_map(const ImagePair& pair) {
     constexpr double n = window * window;
     return channel_mean_map(pair, n / (n - 1));
-}
-
-std::vector<Plane> luma_map(const ImagePair& pair) {
-    return {similarity(luma(pair.reference_codes), luma(pair.test_codes), 1).full};
 }
 
 /// Means of 2x2 pixels; an odd size repeats its last row or column.
@@ -184,10 +171,10 @@ std::vector<Metric> ssim_metrics() {
          "mean SSIM of the three code channels, Gaussian window 11x11 of sigma 1.5, biased covariance, windows within "
          "the image (Wang et al. 2004)",
          channel_map, pooled_mean},
-        {"ssim_luma", "ssim_gauss1.5_luma709", "1", higher, display, "as ssim, of the Rec. 709 luma of the codes",
-         luma_map, pooled_mean},
         {"ssim_sample", "ssim_gauss1.5_sample", "1", higher, display,
-         "as ssim, with covariances of samples: times 121/120 (scikit-image's default)", sample_map, pooled_mean},
+         "as ssim, with covariances of samples: times 121/120; to compare with other programs only (scikit-image's "
+         "default)",
+         sample_map, pooled_mean},
         {"ms_ssim", "ms_ssim_5", "1", higher, display,
          "five scales with the weights of Wang et al. 2003, mean of the three code channels; its map is that of the "
          "finest scale",

@@ -1,6 +1,7 @@
 #include "metrics/statistics.h"
 
 #include "core/error.h"
+#include "metrics/metric.h"
 #include "metrics/quantiles.h"
 #include "metrics/summation.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-#include "metrics/score.h"
+#include "core/host_image.h"
+#include "metrics/plane.h"
 
 #include <optional>
 #include <span>

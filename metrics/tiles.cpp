@@ -3,6 +3,7 @@
 #include "metrics/quantiles.h"
 #include "metrics/summation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -37,8 +38,8 @@ std::vector<double> totals(std::span<const std::vector<double>> columns) {
     return sums;
 }
 
-std::optional<double> jackknife_half_width(std::span<const std::vector<double>> columns,
-                                           const std::function<double(std::span<const double>)>& statistic) {
+std::optional<double> jackknife_variance(std::span<const std::vector<double>> columns,
+                                         const std::function<double(std::span<const double>)>& statistic) {
     const std::vector<double> all = totals(columns);
     std::vector<double> replicas, without(columns.size());
     for (size_t tile = 0; tile < columns[0].size(); ++tile) {
@@ -51,6 +52,14 @@ std::optional<double> jackknife_half_width(std::span<const std::vector<double>> 
     const double mean = ordered_sum(replicas.size(), [&](size_t i) { return replicas[i]; }) / n;
     const double squares =
         ordered_sum(replicas.size(), [&](size_t i) { return (replicas[i] - mean) * (replicas[i] - mean); });
-    const double half_width = student_t_quantile(0.975, n - 1) * std::sqrt((n - 1) / n * squares);
-    return std::isfinite(half_width) ? std::optional(half_width) : std::nullopt;
+    const double variance = (n - 1) / n * squares;
+    return std::isfinite(variance) ? std::optional(variance) : std::nullopt;
+}
+
+std::optional<double> jackknife_half_width(std::span<const std::vector<double>> columns,
+                                           const std::function<double(std::span<const double>)>& statistic) {
+    const std::optional<double> variance = jackknife_variance(columns, statistic);
+    if (!variance) return {};
+    const double tiles = double(std::ranges::count_if(columns[0], [](double count) { return count != 0; }));
+    return student_t_quantile(0.975, tiles - 1) * std::sqrt(*variance);
 }

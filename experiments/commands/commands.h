@@ -26,7 +26,7 @@ std::filesystem::path default_results(const std::filesystem::path& config);
 
 struct RunOptions {
     std::filesystem::path config, out;
-    bool keep_all = false, replaces = false, prunes = false, takes_times_here = false;
+    bool keep_all = false, replaces = false, prunes = false, takes_times_here = false, takes_times_again = false;
     std::vector<std::string> cells;  ///< as CellSelection takes them; empty: all
 };
 void run_study_command(const RunOptions& options, const CommonOptions& common);

@@ -32,6 +32,7 @@ void run_study_command(const RunOptions& options, const CommonOptions& common) {
                .replaces = options.replaces,
                .prunes = options.prunes,
                .takes_times_here = options.takes_times_here,
+               .takes_times_again = options.takes_times_again,
                .cells = options.cells});
 }
 

@@ -46,6 +46,9 @@ Keys timing_keys() {
     return {{"frames", whole(0, 100000), plain.frames,
              "measured for each point, after the warm-up: at least 15, or 0 for none"},
             {"warm_up", whole(1, 1000), plain.warm_up, "frames before them"},
+            {"most_share", number(0, 1e6), Default(plain.most_share, "a third"),
+             "what they may take in all, as a share of the time that the shot's references, renders and counts took: see \"What "
+             "the numbers mean\""},
             {"copies", flag(), plain.has_copies,
              "false times each point alone, in a third of the time, or half of it where nothing is left out: no second "
              "copy tells the noise of times, no complete one what leaving out work saves"}};
@@ -153,6 +156,7 @@ void read_reference(ConfigObject& study, Config& config) {
 void read_timing(ConfigObject timing, TimingConfig& config) {
     config.frames = timing.get<unsigned>("frames");
     config.warm_up = timing.get<unsigned>("warm_up");
+    config.most_share = timing.get<float>("most_share");
     config.has_copies = timing.get<bool>("copies");
     timing.finish();
     if (config.frames > 0 && config.frames < least_timed_frames)

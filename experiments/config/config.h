@@ -74,7 +74,8 @@ struct VariantConfig {
 struct TimingConfig {
     unsigned frames = 15;  ///< measured per variant, after the warm-up; 0: no timing
     unsigned warm_up = 3;
-    bool has_copies = true;  ///< of each point, which tell the noise of times and what leaving out work saves
+    float most_share = 1.0f / 3;  ///< of what a shot's other cells took: what its times may take
+    bool has_copies = true;       ///< of each point, which tell the noise of times and what leaving out work saves
 };
 
 /// Which rays of a technique are compared with what they truly meet.

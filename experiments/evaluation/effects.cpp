@@ -66,8 +66,9 @@ void add_lit_noise(SharedScatter& shared, const LitNoise& part, double error, co
         shared.degrees = shared.variance > 0 ? shared.degrees * squared(total / shared.variance) : 1e6;
         shared.variance = total;
     }
-    shared.excess_of_a = std::clamp(part.added / error, 0.0, 0.99);
-    shared.excess_of_b = std::clamp(base_part.added / base_error, 0.0, 0.99);
+    const auto both = [](double a, double b) { return 1 - (1 - a) * (1 - std::clamp(b, 0.0, 0.99)); };
+    shared.excess_of_a = both(shared.excess_of_a, part.added / error);
+    shared.excess_of_b = both(shared.excess_of_b, base_part.added / base_error);
 }
 
 void set_ratio(EffectRow& row, const Jackknifed& error, const Jackknifed& base_error, const SharedScatter& shared) {
@@ -126,12 +127,21 @@ std::vector<EffectRow> effects_of_rows(const SeedsOfPoint& point, const SeedsOfP
         return {row};
     }
     const Jackknifed error = jackknifed_mean(errors), base_error = jackknifed_mean(base_errors);
-    const bool has_noise = point.noise && baseline.noise;
+    const bool has_noise = point.noise && baseline.noise, are_positive = error.value > 0 && base_error.value > 0;
     SharedScatter shared;
-    if (has_noise) shared = shared_scatter(point.noise->sums, error.value, baseline.noise->sums, base_error.value);
+    if (has_noise && are_positive && !point.noise->growth.empty()) {
+        const auto scatter = extrapolated_scatter(point.noise->growth, baseline.noise->growth);
+        if (!scatter) {
+            row.ratio = error.value / base_error.value, row.interval = interval::no_end;
+            return {row};
+        }
+        shared = *scatter;
+    } else if (has_noise) {
+        shared = shared_scatter(point.noise->sums, error.value, baseline.noise->sums, base_error.value);
+    }
     const bool is_exact = has_noise && shared.variance == 0;
     for (LitNoise* part : {&lit, &base_lit}) part->added /= double(row.seeds), part->half_width /= double(row.seeds);
-    if (error.value > 0 && base_error.value > 0) add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
+    if (are_positive) add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
     set_ratio(row, error, base_error, shared);
     if (!row.ratio) return {row};
     const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;

@@ -49,7 +49,8 @@ using PointSet = std::set<std::pair<std::string, std::string>>;
 /// for their shot count.
 ///
 /// Intervals hold the scatter over the seeds and, where `noise` has both points, what the noise of their common
-/// reference leaves of the ratio. No interval and no p are given for a single seed of a point that depends on it, nor
+/// reference leaves of the ratio, and how far it may have moved that of errors which hold it (extrapolated_scatter()).
+/// No interval and no p are given for a single seed of a point that depends on it, nor
 /// if one of both is in `not_repeatable`: seeds do not share what such points add by chance, and another run would tell
 /// another ratio.
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<VariantConfig>& variants,
@@ -84,8 +85,8 @@ inline const char* verdict_of(double p_holm, double ratio) {
 /// The adjusted p of a comparison that another family has decided; none of all others.
 using DecidedP = std::function<std::optional<double>(const EffectRow&)>;
 
-/// Decides `verdict` of all effects that have a p and whose interval holds all that is random, at 0.05; others (FLIP
-/// and SSIM against a noisy reference) keep the interval of their seeds and have no verdict. The effects on one error
+/// Decides `verdict` of all effects that have a p and whose interval holds all that is random, at 0.05; others (where
+/// the reference's noise is not known) keep the interval of their seeds and have no verdict. The effects on one error
 /// (target, metric, mask), of all points and shots, are a family, whose p-values are adjusted together
 /// (holm_adjusted()): among many comparisons some come out small by chance. `low_holm` and `high_holm` are intervals at
 /// the level that each is judged at, so that they agree with the verdict: 0.05 over the factor by which p was adjusted.

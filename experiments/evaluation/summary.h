@@ -51,7 +51,7 @@ struct MetricSummary {
 
 /// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same
 /// reference for all seeds, so the mean of the rows' intervals) and Student's t interval of the seeds, t(0.975, n-1) s
-/// / sqrt(n). Metrics whose rows have no interval, since what the reference's noise adds to them is not known, get that
+/// / sqrt(n). Where rows have no interval, since what the reference's noise adds is not known, they get that
 /// of the seeds alone: what another run with other seeds would give against the same reference; `floor` bounds the
 /// rest. Points in `without_seeds` do not depend on seeds: the reference's noise is all of their interval. Of the
 /// others a single seed has none. Where the noise of the lit colour is known, what it leaves of the value joins, too,

@@ -1,7 +1,7 @@
 #include "experiments/measuring/cell.h"
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SeedPairs, variance, bias_squared)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferenceNoise, shot, frame, variant, point, target, metric, mask, sums)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferenceNoise, shot, frame, variant, point, target, metric, mask, sums, growth)
 
 namespace {
 
@@ -58,6 +58,7 @@ void to_json(nlohmann::json& json, const Cell& cell) {
             {"notes", cell.notes},
             {"truth", cell.truth},
             {"shot", cell.shot},
+            {"seconds", cell.seconds},
             {"provenance", cell.provenance}};
 }
 
@@ -70,5 +71,6 @@ void from_json(const nlohmann::json& json, Cell& cell) {
     json.at("reference_noise").get_to(cell.reference_noise);
     cell.images = json.at("images"), cell.timing = json.at("timing");
     json.at("notes").get_to(cell.notes), json.at("truth").get_to(cell.truth);
+    json.at("seconds").get_to(cell.seconds);
     cell.shot = json.at("shot"), cell.provenance = json.at("provenance");
 }

@@ -22,6 +22,7 @@ struct ResultRow {
     std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
     size_t pixels = 0, non_finite = 0, negative = 0;
     bool speaks_for_shot = false;  ///< see mark_what_speaks(); false in cells
+    NoiseGrowth growth = {};       ///< no column: Score::growth while frames are measured; empty in cells
 
     static constexpr auto columns() {
         return std::tuple(
@@ -134,6 +135,7 @@ struct Cell {
     std::vector<std::string> notes;                   ///< sentences for the manifest: what is unknown, and why
     std::string truth;    ///< ShotTruth::content_hash() of what its numbers were measured against
     nlohmann::json shot;  ///< what the manifest says of the shot once its references are there; null in other cells
+    double seconds = 0;   ///< that making it took, with the opening of the shot for its references
     nlohmann::json provenance;  ///< what made it, where and when, see experiments/store/provenance.h
     std::string name;           ///< as CellStore knows it
 };

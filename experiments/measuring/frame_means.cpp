@@ -1,5 +1,7 @@
 #include "experiments/measuring/frame_means.h"
 
+#include "metrics/temporal.h"
+
 #include <algorithm>
 
 namespace {
@@ -11,6 +13,17 @@ void add_noise(NoiseTerms& sum, const NoiseTerms& terms) {
         sum.swapped.values[i] += terms.swapped.values[i];
         sum.variance.values[i] += terms.variance.values[i];
     }
+}
+
+/// Of means of maps; that of decibels is none.
+NoiseGrowth mean_growth(const std::vector<ResultRow>& rows) {
+    NoiseGrowth mean;
+    for (const ResultRow& row : rows) {
+        if (row.growth.empty() || metric_named(row.metric).of_mean) return {};
+        mean.resize(row.growth.size());
+        for (size_t i = 0; i < mean.size(); ++i) mean[i] += row.growth[i] / float(rows.size());
+    }
+    return mean;
 }
 
 std::optional<double> mean_of_rows(const std::vector<ResultRow>& rows, std::optional<double> ResultRow::*member) {
@@ -51,6 +64,11 @@ std::vector<ResultRow> FrameMeans::rows() const {
                 const double half_width = *sum / double(sums.rows.size());
                 r.low = *r.value - half_width, r.high = *r.value + half_width;
             }
+        r.growth = mean_growth(sums.rows);
+        if (const MapInterval found = extrapolated_interval(r.growth); found.low && r.value) {
+            r.low = is_error(r.metric) ? std::max(*found.low, 0.0) : *found.low, r.high = found.high;
+        }
+        r.growth.clear();
         means.push_back(std::move(r));
     }
     return means;

@@ -72,21 +72,14 @@ void LitNoises::add(const MetricReference& reference, const std::string& target,
     if (!reference.halves) return;
     const Mask finite = finite_in(of_a, of_b, reference.finite);
     for (const Metric* metric : reference.metrics) {
-        const bool is_bias = metric->name == "bias", is_root = metric->name == "rmse";
+        const bool is_bias = metric->name == "bias";
         if (!is_told_for(*metric)) continue;
         const LitMaps maps = is_bias ? bias_maps(of_a, of_b) : squared_error_maps(*metric, reference, of_a, of_b);
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, finite);
             if (inside.count() == 0) continue;
-            LitNoise noise{masked_mean(maps.added, inside), half_width_of(maps.swapped, inside)};
-            if (is_root) {
-                const ReferenceHalves& halves = *reference.halves;
-                const double square = masked_mean(
-                    cross_error(of_a, halves.a, halves.b, halves.guide, metric->squared_error_weight), inside);
-                if (square <= 0) continue;
-                noise.added /= 2 * std::sqrt(square), noise.half_width /= 2 * std::sqrt(square);
-            }
-            noises_[{frame, target, metric->name, mask.name}] = noise;
+            noises_[{frame, target, metric->name, mask.name}] = {masked_mean(maps.added, inside),
+                                                                 half_width_of(maps.swapped, inside)};
         }
     }
 }

@@ -101,15 +101,16 @@ void add_rows(std::vector<ResultRow>& rows, const MetricReference& reference, co
               std::vector<NoiseTerms>* noise = nullptr) {
     PixelCounts counts;
     std::vector<NoiseTerms> terms;
-    const std::vector<Score> scores = score(reference, test, masks, &counts, noise ? &terms : nullptr);
+    std::vector<Score> scores = score(reference, test, masks, &counts, noise ? &terms : nullptr);
     for (size_t i = 0; i < scores.size(); ++i) {
-        const Score& s = scores[i];
+        Score& s = scores[i];
         if (masks[i % masks.size()].count() == 0) continue;
         ResultRow r = shared;
         r.target = target, r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
         r.value = if_finite(s.value), r.is_corrected = s.corrected, r.uncorrected = if_finite(s.uncorrected);
         r.low = if_finite(s.low), r.high = if_finite(s.high), r.floor = if_finite(s.floor);
-        r.pixels = s.pixels, r.non_finite = counts.non_finite(), r.negative = counts.negative;
+        r.growth = std::move(s.growth), r.pixels = s.pixels, r.non_finite = counts.non_finite(),
+        r.negative = counts.negative;
         rows.push_back(std::move(r));
         if (noise) noise->push_back(std::move(terms[i]));
     }

@@ -1,7 +1,7 @@
 #include "experiments/measuring/reference_noise.h"
 
 #include "metrics/noise.h"
-#include "metrics/pooling.h"
+#include "metrics/temporal.h"
 
 #include <cmath>
 
@@ -39,23 +39,28 @@ void ReferenceNoiseMeans::add(const std::string& frame, const std::string& targe
     if (!reference.halves) return;
     for (const Metric* metric : reference.metrics) {
         if (!metric->squared_error_weight) continue;
-        const bool is_root = metric->name == "rmse";
         const Plane swapped = swapped_error(*metric, reference, test);
-        Plane error;
-        if (is_root)
-            error = cross_error(test, reference.halves->a, reference.halves->b, reference.halves->guide,
-                                metric->squared_error_weight);
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, reference.finite);
             if (inside.count() == 0) continue;
-            const double slope = is_root ? 0.5 / std::sqrt(masked_mean(error, inside)) : 1.0;
-            if (!std::isfinite(slope)) continue;
-            const std::vector<double> groups = group_sums(swapped, inside);
             Sum& sum = sums_[{target, metric->name, mask.name, frame}];
-            for (size_t g = 0; g < noise_groups; ++g) sum.groups[g] += slope * groups[g];
+            sum.groups.resize(noise_groups);
+            const std::vector<double> groups = group_sums(swapped, inside);
+            for (size_t g = 0; g < noise_groups; ++g) sum.groups[g] += groups[g];
             ++sum.count;
         }
     }
+}
+
+void ReferenceNoiseMeans::add(const std::string& frame, const std::string& target, const std::string& metric,
+                              const std::string& mask, const NoiseGrowth& growth) {
+    // No ratio of two counts of outliers was simulated (metrics/README.md): such effects keep the interval of the
+    // seeds.
+    if (growth.empty() || !is_error(metric) || metric == "outliers") return;
+    Sum& sum = sums_[{target, metric, mask, frame}];
+    sum.groups.resize(growth.size()), sum.is_growth = true;
+    for (size_t i = 0; i < growth.size(); ++i) sum.groups[i] += growth[i];
+    ++sum.count;
 }
 
 std::vector<ReferenceNoise> ReferenceNoiseMeans::means(const ReferenceNoise& shared) const {
@@ -65,7 +70,8 @@ std::vector<ReferenceNoise> ReferenceNoiseMeans::means(const ReferenceNoise& sha
         if (frame != over_frames && sums_.contains({target, metric, mask, over_frames})) continue;
         ReferenceNoise noise = shared;
         noise.frame = frame, noise.target = target, noise.metric = metric, noise.mask = mask;
-        for (const double group : sum.groups) noise.sums.push_back(float(group / double(sum.count)));
+        std::vector<float>& means = sum.is_growth ? noise.growth : noise.sums;
+        for (const double group : sum.groups) means.push_back(float(group / double(sum.count)));
         all.push_back(std::move(noise));
     }
     return all;

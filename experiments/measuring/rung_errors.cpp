@@ -53,16 +53,15 @@ ReferenceHalves tested_halves(const RungHalves& rung, const std::string& target,
 
 nlohmann::json entry(const ErrorMaps& maps, const Metric& metric, const Mask& inside) {
     const double value = masked_mean(maps.error, inside);
-    const auto finished = [&](double v) { return metric.name == "rmse" ? std::sqrt(std::max(v, 0.0)) : v; };
     nlohmann::json entry = {
         {"metric", metric.name},   {"formula", metric.guided_formula.empty() ? metric.formula : metric.guided_formula},
-        {"mask", inside.name},     {"value", finished(value)},
+        {"mask", inside.name},     {"value", value},
         {"low", nullptr},          {"high", nullptr},
         {"pixels", inside.count()}};
     // Where no path showed a difference between rung and truth, another might have: 0 is not a valid width.
     if (std::optional<double> half_width = noise_half_width(maps.noise, inside); half_width.value_or(0) > 0) {
         *half_width /= double(inside.count());
-        entry["low"] = finished(value - *half_width), entry["high"] = finished(value + *half_width);
+        entry["low"] = value - *half_width, entry["high"] = value + *half_width;
     }
     return entry;
 }

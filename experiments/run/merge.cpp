@@ -27,7 +27,7 @@ std::optional<FoundCell> find_cell(const PlannedCell& planned, const std::vector
                      folder.string(), " (cell ", planned.name, ", ", planned.what,
                      "): references differ between processors and libraries. Run them once, with `--cells references`, "
                      "and let all other processes use that --cache");
-            if (!best || disturbed_frames(cell->timing) < disturbed_frames(best->cell.timing))
+            if (!best || disturbed_share(cell->timing) < disturbed_share(best->cell.timing))
                 best = {std::move(*cell), folder};
         }
     return best;

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace {
 
@@ -168,7 +169,7 @@ MeasuredSavings measure_savings(Device& device, const Shot& shot, const std::vec
     const HostImage unused;
     const ShotTimes times = time_variants(
         *source, shot, config, [&](unsigned) -> const HostImage& { return unused; }, false,
-        [&](double share) { report(0.1 + 0.8 * share); });
+        std::numeric_limits<double>::infinity(), [&](double share) { report(0.1 + 0.8 * share); });
     for (const Saving& time : times.savings) {
         const auto point = std::ranges::find_if(
             points, [&](const VariantConfig& v) { return v.variant == time.variant && v.point == time.point; });

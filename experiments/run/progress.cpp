@@ -11,6 +11,21 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 
 }  // namespace
 
+void ProgressEstimate::update(double elapsed, double share_done) {
+    share_ = std::max(share_, share_done);
+    const double passed = elapsed - elapsed_;
+    elapsed_ = elapsed;
+    if (share_done < 0.02) return;  // an estimate would only mislead
+    const double now = elapsed * (1 - share_done) / share_done;
+    if (!left_) {
+        left_ = now;
+        return;
+    }
+    const double expected = std::max(*left_ - passed, 0.0);
+    takes_longer_ = now > 1.3 * expected + 10;
+    left_ = expected + (now - expected) * (1 - std::exp(-passed / smoothing));
+}
+
 std::string format_duration(double seconds) {
     const long long whole = std::llround(std::max(seconds, 0.0));
     char text[32];
@@ -40,12 +55,13 @@ void Progress::update(double done_work, const std::string& what) {
     const auto now = std::chrono::steady_clock::now();
     if (seconds(now - last_) < (is_terminal_ ? 0.2 : 10.0)) return;
     last_ = now;
-    const double fraction = std::clamp(done_work / total_, 0.0, 1.0), elapsed = seconds(now - start_);
-    // Before two per cent are done an estimate would only mislead.
-    const std::string left =
-        fraction < 0.02 ? "" : ", " + format_duration(elapsed * (1.0 - fraction) / fraction) + " left";
+    const double elapsed = seconds(now - start_);
+    estimate_.update(elapsed, std::clamp(done_work / total_, 0.0, 1.0));
+    std::string left;
+    if (estimate_.left()) left = ", " + format_duration(*estimate_.left()) + " left";
+    if (estimate_.takes_longer()) left += ", rising: this takes longer than what came before";
     char head[64];
-    std::snprintf(head, sizeof head, "[%3.0f %%, %s", 100.0 * fraction, format_duration(elapsed).c_str());
+    std::snprintf(head, sizeof head, "[%3.0f %%, %s", 100.0 * estimate_.share(), format_duration(elapsed).c_str());
     const std::string line = head + left + "] " + what;
     if (!is_terminal_) {
         std::fprintf(stderr, "%s\n", line.c_str());

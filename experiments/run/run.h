@@ -14,6 +14,7 @@ struct RunSettings {
     bool replaces = false;           ///< gives a folder with the results of another study to this one
     bool prunes = false;             ///< removes what earlier versions of the study left in the folder
     bool takes_times_here = false;   ///< in place of times that another machine took
+    bool takes_times_again = false;  ///< that other programs disturbed; the less disturbed are kept
     std::vector<std::string> cells;  ///< which are done, as CellSelection takes them; empty: all
 };
 

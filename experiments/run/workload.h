@@ -4,30 +4,39 @@
 #include <string>
 
 /// What a long run has to do, by kinds of work whose units take about equally long, and how long they took so far: from
-/// it the share done and hence the time left. A kind that has not been met yet is judged by a first guess.
+/// it the share done and hence the time left. Kinds belong to families (all points' renders): one that has not been met
+/// yet is judged by a first guess, corrected as its family was, or else all that was met.
 class Workload {
 public:
     /// `units` more of a kind; `guess`: seconds per unit.
-    void plan(const std::string& kind, double units, double guess);
+    void plan(const std::string& family, const std::string& kind, double units, double guess);
 
-    /// The units that follow are done now, until finish() or skip(). `share` of them is done.
-    void start(const std::string& kind, double units);
+    /// The units that follow are done now, until finish() or found(). `share` of them is done.
+    void start(const std::string& family, const std::string& kind, double units);
     void update(double share) { share_ = share; }
     void finish();  ///< they took the time since start()
-    void skip();    ///< they turned out to be done already: they tell nothing about the time of others
+    /// They turned out to be done already, in so many seconds, which tell the time of others; 0: that is not known.
+    void found(double seconds);
 
     /// In [0, 1]: time spent / (time spent + time expected).
     double share_done() const;
 
 private:
     struct Kind {
-        double planned = 0, done = 0, seconds = 0, guess = 1;
-        double seconds_per_unit() const { return done > 0 ? seconds / done : guess; }
+        double planned = 0, guess = 1;
+        double done = 0, seconds = 0;    ///< in this run
+        double found = 0, found_in = 0;  ///< units of earlier runs, and their seconds
+    };
+    /// Measured seconds over guessed ones, of what was met.
+    struct Correction {
+        double measured = 0, guessed = 0;
+        void add(const Kind& kind);
+        double value() const { return guessed > 0 ? measured / guessed : 1; }
     };
     double seconds_since_start() const;
 
-    std::map<std::string, Kind> kinds_;
-    std::string current_;
+    std::map<std::string, std::map<std::string, Kind>> families_;
+    std::string family_, current_;
     double units_ = 0, share_ = 0;
     std::chrono::steady_clock::time_point start_;
 };

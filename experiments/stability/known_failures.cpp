@@ -1,7 +1,6 @@
 #include "experiments/stability/known_failures.h"
 
 #include "core/json.h"
-#include "experiments/config/config_values.h"
 
 namespace {
 
@@ -17,8 +16,8 @@ std::vector<KnownFailure> read_known_failures(const std::filesystem::path& file)
     std::vector<KnownFailure> known;
     for (JsonObject& entry : object.objects("failures")) {
         KnownFailure failure;
-        failure.techniques = one_or_more(entry, "techniques", ""), failure.stages = one_or_more(entry, "stages", "");
-        if (entry.has("cases")) failure.cases = one_or_more(entry, "cases", "");
+        failure.techniques = entry.texts("techniques"), failure.stages = entry.texts("stages");
+        failure.cases = entry.texts("cases");
         failure.operation = entry.text("operation"), failure.fix = entry.text("fix");
         entry.finish();
         known.push_back(failure);

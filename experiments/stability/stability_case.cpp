@@ -1,7 +1,6 @@
 #include "experiments/stability/stability_case.h"
 
 #include "core/error.h"
-#include "experiments/config/config_values.h"
 #include "experiments/config/point_name.h"
 
 #include <algorithm>
@@ -126,7 +125,7 @@ StabilityCase read_case(const nlohmann::json& json, const std::string& where) {
     result.feeds_back = object.boolean("feeds_back", false);
     result.is_perturbed = object.boolean("perturbed", false);
     result.is_truth_same = object.boolean("same_truth", false);
-    if (object.has("only")) result.only = one_or_more(object, "only", "");
+    result.only = object.texts("only");
 
     nlohmann::json benign = nlohmann::json::object();
     for (const auto& [key, value] : json.items())

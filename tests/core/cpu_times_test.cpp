@@ -8,6 +8,7 @@ TEST(CpuTimes, ReadsProcStat) {
     const auto times = parse_proc_stat("cpu  100 20 30 4000 500 6 7 8 90 10\ncpu0 1 2 3\ncpu1 4 5 6\nintr 7\n", 100);
     ASSERT_TRUE(times);
     EXPECT_DOUBLE_EQ(times->busy, 1.71);
+    EXPECT_DOUBLE_EQ(times->stolen, 0.08);
     EXPECT_EQ(times->cpus, 2u);
     EXPECT_FALSE(parse_proc_stat("", 100));
     EXPECT_FALSE(parse_proc_stat("cpu  0 0 0 0 0 0 0 0 0 0\ncpu0 0 0 0 0 0 0 0 0 0 0\n", 100)) << "some containers";
@@ -24,6 +25,8 @@ TEST(CpuTimes, ForeignLoadIsWhatOthersTookOfAllCpus) {
     EXPECT_DOUBLE_EQ(*foreign_load(before, after(105.9, 16)), 0.0) << "sampling errs";
     EXPECT_FALSE(foreign_load(before, {.machine = {}, .own = 16, .wall = 7, .cpus = 4}));
     EXPECT_FALSE(foreign_load(before, before));
+    EXPECT_DOUBLE_EQ(stolen_share(before, {.stolen = 2, .wall = 7, .cpus = 4}), 0.25) << "2 of 8 s of CPU time";
+    EXPECT_EQ(stolen_share(before, before), 0.0);
 }
 
 TEST(CpuTimes, OfThisMachineGrow) {

@@ -38,25 +38,14 @@ TEST(Metric, FourPixelsByHand) {
     // out.
     const ImagePair pair = image_pair(row({1, 2, 0, 4}), row({2, 1, 0.5f, 4}), {});
     EXPECT_NEAR(value("mse", pair), (1 + 1 + 0.25 + 0) / 4, rounding);
-    EXPECT_NEAR(value("rmse", pair), 0.75, rounding);
     EXPECT_NEAR(value("mae", pair), 2.5 / 4, rounding);
-    EXPECT_NEAR(value("mape", pair), (1 / 1.01 + 1 / 2.01 + 0.5 / 0.01) / 4, rounding);
     EXPECT_NEAR(value("relmse", pair), (1 / 1.01 + 1 / 4.01 + 0.25 / 0.01) / 4, rounding);
     EXPECT_NEAR(value("relmse_b", pair), (1 / (1.01 * 1.01) + 1 / (2.01 * 2.01) + 0.25 / 0.0001) / 4, 1e-9);
     EXPECT_NEAR(value("relmse_c", pair), (1 / 1.001 + 1 / 4.001 + 0.25 / 0.001) / 4, 1e-10);
-    EXPECT_NEAR(value("relmse_d", pair), (1 / 1.0001 + 1 / 4.0001 + 0.25 / 0.0001) / 4, 1e-9);
     EXPECT_NEAR(value("smape", pair), (1.0 / 3 + 1.0 / 3 + 1 + 0) / 4, rounding);
     EXPECT_NEAR(value("bias", pair), 0.5 / 4, rounding);
     EXPECT_NEAR(value("energy_ratio", pair), 7.5 / 7, rounding);
     EXPECT_EQ(value("outliers", pair), 1);  // 0.5 over black; 1 over 1 is not ten times too much
-}
-
-TEST(Metric, LuminanceWeighsOnlyTheDenominator) {
-    HostImage reference({1, 1}, 3), test({1, 1}, 3);
-    reference.set_rgb(0, {0, 1, 0});
-    test.set_rgb(0, {1, 1, 0});
-    EXPECT_NEAR(value("relmse_luminance", image_pair(reference, test, {})), 1.0 / 3 / (0.7152 * 0.7152 + 0.01),
-                rounding);
 }
 
 TEST(Metric, TrimmingDropsAThousandth) {
@@ -83,8 +72,7 @@ TEST(Metric, EqualImagesAreTheBestOfAll) {
 TEST(Metric, SymmetricOnesDoNotCareWhichIsTheReference) {
     const HostImage a = noise({180, 177}, 3, 1), b = noise({180, 177}, 4, 1);
     const ImagePair ab = image_pair(a, b, {}), ba = image_pair(b, a, {});
-    for (const char* name :
-         {"mse", "rmse", "mae", "smape", "smape_damped", "psnr", "ssim", "ssim_luma", "ssim_sample", "ms_ssim", "flip"})
+    for (const char* name : {"mse", "mae", "smape", "psnr", "ssim", "ssim_sample", "ms_ssim", "flip"})
         EXPECT_EQ(value(name, ab), value(name, ba)) << name;
     EXPECT_EQ(value("bias", ab), -value("bias", ba));
 }
@@ -97,7 +85,7 @@ TEST(Metric, MasksChooseThePixelsOfTheMean) {
     EXPECT_NEAR(value("energy_ratio", pair, &mask), 1.5 / 2, rounding);
     EXPECT_EQ(value("outliers", pair, &mask), 1);
     mask.inside = {0, 0, 0, 0};
-    for (const char* name : {"mse", "rmse", "relmse_trimmed", "outliers", "bias", "energy_ratio", "psnr", "flip"})
+    for (const char* name : {"mse", "relmse_trimmed", "outliers", "bias", "energy_ratio", "psnr", "flip"})
         EXPECT_TRUE(std::isnan(value(name, pair, &mask))) << name;
 }
 

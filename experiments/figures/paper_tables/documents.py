@@ -2,13 +2,15 @@
 summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "caption": "..."} -->` shows an excerpt: the
 named rows and columns in that order (all, where a key is left out).
 
-Numbers in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell() and cells() of kept tables (Numbers),
+Numbers in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells() and over_scenes() of kept tables (Numbers),
 fixed(value, places), min, max, sum, len and abs."""
 
 import json
+import math
 import os
 import re
 
+from ssrlab import statistics
 from ssrlab.results import ResultsError
 from paper_tables import formats, summary_file
 
@@ -41,12 +43,25 @@ class Numbers:
             raise ResultsError(f"{self.file}: {len(found)} cells of {study} {table} are of '{row}' and '{column}'; one was meant")
         return found[0]
 
+    def over_scenes(self, study, table, column, base, as_in=None):
+        """One column over another, of a table whose rows are shots: "mean [low, high]" over scenes like these (geometric; scenes of one
+        asset averaged first). `as_in`: of the shots of this table of the study alone."""
+        _, tables = summary_file.read(os.path.join(self.summaries, study + ".csv"))
+        about, cells = tables[table]
+        values = {(c.row, c.column): c.value for c in cells if c.value}
+        shots = [s for s in tables[as_in or table][0]["shots"] if (s, column) in values and (s, base) in values]
+        if not shots:
+            raise ResultsError(f"{self.file}: no shot of {study} {table} has both '{column}' and '{base}'")
+        mean, low, high, _ = statistics.geometric_mean_over_scenes([(about["assets"][s], math.log(values[s, column] / values[s, base])) for s in shots])
+        mean, low, high = (v and f"{v:#.3g}".rstrip(".") for v in (mean, low, high))
+        return mean if low is None else f"{mean} [{low}, {high}]"
+
     def text(self, expression):
-        names = {"cell": self.cell, "cells": self.cells, "fixed": lambda value, places: f"{value:.{places}f}"}
+        names = {"cell": self.cell, "cells": self.cells, "over_scenes": self.over_scenes, "fixed": lambda value, places: f"{value:.{places}f}"}
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}
         try:
             return str(eval(expression, {"__builtins__": {}} | names))  # of our own documents
-        except (SyntaxError, NameError, TypeError, ValueError, ZeroDivisionError) as e:
+        except (SyntaxError, NameError, KeyError, TypeError, ValueError, ZeroDivisionError) as e:
             raise ResultsError(f"{self.file}: `{expression}` makes no number: {e}") from e
 
 

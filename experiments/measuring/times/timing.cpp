@@ -3,6 +3,7 @@
 #include "core/gpu/device.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/measuring/times/clock_proofs.h"
+#include "experiments/measuring/times/timed_rounds.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 #include <memory>
 #include <numeric>
 #include <random>
-#include <thread>
+#include <set>
 
 namespace {
 
@@ -34,7 +35,10 @@ struct TimedCopy {
         std::vector<PassTime> stages;
         double total;
     };
-    std::vector<Frame> frames;  ///< one for each measured round
+    std::vector<Frame> frames;  ///< one for each measured round, up to the last that it played
+    double planned_ms = 0;      ///< of a frame, by the last one that warmed it up
+    bool is_spared = false;     ///< where time is short, as others of its technique and purpose are played
+    bool plays = true;
 
     TimedCopy(const VariantConfig& c, Purpose p, PassGraph& like)
         : config(c),
@@ -73,80 +77,42 @@ struct TimedCopy {
     }
 };
 
-/// A round that was measured.
-struct Round {
-    std::vector<PassTime> source_times;
-    std::optional<double> foreign_load;
+/// The rounds that count among those that a copy played.
+using RoundsOfCopy = std::function<std::vector<size_t>(const TimedCopy&)>;
 
-    bool is_disturbed() const { return foreign_load.value_or(0.0) > disturbing_load; }
-};
-
-/// Foreign load of rounds that last load_window together, each of which then has it.
-class LoadWindow {
-public:
-    LoadWindow(std::vector<Round>& rounds, const CpuTimesReader& cpu_times)
-        : rounds_(rounds), cpu_times_(cpu_times), start_(cpu_times()) {}
-
-    /// Tells the load of the rounds since the last time, if they took long enough; if `is_last`, waits until that is
-    /// so.
-    void update(bool is_last) {
-        CpuTimes now = cpu_times_();
-        if (const double missing = load_window - (now.wall - start_.wall); missing > 0) {
-            if (!is_last) return;
-            std::this_thread::sleep_for(std::chrono::duration<double>(missing));  // few ticks would tell anything
-            now = cpu_times_();
-        }
-        for (; told_ < rounds_.size(); ++told_) {
-            rounds_[told_].foreign_load = foreign_load(start_, now);
-            quiet_ += !rounds_[told_].is_disturbed();
-        }
-        start_ = now;
-    }
-    size_t quiet() const { return quiet_; }  ///< of those whose load is told
-    size_t untold() const { return rounds_.size() - told_; }
-
-private:
-    std::vector<Round>& rounds_;
-    const CpuTimesReader& cpu_times_;
-    CpuTimes start_;
-    size_t told_ = 0, quiet_ = 0;
-};
-
-/// The first `count` quiet rounds, or all of them and the least disturbed others, in their order.
-std::vector<size_t> chosen_rounds(const std::vector<Round>& rounds, size_t count) {
-    std::vector<size_t> order(rounds.size());
-    std::iota(order.begin(), order.end(), size_t(0));
-    std::ranges::stable_sort(order, {},
-                             [&](size_t i) { return rounds[i].is_disturbed() ? *rounds[i].foreign_load : 0.0; });
-    order.resize(std::min(count, order.size()));
-    std::ranges::sort(order);
-    return order;
-}
-
-TimingLoad load_of(const std::vector<Round>& rounds, const std::vector<size_t>& chosen) {
-    TimingLoad load;
-    for (const Round& round : rounds) load.left_out += round.is_disturbed();
+TimingLoad load_of(const std::vector<RoundLoad>& rounds, const std::vector<size_t>& chosen) {
+    TimingLoad load{.frames = unsigned(chosen.size())};
+    for (const RoundLoad& round : rounds) load.left_out += round.is_disturbed();
     for (const size_t i : chosen) {
         load.disturbed += rounds[i].is_disturbed();
-        if (rounds[i].foreign_load) load.largest = std::max(load.largest.value_or(0.0), *rounds[i].foreign_load);
+        if (rounds[i].foreign) load.largest = std::max(load.largest.value_or(0.0), *rounds[i].foreign);
+        load.stolen = std::max(load.stolen, rounds[i].stolen);
     }
     load.left_out -= load.disturbed;
     return load;
 }
 
+/// Fewer tell next to nothing of the noise of times: of two pairs Student's t is 4.3.
+constexpr size_t fewest_twins = 3;
+
 std::vector<TimedCopy> make_copies(const Config& config, PassGraph& like, bool keep_all, const SceneFacts& facts) {
     using enum TimedCopy::Purpose;
     std::vector<TimedCopy> copies;
+    std::set<std::string> has_twin, has_complete;  // techniques
+    size_t twins = 0;
     for (const VariantConfig& variant : config.variants) {
         if (!variant.is_timed) continue;
         std::vector<LeftOut> left_out;
         for (const auto purpose : {recorded, twin}) {
             if (purpose == twin && !config.timing.has_copies) continue;
             TimedCopy& copy = copies.emplace_back(variant, purpose, like);
+            if (purpose == twin) copy.is_spared = !has_twin.insert(variant.variant).second && twins >= fewest_twins;
+            twins += purpose == twin;
             if (!keep_all) left_out = copy.variant->leave_out(facts);
         }
-        if (!left_out.empty() && config.timing.has_copies)
-            copies.emplace_back(variant, complete, like).kept_parts = left_out;
+        if (left_out.empty() || !config.timing.has_copies) continue;
+        TimedCopy& copy = copies.emplace_back(variant, complete, like);
+        copy.is_spared = !has_complete.insert(variant.variant).second, copy.kept_parts = left_out;
     }
     return copies;
 }
@@ -158,11 +124,12 @@ const TimedCopy& recorded_like(const TimedCopy& other, const std::vector<TimedCo
     });
 }
 
-std::vector<SavedTime> saved_times(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
+std::vector<SavedTime> saved_times(const std::vector<TimedCopy>& copies, const RoundsOfCopy& rounds_of) {
     std::map<std::string, double> largest;
     for (const TimedCopy& copy : copies)
         for (const LeftOut& part : copy.kept_parts) {
             const std::string& stage = part.stage.empty() ? part.what : part.stage;
+            const std::vector<size_t> rounds = rounds_of(copy);
             const std::optional<double> complete = copy.median_of(stage, rounds);
             if (!complete) continue;
             const double saved = *complete - recorded_like(copy, copies).median_of(stage, rounds).value_or(0.0);
@@ -174,10 +141,11 @@ std::vector<SavedTime> saved_times(const std::vector<TimedCopy>& copies, const s
     return saved;
 }
 
-std::vector<Saving> savings_of(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
+std::vector<Saving> savings_of(const std::vector<TimedCopy>& copies, const RoundsOfCopy& rounds_of) {
     std::vector<Saving> savings;
     for (const TimedCopy& copy : copies) {
-        if (copy.purpose != TimedCopy::Purpose::complete) continue;
+        const std::vector<size_t> rounds = rounds_of(copy);
+        if (copy.purpose != TimedCopy::Purpose::complete || rounds.empty()) continue;
         const TimedCopy& lean = recorded_like(copy, copies);
         std::vector<double> shares;
         for (const size_t round : rounds) shares.push_back(1 - lean.frames[round].total / copy.frames[round].total);
@@ -189,15 +157,59 @@ std::vector<Saving> savings_of(const std::vector<TimedCopy>& copies, const std::
     return savings;
 }
 
-std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies, const std::vector<size_t>& rounds) {
+std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies, const RoundsOfCopy& rounds_of) {
     std::vector<AaPair> pairs;
     for (const TimedCopy& copy : copies)
-        if (copy.purpose == TimedCopy::Purpose::twin)
+        if (const std::vector<size_t> rounds = rounds_of(copy);
+            copy.purpose == TimedCopy::Purpose::twin && !rounds.empty())
             pairs.push_back({.variant = copy.config.variant,
                              .point = copy.config.point,
                              .first_ms = recorded_like(copy, copies).median_total(rounds),
                              .second_ms = copy.median_total(rounds)});
     return pairs;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What the copies that play take of a round.
+double playing_ms(const std::vector<TimedCopy>& copies) {
+    double ms = 0;
+    for (const TimedCopy& copy : copies) ms += copy.plays ? copy.planned_ms : 0;
+    return ms;
+}
+
+/// Sends away, in their order, the spared copies that do not fit into so much of a round's time as well.
+void keep_what_fits(std::vector<TimedCopy>& copies, double most_ms) {
+    for (TimedCopy& copy : copies) most_ms -= copy.is_spared ? 0 : copy.planned_ms;
+    for (TimedCopy& copy : copies) {
+        if (!copy.is_spared) continue;
+        copy.plays = copy.planned_ms <= most_ms;
+        if (copy.plays)
+            most_ms -= copy.planned_ms;
+        else
+            copy.graph.reset();  // its images
+    }
+}
+
+/// After least_rounds: all go on if `most_ms` of a round's time, for each round that is wanted, is enough; else the
+/// points without their copies if that is; else the points alone whose order is open.
+void choose_who_goes_on(std::vector<TimedCopy>& copies, double most_ms) {
+    using enum TimedCopy::Purpose;
+    if (playing_ms(copies) <= most_ms) return;
+    for (TimedCopy& copy : copies) copy.plays = copy.plays && copy.purpose == recorded;
+    if (playing_ms(copies) <= most_ms) return;
+    std::vector<std::vector<double>> times;
+    for (const TimedCopy& copy : copies) {
+        if (copy.purpose != recorded) continue;
+        for (std::vector<double>& of_point = times.emplace_back(); const TimedCopy::Frame& frame : copy.frames)
+            of_point.push_back(std::max(frame.total, 1e-9));
+    }
+    const std::vector<bool> is_open = open_orders(times);
+    auto at = is_open.begin();
+    for (TimedCopy& copy : copies)
+        if (copy.purpose == recorded) copy.plays = *at++;
 }
 
 /// One entry for each proof, with the shots that were timed by its clock.
@@ -267,45 +279,74 @@ std::vector<std::vector<size_t>> timed_turns(size_t count, unsigned rounds) {
 }
 
 ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& config,
-                        const std::function<const HostImage&(unsigned frame)>& lit, bool keep_all,
+                        const std::function<const HostImage&(unsigned frame)>& lit, bool keep_all, double budget,
                         const std::function<void(double)>& report, const CpuTimesReader& cpu_times) {
     ShotTimes result;
+    const auto start = std::chrono::steady_clock::now();
     std::vector<TimedCopy> copies = make_copies(config, source.graph(), keep_all, shot.facts);
     if (config.timing.frames == 0 || copies.empty()) return result;
 
-    const std::string clock = source.graph().clock() == Clock::host_fence ? "host_fence" : "gpu_timestamp";
     const unsigned warm_up = config.timing.warm_up, wanted = config.timing.frames,
                    most = warm_up + (1 + most_repeated_frames) * wanted;
     const std::vector<std::vector<size_t>> turns = timed_turns(copies.size(), most);
-    std::vector<Round> rounds;
-    std::optional<LoadWindow> load;
-    for (const FrameStep& step : timed_steps(shot.config.frames, most)) {
-        if (step.index == warm_up) load.emplace(rounds, cpu_times);
+    const std::vector<FrameStep> steps = timed_steps(shot.config.frames, most);
+    std::vector<std::vector<PassTime>> source_times;  // by measured round
+    const auto play = [&](const FrameStep& step) {
         const GBuffer gbuffer = source.render(step, 0, lit(step.frame));
-        std::vector<PassTime> source_times = source.graph().times();
-        for (const size_t place : turns[step.index]) copies[place].render(source.camera(), gbuffer);
-        if (step.index < warm_up) continue;
-        rounds.push_back({std::move(source_times), {}});
-        for (TimedCopy& copy : copies) copy.record();
-        load->update(load->quiet() + load->untold() == wanted || step.index + 1 == most);
-        if (load->quiet() >= wanted) break;
-        report(std::min(double(load->quiet() + load->untold()) / wanted, 0.99));
-    }
+        source_times.push_back(source.graph().times());
+        for (const size_t place : turns[step.index])
+            if (copies[place].plays) copies[place].render(source.camera(), gbuffer);
+    };
 
-    const std::vector<size_t> chosen = chosen_rounds(rounds, wanted);
-    for (const size_t i : chosen) {
-        const TimeRow row{.shot = shot.name(),
-                          .frame = unsigned(i),
-                          .clock = clock,
-                          .foreign_load = rounds[i].foreign_load,
-                          .is_disturbed = rounds[i].is_disturbed()};
-        add_rows(result.rows, row, rounds[i].source_times);
-        for (const TimedCopy& copy : copies) copy.add_to(result.rows, i, row);
+    double warm_seconds = 0;  // of the last round before those that are measured
+    for (unsigned i = 0; i < warm_up; ++i) {
+        const auto start_of_round = std::chrono::steady_clock::now();
+        play(steps[i]);
+        warm_seconds = seconds_since(start_of_round);
     }
-    result.pairs = pairs_of(copies, chosen);
-    result.saved = saved_times(copies, chosen);
-    result.savings = savings_of(copies, chosen);
-    result.load = load_of(rounds, chosen);
+    source_times.clear();
+    for (TimedCopy& copy : copies) copy.planned_ms = copy.graph->frame_milliseconds();
+    const double seconds_per_ms = warm_seconds / std::max(playing_ms(copies), 1e-9);  // with the G-buffer's part
+    budget -= seconds_since(start);
+    keep_what_fits(copies, budget / least_rounds / seconds_per_ms);
+
+    LoadWindow load(cpu_times);
+    while (load.rounds().size() + warm_up < most && load.quiet() < wanted) {
+        const size_t rounds = load.rounds().size();
+        if (rounds == least_rounds)
+            choose_who_goes_on(copies, (budget - load.seconds()) / double(wanted - rounds) / seconds_per_ms);
+        // Known before the round: what it takes has no say in whether it is measured.
+        const double planned_seconds = seconds_per_ms * playing_ms(copies);
+        if (rounds >= least_rounds && (planned_seconds == 0 || load.seconds() + planned_seconds > budget)) break;
+        play(steps[warm_up + rounds]);
+        for (TimedCopy& copy : copies)
+            if (copy.plays) copy.record();
+        load.end_round();
+        if (load.quiet() + load.untold() >= wanted) load.tell_rest();
+        const double of_budget = std::min(load.seconds() / std::max(budget, 1e-9), double(rounds + 1) / least_rounds);
+        report(std::min(std::max(double(rounds + 1) / wanted, of_budget), 0.99));
+    }
+    load.tell_rest();
+
+    const auto rounds_among = [&](size_t played) {
+        return chosen_rounds(std::span(load.rounds()).first(played), wanted);
+    };
+    const auto rounds_of = [&](const TimedCopy& copy) { return rounds_among(copy.frames.size()); };
+    const auto row_of = [&](size_t round) {
+        return TimeRow{.shot = shot.name(),
+                       .frame = unsigned(round),
+                       .clock = source.graph().clock() == Clock::host_fence ? "host_fence" : "gpu_timestamp",
+                       .foreign_load = load.rounds()[round].foreign,
+                       .is_disturbed = load.rounds()[round].is_disturbed()};
+    };
+    const std::vector<size_t> chosen = rounds_among(load.rounds().size());
+    for (const size_t round : chosen) add_rows(result.rows, row_of(round), source_times[round]);
+    for (const TimedCopy& copy : copies)
+        for (const size_t round : rounds_of(copy)) copy.add_to(result.rows, round, row_of(round));
+    result.pairs = pairs_of(copies, rounds_of);
+    result.saved = saved_times(copies, rounds_of);
+    result.savings = savings_of(copies, rounds_of);
+    result.load = load_of(load.rounds(), chosen);
     return result;
 }
 
@@ -334,17 +375,19 @@ nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, con
             {"saved_ms", saved},
             {"savings", savings},
             {"load",
-             {{"disturbed_frames", times.load.disturbed},
+             {{"frames", times.load.frames},
+              {"disturbed_frames", times.load.disturbed},
               {"left_out_frames", times.load.left_out},
-              {"largest_foreign_load", largest}}},
+              {"largest_foreign_load", largest},
+              {"largest_stolen_share", times.load.stolen}}},
             {"clock", clock_entry(clock)}};
 }
 
-double disturbed_frames(const nlohmann::json& timing_entry) {
-    return timing_entry.is_object() ? timing_entry.at("load").at("disturbed_frames").get<double>() : 0.0;
+double disturbed_share(const nlohmann::json& timing_entry) {
+    if (!timing_entry.is_object()) return 0;
+    const nlohmann::json& load = timing_entry.at("load");
+    return load.at("disturbed_frames").get<double>() / std::max(load.at("frames").get<double>(), 1.0);
 }
-
-bool is_disturbed(const nlohmann::json& timing_entry) { return disturbed_frames(timing_entry) > 0; }
 
 void add_timing(nlohmann::json& manifest, const nlohmann::json& entry) {
     nlohmann::json& clock = manifest["clock"];

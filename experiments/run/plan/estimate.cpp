@@ -1,6 +1,7 @@
 #include "experiments/run/plan/estimate.h"
 
 #include "experiments/measuring/render_variant.h"
+#include "experiments/measuring/times/timed_rounds.h"
 #include "experiments/run/plan/growth.h"
 #include "experiments/run/shots/open_shot.h"
 #include "experiments/run/shots/point_renders.h"
@@ -232,8 +233,9 @@ class CellSeconds {
 public:
     CellSeconds(const Rates& rates, const Config& config) : rates_(rates), config_(config) {}
 
-    /// In the order of the plan: the first times come with the proof of the clock.
-    double of(const PlannedCell& cell, const ShotConfig& shot) {
+    /// In the order of the plan: the first times come with the proof of the clock. `others`: of the shot's cells
+    /// before.
+    double of(const PlannedCell& cell, const ShotConfig& shot, double others) {
         const double pixels = pixels_of(shot.extent);
         switch (cell.kind) {
             case CellKind::references:
@@ -244,7 +246,7 @@ public:
                 // Frames before the last are rendered as they are; counting takes several times a frame.
                 return frame_of(*cell.variant, shot) * (cell.units + counting_factor) + compiling_seconds;
             case CellKind::times:
-                return rates_.opening.at(pixels) + of_times(shot) + std::exchange(proof_seconds_, 0.0);
+                return rates_.opening.at(pixels) + of_times(shot, others) + std::exchange(proof_seconds_, 0.0);
         }
         return 0;
     }
@@ -272,12 +274,13 @@ private:
                rates.frame.at(pixels) * double(steps.size()) * (seeds + plays_of_lit_noise(config_, shot));
     }
 
-    double of_times(const ShotConfig& shot) const {
-        double seconds = 0;
+    double of_times(const ShotConfig& shot, double others) const {
+        double round = 0;
         for (const VariantConfig& variant : config_.variants)
-            if (variant.is_timed)
-                seconds += copies_timed() * frame_of(variant, shot) * (config_.timing.frames + config_.timing.warm_up);
-        return seconds;
+            if (variant.is_timed) round += frame_of(variant, shot);
+        const double all = round * copies_timed() * (config_.timing.frames + config_.timing.warm_up),
+                     least = round * (least_rounds + copies_timed() * config_.timing.warm_up);
+        return std::min(all, std::max(least, config_.timing.most_share * others));
     }
 
     double frame_of(const VariantConfig& variant, const ShotConfig& shot) const {
@@ -297,11 +300,15 @@ std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config&
     CellSeconds seconds(rates, config);
     const auto timed = size_t(std::ranges::count_if(config.variants, &VariantConfig::is_timed));
     std::map<std::string, CellEstimate> estimates;
-    for (const PlannedShot& shot : plan.shots)
-        for (const PlannedCell& cell : shot.cells)
+    for (const PlannedShot& shot : plan.shots) {
+        double others = 0;
+        for (const PlannedCell& cell : shot.cells) {
             estimates[cell.name] = {
-                .seconds = seconds.of(cell, shot.config),
+                .seconds = seconds.of(cell, shot.config, others),
                 .memory_mib =
                     memory_of(shot.config, config, cell.kind == CellKind::times ? seconds.copies_timed() * timed : 0)};
+            others += estimates[cell.name].seconds;
+        }
+    }
     return estimates;
 }

@@ -66,7 +66,8 @@ public:
     std::string of_times(const std::string& request, const std::vector<bool>& runs) {
         std::vector<std::string> sources = {"experiments/measuring/times/timing.cpp",
                                             "experiments/run/shots/open_shot.cpp"};
-        std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up)};
+        std::vector<std::string> what = {std::to_string(config_.timing.frames), std::to_string(config_.timing.warm_up),
+                                         std::to_string(config_.timing.most_share)};
         if (!config_.timing.has_copies) what.push_back("alone");
         for (size_t i = 0; i < points_.size(); ++i) {
             const VariantConfig& v = config_.variants[i];
@@ -171,11 +172,13 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
         planned.config = shot.config, planned.name = shot.name();
         planned.entry = shot_entry(shot, config, keep_all);
         const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
-            return planned.cells.emplace_back(PlannedCell{.kind = kind,
-                                                          .name = std::move(name),
-                                                          .what = planned.name + ": " + what,
-                                                          .shot = planned.name,
-                                                          .units = units});
+            return planned.cells.emplace_back(
+                PlannedCell{.kind = kind,
+                            .name = std::move(name),
+                            .what = planned.name + ": " + what,
+                            .shot = planned.name,
+                            .units = units,
+                            .pixels = size_t(shot.config.extent.x) * shot.config.extent.y});
         };
         std::vector<bool> runs;
         for (const VariantConfig& variant : config.variants) {

@@ -22,6 +22,7 @@ struct PlannedCell {
     std::string shot;                        ///< its name
     const VariantConfig* variant = nullptr;  ///< of renders and costs
     double units = 1;                        ///< of its kind's work: references, frames x seeds, shots
+    size_t pixels = 0;                       ///< of a frame
 };
 
 struct PlannedShot {

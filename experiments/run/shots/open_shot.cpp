@@ -174,5 +174,6 @@ std::unique_ptr<OpenShot> open_shot(Device& device, const ShotConfig& shot, cons
 }
 
 Cell references_cell(const OpenShot& open) {
-    return {.images = open.images, .truth = open.truth.content_hash(), .shot = open.entry};
+    return {
+        .images = open.images, .truth = open.truth.content_hash(), .shot = open.entry, .seconds = open.opening_seconds};
 }

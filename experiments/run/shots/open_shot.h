@@ -28,6 +28,7 @@ struct OpenShot {
     std::unique_ptr<FrameStore> store;
     ShotTruth truth;
     bool has_rendered_references = false;  ///< else all were in the cache, or there are none
+    double opening_seconds = 0;
     /// What the manifest says of the shot once its truth is known.
     nlohmann::json entry = nlohmann::json::object();
     nlohmann::json images = nlohmann::json::array();  ///< of the truth and of surfaces, for the manifest

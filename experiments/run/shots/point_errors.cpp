@@ -22,6 +22,7 @@ void PointErrors::measure_last(const FrameTruth& truth, const CompositedImages& 
                                std::span<const Mask> masks) {
     std::vector<ResultRow> rows = measure_targets(*truth.pose, images, masks, row);
     lit_noise_.set(rows);
+    keep_growth(rows, row.frame);
     rows_.insert(rows_.end(), rows.begin(), rows.end());
     const HostImage image = composited_image(*truth.pose, images);
     for (const auto& [target, reference] : truth.pose->targets) {
@@ -29,6 +30,11 @@ void PointErrors::measure_last(const FrameTruth& truth, const CompositedImages& 
         splits_.try_emplace(target, reference).first->second.add(row.seed, tested);
         noise_.add(row.frame, target, reference, tested, masks);
     }
+}
+
+/// Moves it from the rows to what effects are made of.
+void PointErrors::keep_growth(std::vector<ResultRow>& rows, const std::string& frame) {
+    for (ResultRow& r : rows) noise_.add(frame, r.target, r.metric, r.mask, std::exchange(r.growth, {}));
 }
 
 /// Whether the full measure of the last frame holds this row already.
@@ -43,9 +49,10 @@ void PointErrors::measure_in_passing(SeedErrors& seed, const PoseTruth& truth, c
                                      std::span<const Mask> masks, const ResultRow& row) {
     FrameRows frame = measure_frame(truth, specular, masks, row);
     lit_noise_.set(frame.rows);
+    const bool makes_means = !point_.shot.config.measures_last_only;
+    if (makes_means) seed.means.add(frame), keep_growth(frame.rows, over_frames);
     seed.frame_rows.insert(seed.frame_rows.end(), frame.rows.begin(), frame.rows.end());
-    if (point_.shot.config.measures_last_only) return;
-    seed.means.add(frame);
+    if (!makes_means) return;
     noise_.add(over_frames, "specular", *truth.frame_reference, specular, masks);
 }
 

@@ -35,6 +35,7 @@ public:
 private:
     void measure_last(const FrameTruth& truth, const CompositedImages& images, const ResultRow& row,
                       std::span<const Mask> masks);
+    void keep_growth(std::vector<ResultRow>& rows, const std::string& frame);
     void measure_in_passing(SeedErrors& seed, const PoseTruth& truth, const HostImage& specular,
                             std::span<const Mask> masks, const ResultRow& row);
     void add_temporal_rows(unsigned seed, const std::vector<TemporalScore>& scores);

@@ -12,9 +12,15 @@
 #include "experiments/store/provenance.h"
 
 #include <algorithm>
+#include <chrono>
+#include <limits>
 #include <map>
 
 namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// A cell that is to be done.
 struct CellTask {
@@ -58,7 +64,9 @@ bool is_of_another_machine(const StudySession& study, const Cell& cell) {
 std::string why_timed_again(const StudySession& study, const Cell& cell) {
     if (study.settings.takes_times_here && is_of_another_machine(study, cell))
         return "its times are another machine's; they are taken here";
-    return is_disturbed(cell.timing) ? "its times were disturbed by other programs; they are taken again" : "";
+    return study.settings.takes_times_again && disturbed_share(cell.timing) > 0
+               ? "its times were disturbed by other programs; they are taken again, and the less disturbed kept"
+               : "";
 }
 
 /// Times are kept whatever machine took them, which nobody is to overlook.
@@ -83,12 +91,13 @@ std::optional<Cell> do_cell(StudySession& study, const CellTask& task, const std
                             bool waits) {
     const PlannedCell& planned = task.planned;
     // References were rendered when the shot was opened.
-    study.work.start(name_of(planned.kind), planned.kind == CellKind::references ? 0 : planned.units);
+    study.work.start(name_of(planned.kind), kind_of_work(planned),
+                     planned.kind == CellKind::references ? 0 : planned.units);
     study.report(0, planned.what);
     std::optional<Cell> found = load_cell(study, planned, truth);
     const bool is_tried_again = found && !task.why_again(*found).empty();
     if (found && !is_tried_again) {
-        study.work.skip();
+        study.work.found(found->seconds);
         say_whose_times(study, planned, *found);
         return found;
     }
@@ -97,14 +106,15 @@ std::optional<Cell> do_cell(StudySession& study, const CellTask& task, const std
     found = load_cell(study, planned, truth);  // another may have made it since
     const std::string why = found ? task.why_again(*found) : "";
     if (found && why.empty()) {
-        study.work.skip();
+        study.work.found(found->seconds);
         return found;
     }
     if (found) study.progress.say("note: " + planned.what + ": " + why);
     const std::string started = time_stamp();
+    const auto start = std::chrono::steady_clock::now();
     const SpentTime::Span span(study.spent, name_of(planned.kind));
     Cell cell = task.make([&](double share) { study.report(share, planned.what); });
-    cell.name = planned.name;
+    cell.name = planned.name, cell.seconds += seconds_since(start);
     cell.provenance = cell_provenance(study.maker, planned.what, started);
     const bool is_kept = !found || task.is_better(cell, *found);
     if (is_kept) {
@@ -131,17 +141,39 @@ const ClockProof& proven_clock(StudySession& study) {
     return *study.clock;
 }
 
+/// What the times of a shot may take: a share of what its other cells took. Where one of these is not in the folder, as
+/// another machine makes it, that is not known, and the times take what they take.
+double timing_budget(const StudySession& study, const PlannedShot& shot) {
+    double seconds = 0;
+    for (const PlannedCell& planned : shot.cells) {
+        if (planned.kind == CellKind::times) continue;
+        const std::optional<Cell> cell = study.cells.read(planned.name);
+        if (!cell) return std::numeric_limits<double>::infinity();
+        seconds += cell->seconds;
+    }
+    return study.config.timing.most_share * seconds;
+}
+
+/// What was wrong with the machine while times were taken; "" if it was quiet.
+std::string disturbance(const TimingLoad& load) {
+    if (load.disturbed == 0) return "";
+    char stolen[64] = "";
+    if (load.stolen > 0.01)
+        std::snprintf(stolen, sizeof stolen, " (other virtual machines took up to %.0f %% of its time)",
+                      100 * load.stolen);
+    return "other programs disturbed " + std::to_string(load.disturbed) + " of " + std::to_string(load.frames) +
+           " timed frames" + stolen + ", which are marked; `--times-again` takes these times once more";
+}
+
 /// All times of a shot, while no other ssrlab takes any on this machine.
-Cell timing_cell(StudySession& study, OpenShot& open, const std::function<void(double)>& report) {
+Cell timing_cell(StudySession& study, OpenShot& open, double budget, const std::function<void(double)>& report) {
     const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
     const ClockProof& clock = proven_clock(study);
     const auto lit = [&](unsigned frame) -> const HostImage& { return open.truth.lit({.frame = frame}); };
     const ShotTimes times = time_variants(*open.source, open.shot, config_on(study.config, open.shot), lit,
-                                          study.settings.keep_all, report);
-    if (times.load.disturbed > 0)
-        study.progress.say("warning: " + open.shot.name() + ": other programs disturbed " +
-                           std::to_string(times.load.disturbed) + " of " + std::to_string(study.config.timing.frames) +
-                           " timed frames; the next run takes these times again");
+                                          study.settings.keep_all, budget, report);
+    if (const std::string why = disturbance(times.load); !why.empty())
+        study.progress.say("warning: " + open.shot.name() + ": " + why);
     return Cell{.times = times.rows, .timing = timing_entry(times, open.shot.name(), clock)};
 }
 
@@ -162,7 +194,7 @@ Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
                                  report)};
 }
 
-Cell make_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
+Cell make_cell(StudySession& study, OpenShot& open, const PlannedShot& shot, const PlannedCell& planned,
                const std::function<void(double)>& report) {
     switch (planned.kind) {
         case CellKind::references:
@@ -172,16 +204,16 @@ Cell make_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
         case CellKind::costs:
             return costs_cell(study, open, planned, report);
         case CellKind::times:
-            return timing_cell(study, open, report);
+            return timing_cell(study, open, timing_budget(study, shot), report);
     }
     fail("no cell is made of kind ", int(planned.kind));
 }
 
 /// How a cell of an open shot is made.
-CellTask task_of(StudySession& study, OpenShot& open, const PlannedCell& planned) {
+CellTask task_of(StudySession& study, OpenShot& open, const PlannedShot& shot, const PlannedCell& planned) {
     CellTask task{.planned = planned, .make = {}};
-    const auto make = [&study, &open, &planned](const auto& report) {
-        Cell cell = make_cell(study, open, planned, report);
+    const auto make = [&study, &open, &shot, &planned](const auto& report) {
+        Cell cell = make_cell(study, open, shot, planned, report);
         cell.truth = open.truth.content_hash();
         return cell;
     };
@@ -189,7 +221,7 @@ CellTask task_of(StudySession& study, OpenShot& open, const PlannedCell& planned
     if (planned.kind != CellKind::times) return task;
     task.why_again = [&study](const Cell& cell) { return why_timed_again(study, cell); };
     task.is_better = [&study](const Cell& again, const Cell& before) {
-        return disturbed_frames(again.timing) < disturbed_frames(before.timing) ||
+        return disturbed_share(again.timing) < disturbed_share(before.timing) ||
                (study.settings.takes_times_here && is_of_another_machine(study, before));
     };
     return task;
@@ -206,7 +238,8 @@ std::optional<std::vector<Cell>> load_finished(StudySession& study, const std::v
         cells.push_back(std::move(*cell));
     }
     for (size_t i = 0; i < planned.size(); ++i) {
-        study.work.start(name_of(planned[i]->kind), planned[i]->units), study.work.skip();
+        study.work.start(name_of(planned[i]->kind), kind_of_work(*planned[i]), planned[i]->units);
+        study.work.found(cells[i].seconds);
         say_whose_times(study, *planned[i], cells[i]);
     }
     return cells;
@@ -214,7 +247,9 @@ std::optional<std::vector<Cell>> load_finished(StudySession& study, const std::v
 
 std::unique_ptr<OpenShot> opened(StudySession& study, const PlannedShot& shot) {
     const SpentTime::Span span(study.spent, name_of(CellKind::references));
-    study.work.start(name_of(CellKind::references), shot.cells.front().units);
+    const PlannedCell& references = shot.cells.front();
+    study.work.start(name_of(CellKind::references), kind_of_work(references), references.units);
+    const auto start = std::chrono::steady_clock::now();
     std::unique_ptr<OpenShot> open =
         open_shot(study.device, shot.config, study.config,
                   {.out = study.settings.out,
@@ -223,7 +258,8 @@ std::unique_ptr<OpenShot> opened(StudySession& study, const PlannedShot& shot) {
                    .keep_all = study.settings.keep_all,
                    .say = [&](const std::string& text) { study.progress.say(text); },
                    .report = [&](double share, const std::string& what) { study.report(share, what); }});
-    open->has_rendered_references ? study.work.finish() : study.work.skip();
+    open->opening_seconds = seconds_since(start);
+    open->has_rendered_references ? study.work.finish() : study.work.found(0);
     return open;
 }
 
@@ -253,7 +289,7 @@ void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection&
     for (const bool waits : {false, true})
         for (size_t i = 0; i < planned.size(); ++i) {
             if (cells[i]) continue;
-            cells[i] = do_cell(study, task_of(study, *open, *planned[i]), truth, waits);
+            cells[i] = do_cell(study, task_of(study, *open, shot, *planned[i]), truth, waits);
             if (cells[i]) say_result(study, *cells[i]);
         }
     for (std::optional<Cell>& cell : cells) study.finished.push_back(std::move(*cell));

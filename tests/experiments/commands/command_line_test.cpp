@@ -199,3 +199,20 @@ TEST_F(CommandLine, SavesGBuffers) {
     EXPECT_EQ(read_exr(folder / "g/gbuffer.exr").find("depth")->image.extent, glm::uvec2(33, 21));
     EXPECT_TRUE(fs::exists(folder / "g/camera.json"));
 }
+
+TEST_F(CommandLine, SaysAtCtrlCThatTheSameCommandContinues) {
+    config(R"({"shots": [{"scene": "fence", "resolution": [96, 54]}], "reference": {"samples": 1000000}, "seeds": 1,
+        "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
+    // With job control, as without it shells let what they start in the background ignore Ctrl-C.
+    write_text(folder / "stop.sh", "cd '" + folder.string() + R"('
+set -m
+SSRLAB_CACHE="$PWD/cache" ')" SSRLAB_PROGRAM R"(' run study.json > log 2>&1 &
+while kill -0 $! && ! grep -q 'fence, camera' log; do sleep 0.05; done
+kill -INT $!
+wait $!
+)");
+    const int status = std::system(("bash '" + (folder / "stop.sh").string() + "'").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_TRUE(read_text(folder / "log").ends_with("\nstopped; the same command continues where it was\n"))
+        << read_text(folder / "log");
+}

@@ -5,12 +5,16 @@ usage: SSRLAB_PROGRAM=SSRLAB statistics_test.py
 
 import os
 import sys
+import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/python"))
+EXPERIMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments")
+sys.path[:0] = [os.path.join(EXPERIMENTS, part) for part in ("python", "figures")]
 
 import numpy as np  # noqa: E402
+from paper_tables import documents, summary_file  # noqa: E402
+from paper_tables.cell import Cell  # noqa: E402
 from scipy import stats  # noqa: E402
 from ssrlab import statistics  # noqa: E402
 
@@ -35,6 +39,19 @@ class Statistics(unittest.TestCase):
         self.assertEqual(statistics.mean_over_scenes([("a", 1), ("a", 2), ("b", 3), ("c", 3)])[1:], (None, None, 3))
         ratio, low, high, _ = statistics.geometric_mean_over_scenes([(n, np.log(v)) for n, v in zip("abcd", (1, 2, 4, 8))])
         np.testing.assert_allclose((ratio, low * high), (8**0.5, 8), rtol=1e-12)
+
+    def test_prose_has_ratios_of_columns_over_assets(self):
+        """Six shots of five assets, one of which is no row of the other table, and one without a value."""
+        shots, ratios = list("abcdefg"), [1.1, 0.7, 0.5, 0.9, 1.3, 0.2]
+        about = {"name": "errors", "caption": "", "shots": shots, "resolutions": [], "over": None, "over_count": None, "clocks": []}
+        tables = [about | {"assets": dict(zip(shots, "AABCDEF"))}, about | {"name": "others", "shots": shots[:5] + ["g"]}]
+        cells = [Cell("errors", s, "base", 2.0) for s in shots] + [Cell("errors", s, "new", 2 * r) for s, r in zip(shots, ratios)]
+        with tempfile.TemporaryDirectory() as folder:
+            summary_file.write(os.path.join(folder, "study.csv"), {"study": "study.json"}, tables, cells)
+            text = documents.Numbers(folder, "a.md").text('over_scenes("study", "errors", "new", "base", as_in="others")')
+        logs = np.log([np.sqrt(1.1 * 0.7), 0.5, 0.9, 1.3])
+        low, high = np.exp(logs.mean() + stats.sem(logs) * stats.t.ppf([0.025, 0.975], len(logs) - 2))
+        self.assertEqual(text, f"{np.exp(logs.mean()):#.3g} [{low:#.3g}, {high:#.3g}]")
 
     def test_means_are_students(self):
         values = self.random.normal(1, 2, 6)

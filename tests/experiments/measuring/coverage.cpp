@@ -1,52 +1,17 @@
 #include "tests/experiments/measuring/coverage.h"
 
-#include "core/scene/load_scene.h"
 #include "experiments/evaluation/effects.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/rung_errors.h"
-#include "groundtruth/reference_guide.h"
-#include "groundtruth/reference_passes.h"
+#include "tests/experiments/measuring/coverage_view.h"
 
-#include <tbb/parallel_for.h>
 #include <cmath>
 #include <map>
 #include <random>
 #include <tuple>
 
 namespace {
-
-/// A scene as its path tracer sees it.
-struct View {
-    glm::uvec2 extent;
-    Scene scene;
-    ScenePose pose;
-    CameraPose camera;
-    PathTracer path_tracer;
-    PixelTracer tracer;
-    ReferenceGuide guide;
-
-    View(const std::string& name, glm::uvec2 size)
-        : extent(size),
-          scene(load_scene(name, {std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes"})),
-          pose(pose_scene(scene, 0)),
-          camera(pose_camera(scene.cameras.front(), pose, 0)),
-          path_tracer(scene, pose, camera, extent, {.ladder = true}),
-          tracer{[this](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
-                 [this](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
-                        PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }},
-          guide(render_guide(tracer, extent, {})) {}
-
-    Reference reference(unsigned samples, unsigned seed) const {
-        ReferenceState state = empty_state(extent, {.ladder = true});
-        tbb::parallel_for(0u, extent.x * extent.y, [&](unsigned p) {
-            add_samples(state.reference, tracer, p % extent.x, p / extent.x, seed, SampleSet::reference,
-                        samples / batch_count);
-        });
-        state.reference.guide = guide;
-        return std::move(state.reference);
-    }
-};
 
 void accumulate(HostImage& sum, const HostImage& image, double weight) {
     for (size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += float(weight * image.values[i]);
@@ -90,20 +55,7 @@ std::map<std::string, CompositedImages> tests(const View& view) {
 }
 
 std::vector<Mask> masks(const View& view, const Reference& reference, unsigned draws) {
-    HostImage roughness(view.extent, 1);
-    const HostImage confidence(view.extent, 1);
-    for (unsigned p = 0; p < view.extent.x * view.extent.y; ++p)
-        roughness.values[p] = view.path_tracer.first_hit(p % view.extent.x, p / view.extent.x).roughness;
-    const MaskInputs inputs{.view_depth = reference.depth,
-                            .normal = reference.normal,
-                            .material_id = reference.material_id,
-                            .roughness = roughness,
-                            .reflectance = reference.ladder.reflectance,
-                            .confidence = confidence,
-                            .reflective_max_roughness = 0.6f,
-                            .reflective_min_reflectance = 0.02f,
-                            .previous = nullptr};
-    std::vector<Mask> all = {make_mask("all", inputs), make_mask("reflective", inputs), make_mask("edge", inputs)};
+    std::vector<Mask> all = surface_masks(view, reference, {"all", "reflective", "edge"});
     std::vector<size_t> pixels;  // reflective ones, the quiet first
     for (size_t p = 0; p < all[1].inside.size(); ++p)
         if (all[1].inside[p]) pixels.push_back(p);
@@ -113,7 +65,7 @@ std::vector<Mask> masks(const View& view, const Reference& reference, unsigned d
     });
     std::mt19937 random(1);
     const auto drawn = [&](const std::string& name, size_t count, size_t from) {
-        Mask mask{.name = name, .extent = view.extent, .inside = std::vector<uint8_t>(roughness.values.size())};
+        Mask mask{.name = name, .extent = view.extent, .inside = std::vector<uint8_t>(all[0].inside.size())};
         for (size_t i = 0; i < count; ++i) mask.inside[pixels[random() % from]] = 1;
         return mask;
     };
@@ -264,8 +216,7 @@ std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsi
     const View view(setting.scene, setting.extent);
     const auto images = technique_images(view, known_seeds);
     const Reference best = view.reference(truth_factor * setting.samples, setting.seeds + 1);
-    std::vector<Mask> inside = masks(view, best, 0);
-    inside.resize(2);
+    const std::vector<Mask> inside = surface_masks(view, best, {"all", "reflective"});
     Config config;
     config.targets = setting.targets, config.metrics = setting.metrics;
     const auto rows_of = [&](const PoseTruth& truth, const std::string& name, unsigned first, unsigned count) {
@@ -301,6 +252,7 @@ std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsi
             }
             against.rows.insert(against.rows.end(), rows.begin(), rows.end());
             ReferenceNoiseMeans noise;
+            for (const ResultRow& row : rows) noise.add("0", row.target, row.metric, row.mask, row.growth);
             for (size_t i = 0; i < std::min<size_t>(technique_seeds, own.size()); ++i) {
                 const CompositedImages& shown = own[(r * technique_seeds + i) % own.size()];
                 const HostImage image = composited_image(truth, shown);

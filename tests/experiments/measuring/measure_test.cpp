@@ -1,7 +1,8 @@
-#include "experiments/measuring/measure.h"
+#include "experiments/measuring/frame_means.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
+#include <random>
 
 TEST(Measure, ImageIsAllLightOfTheTruth) {
     const auto constant = [](float value) {
@@ -42,5 +43,40 @@ TEST(Measure, ReportsAResultWithoutAnyFinitePixel) {
         EXPECT_FALSE(r.value);
         EXPECT_EQ(r.pixels, 0u);
         EXPECT_EQ(r.non_finite, 256u);
+    }
+}
+
+/// The noise of two equal frames is one, and no mean of theirs has less.
+TEST(Measure, MeansOverFramesOfExtrapolatedErrorsHaveTheirInterval) {
+    const glm::uvec2 extent(64, 32);
+    std::mt19937 random(4);
+    std::normal_distribution<float> normal;
+    ReferenceHalves halves{.a = HostImage(extent, 3),
+                           .b = HostImage(extent, 3),
+                           .variance = HostImage(extent, 3, 0.02f),
+                           .guide = HostImage(extent, 3, 0.5f),
+                           .samples = 16};
+    HostImage mean(extent, 3);
+    for (size_t i = 0; i < mean.values.size(); ++i) {
+        halves.a.values[i] = 0.5f + 0.2f * normal(random), halves.b.values[i] = 0.5f + 0.2f * normal(random);
+        mean.values[i] = (halves.a.values[i] + halves.b.values[i]) / 2;
+    }
+    PoseTruth truth;
+    truth.frame_reference = metric_reference(mean, halves, {"mae", "flip", "psnr"}, {});
+    const Mask all = full_mask(extent);
+    const FrameRows frame = measure_frame(truth, HostImage(extent, 3, 0.9f), std::span(&all, 1), {.frame = "0"});
+    FrameMeans means;
+    means.add(frame), means.add(frame);
+    for (const ResultRow& row : means.rows()) {
+        const auto of_frame = std::ranges::find(frame.rows, row.metric, &ResultRow::metric);
+        ASSERT_TRUE(of_frame->low && of_frame->high) << row.metric;
+        if (row.metric == "psnr") {
+            EXPECT_FALSE(row.low) << "a mean of decibels is no decibels of a mean";
+            continue;
+        }
+        ASSERT_TRUE(row.low && row.high) << row.metric;
+        EXPECT_LT(*row.low, *row.value);
+        EXPECT_NEAR(*row.low, *of_frame->low, 1e-5 * *row.value) << row.metric;  // sums in float32
+        EXPECT_NEAR(*row.high, *of_frame->high, 1e-5 * *row.value) << row.metric;
     }
 }

@@ -13,7 +13,8 @@ constexpr float deviation_of_halves = 0.4f;
 
 /// Two points of `seeds` seeds each against a reference of noisy halves, of 600 pixels, of which one has the deviation
 /// `of_one`; as render_point() measures them. Without seeds the points have no scatter.
-EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, bool has_noise = true) {
+EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, bool has_noise = true,
+                           const std::string& metric = "mse") {
     const glm::uvec2 extent(30, 20);
     std::normal_distribution<float> normal;
     ReferenceHalves halves{.a = HostImage(extent, 3),
@@ -28,7 +29,7 @@ EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, b
         mean.values[i] = (halves.a.values[i] + halves.b.values[i]) / 2;
         halves.variance.values[i] = deviation * deviation / 2;
     }
-    const MetricReference reference = metric_reference(mean, halves, {"mse"}, {});
+    const MetricReference reference = metric_reference(mean, halves, {metric}, {});
     const std::vector<Mask> masks = {full_mask(extent)};
     std::vector<ResultRow> rows;
     std::vector<ReferenceNoise> noise;
@@ -46,11 +47,13 @@ EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, b
                             .point = point,
                             .seed = seed,
                             .target = "specular",
-                            .metric = "mse",
-                            .formula = "mse",
+                            .metric = metric,
+                            .formula = metric,
                             .mask = masks[0].name,
-                            .value = s.value});
+                            .value = s.value,
+                            .floor = s.floor});
             means.add("0", "specular", reference, image, masks);
+            means.add("0", "specular", metric, masks[0].name, s.growth);
         }
         for (ReferenceNoise& n : means.means({.shot = "s", .variant = "v", .point = point})) noise.push_back(n);
     }
@@ -114,4 +117,35 @@ TEST(Effects, HoldNoNoiseThatBothErrorsShare) {
     // 1.6 %, six of which are allowed. Were nothing to cancel, it would be eight times as wide.
     const double truth = 2.003 * std::sqrt(variance);
     EXPECT_NEAR(half_width, truth, 0.1 * truth);
+}
+
+/// Errors that hold the reference's noise, by values that err by 0.45 and by a half or 0.4: their ratio has an interval
+/// that holds it, and so a verdict.
+TEST(Effects, OnErrorsThatHoldTheNoiseAreJudged) {
+    std::mt19937 random(13);
+    constexpr int studies = 100;
+    for (const unsigned seeds : {0u, 4u}) {
+        // E |d + 0.3 n| over the noise of the technique: closed form of the folded normal.
+        const auto folded = [&](double d) {
+            return seeds ? 0.3 * std::sqrt(2 / M_PI) * std::exp(-d * d / 0.18) + d * std::erf(d / std::sqrt(0.18)) : d;
+        };
+        const double truth = (folded(0.4) + folded(0.45)) / (folded(0.5) + folded(0.45));
+        int covered = 0;
+        for (int study = 0; study < studies; ++study) {
+            std::vector<EffectRow> effects = {simulated_effect(random, seeds, deviation_of_halves, true, "mae")};
+            EffectRow& e = effects.front();
+            ASSERT_TRUE(e.low && e.high && e.p) << e.interval;
+            EXPECT_EQ(e.interval, seeds ? interval::reference_and_seeds : interval::reference);
+            covered += *e.low <= truth && truth <= *e.high;
+            set_verdicts(effects, {.metric = "mae", .mask = "all", .target = "specular"});
+            EXPECT_FALSE(e.verdict.empty());
+        }
+        // 95 % of 100 less four deviations of 2.2: a false alarm of 3e-5.
+        EXPECT_GE(covered, 86) << seeds;
+        const EffectRow without = simulated_effect(random, seeds, deviation_of_halves, false, "mae");
+        EXPECT_FALSE(without.holds_all_noise);
+        if (seeds == 0) {
+            EXPECT_EQ(without.interval, interval::unknown_reference);
+        }
+    }
 }

@@ -3,10 +3,12 @@
 #include "experiments/measuring/times/timing.h"
 #include "core/gpu/device.h"
 #include "experiments/evaluation/summary.h"
+#include "experiments/measuring/times/timed_rounds.h"
 #include "experiments/store/host_info.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -14,6 +16,7 @@
 namespace {
 
 constexpr glm::uvec2 extent{64, 36};
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// Notes what is asked of the source that it hands on to.
 class WatchedSource final : public FrameSource {
@@ -62,14 +65,15 @@ struct Timing : testing::Test {
         return load_shot({.scene = scene, .camera = "", .extent = extent, .frames = frames},
                          {std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes"});
     }
-    ShotTimes time(FrameSource& source, const Shot& shot, bool keep_all = false, MadeUpMachine machine = {}) {
+    ShotTimes time(FrameSource& source, const Shot& shot, bool keep_all = false, MadeUpMachine machine = {},
+                   double budget = no_limit) {
         const HostImage lit(extent, 3);
         const auto lit_of = [&](unsigned frame) -> const HostImage& {
             lit_frames.insert(frame);
             return lit;
         };
         return time_variants(
-            source, shot, config, lit_of, keep_all, [](double) {}, std::ref(machine));
+            source, shot, config, lit_of, keep_all, budget, [](double) {}, std::ref(machine));
     }
 };
 
@@ -173,11 +177,57 @@ TEST_F(Timing, MarksWhatItCannotRepeat) {
     EXPECT_EQ(times.load.disturbed, 14u);
     EXPECT_EQ(times.load.left_out, 30u);
     EXPECT_EQ(times.load.largest, 0.5);
-    EXPECT_TRUE(is_disturbed(timing_entry(times, "a", {})));
+    EXPECT_NEAR(disturbed_share(timing_entry(times, "a", {})), 14.0 / 15, 1e-12);
+    EXPECT_EQ(disturbed_share({}), 0.0) << "nothing was timed";
     for (const TimeSummary& summary : summarise(times.rows)) {
         EXPECT_EQ(summary.frames, 15u);
         EXPECT_NEAR(summary.disturbed_share, 14.0 / 15, 1e-12);
     }
+}
+
+TEST_F(Timing, LeavesOutDisturbedFramesIfOthersAreEnough) {
+    const Shot still = shot("fence", {0});
+    WatchedSource source(device, still, config);
+    MadeUpMachine busy{.loads = std::vector<double>(100, 0.5)};
+    std::fill_n(busy.loads.begin() + 2, least_rounds, 0.0);
+    // Each look at the counters is 2 s later, so that few frames come after those; warming up takes a part of it, too.
+    const ShotTimes times = time(source, still, false, busy, 60);
+    EXPECT_GT(source.steps.size(), 2u + 2u + least_rounds);
+    EXPECT_LE(source.steps.size(), 2u + 30u) << "repeated without an end";
+    std::set<unsigned> frames;
+    for (const TimeRow& row : times.rows) frames.insert(row.frame);
+    EXPECT_EQ(frames, (std::set<unsigned>{2, 3, 4, 5, 6, 7, 8, 9}));
+    EXPECT_EQ(times.load.frames, least_rounds);
+    EXPECT_EQ(times.load.disturbed, 0u);
+    EXPECT_EQ(times.load.left_out, source.steps.size() - 2u - least_rounds);
+}
+
+TEST_F(Timing, TakesTheLeastWhereThereIsNoTime) {
+    for (const int stride : {2, 4})
+        config.variants.push_back({.variant = "mcguire_dda",
+                                   .preset = "",
+                                   .parameters = {{"dda.stride", stride}},
+                                   .point = "dda.stride=" + std::to_string(stride),
+                                   .seeds = {3}});
+    const Shot rough = shot("all_rough", {0});  // of which techniques leave something out
+    WatchedSource source(device, rough, config);
+    const ShotTimes least = time(source, rough, false, {}, 0);
+    EXPECT_EQ(source.steps.size(), 2u + least_rounds);
+    const auto rows_of = [](const ShotTimes& times, const std::string& point) {
+        return std::ranges::count_if(times.rows, [&](const TimeRow& row) {
+            return row.variant == "mcguire_dda" && row.point == point && row.stage == "total";
+        });
+    };
+    for (const char* point : {"default", "dda.stride=2", "dda.stride=4"})
+        EXPECT_EQ(rows_of(least, point), least_rounds);
+    EXPECT_EQ(least.pairs.size(), 3u) << "one of each technique, three at least";
+    EXPECT_EQ(least.savings.size(), 1u) << "one of each technique that leaves anything out";
+    EXPECT_EQ(least.saved.size(), 2u) << "of every stage";
+
+    const ShotTimes all = time(source, rough);
+    for (const char* point : {"default", "dda.stride=2", "dda.stride=4"}) EXPECT_EQ(rows_of(all, point), 15);
+    EXPECT_EQ(all.pairs.size(), 4u);
+    EXPECT_EQ(all.savings.size(), 3u);
 }
 
 TEST_F(Timing, TakesTimesWhereLoadCannotBeTold) {
@@ -185,7 +235,7 @@ TEST_F(Timing, TakesTimesWhereLoadCannotBeTold) {
     WatchedSource source(device, still, config);
     const auto lit = [image = HostImage(extent, 3)](unsigned) -> const HostImage& { return image; };
     const ShotTimes times = time_variants(
-        source, still, config, lit, false, [](double) {}, [] { return CpuTimes{}; });
+        source, still, config, lit, false, no_limit, [](double) {}, [] { return CpuTimes{}; });
     EXPECT_EQ(source.steps.size(), 17u);
     for (const TimeRow& row : times.rows) EXPECT_FALSE(row.foreign_load || row.is_disturbed);
     EXPECT_FALSE(times.load.largest);

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "experiments/evaluation/effects.h"
 #include "experiments/measuring/frames/frame_source.h"
 #include "tests/experiments/run/study_fixture.h"
 
@@ -35,7 +36,7 @@ TEST_F(StudyTest, AHeldPoseDoesNotFlickerAndHasOneReference) {
 TEST_F(StudyTest, EachFrameIsMeasuredAgainstItsOwnTruth) {
     const std::string shot = R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": )";
     const std::string rest =
-        R"(}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": "mse", "timing": {"frames": 0}})";
+        R"(}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": ["mse", "smape"], "timing": {"frames": 0}})";
     write_text(folder / "three.json", shot + R"([4, 5, 6], "warm_up": 1)" + rest);
     write_text(folder / "one.json", shot + "[5]" + rest);
     const auto three = read_rows<ResultRow>(run(read_config(folder / "three.json"), "three") / "results.csv"),
@@ -53,6 +54,10 @@ TEST_F(StudyTest, EachFrameIsMeasuredAgainstItsOwnTruth) {
     EXPECT_NE(mse("4"), mse("5"));
     EXPECT_DOUBLE_EQ(mse(over_frames), (mse("4") + mse("5") + mse("6")) / 3);
     value(three, "6", "flip", "all");
+    const auto over_all = std::ranges::find_if(
+        three, [](const ResultRow& r) { return r.frame == over_frames && r.metric == "smape" && r.mask == "all"; });
+    ASSERT_NE(over_all, three.end());
+    EXPECT_TRUE(over_all->low && over_all->high);
     EXPECT_GT(value(three, over_frames, "frame_difference", "reflective"), 0.0);
     for (const ResultRow& r : three) {
         if (r.metric == "flip") {
@@ -181,4 +186,17 @@ TEST_F(StudyTest, NonFiniteInputsAreCountedOnce) {
         EXPECT_EQ(store->non_finite().at("normal"), 2 * surfaces);
         EXPECT_FALSE(store->non_finite().contains("depth"));
     }
+}
+
+TEST_F(StudyTest, EffectsOnFlipHoldTheNoiseOfTheReference) {
+    write_text(folder / "flip.json",
+               R"({"shots": [{"scene": "roughness_gradient", "resolution": [96, 54]}], "reference": {"samples": 64},
+        "variants": [{"variant": "none", "baseline": true}, {"variant": "mcguire_dda"}], "metrics": ["flip", "mse"],
+        "targets": "specular", "masks": "reflective", "timing": {"frames": 0}})");
+    const auto effects = read_rows<EffectRow>(run(read_config(folder / "flip.json"), "flip") / "effects.csv");
+    const auto flip = std::ranges::find(effects, "flip", &EffectRow::metric);
+    ASSERT_NE(flip, effects.end());
+    EXPECT_EQ(flip->interval.find("reference"), 0u) << flip->interval;
+    EXPECT_TRUE(flip->low && flip->p && flip->p_holm);
+    EXPECT_FALSE(flip->verdict.empty());
 }

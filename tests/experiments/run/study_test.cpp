@@ -180,6 +180,37 @@ TEST_F(StudyTest, WhatWasMeasuredAgainstAnotherTruthIsNotUsed) {
         Error);
 }
 
+TEST_F(StudyTest, WhatIsFinishedIsNotReadAgain) {
+    const Config study = config(R"("fence")");
+    const fs::path out = run(study, "a");
+    const std::string manifest = read_text(out / "manifest.json"), results = read_text(out / "results.csv");
+    fs::remove_all(folder / "cache");
+    run(study, "a");
+    EXPECT_EQ(read_text(out / "manifest.json"), manifest) << "not even written again";
+    EXPECT_FALSE(fs::exists(folder / "cache"));
+
+    // Tables that are gone or were touched are made again, damaged images too.
+    fs::remove(out / "report.html");
+    run(study, "a");
+    EXPECT_TRUE(fs::exists(out / "report.html"));
+    write_text(out / "results.csv", "edited\n");
+    run(study, "a");
+    EXPECT_EQ(read_text(out / "results.csv"), results);
+    const auto made = [&] { return read_json(out / "manifest.json")["run"]["cells_made"].get<int>(); };
+    EXPECT_EQ(made(), 0);
+    const std::string image = read_json(out / "manifest.json")["images"].back()["exr"];
+    write_text(out / image, "damaged");
+    run(study, "a");
+    EXPECT_EQ(made(), 1);
+
+    // Another study in the same folder is no end of this one.
+    Config other = study;
+    other.variants.front().seeds = {5};
+    run(other, "a");
+    EXPECT_EQ(made(), 1);
+    EXPECT_NE(read_text(out / "results.csv"), results);
+}
+
 TEST_F(StudyTest, OtherSeedsMakeNewCells) {
     Config study = config(R"("fence")");
     for (const unsigned seed : {0, 7}) {
@@ -192,14 +223,15 @@ TEST_F(StudyTest, OtherSeedsMakeNewCells) {
 
 TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
     Config study = config(R"("fence")");
-    study.timing = {.frames = 15, .warm_up = 2};
+    study.timing = {.frames = 15, .warm_up = 2, .most_share = 0};
     const fs::path out = run(study, "a");
+    const std::string written = read_text(out / "times.csv");
     const auto times = read_rows<TimeRow>(out / "times.csv");
     const auto frames_of = [&](const std::string& variant, const std::string& stage) {
         return std::ranges::count_if(times, [&](const TimeRow& t) { return t.variant == variant && t.stage == stage; });
     };
-    EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/trace"), 15);
-    EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/shade"), 15);
+    EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/trace"), 8) << "the least, of a budget of nothing";
+    EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/shade"), 8);
     EXPECT_EQ(frames_of("none", "mcguire_dda/trace"), 0);
     const nlohmann::json clock = read_json(out / "manifest.json")["clock"];
     ASSERT_EQ(clock["proofs"].size(), 1u);
@@ -208,6 +240,9 @@ TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
     EXPECT_GT(clock["proofs"][0]["empty_submit_ms"].get<double>(), 0.0);
     ASSERT_EQ(clock["load"].size(), 1u);
     EXPECT_EQ(clock["load"][0]["host"]["cores"], std::thread::hardware_concurrency());
+
+    run(study, "a");
+    EXPECT_EQ(read_text(out / "times.csv"), written) << "whatever disturbed them, they are not taken again";
 }
 
 TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {

@@ -1,6 +1,7 @@
 #include "experiments/store/study_rows.h"
 #include "core/files.h"
 #include "experiments/evaluation/summary.h"
+#include "experiments/run/progress.h"
 #include "experiments/run/workload.h"
 
 #include <gtest/gtest.h>
@@ -55,17 +56,59 @@ TEST(Tables, GiveSplitsAFileOfTheirOwn) {
 TEST(Workload, LearnsWhatAKindOfWorkTakes) {
     using namespace std::chrono_literals;
     Workload work;
-    work.plan("slow", 2, 1), work.plan("done before", 98, 1);
+    work.plan("renders", "slow", 2, 1), work.plan("renders", "done before", 98, 1);
     EXPECT_EQ(work.share_done(), 0.0);
-    work.start("done before", 98);
-    work.skip();
-    work.start("slow", 1);
+    work.start("renders", "done before", 98);
+    work.found(0);
+    work.start("renders", "slow", 1);
     std::this_thread::sleep_for(20ms);
     work.finish();
     // One of two equal pieces is done, whatever was guessed.
     EXPECT_NEAR(work.share_done(), 0.5, 1e-9);
-    work.start("slow", 1);
+    work.start("renders", "slow", 1);
     std::this_thread::sleep_for(20ms);
     work.update(1.0);
     EXPECT_NEAR(work.share_done(), 1.0, 1e-9);
+}
+
+TEST(Workload, JudgesWhatItHasNotMetByItsLike) {
+    using namespace std::chrono_literals;
+    Workload work;
+    // Guesses are ten times too short: so they are for kinds that were not met, of the same family and of others.
+    work.plan("renders", "a", 1, 1), work.plan("renders", "b", 3, 2), work.plan("times", "", 1, 5);
+    work.start("renders", "a", 1);
+    work.found(10);
+    work.start("renders", "b", 1);
+    std::this_thread::sleep_for(20ms);
+    work.finish();
+    // b is measured now: 0.02 s a unit or a little more, with two left; times by all corrections together.
+    const double b = 0.02, times = 5 * (10 + b) / 3;
+    EXPECT_NEAR(work.share_done(), b / (3 * b + times), 0.2 * b / times);
+    work.start("times", "", 1);
+    work.found(10);
+    EXPECT_NEAR(work.share_done(), 1.0 / 3, 1e-9) << "two units of b are left";
+}
+
+TEST(ProgressEstimate, NeverGoesBackwardsAndIsSmooth) {
+    ProgressEstimate estimate;
+    estimate.update(1, 0.01);
+    EXPECT_FALSE(estimate.left());
+    double share = 0, left = 0;
+    // Half a minute at a pace of 100 s in all; then it turns out that there is twice as much to do.
+    for (int second = 10; second <= 30; ++second) estimate.update(second, second / 100.0);
+    EXPECT_NEAR(estimate.left().value(), 70, 1e-9);
+    EXPECT_FALSE(estimate.takes_longer());
+    share = estimate.share(), left = estimate.left().value();
+    for (int second = 31; second < 200; ++second) {
+        estimate.update(second, second / 200.0);
+        EXPECT_GE(estimate.share(), share);
+        EXPECT_LT(std::abs(estimate.left().value() - left), 5) << "in a second";
+        share = estimate.share(), left = estimate.left().value();
+        if (second == 31) {
+            EXPECT_TRUE(estimate.takes_longer());
+        }
+    }
+    EXPECT_NEAR(share, 199.0 / 200, 1e-9);
+    EXPECT_NEAR(left, 1, 2);
+    EXPECT_FALSE(estimate.takes_longer());
 }

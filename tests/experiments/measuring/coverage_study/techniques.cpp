@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
                      .samples = 64,
                      .seeds = references,
                      .targets = {"specular", "image"},
-                     .metrics = {"mse", "relmse", "flip", "ssim", "ssim_luma", "mae", "smape_damped"}},
+                     .metrics = {"mse", "relmse", "flip", "ssim", "mae", "smape", "psnr", "outliers", "relmse_trimmed"}},
                                         seeds)) {
                     std::printf("%s,%u,%s,%s,%s,%s,%.0f,%.0f,%.4f,%.6g,%.6g,%.4g\n", scene, seeds, r.test.c_str(),
                                 r.target.c_str(), r.mask.c_str(), r.metric.c_str(), r.trials, r.intervals, r.coverage(),
