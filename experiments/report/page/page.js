@@ -99,9 +99,11 @@ function table(columns, rows, options = {}) {
         show([...rows].sort((a, b) => compareCells(sortKey(a[i]), sortKey(b[i]), up)));
     }
     show(rows);
-    return h(
-        "table", {}, options.caption ? h("caption", {}, options.caption) : null, h("thead", {}, h("tr", {}, heads)),
-        body);
+    const whole =
+        h("table", {}, options.caption ? h("caption", {}, options.caption) : null, h("thead", {}, h("tr", {}, heads)),
+          body);
+    scrollWatcher.observe(whole);  // on narrow screens tables scroll by themselves
+    return whole;
 }
 
 const sortKey = cell => cell && cell.sort !== undefined ? cell.sort : cell instanceof Node ? cell.textContent : cell;

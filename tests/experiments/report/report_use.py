@@ -292,6 +292,8 @@ def test_use(page, url, folder):
     test_provenance(page)
     test_paper(page)
     test_axe(page)
+    page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 400, "height": 800, "deviceScaleFactor": 1, "mobile": False})
+    check(page.execute_script("return document.body.scrollWidth <= innerWidth"), "the page is wider than a telephone")
     test_without_truth(page, folder)
     test_axe(page)
     test_sampled_rays(page, folder)
