@@ -11,16 +11,15 @@ import sys
 import tempfile
 
 from report_browser import By, Select, check, choose, equal, open_browser, until_ready
+from report_keep import test_address, test_keeping
 from report_use import test_use
 from report_viewer import (
-    test_address,
     test_chooser,
     test_crops,
     test_exposure_and_tone_curves,
     test_false_color,
     test_flip_and_split,
     test_inspector,
-    test_keeping,
     test_linked_images,
     test_linked_zoom,
     test_loss_maps,
@@ -136,6 +135,17 @@ def test_charts(page, folder):
     for value, width in bars:
         # Half a pixel on either side: bars keep a gap.
         check(abs(width - value / bars[0][0] * bars[0][1]) < 1, "a bar's length is not in proportion to its time")
+
+
+    ticks = page.execute_script(
+        """const times = [...totals];
+        totals.clear();
+        const chart = errorTimeChart(answerChoice.shot, headlineRows(answerChoice.shot, headline.metric));
+        times.forEach(([key, time]) => totals.set(key, time));
+        const texts = [...chart.querySelectorAll('svg text')].map(t => t.textContent), label = texts.find(t => t.startsWith('points,'));
+        return texts.slice(0, texts.indexOf(label))"""
+    )
+    equal(ticks, ["1", "2"], "ticks at the marks of a chart without times")
 
 
 def test_labels(page):

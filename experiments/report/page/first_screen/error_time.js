@@ -25,8 +25,9 @@ function errorTimeChart(shot, all, {width = 440, height = 320, open = openPoint}
     const points = hasTimes ? timed : rows.map((row, i) => ({row, time: {value: i + 1, low: null, high: null}}));
     const y = errorAxis(isLog, points.map(p => p.row), metric + unitText(metric));
     const xLabel = cost ? `${cost.axis}, in the last frame` : "total time (ms), " + timedOn(shot);
+    const order = linearAxis([1, rows.length], "points, in the order of the study (no times)");
     const x = hasTimes ? logAxis(timed.flatMap(({time}) => [time.low ?? time.value, time.high ?? time.value]), xLabel) :
-                         linearAxis([1, rows.length], "points, in the order of the study (no times)");
+                         {...order, ticks: order.ticks.filter(Number.isInteger)};
     const mistakes = row => [...mistakesOfError(row), ...(hasTimes && !cost ? mistakesOfTime(row) : [])]
                                 .map(m => `\n! ${m.text}`)
                                 .join("");
