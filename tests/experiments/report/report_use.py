@@ -73,6 +73,19 @@ def test_sampled_rays(page, folder):
         check("one pixel in 2 along each axis" in said and '"every": 1' in said, f"{selector} says {said!r}")
 
 
+def test_old_browser(page, folder):
+    """One that cannot inflate images: the page says so where they would be, and shows all else."""
+    old = {"source": "delete window.DecompressionStream"}
+    script = page.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", old)["identifier"]
+    page.get("file://" + os.path.join(folder, "report.html"))
+    until_ready(page)
+    page.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", {"identifier": script})
+    for selector in ("#answer-pictures", "#viewer"):
+        check("need a browser of 2023" in texts(page, selector)[0], f"{selector} without images")
+    equal(len(page.find_elements(By.CSS_SELECTOR, "#answer-charts .chart")), 2, "charts without images")
+    equal([e["message"] for e in page.get_log("browser")], [], "console messages of an old browser")
+
+
 def texts(page, selector):
     return page.execute_script("return [...document.querySelectorAll(arguments[0])].map(e => e.innerText)", selector)
 
@@ -297,6 +310,7 @@ def test_use(page, url, folder):
     test_without_truth(page, folder)
     test_axe(page)
     test_sampled_rays(page, folder)
+    test_old_browser(page, folder)
     page.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     page.get(url)
     until_ready(page)

@@ -3,7 +3,8 @@
 
 const answerChoice = {
     shot: null,
-    point: null  // {variant, point}; null: the best of the shot
+    point: null,   // {variant, point}; null: the best of the shot
+    request: null  // the last drawing of pictures, so that a slow one does not replace a later one
 };
 
 const answerOf = shot => report.answers.find(a => a.shot === shot);
@@ -196,9 +197,10 @@ async function answerCanvas(image, label) {
 
 async function drawAnswerPictures() {
     const {shot} = answerChoice, wanted = answerPictures(shot), request = answerChoice.request = {};
-    const hasPictures = wanted.some(p => p.image) && hasInflate;
+    const hasPictures = wanted.some(p => p.image);
     at("answer-pictures").hidden = !hasPictures;
     if (!hasPictures) return;
+    if (!hasInflate) return at("answer-pictures").replaceChildren(h("p", {class: "note"}, whyNoImages));
     const canvases = await Promise.all(wanted.map(p => answerCanvas(p.image, `${p.title}, ${shot}`)));
     if (answerChoice.request !== request) return;  // another choice was made meanwhile
     at("answer-pictures").style.setProperty("--columns", Math.min(Math.max(wanted.length, 3), 4));

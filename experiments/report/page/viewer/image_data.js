@@ -8,6 +8,7 @@ const halfValues = Float32Array.from({length: 65536}, (_, bits) => {
 });
 
 const hasInflate = typeof DecompressionStream !== "undefined";
+const whyNoImages = "Images need a browser of 2023 or later (DecompressionStream).";
 const loading = new Map();       // index to promise
 const loadedImages = new Map();  // index to image
 const imageTexts = new Map();    // of files, until they are decoded

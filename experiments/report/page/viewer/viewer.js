@@ -79,7 +79,7 @@ function showViewer() {
         return;
     }
     if (!hasInflate) {
-        at("viewer").append(h("p", {class: "note"}, "Images need a browser of 2023 or later (DecompressionStream)."));
+        at("viewer").append(h("p", {class: "note"}, whyNoImages));
         return;
     }
     at("viewer").append(
