@@ -51,7 +51,7 @@ public:
 
     /// Whether render() uses ray_probe->exact_hits, which is scene data; its time is then not meaningful. Called after
     /// the parameters are set.
-    virtual bool asks_scene() const { return false; }
+    virtual bool uses_scene_data() const { return false; }
 
     RayProbe* ray_probe = nullptr;  ///< connects experiments with its tracers
 

@@ -50,8 +50,8 @@ Keys timing_keys() {
              "what they may take in all, as a share of the time that the shot's references, renders and counts took: see \"What "
              "the numbers mean\""},
             {"copies", flag(), plain.has_copies,
-             "false times each point alone, in a third of the time, or half of it where nothing is left out: no second "
-             "copy tells the noise of times, no complete one what leaving out work saves"}};
+             "false times each point alone, in a third of the time, or half where no work can be skipped: the noise "
+             "of times is then unknown, and so is what skipped work saves"}};
 }
 
 Keys hits_keys() {
@@ -127,7 +127,7 @@ Keys study_keys(const json& variant = json::object()) {
     return joined(keys, settings_of_shots());
 }
 
-/// Of the masks that are asked for, those that tell one frame from another.
+/// Of the masks that are asked for, those that differ between frames.
 Names default_frame_masks(const Names& masks) {
     Names chosen;
     for (const std::string& mask : masks)
@@ -197,7 +197,7 @@ void read_measures(ConfigObject& study, Config& config) {
     config.metrics = study.texts("metrics");
     config.masks = study.texts("masks");
     for (const std::string& mask : config.masks) try {
-            check_mask_name(mask);  // the order of a class's edges, which no pattern tells
+            check_mask_name(mask);  // the order of a class's edges, which no pattern can check
         } catch (const Error& e) {
             fail(study.at("masks"), ": 'masks': ", e.what());
         }

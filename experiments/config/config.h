@@ -63,7 +63,7 @@ struct VariantConfig {
     std::string point;          ///< its name in results (point_name.h)
     std::string label, group;   ///< how tables and figures show it, and what it belongs to; "": its name, nothing
     std::vector<unsigned> seeds;
-    bool depends_on_seed = true;  ///< else one seed tells all, see Variant::depends_on_seed()
+    bool depends_on_seed = true;  ///< else all seeds give the same, see Variant::depends_on_seed()
     bool is_baseline = false;     ///< all other points are compared with it, over the seeds that both have
     nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
     std::string against_point;  ///< of the same variant; "" for that point itself
@@ -75,7 +75,7 @@ struct TimingConfig {
     unsigned frames = 15;  ///< measured per variant, after the warm-up; 0: no timing
     unsigned warm_up = 3;
     float most_share = 1.0f / 3;  ///< of what a shot's other cells took: what its times may take
-    bool has_copies = true;       ///< of each point, which tell the noise of times and what leaving out work saves
+    bool has_copies = true;       ///< of each point, which give the noise of times and what skipped work saves
 };
 
 /// Which rays of a technique are compared with what they truly meet.
@@ -93,7 +93,7 @@ struct PrimaryComparisons {
 /// fewer skewed errors do not cover.
 inline constexpr unsigned default_seeds = 8;
 
-/// A study: everything that `ssrlab run` is told.
+/// A study: everything that `ssrlab run` reads.
 struct Config {
     std::filesystem::path file;  ///< what it was read from
     std::string title;

@@ -31,7 +31,7 @@ void check_tuned_points(ConfigObject& study, ConfigObject& tune, Config& config)
         names.push_back(point.point);
         if (point.depends_on_seed && point.seeds.size() < 2)
             fail(study.at(study.has("seeds") ? "seeds" : "variants"), ": '", point.point,
-                 "' draws random numbers: a single seed tells no interval; name two seeds or more");
+                 "' draws random numbers: a single seed gives no interval; name two seeds or more");
     }
     const auto baselines = std::ranges::count_if(points, &VariantConfig::is_baseline);
     if (baselines > 1) fail(study.at("variants"), ": ", baselines, " points are baselines; 'tune' needs one");

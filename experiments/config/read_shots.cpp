@@ -220,7 +220,7 @@ void refuse_repetition(const std::vector<ShotConfig>& shots, const std::string& 
                      "' comes twice with the same camera, resolution and frames; leave one of them out");
         if (!shot.label.empty() && !labels.insert(shot.label).second)
             fail(where, ": shots: two have the label '", shot.label,
-                 "'; tell them apart by {scene}, {camera}, {resolution}, {first_frame}, {last_frame} or {settings}");
+                 "'; distinguish them by {scene}, {camera}, {resolution}, {first_frame}, {last_frame} or {settings}");
     }
 }
 

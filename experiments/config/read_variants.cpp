@@ -66,7 +66,7 @@ bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& ob
     point.label = fill_in(shared.label, values, object.at("label") + ": 'label'");
     point.group = fill_in(shared.group, values, object.at("group") + ": 'group'");
     point.depends_on_seed = made->depends_on_seed();
-    point.is_timed = shared.is_timed && !made->asks_scene();
+    point.is_timed = shared.is_timed && !made->uses_scene_data();
     point.seeds = seeds_of(shared.own_seeds, shared.study_seeds, point.depends_on_seed);
     if (!point.against.is_null())
         make_checked(object.at("against"), point.variant, with_values(point.parameters, point.against), point.preset);
@@ -124,10 +124,10 @@ void refuse_repetition(const std::vector<VariantConfig>& variants, const std::st
     for (const VariantConfig& v : variants) {
         if (!points.insert({v.variant, v.point}).second)
             fail(where, ": variants: '", v.variant, "' comes twice with the point '", v.point,
-                 "'; give the second a preset or a sweep that tells them apart");
+                 "'; give the second a preset or a sweep that distinguishes them");
         if (!v.label.empty() && !labels.insert(v.label).second)
             fail(where, ": variants: two points have the label '", v.label,
-                 "'; tell them apart by {preset} or the name of a parameter in braces");
+                 "'; distinguish them by {preset} or the name of a parameter in braces");
     }
 }
 

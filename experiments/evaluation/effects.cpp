@@ -229,7 +229,7 @@ using Table = std::map<Quantity, std::map<Point, SeedsOfPoint>>;
 Table errors_by_point(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise) {
     Table table;
     for (const ResultRow& r : rows)
-        if (r.speaks_for_shot && is_error(r.metric)) table[quantity_of(r)][{r.variant, r.point}].seeds[r.seed] = &r;
+        if (r.represents_shot && is_error(r.metric)) table[quantity_of(r)][{r.variant, r.point}].seeds[r.seed] = &r;
     for (const ReferenceNoise& n : noise) {
         const auto points = table.find({n.shot, n.target, n.metric, n.mask});
         if (points == table.end()) continue;

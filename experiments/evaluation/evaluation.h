@@ -12,5 +12,5 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
                       const std::vector<VariantConfig>& variants, const PrimaryComparisons& primary);
 
 /// Fails with what to run where the folder lacks these files or another version of ssrlab wrote them, so that no
-/// verdict is taken from columns that are missing. `manifest` tells which version it was.
+/// verdict is taken from columns that are missing. `manifest` says which version it was.
 void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest);

@@ -228,7 +228,7 @@ std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> err
     std::vector<ErrorName> names;
     std::map<ErrorName, std::vector<std::pair<std::string, std::vector<const MetricSummary*>>>> of_error;  // by shot
     for (const MetricSummary& e : errors) {
-        if (!e.speaks_for_shot || !e.value || direction_of(e.metric) != Better::lower) continue;
+        if (!e.represents_shot || !e.value || direction_of(e.metric) != Better::lower) continue;
         const ErrorName name(e.target, e.metric, e.mask);
         if (!of_error.contains(name)) names.push_back(name);
         auto& shots = of_error[name];

@@ -66,7 +66,7 @@ std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, d
 /// So many of the shots may a point lack an error above 0 in, and be ranked.
 inline constexpr double most_lacking = 0.1;
 
-/// The point that errors are told as multiples of: `none`, no screen-space reflections, where the study has it, else
+/// The point that errors are given as multiples of: `none`, no screen-space reflections, where the study has it, else
 /// its first baseline, else its first point. Fails with Error where the manifest has no variants.
 PointName baseline_over_scenes(const nlohmann::json& manifest);
 

@@ -41,7 +41,7 @@ struct Costs {
     bool is_counted = false;             ///< exact
     double floor = 0;                    ///< see aa_floor(); 0 of counts
     size_t aa_pairs = 0;
-    bool is_judged = true;  ///< false of times where nothing tells their noise
+    bool is_judged = true;  ///< false of times whose noise is unknown
 };
 
 Costs costs_of(const StudyTables& tables, const std::string& shot, const std::string& quantity) {

@@ -129,7 +129,7 @@ void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired, 
     for (MetricSummary& e : errors) {
         e.standing.clear();
         e.over_best = e.over_best_low = e.over_best_high = e.p_best = std::nullopt;
-        if (e.speaks_for_shot && e.holds_all_noise && e.value && e.low && e.high && direction_of(e.metric) &&
+        if (e.represents_shot && e.holds_all_noise && e.value && e.low && e.high && direction_of(e.metric) &&
             !without_part.contains({e.variant, e.point}))
             contests[{e.shot, e.target, e.metric, e.mask}].push_back(&e);
     }

@@ -14,7 +14,7 @@ inline constexpr const char* behind = "behind";  ///< significantly worse than t
 
 }  // namespace standing
 
-/// Decides `standing` of all rows that stand for their shot (speaks_for_shot) and are ranked (holds_all_noise), for
+/// Decides `standing` of all rows that stand for their shot (represents_shot) and are ranked (holds_all_noise), for
 /// each shot, target, metric and mask by itself; fewer than two ranked points have none. All others keep it empty: a
 /// single seed's error is measured, not ranked. Points in `without_part` take none, as those that use scene data.
 ///

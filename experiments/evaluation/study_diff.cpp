@@ -38,9 +38,9 @@ struct ComparedFolder {
           not_repeatable(points_not_repeatable(manifest)),
           without_seeds(points_without_seeds(manifest)) {
         for (const MetricSummary& e : tables.errors)
-            if (e.speaks_for_shot) errors[number_of(e)] = &e, points.insert({e.shot, e.variant, e.point});
+            if (e.represents_shot) errors[number_of(e)] = &e, points.insert({e.shot, e.variant, e.point});
         for (const ResultRow& r : tables.seeds)
-            if (r.speaks_for_shot && r.value) values[number_of(r)][r.seed] = *r.value;
+            if (r.represents_shot && r.value) values[number_of(r)][r.seed] = *r.value;
         for (const TimeSummary& t : tables.times)
             if (t.stage == "total" && !t.variant.empty()) times[{t.shot, t.variant, t.point}] = &t;
     }

@@ -46,7 +46,7 @@ struct StudyDiff {
     std::vector<std::array<std::string, 3>> only_before, only_after;  ///< shot, variant, point that one study has
 };
 
-/// Compares the errors that speak for their shots, and the medians of all stages' times.
+/// Compares the errors that represent their shots, and the medians of all stages' times.
 ///
 /// Where both studies have the same seeds against the same pixels of the truth, errors are paired by seed: what no edit
 /// touched is equal, but for the order of sums. A pair that differs has changed with certainty if chance has no part in

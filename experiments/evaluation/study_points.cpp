@@ -57,7 +57,7 @@ PointSet points_not_repeatable(const json& manifest) {
 }
 
 PointSet points_using_scene_data(const json& manifest) {
-    return points_where(manifest, [](const json& v) { return v.value("asks_scene", false); });
+    return points_where(manifest, [](const json& v) { return v.value("uses_scene_data", false); });
 }
 
 std::map<std::pair<std::string, std::string>, std::string> point_labels(const json& manifest) {

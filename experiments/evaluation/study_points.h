@@ -16,7 +16,7 @@ PointSet single_changes(const nlohmann::json& manifest);
 /// left out.
 nlohmann::json parameter_defaults(const nlohmann::json& manifest);
 
-/// Points that do not depend on seeds, as the manifest has them. Those of which it does not tell are none of them.
+/// Points that do not depend on seeds, as the manifest has them. Points without that entry are not among them.
 PointSet points_without_seeds(const nlohmann::json& manifest);
 
 /// Points whose results differ from run to run.

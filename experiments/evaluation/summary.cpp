@@ -42,8 +42,7 @@ std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>
 /// Whether a row's interval is open to one side: the length of a ghost that may never end has no upper end.
 bool is_one_sided(const ResultRow* row) { return row->low.has_value() != row->high.has_value(); }
 
-/// Flicker and ghosts are told from the pixels of one sequence: their rows' intervals are those of the choice of
-/// pixels.
+/// Flicker and ghosts are of the pixels of one sequence: their rows' intervals are those of the choice of pixels.
 bool is_of_pixels(const std::string& metric) {
     return std::ranges::count(temporal_metrics(), metric, &TemporalMetric::name) > 0 &&
            !metric.starts_with("frame_difference");
@@ -82,7 +81,7 @@ MetricSummary summary_of(const std::vector<const ResultRow*>& rows, bool depends
     MetricSummary s{first.shot,   first.frame,  first.variant, first.point,
                     first.target, first.metric, first.formula, first.mask};
     s.seeds = unsigned(rows.size());
-    s.is_corrected = first.is_corrected, s.speaks_for_shot = first.speaks_for_shot;
+    s.is_corrected = first.is_corrected, s.represents_shot = first.represents_shot;
     for (const ResultRow* row : rows) {
         s.pixels = std::max(s.pixels, row->pixels);
         s.non_finite = std::max(s.non_finite, row->non_finite);

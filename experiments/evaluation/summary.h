@@ -17,13 +17,13 @@ struct MetricSummary {
     std::optional<double> value;           ///< mean over the seeds; none if one of them has none
     std::optional<double> low, high;       ///< 95 % interval, see summarise()
     std::string interval = {};             ///< what it holds, or why there is none (interval.h)
-    bool holds_all_noise = false;          ///< so that it can be told from those of other points: only such are ranked
+    bool holds_all_noise = false;          ///< so that it can be compared with other points': only such are ranked
     std::optional<double> seed_deviation;  ///< standard deviation over the seeds; none for a single one
     std::optional<double> floor;           ///< what the reference's own noise scores
     std::optional<double> lit_noise;       ///< what the noise of the lit colour adds to the value (LitNoise)
     bool is_corrected = false;
     size_t pixels = 0, non_finite = 0, negative = 0;  ///< the last two are the worst seed's
-    bool speaks_for_shot = false;                     ///< see mark_what_speaks()
+    bool represents_shot = false;                     ///< see mark_representative_rows()
     std::string standing = {};  ///< among the points of its shot, see evaluation/standings.h; empty: not ranked
     std::optional<double> over_best, over_best_low, over_best_high;  ///< value / the least ranked one, where paired
     std::optional<double> p_best;  ///< Holm-adjusted p of "no worse than the best measured"
@@ -41,7 +41,7 @@ struct MetricSummary {
             Column{"seed_deviation", &MetricSummary::seed_deviation}, Column{"floor", &MetricSummary::floor},
             Column{"lit_noise", &MetricSummary::lit_noise}, Column{"corrected", &MetricSummary::is_corrected},
             Column{"pixels", &MetricSummary::pixels}, Column{"non_finite", &MetricSummary::non_finite},
-            Column{"negative", &MetricSummary::negative}, Column{"speaks", &MetricSummary::speaks_for_shot},
+            Column{"negative", &MetricSummary::negative}, Column{"represents_shot", &MetricSummary::represents_shot},
             Column{"standing", &MetricSummary::standing}, Column{"over_best", &MetricSummary::over_best},
             Column{"over_best_low", &MetricSummary::over_best_low},
             Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},

@@ -81,7 +81,7 @@ std::string label_of(const Labels& labels, const PointName& name) {
 std::vector<TradeoffShot> shots_of(const StudyTables& tables, const TradeoffQuestion& question, const Labels& labels) {
     std::vector<TradeoffShot> shots;
     for (const MetricSummary& e : tables.errors) {
-        if (!e.speaks_for_shot || !e.value || e.target != question.error.target || e.metric != question.error.metric ||
+        if (!e.represents_shot || !e.value || e.target != question.error.target || e.metric != question.error.metric ||
             e.mask != question.error.mask)
             continue;
         auto shot = std::ranges::find(shots, e.shot, &TradeoffShot::name);
@@ -149,7 +149,7 @@ void judge_front(TradeoffShot& shot, const std::map<std::pair<PointName, PointNa
         const FrontRow& row = p.row;
         const bool has_interval = p.error->holds_all_noise && row.error_low && row.error_high;
         p.row.machine = shot.machine;
-        p.row.verdict = using_scene.contains(p.name())  ? "asks the scene"
+        p.row.verdict = using_scene.contains(p.name())  ? "uses scene data"
                         : !has_interval                 ? "not ranked"
                         : !row.cost || !(*row.cost > 0) ? "no cost"
                         : !(*row.error > 0)             ? "error not above 0"
@@ -269,7 +269,7 @@ std::vector<AcrossRow> across_points(const std::vector<TradeoffShot>& shots, con
         contest.shots.push_back(&shot);
         std::map<PointName, PointName>& here = contest.stands_for.emplace_back();
         for (const TradeoffPoint& p : shot.points)
-            if (p.row.verdict != "asks the scene" && p.row.verdict != "not ranked") here[p.name()] = p.name();
+            if (p.row.verdict != "uses scene data" && p.row.verdict != "not ranked") here[p.name()] = p.name();
     }
     return across_of(contest, most_lacking, less);
 }
@@ -320,7 +320,7 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
     if (shots.empty()) {
         std::set<std::string> known;
         for (const MetricSummary& e : tables.errors)
-            if (e.speaks_for_shot) known.insert(e.target + " " + e.metric + " " + e.mask);
+            if (e.represents_shot) known.insert(e.target + " " + e.metric + " " + e.mask);
         std::string list;
         for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
         fail("the study has no errors of ", question.error.target, " ", question.error.metric, " ", question.error.mask,

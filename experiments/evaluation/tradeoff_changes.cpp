@@ -36,10 +36,11 @@ std::string change_between(const json& first, const json& second) {
 std::string verdict_of(const Change& change) {
     const bool errs_less = change.row.error_ratio<1, is_dearer = change.row.cost> 0;
     if (!change.is_cost_significant)
-        return !change.is_error_significant ? "nothing told"
-               : errs_less                  ? "less error, no cost told"
-                                            : "more error, no cost told";
-    if (!change.is_error_significant) return is_dearer ? "dearer, no error told" : "cheaper, no error told";
+        return !change.is_error_significant ? "not significant"
+               : errs_less                  ? "less error, cost not significant"
+                                            : "more error, cost not significant";
+    if (!change.is_error_significant)
+        return is_dearer ? "dearer, error not significant" : "cheaper, error not significant";
     if (errs_less == is_dearer) return is_dearer ? "buys error" : "saves cost";
     return errs_less ? "better in both" : "worse in both";
 }

@@ -22,7 +22,7 @@ sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 
 from paper_figures import style  # noqa: E402
 
-# From the best to the worst: mark and colour (Okabe & Ito 2008), so that either alone tells them apart.
+# From the best to the worst: mark and colour (Okabe & Ito 2008), so that either alone distinguishes them.
 VERDICTS = {
     "ok": (".", "#bbbbbb"),
     "worse": ("v", "#56b4e9"),

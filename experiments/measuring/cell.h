@@ -21,7 +21,7 @@ struct ResultRow {
     std::optional<double> uncorrected, low, high, floor;
     std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
     size_t pixels = 0, non_finite = 0, negative = 0;
-    bool speaks_for_shot = false;  ///< see mark_what_speaks(); false in cells
+    bool represents_shot = false;  ///< see mark_representative_rows(); false in cells
     NoiseGrowth growth = {};       ///< no column: Score::growth while frames are measured; empty in cells
 
     static constexpr auto columns() {
@@ -36,7 +36,7 @@ struct ResultRow {
             Column{"low", &ResultRow::low}, Column{"high", &ResultRow::high}, Column{"floor", &ResultRow::floor},
             Column{"lit_noise", &ResultRow::lit_noise}, Column{"lit_half_width", &ResultRow::lit_half_width},
             Column{"pixels", &ResultRow::pixels}, Column{"non_finite", &ResultRow::non_finite},
-            Column{"negative", &ResultRow::negative}, Column{"speaks", &ResultRow::speaks_for_shot});
+            Column{"negative", &ResultRow::negative}, Column{"represents_shot", &ResultRow::represents_shot});
     }
 };
 

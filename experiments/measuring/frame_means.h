@@ -12,7 +12,7 @@ public:
     /// Pixels are summed. No value if one frame has none. The references of poses share their random numbers at each
     /// pixel, and so their noise where both poses look alike; pixels are independent. So what noise does to each
     /// pixel's part is summed over the frames, as it comes, and the interval is noise_half_width() of the sums; none if
-    /// the noise of one frame cannot be told. Those that are extrapolated are so from the mean of the NoiseGrowth.
+    /// the noise of one frame is unknown. Those that are extrapolated are so from the mean of the NoiseGrowth.
     std::vector<ResultRow> rows() const;
 
 private:

@@ -249,7 +249,7 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
         ShotAnswer answer{.shot = shot, .limit = limit_of(manifest, shot, headline)};
         std::vector<Scored> scored, perceived;
         for (const MetricSummary& e : tables.errors) {
-            if (!e.speaks_for_shot || e.shot != shot || e.mask != headline.mask || e.target != headline.target ||
+            if (!e.represents_shot || e.shot != shot || e.mask != headline.mask || e.target != headline.target ||
                 !e.value || left_out.contains({e.variant, e.point}))
                 continue;
             const AnswerPoint point{e.variant, e.point, *e.value, e.low, e.high, labels[{e.variant, e.point}]};

@@ -81,7 +81,7 @@ std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> e
                                                 const Headline& headline, const std::string& metric) {
     std::vector<const MetricSummary*> rows;
     for (const MetricSummary& e : errors)
-        if (e.speaks_for_shot && !singles.contains({e.variant, e.point})) rows.push_back(&e);
+        if (e.represents_shot && !singles.contains({e.variant, e.point})) rows.push_back(&e);
     const auto narrow = [&](const std::string MetricSummary::*column, const std::string& wanted) {
         const bool has_wanted = std::ranges::any_of(rows, [&](const MetricSummary* e) { return e->*column == wanted; });
         const std::string chosen = has_wanted || rows.empty() ? wanted : rows.front()->*column;

@@ -131,7 +131,7 @@ json report_data(const ReportTables& tables, const PointSet& single_changes) {
     for (const MetricSummary& e : tables.errors)
         if (e.frame == over_frames) known_over_frames.insert(quantity_of(e));
     for (const MetricSummary& e : tables.errors) {
-        if (e.speaks_for_shot)
+        if (e.represents_shot)
             errors.push_back(e);
         else if (known_over_frames.contains(quantity_of(e)) && !single_changes.contains({e.variant, e.point}))
             frames.push_back(e);

@@ -26,5 +26,5 @@ struct ReportTables {
 ReportTables read_report_tables(const std::filesystem::path& folder, const nlohmann::json& manifest);
 
 /// What the page's scripts read (page/data.js): tables as arrays, with texts as indices into `texts`, since few texts
-/// are repeated many times. Of the single changes only what speaks for a shot, not each of its frames.
+/// are repeated many times. Of the single changes only what represents a shot, not each of its frames.
 nlohmann::json report_data(const ReportTables& tables, const PointSet& single_changes);

@@ -73,7 +73,7 @@ std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes) {
 }
 
 /// Of a plane with `width` values per row: from the values to the left, above, and above the left.
-int foretold(const std::vector<int16_t>& plane, size_t width, size_t i) {
+int predicted(const std::vector<int16_t>& plane, size_t width, size_t i) {
     const bool has_left = i % width != 0, has_above = i >= width;
     if (!has_left || !has_above) return has_left ? plane[i - 1] : has_above ? plane[i - width] : 0;
     const int left = plane[i - 1], above = plane[i - width], corner = plane[i - width - 1];
@@ -202,7 +202,7 @@ std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped) 
     std::vector<unsigned char> bytes(2 * count);
     for (size_t p = 0; p < 3; ++p)
         for (size_t i = 0; i < pixels; ++i) {
-            const int16_t left = int16_t(planes[p][i] - foretold(planes[p], rgb.extent.x, i));
+            const int16_t left = int16_t(planes[p][i] - predicted(planes[p], rgb.extent.x, i));
             const uint16_t code = uint16_t(left << 1 ^ left >> 15);
             bytes[p * pixels + i] = code & 255;
             bytes[count + p * pixels + i] = code >> 8;

@@ -43,7 +43,7 @@ void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
         warnings.push_back("This study is not finished: some variants or shots may be missing.");
 }
 
-/// Whether the makers of the cells differ in `part`, in what `shown` tells of it.
+/// Whether the makers of the cells differ in `part`, in what `shown` says of it.
 bool differ(const json& provenance, const char* part, std::initializer_list<const char*> shown) {
     for (const json& maker : provenance)
         for (const char* key : shown)
@@ -123,12 +123,12 @@ std::string shots_of(const json& proof) {
 void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
     if (!has_times) return;
     const json& proofs = member(clock, "proofs");
-    if (!proofs.is_array() || proofs.empty()) warnings.push_back("The clock was not proven: take times with care.");
+    if (!proofs.is_array() || proofs.empty()) warnings.push_back("No timer was validated: take times with care.");
     for (const json& proof : proofs) {
         const json& verdict = member(proof, "verdict");
         if (verdict == "failed")
             warnings.push_back(
-                "The clock did not prove itself: passes of 1 : 10 : 100 work took other times on a quiet "
+                "Timer validation failed: passes of 1 : 10 : 100 work took other times on a quiet "
                 "machine, so no time can be trusted of " +
                 shots_of(proof) + ".");
         else if (verdict != "passed")

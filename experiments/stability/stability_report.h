@@ -5,7 +5,7 @@
 /// The tables that `ssrlab stability` writes into a folder.
 struct StabilityTables {
     std::vector<StabilityRow> rows;
-    std::vector<StabilityCase> cases;  ///< as far as stability_cases.csv tells of them
+    std::vector<StabilityCase> cases;  ///< as far as stability_cases.csv has them
     std::vector<StageRow> stages;
 };
 

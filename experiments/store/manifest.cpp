@@ -27,7 +27,7 @@ nlohmann::json variant_entries(const Config& config) {
         if (!v.label.empty()) entries.back()["label"] = v.label;
         if (!v.group.empty()) entries.back()["group"] = v.group;
         if (!v.swept.empty()) entries.back()["swept"] = v.swept;
-        if (variant->asks_scene()) entries.back()["asks_scene"] = true;
+        if (variant->uses_scene_data()) entries.back()["uses_scene_data"] = true;
         if (v.is_baseline) entries.back()["baseline"] = true;
         for (const SingleChange& c : changes)
             if (c.variant == v.variant && c.point == v.point)

@@ -12,7 +12,7 @@ unsigned frame_number(const ResultRow& row) { return unsigned(std::strtoul(row.f
 
 }  // namespace
 
-void mark_what_speaks(std::span<ResultRow> rows) {
+void mark_representative_rows(std::span<ResultRow> rows) {
     using Quantity = std::tuple<std::string, std::string, std::string, std::string>;
     const auto quantity_of = [](const ResultRow& r) { return Quantity{r.shot, r.target, r.metric, r.mask}; };
     std::set<Quantity> known_over_frames;
@@ -24,7 +24,7 @@ void mark_what_speaks(std::span<ResultRow> rows) {
             last[r.shot] = std::max(last[r.shot], frame_number(r));
     }
     for (ResultRow& r : rows)
-        r.speaks_for_shot =
+        r.represents_shot =
             r.frame == over_frames || (frame_number(r) == last[r.shot] && !known_over_frames.contains(quantity_of(r)));
 }
 
@@ -36,7 +36,7 @@ StudyRows rows_of(const std::vector<Cell>& cells) {
         append(rows.hits, cell.hits), append(rows.costs, cell.costs);
         append(rows.reference_noise, cell.reference_noise);
     }
-    mark_what_speaks(rows.results);
+    mark_representative_rows(rows.results);
     return rows;
 }
 

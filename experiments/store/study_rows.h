@@ -14,12 +14,12 @@ struct StudyRows {
     std::vector<CostRow> costs;
     std::vector<ReferenceNoise> reference_noise;
 };
-/// With mark_what_speaks() done.
+/// With mark_representative_rows() done.
 StudyRows rows_of(const std::vector<Cell>& cells);
 
 /// Decides which frames represent a shot in tables, effects, report and figures: of each quantity (target, metric,
 /// mask) the rows over its frames where a point has such, else those of its last frame.
-void mark_what_speaks(std::span<ResultRow> rows);
+void mark_representative_rows(std::span<ResultRow> rows);
 
 /// Writes results.csv, splits.csv and times.csv, hits.csv if rays were judged, and costs.csv if costs were counted; the
 /// columns are explained in experiments/RESULTS.md.

@@ -123,11 +123,11 @@ class Studies:
             point.times[shot] = ratio
 
     def _rows(self, results):
-        if not hasattr(results, "speaking"):
+        if not hasattr(results, "representative"):
             wanted = {(self.target, m, self.mask) for m in self.metrics}
             every = results.read_csv("results.csv")
-            results.speaking = [r for r in every if r["speaks"] == "1" and (r["target"], r["metric"], r["mask"]) in wanted]
-        return results.speaking
+            results.representative = [r for r in every if r["represents_shot"] == "1" and (r["target"], r["metric"], r["mask"]) in wanted]
+        return results.representative
 
     @staticmethod
     def _error(row):

@@ -19,7 +19,7 @@ public:
     std::vector<LeftOut> leave_out(const SceneFacts& facts) final;
 
     ShaderIncludes shader_includes() const override { return chosen_tracers().includes(); }
-    bool asks_scene() const override { return chosen_tracers().needs().exact_hits; }
+    bool uses_scene_data() const override { return chosen_tracers().needs().exact_hits; }
     bool needs_depth_layers() const override { return chosen_tracers().needs().depth_layers; }
 
 protected:

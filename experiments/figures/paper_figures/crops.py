@@ -94,7 +94,7 @@ def _best_of_each(results, images, errors, shot, metric):
     """`none`, and of each technique the point of least error that an engine could have, in the order of their errors."""
     variants = {}
     for key in images:
-        is_exact = results.variants.get(key, {}).get("asks_scene", False)
+        is_exact = results.variants.get(key, {}).get("uses_scene_data", False)
         error = errors.get((shot, *key))
         if key[0] not in ("reference", "none") and not is_exact:
             variants.setdefault(key[0], []).append((results.shortfall(metric, error.value) if error else np.inf, key))

@@ -19,7 +19,7 @@ def front(places):
 
 
 def is_beaten(place, others):
-    """Whether some other is told to be both faster and better: intervals that do not meet."""
+    """Whether some other is significantly faster and better: intervals that do not meet."""
     time, error = place
     if None in (time.low, error.low):
         return False
@@ -30,12 +30,12 @@ def is_beaten(place, others):
 
 def _judged(results, shot, places):
     """(keys of the front by time, keys that are beaten): as `ssrlab tradeoff` judged them by intervals, where its file has these
-    very errors, else as front() and is_beaten() do. Techniques that ask the scene, as no engine can, take no part."""
+    very errors, else as front() and is_beaten() do. Techniques that use scene data, as no engine can, take no part."""
     rows = tradeoff.judged(results, shot, {key: error for key, (_, error) in places.items()})
     if rows and all(rows[k]["unit"] == "ms" for k in places):
         line = [k for k in places if rows[k]["is_nominal_front"] == "1" and rows[k]["verdict"] in ("front", "undecided", "dominated")]
         return sorted(line, key=lambda k: places[k][0].value), {k for k in places if rows[k]["verdict"] == "dominated"}
-    fair = {k: p for k, p in places.items() if not results.variants.get(k, {}).get("asks_scene")}
+    fair = {k: p for k, p in places.items() if not results.variants.get(k, {}).get("uses_scene_data")}
     return front(fair), {k for k, p in places.items() if is_beaten(p, fair.values())}
 
 
@@ -127,7 +127,7 @@ def draw(results, chosen):
     panels[0].set_ylabel(f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels")
     notes = ["median times, mean errors; 95 % intervals"]
     if has_beaten:
-        notes.append("pale: another is told to be faster and better")
+        notes.append("pale: another is significantly faster and better")
     notes += results.warnings_of_times(list(every))
     notes += [style.NOT_POSITIVE_NOTE.replace("\n", " ")] if has_nonpositive else []
     notes += [style.ONE_SEED_NOTE] if any(e.is_one_seed for places in every.values() for _, e in places.values()) else []
@@ -144,7 +144,7 @@ def numbered(keys, unbeaten):
 
 def _name(figure, results, panels, every, whiskers, keys, groups, notes, unbeaten):
     """Names beside all marks; where they do not all fit, numbers there, and what they mean below: of very many marks those alone that are
-    not told to be beaten in every panel."""
+    not beaten in every panel."""
     texts = {key: _own_text(results, key, groups) for key in keys}
     colors = {k: style.series(groups.index(results.point_group(*k)), results.colors.get(k))[0] for k in keys}
     before = [len(axes.texts) for axes in panels]

@@ -1,4 +1,4 @@
-"""Errors against the rungs of the truth ladder: how much of each a technique could avoid, and what one frame cannot tell."""
+"""Errors against the rungs of the truth ladder: how much of each a technique could avoid, and what one frame cannot show."""
 
 from paper_figures import style
 from ssrlab.results import Measured

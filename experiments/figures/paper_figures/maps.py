@@ -1,5 +1,5 @@
-"""Maps over two parameters of a sweep, one per shot: the error, or the time, as a multiple of the least. Cells that cannot be told from
-the least are framed."""
+"""Maps over two parameters of a sweep, one per shot: the error, or the time, as a multiple of the least. Cells that are not
+distinguishable from the least are framed."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,7 +14,7 @@ MOST_NUMBERS = 9  # columns of a panel whose cells have room for their number
 PALETTE = "cividis"  # falls evenly in lightness: the same with all kinds of colour vision, and in grey print
 
 
-def not_told_from_least(measured):
+def like_the_least(measured):
     """Keys of {key: Measured} whose interval meets that of the least value; that one itself, and none else, where there is no
     interval."""
     least = min(measured, key=lambda k: measured[k].value)
@@ -37,7 +37,7 @@ def _panel(axes, measured, values, norm):
         if len(values[0]) <= MOST_NUMBERS:
             is_dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.45
             axes.text(column, row, f"{ratios[row, column]:.3g}", ha="center", va="center", color="white" if is_dark else "black")
-    for key in not_told_from_least(measured):
+    for key in like_the_least(measured):
         row, column = place[key]
         for color, width in (("white", 2.6), ("#d55e00", 1.4)):
             axes.add_patch(Rectangle((column - 0.43, row - 0.43), 0.86, 0.86, fill=False, edgecolor=color, linewidth=width))
@@ -81,5 +81,5 @@ def draw(results, chosen):
     what = "time of a frame" if show == "time" else f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels"
     bar.set_label("over the least")
     style.log_axis(bar.ax.yaxis)
-    style.note(figure, f"{family}: {what}, as a multiple of the panel's least; framed: not told from it (95 % intervals)")
+    style.note(figure, f"{family}: {what}, as a multiple of the panel's least; framed: not distinguishable from it (95 % intervals)")
     return figure

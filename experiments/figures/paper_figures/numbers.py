@@ -4,7 +4,7 @@ import math
 
 
 def decimals(value, low=None, high=None):
-    """As many as tell two digits of the interval's half-width, else three of the value; never more than four of it."""
+    """As many as give two digits of the interval's half-width, else three of the value; never more than four of it."""
     size = abs(value)
     if size == 0 or not math.isfinite(size):
         return 2

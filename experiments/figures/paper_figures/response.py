@@ -7,7 +7,7 @@ from paper_figures.lines import draw_lines
 from ssrlab.results import ResultsError
 
 SHOWN = ("error", "time")
-MOST_LINES = 14  # that marks and colours tell apart
+MOST_LINES = 14  # that marks and colours distinguish
 
 
 def _wanted(chosen):
@@ -50,7 +50,7 @@ def draw(results, chosen):
     parameter, shown = chosen.option("parameter"), _wanted(chosen)
     families = sweeps.families(results, chosen, [parameter])
     if len(families) > MOST_LINES:
-        raise ResultsError(f"{chosen.where}: {len(families)} lines over '{parameter}', of which {MOST_LINES} can be told apart: narrow it by 'where'")
+        raise ResultsError(f"{chosen.where}: {len(families)} lines over '{parameter}', of which {MOST_LINES} can be distinguished: narrow it by 'where'")
     values, is_numeric = sweeps.axis_values(families, 0)
     errors = results.errors_of(chosen.target, chosen.metric, chosen.mask, with_hidden=True)
     shots = [s for s in results.shots() if any((s, *key) in errors for points in families.values() for key in points.values())]

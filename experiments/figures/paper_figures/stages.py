@@ -13,7 +13,7 @@ MOST_STAGES = 7  # of a technique, named and coloured; the least others are adde
 REST = "others"
 REST_COLOR = "#bbbbbb"
 # Okabe and Ito's colours, dark and light in turn; what has about the same lightness differs by its hatch, so that neighbours and
-# the names above them are told apart in grey print, too.
+# the names above them differ in grey print, too.
 LOOKS = (
     ("#0072b2", ""),
     ("#e69f00", ""),
@@ -28,7 +28,7 @@ ROW, LINE = 0.42, 0.34  # cm of a bar and of a line of names, at the size of a p
 
 
 def _short(stage):
-    """Without the folder, which the technique's name tells."""
+    """Without the folder, which the technique's name says."""
     return stage.rsplit("/", 1)[-1]
 
 

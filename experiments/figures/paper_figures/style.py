@@ -25,7 +25,7 @@ FONTS = {"sans": ["DejaVu Sans"], "serif": ["STIXGeneral", "DejaVu Serif"]}
 MATHS = {"sans": "dejavusans", "serif": "stix"}
 FORMATS = ("pdf", "svg", "png")
 
-# Okabe & Ito 2008, "Color Universal Design": told apart with all kinds of colour vision; every series has a mark of its own too.
+# Okabe & Ito 2008, "Color Universal Design": distinct with all kinds of colour vision; every series has a mark of its own too.
 COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666"]
 MARKS = ["o", "s", "^", "D", "v", "P", "X"]
 NOT_POSITIVE_NOTE = "errors not above 0 after noise\ncorrection are not shown"

@@ -21,7 +21,7 @@ def _words(parameters):
 
 def families(results, chosen, axes):
     """{name: {values of the parameters `axes`: (variant, point)}} of the points that differ in these alone, two values or
-    more of each. The name tells what tells the families apart."""
+    more of each. The name says what distinguishes the families."""
     where = chosen.option("where", {})
     if not isinstance(where, dict):
         raise ResultsError(f"{chosen.where}: 'where' must be an object, not {json.dumps(where)}")

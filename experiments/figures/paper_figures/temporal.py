@@ -41,7 +41,7 @@ def _draw_metric(results, axes, rows, metric):
         value = results.measured(r)
         color, mark = style.series(index, results.colors.get((r["variant"], r["point"])))
         if value is None or (is_log and value.value <= 0):
-            text = "cannot be told" if value is None else "0"
+            text = "not determined" if value is None else "0"
             axes.text(0.01, y, text, color=color, va="center", transform=axes.get_yaxis_transform())
             continue
         edge = 0.8 if value.is_one_seed else 0

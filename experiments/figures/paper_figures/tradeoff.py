@@ -2,7 +2,7 @@
 
 import math
 
-from ssrlab.results import ResultsError, rows_that_speak
+from ssrlab.results import ResultsError, representative_rows
 
 FRONT, FITS, ACROSS, CHANGES = (f"tradeoff/{name}.csv" for name in ("front", "fits", "across", "stages"))
 
@@ -21,7 +21,7 @@ def require_primary(results, file):
     front = results.read_csv(FRONT, is_optional=True)
     if not front or not results.read_csv(file, is_optional=True):
         raise ResultsError(f"{file} is missing: {run}")
-    rows = rows_that_speak(results.read_csv("summary.csv"))
+    rows = representative_rows(results.read_csv("summary.csv"))
     errors = {(r["shot"], r["variant"], r["point"]): r["value"] for r in rows if all(r[k] == primary.get(k) for k in ("metric", "mask", "target"))}
     for row in front:
         error = errors.get((row["shot"], row["variant"], row["point"]))

@@ -6,7 +6,7 @@ import json
 import math
 
 from paper_figures import tradeoff
-from ssrlab.results import BEST, TIED, ResultsError, rows_that_speak
+from ssrlab.results import BEST, TIED, ResultsError, representative_rows
 from paper_tables import agreement, limits
 from paper_tables.cell import EXACT, Cell
 from paper_tables.means import ASSETS, SAMPLED, SHARES, largest, mean
@@ -92,7 +92,7 @@ class Selection:
         if table.of == "splits":
             rows = list(_split_rows(rows))
         if table.of in ("results", "limits", "agreement", "eye"):
-            rows = rows_that_speak(rows)
+            rows = representative_rows(rows)
         if table.of == "hits":
             last = {s["shot"]: str(s["frame"]) for s in self.shots if "frame" in s}
             rows = [r for r in rows if r["frame"] == last.get(r["shot"], r["frame"])]
@@ -185,14 +185,14 @@ def _cell(selection, row, name):
 
 
 def _refuse_shared(selection, name, rows):
-    """Rows of one cell must be told apart by what the mean is over: a mean of two masks of a shot is none over shots."""
+    """Rows of one cell must differ in what the mean is over: a mean of two masks of a shot is none over shots."""
     table = selection.table
     file, place = SOURCES[table.of][0], f"({name[0]}; {name[1]})"
     if table.over is None:
         if len(rows) > 1:
             raise ResultsError(
                 f"table '{table.name}': {len(rows)} rows of {file} fall on one cell {place}; "
-                "narrow it with 'where', tell them apart by 'rows' or 'columns', or name what the mean is 'over'"
+                "narrow it with 'where', distinguish them by 'rows' or 'columns', or name what the mean is 'over'"
             )
         return
     seen = {}
@@ -205,16 +205,16 @@ def _refuse_shared(selection, name, rows):
             differing = [f"{k} ({first[k]}, {row[k]})" for k in NAMING if k in row and first[k] != row[k]]
             raise ResultsError(
                 f"table '{table.name}': the cell {place} has two rows of {file} with {table.over} = {part}, which differ in "
-                f"{', '.join(differing) or 'nothing that names them'}; narrow it with 'where', or tell them apart by 'rows' or 'columns'"
+                f"{', '.join(differing) or 'nothing that names them'}; narrow it with 'where', or distinguish them by 'rows' or 'columns'"
             )
         seen[part] = row
 
 
 def _clock(selection, row):
-    """With what must be known before a time is believed: whether its clock proved itself, and whose it is where others
+    """With what must be known before a time is believed: whether timer validation passed, and whose it is where others
     are of another machine."""
     clock = row["clock"] + (f" of {host}" if (host := selection.hosts.get(row["shot"])) else "")
-    return clock if row["shot"] in selection.proven else f"{clock}, which did not prove itself"
+    return clock if row["shot"] in selection.proven else f"{clock} (timer validation failed)"
 
 
 def _about(selection, filled):

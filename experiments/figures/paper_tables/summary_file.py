@@ -22,7 +22,7 @@ def _about(table):
 
 
 def why_not_kept(manifest):
-    """A sentence, or None: what is committed must be whole, and a commit must tell how to make it again."""
+    """A sentence, or None: what is committed must be whole, and a commit must say how to make it again."""
     if manifest.get("is_complete") is not True:
         return "the study is not complete; run it to its end"
     programs = [maker["ssrlab"] for maker in manifest["provenance"]]
@@ -34,7 +34,7 @@ def why_not_kept(manifest):
 
 
 def origin(manifest):
-    """What tells where the numbers come from. Fails where cells were made by programs whose estimators differ."""
+    """Where the numbers come from. Fails where cells were made by programs whose estimators differ."""
     makers = manifest["provenance"]
     programs = [m["ssrlab"] for m in makers]
     estimators = sorted({p["estimators"] for p in programs})

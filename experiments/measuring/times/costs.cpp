@@ -9,7 +9,7 @@ std::vector<CostRow> count_costs(Device& device, const Shot& shot, FrameStore& s
                                  const VariantConfig& config, bool keep_all,
                                  const std::function<void(double)>& report) {
     const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
-    if (variant->asks_scene()) return {};
+    if (variant->uses_scene_data()) return {};
     if (!keep_all) variant->leave_out(shot.facts);
     PassGraph graph(device, shot.config.extent);
     for (const FrameStep& step : shot.steps) {

@@ -43,7 +43,7 @@ def exit_code(work, what):
 
 ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
 BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
-EVALUATED = {"summary.csv": ("speaks", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
+EVALUATED = {"summary.csv": ("represents_shot", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
 
 
 @dataclass
@@ -53,7 +53,7 @@ class Measured:
     value: float
     low: float
     high: float
-    is_one_seed: bool = False  # of a technique that draws random numbers: another seed might tell anything
+    is_one_seed: bool = False  # of a technique that draws random numbers: another seed might give anything
 
     def whiskers(self):
         """Lengths below and above the value, as matplotlib's errorbar takes them."""
@@ -72,16 +72,16 @@ def is_over_frames(row):
 
 
 def frame_number(row, file="summary.csv"):
-    """Of a row that speaks for one frame."""
+    """Of a row of one frame."""
     try:
         return int(row["frame"])
     except ValueError as e:
         raise ResultsError(f"{file}: 'frame' = \"{row['frame']}\" is neither a number nor empty") from e
 
 
-def rows_that_speak(rows):
+def representative_rows(rows):
     """Of each shot those over its frames, or of its last one, as `ssrlab run` decided."""
-    return [r for r in rows if r["speaks"] == "1"]
+    return [r for r in rows if r["represents_shot"] == "1"]
 
 
 def commits_of(manifest):
@@ -95,7 +95,7 @@ class Results:
         self.folder = folder
         self.manifest = read_manifest(folder)
         self.all_errors = self.read_csv("summary.csv")
-        self.errors = rows_that_speak(self.all_errors)
+        self.errors = representative_rows(self.all_errors)
         self.times = self.read_csv("time_summary.csv")
         self.splits = self.read_csv("splits.csv", is_optional=True)
         self.effects = self.read_csv("effects.csv", is_optional=True)
@@ -228,7 +228,7 @@ class Results:
         return list(dict.fromkeys(row["shot"] for row in self.errors)) or list(self.shot_entries)
 
     def frames_text(self, rows):
-        """Which frames rows of one shot speak for, one text each; empty for a shot of one frame."""
+        """Which frames rows of one shot are of, one text each; empty for a shot of one frame."""
         if len(self.shot_entries.get(rows[0]["shot"], {}).get("frames") or []) < 2:
             return []
         return list(
@@ -281,7 +281,7 @@ class Results:
         proofs = self.manifest.get("clock", {}).get("proofs", [])
         proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof.get("shots", [])}
         found = [f"other programs disturbed up to {100 * max(shares):.0f} % of the timed frames"] if max(shares, default=0.0) > 0 else []
-        return found + (["the clock did not prove itself"] if proofs and not set(shots) <= proven else [])
+        return found + (["timer validation failed"] if proofs and not set(shots) <= proven else [])
 
     def exposure(self, shot):
         """The shot's exposure in EV."""

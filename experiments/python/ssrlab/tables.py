@@ -57,4 +57,4 @@ class Tables:
         """Rows of summary.csv of the error that the study is made to compare, of the frames that stand for their shot."""
         summary, primary = self["summary"], self.manifest["primary"]
         is_primary = (summary["metric"] == primary["metric"]) & (summary["mask"] == primary["mask"]) & (summary["target"] == primary["target"])
-        return summary[is_primary & summary["speaks"]]
+        return summary[is_primary & summary["represents_shot"]]

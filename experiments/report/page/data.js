@@ -47,7 +47,7 @@ function readData() {
         singleChanges: (raw.manifest.variants ?? [])
                            .filter(v => v.single_change)
                            .map(v => ({variant: v.variant, point: v.point, ...v.single_change})),
-        errors: rows(raw.errors).map(error),  // those that speak for their shot
+        errors: rows(raw.errors).map(error),  // those that represent their shot
         frames: rows(raw.frames).map(error),  // those of each frame, where the ones above are over all of them
         splits: rows(raw.splits).map(split),
         hits: rows(raw.hits),

@@ -1,4 +1,4 @@
-// Rungs of the truth ladder: where targets, and their own errors, which bound what one frame tells.
+// Rungs of the truth ladder: where targets, and their own errors, which bound what one frame shows.
 
 const isLadderRung = target => target === "camera_radiance" || target === "on_screen";
 

@@ -15,7 +15,7 @@ function mistakesOfError(row) {
             why: `${row.nonFinite} pixels are NaN or infinite and left out of every mean`
         });
     if (isOneSeed(row))
-        found.push({text: "1 seed", why: "another seed may tell anything: no interval, and not ranked"});
+        found.push({text: "1 seed", why: "another seed may give anything: no interval, and not ranked"});
     else if (row.interval?.includes("seeds") && row.seeds < seedsOf(row))
         found.push({text: `${row.seeds} of ${seedsOf(row)} seeds`, why: "seeds are missing"});
     if (row.litNoise > mostLitNoise * Math.abs(row.value))

@@ -45,7 +45,7 @@ function number(x, digits = 4) {
     return String(Number(x.toPrecision(digits)));
 }
 
-/// Why a value has no interval, as experiments/evaluation/interval.h has it; empty where that is not told.
+/// Why a value has no interval, as experiments/evaluation/interval.h has it; empty where the reason is unknown.
 const whyNoInterval = row => row.value !== null && row.interval?.startsWith("none: ") ?
     `${row.interval.slice("none: ".length)}: no interval` :
     "";
@@ -53,7 +53,7 @@ const interval = (row, digits = 4) => row.low === null || row.low === undefined 
     whyNoInterval(row) :
     `[${number(row.low, digits)}, ${number(row.high, digits)}]`;
 
-/// A single seed of a point that depends on it: another one might tell anything.
+/// A single seed of a point that depends on it: another one might give anything.
 const isOneSeed = row => row.interval === "none: 1 seed";
 
 function select(label, options, value, changed) {

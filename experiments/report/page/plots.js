@@ -192,7 +192,7 @@ function placesAround(x, y) {
 }
 
 /// `labels`: [{text, places}], the more important ones first. Each gets the first place within `field` where its text
-/// and line meet no mark, text or line before, and the fewest of the `lines`, or none: its mark tells its name.
+/// and line meet no mark, text or line before, and the fewest of the `lines`, or none: its mark says its name.
 function placeLabels(labels, field, marks, lines) {
     const taken = [...marks], placed = [];
     for (const {text, places, mark} of labels) {

@@ -1,7 +1,7 @@
 // The points that a study compares: which are shown, and the number, colour and shape that each keeps on the page.
 
-/// What the page speaks of first: the error that a study compares by, and what an eye sees; manifests of other versions
-/// may not tell.
+/// What the page shows first: the error that a study compares by, and what an eye sees; manifests of other versions
+/// may lack it.
 const headline = Object.fromEntries(
     Object.entries({metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip"})
         .map(([key, usual]) => [key, report.headline?.[key] || usual]));
@@ -36,7 +36,7 @@ const shownPoints = {
     isGrouped: false,
     relativeTo: "best",  // or none: what cells of the matrix are divided by
     colourBy: comparedPoints.length <= mostNamed ? "point" : "variant",
-    // A grid has holes without them; a list of changes to a baseline is told by its effects.
+    // A grid has holes without them; a list of changes to a baseline is shown by its effects.
     hasSingleChanges: comparedPoints.some(p => (p.point.match(/=/g) ?? []).length > 1),
     hidden: new Set()
 };
@@ -64,9 +64,9 @@ const mostParameters = 8;  // in a tip
 function parameterLines(row) {
     if (row.point.includes("=")) return [];
     const names = sweptParameters.get(row.variant) ?? [], parameters = parametersOf(row);
-    const told = names.slice(0, mostParameters), rest = names.length - told.length;
+    const shown = names.slice(0, mostParameters), rest = names.length - shown.length;
     return [
-        ...told.map(name => `${name} = ${JSON.stringify(parameters[name])}`),
+        ...shown.map(name => `${name} = ${JSON.stringify(parameters[name])}`),
         ...(rest ? [`and ${rest} more parameters, see Parameters`] : [])
     ];
 }
@@ -180,7 +180,7 @@ const choiceBoxes = (choice, keys, rows, changed) => keys.map(key => {
         changed();
     });
 });
-/// Which frames a row of errors speaks for; empty for a shot of one frame.
+/// Which frames a row of errors is of; empty for a shot of one frame.
 function framesText(row) {
     const frames = list(manifestShots().find(s => s.shot === row.shot)?.frames);
     if (frames.length < 2) return "";

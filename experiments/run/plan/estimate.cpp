@@ -183,7 +183,7 @@ private:
         const FrameStore::Frame frame = run.store->frame(step, run.truth.lit(step));
         PassGraph graph(device_, run.shot.config.extent);
         const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
-        RayProbe probe;  // exact_scene asks the scene, which takes as long as it takes: here it meets nothing
+        RayProbe probe;  // exact_scene uses scene data, at a cost of its own: here it meets nothing
         probe.exact_hits = [](const RecordedRays& recorded) { return std::vector<ExactHit>(recorded.rays.size()); };
         variant->ray_probe = &probe;
         if (!settings_.keep_all) variant->leave_out(run.shot.facts);

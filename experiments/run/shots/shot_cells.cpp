@@ -132,11 +132,11 @@ const ClockProof& proven_clock(StudySession& study) {
     study.clock = kept_clock_proof(study.settings.cache, study.maker, [&] { return prove_clock(study.device); });
     if (study.clock->verdict() == ClockVerdict::failed)
         study.progress.say(
-            "warning: the clock did not prove itself: passes of 1 : 10 : 100 work took other times on a quiet machine, "
+            "warning: timer validation failed: passes of 1 : 10 : 100 work took other times on a quiet machine, "
             "so no time of this run can be trusted");
     if (study.clock->verdict() == ClockVerdict::not_judged)
         study.progress.say(
-            "warning: the clock could not be judged: passes of 1 : 10 : 100 work took other times while other programs "
+            "warning: the timer was not validated: passes of 1 : 10 : 100 work took other times while other programs "
             "were at work on this machine");
     return *study.clock;
 }

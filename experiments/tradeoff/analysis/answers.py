@@ -80,12 +80,12 @@ class Answers:
         lines = []
         floor = max((s.floor for s in shots), default=0)
         if floor > 0:
-            lines.append(f"Two copies of one point may differ by {100 * floor:.0f} % in a shot: times nearer than that are not distinguishable.")
+            lines.append(f"Two copies of one point may differ by {100 * floor:.0f} % in a shot: times within that are not distinguishable.")
         if not self.study.has_noise_of_times:
-            lines.append("**No point was timed twice**: how near times are the same is not known, but for the scatter of frames.")
+            lines.append("**No point was timed twice**: of their noise only the scatter of frames is known.")
         unproven = [s.label for s in shots if not s.is_clock_proven]
         if unproven:
-            lines.append(f"**The clock did not prove itself in {len(unproven)} of {len(shots)} shots** (manifest.json, `clock`).")
+            lines.append(f"**Timer validation failed in {len(unproven)} of {len(shots)} shots** (manifest.json, `clock`).")
         busy = [p.disturbed_share for s in shots for p in s.judged()]
         if busy and max(busy) > 0:
             lines.append(f"Other work disturbed {100 * sum(busy) / len(busy):.0f} % of the timed frames.")
@@ -95,7 +95,7 @@ class Answers:
         lines = []
         for machine in self.analysis.machines():
             lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"On {machine}, over scenes.", ""]
-            lines += table((self.unit, "least error", f"error / {self.base}", "not told from it"), [self._short(machine, c) for c in self.analysis.costs])
+            lines += table((self.unit, "least error", f"error / {self.base}", "not distinguishable from it"), [self._short(machine, c) for c in self.analysis.costs])
             for cost in self.analysis.costs:
                 lines += self._at_cost(machine, cost)
         return lines
@@ -115,7 +115,7 @@ class Answers:
         rows = self._rows_at(machine, cost)
         lines = [f"### {number(cost)} {self.unit}", ""]
         if not rows:
-            return [*lines, "Nothing that was measured fits in any scene.", ""]
+            return [*lines, "No point fits in any scene.", ""]
         of_scenes = rows[0]["of_scenes"]
         first = next((r for r in rows if r["rank"] == 1), None)
         lines.append(self._first_sentence(first, rows, of_scenes))
@@ -171,7 +171,7 @@ class Answers:
         rows = [r for r in self.study.across if r.get("cost") is None]
         if not rows:
             return []
-        lines = ["## Which errs least, whatever it takes", "", self._first_sentence(next((r for r in rows if r["rank"] == 1), None), rows, rows[0]["of_scenes"]), ""]
+        lines = ["## Least error at any cost", "", self._first_sentence(next((r for r in rows if r["rank"] == 1), None), rows, rows[0]["of_scenes"]), ""]
         return lines + self._ranking("point", rows, "scenes", [r["scenes"] for r in rows])
 
     def _shots(self):
@@ -213,7 +213,7 @@ class Answers:
 
     def _error_text(self, row):
         if row.get("error") is None:
-            return f"below {number(row['start'])} nothing was measured" + (" (may fit)" if row["fits"] == "maybe" else "")
+            return f"below {number(row['start'])} no point was measured" + (" (may fit)" if row["fits"] == "maybe" else "")
         text = measured(row["error"], row["low"], row["high"])
         return text + {"past end": f", reached at {number(row['end'])}"}.get(row["status"], "") + ("" if row["fits"] == "surely" else " (may not fit)")
 
@@ -238,18 +238,18 @@ class Answers:
     def _floors(self):
         if not self.analysis.fits and not self.analysis.limits:
             return []
-        lines = [f"## What more {'time' if self.unit == 'ms' else self.unit} can never buy", ""]
+        lines = [f"## What more {'time' if self.unit == 'ms' else self.unit} cannot improve", ""]
         return lines + self._limits() + self._fits()
 
     def _limits(self):
         rows = [r for r in self.analysis.limits if r["rung"] == RUNGS[0]]
         if not rows:
             return []
-        told = [r for r in rows if r.get("over_rung_high") is not None]
-        above = [r for r in told if r["over_rung_low"] > 1]
+        clear = [r for r in rows if r.get("over_rung_high") is not None]
+        above = [r for r in clear if r["over_rung_low"] > 1]
         lines = [
-            f"`{RUNGS[0]}` is what one frame's image leaves to a technique that finds all that it shows, and sees the environment elsewhere; only what earlier frames showed, or luck, goes below it. "
-            + (f"The least error of all points is certainly above it in {len(above)} of the {len(told)} shots in which it is told from 0: there better techniques are possible." if told else ""),
+            f"`{RUNGS[0]}` is the lower bound for any single-frame technique: all that the image shows is found, and elsewhere the environment is seen. Only what earlier frames showed, or luck, goes below it. "
+            + (f"The least error of all points is significantly above it in {len(above)} of the {len(clear)} shots in which it is significantly above 0: there better techniques are possible." if clear else ""),
             "",
         ]
         cells = [
@@ -262,7 +262,7 @@ class Answers:
         rows = self.analysis.fits
         if not rows:
             return []
-        lines = ["error = floor + a cost^-b along each axis of quality: the floor is what is left however much is spent along that axis alone.", ""]
+        lines = ["error = floor + a cost^-b along each axis of quality: the floor is a lower bound along that axis alone, at any cost.", ""]
         axes = {}
         for r in rows:
             axes.setdefault(f"{r['variant']} {r['fixed']}".strip() + f" along {r['parameter']}", []).append(r)
@@ -270,7 +270,7 @@ class Answers:
             floors = [r for r in of_axis if r["floor_low"]]
             above = [r for r in floors if (r.get("floor_over_rung_low") or 0) > 1]
             lines.append(
-                f"- {axis}: a floor above 0 is certain in {len(floors)} of {len(of_axis)} shots" + (f", one above `{above[0]['rung']}` in {len(above)}" if above else "") + "."
+                f"- {axis}: a floor is significantly above 0 in {len(floors)} of {len(of_axis)} shots" + (f", and above `{above[0]['rung']}` in {len(above)}" if above else "") + "."
             )
         lines.append("")
         cells = []
@@ -286,9 +286,9 @@ class Answers:
         rows = self.study.stages
         if not rows:
             return []
-        lines = ["## Which change buys what", ""]
+        lines = ["## What each change gains and costs", ""]
         lines.append(
-            "Points that differ in one parameter. A stage that is switched off *saves cost* at the price of error; the last column is what each percent of error costs."
+            "Points that differ in one parameter. A stage that is switched off may *save cost* and add error. The last column is the cost of each percent of error."
         )
         lines.append("")
         for machine in dict.fromkeys(r["machine"] for r in rows):

@@ -95,7 +95,7 @@ def _accepted(values, squares, limit):
 def fit_law(costs, errors, log_error_deviations, log_cost_deviations):
     """Fits the law to points of one axis, with 95 % intervals by profile: the values whose weighted squares are within
     s^2 q of the least, where s^2 is the larger of 1 and chi^2 per degree of freedom, and q the normal's quantile squared or, where
-    s^2 is told by the misfit, Student's. A cost's uncertainty counts as the error that it moves along the curve."""
+    s^2 is estimated by the misfit, Student's. A cost's uncertainty counts as the error that it moves along the curve."""
     costs, errors = np.asarray(costs, float), np.asarray(errors, float)
     scale = math.exp(np.log(costs).mean())
     powers = (costs[None, :] / scale) ** -EXPONENTS[:, None]
@@ -130,7 +130,7 @@ def fit_law(costs, errors, log_error_deviations, log_cost_deviations):
     if fit.b_high >= EXPONENTS[-1]:
         fit.status, fit.b_high, fit.a, fit.b = "exponent has no upper end: the error falls in one step", None, None, None
     elif fit.b_low <= EXPONENTS[0]:
-        fit.status, fit.b_low, fit.a, fit.b = "exponent cannot be told from 0", None, None, None
+        fit.status, fit.b_low, fit.a, fit.b = "exponent not distinguishable from 0", None, None, None
     return fit
 
 

@@ -5,11 +5,11 @@ import json
 import os
 from dataclasses import dataclass, field
 
-from ssrlab.results import Results, commits_of, rows_that_speak
+from ssrlab.results import Results, commits_of, representative_rows
 
 TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
 JUDGED = ("front", "dominated", "undecided")  # front.csv's verdicts of points that are compared by error and cost
-NEVER_RANKED = ("asks the scene", "not ranked")
+NEVER_RANKED = ("uses scene data", "not ranked")
 TEXTS = ("shot", "scene", "machine", "variant", "point", "label", "unit", "verdict", "dominated_by", "undecided_with", "baseline", "standing", "against_variant", "against_point", "change")
 
 
@@ -98,7 +98,7 @@ class Study:
 
     def _shots(self):
         seeds = {}
-        for row in rows_that_speak(self.results.read_csv("results.csv", is_optional=True)):
+        for row in representative_rows(self.results.read_csv("results.csv", is_optional=True)):
             if self.is_error(row) and row["value"]:
                 seeds.setdefault((row["shot"], row["variant"], row["point"]), {})[row["seed"]] = float(row["value"])
         shots = {}
@@ -111,7 +111,7 @@ class Study:
             shot.points.append(point)
         for row in self.results.errors:
             if row["shot"] in shots and self.is_error(row) and not row["frame"].isdigit():
-                shots[row["shot"]].ladder = {}  # the ladder is of the last frame alone, and this speaks for all
+                shots[row["shot"]].ladder = {}  # the ladder is of the last frame alone, and this row represents all
         return list(shots.values())
 
     def _shot(self, name, scene, machine):

@@ -21,7 +21,7 @@ def _text(value):
 
 
 class Analysis:
-    """All that is told of a study, as lists of rows: dictionaries with the columns of README.md."""
+    """All that is said of a study, as lists of rows: dictionaries with the columns of README.md."""
 
     def __init__(self, study, factors):
         self.study, self.costs, self.factors = study, study.asked["times"], factors
@@ -98,7 +98,7 @@ class Analysis:
 
 
 def _rung_columns(rung, error, measured, name):
-    """A rung's own columns, and `measured` over it by the ends of both: no upper end where the rung cannot be told from 0."""
+    """A rung's own columns, and `measured` over it by the ends of both: no upper end where the rung is not distinguishable from 0."""
     value, low, high = error
     columns = {"rung": rung, "rung_error": value, "rung_low": low, "rung_high": high}
     if measured[0] is not None and value > 0:

@@ -76,7 +76,7 @@ class ShotDraws:
 
 
 def interval(values):
-    """The 95 % interval that draws tell; values that are NaN are left out."""
+    """The 95 % interval of the draws; values that are NaN are left out."""
     values = values[~np.isnan(values)]
     if len(values) == 0:
         return None, None

@@ -93,7 +93,7 @@ TEST_F(Designs, AConfigIsPatchedByWhatExtendsIt) {
     // What is kept stands alone.
     EXPECT_EQ(points(read(config.source.dump(), "alone.json")), points(config));
 
-    // Mistakes are told where they were made.
+    // Mistakes are reported where they were made.
     write_text(folder / "base/broken.json", "{\"variants\": [{\"variant\": \"none\"},\n  {\"variant\": \"mcguire\"}]}");
     expect_starts(mistake_in(R"({"extends": "base/broken.json", "shots": [{"scene": "fence"}]})"),
                   "base/broken.json:2:4: variants[1]: ");
@@ -372,7 +372,7 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     refuses(study(axes, R"({"variant": "mcguire_dda"}, {"variant": "none"})"), "searches one variant");
     refuses(study(axes, R"({"variant": "mcguire_dda", "timing": false})"), "'timing' is not for points");
     refuses(study(R"("axes": {"misses": ["weight"]})", R"({"variant": "amd_sssr"})", R"("seeds": 1,)"),
-            "a single seed tells no interval");
+            "a single seed gives no interval");
 }
 
 TEST(PointNames, StayShort) {

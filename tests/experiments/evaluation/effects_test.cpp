@@ -1,4 +1,4 @@
-// What is told of seeds: bias and variance, and the effects of points against a baseline.
+// What seeds give: bias and variance, and the effects of points against a baseline.
 #include "experiments/evaluation/effects.h"
 #include "experiments/evaluation/interval.h"
 #include "experiments/measuring/frame_means.h"
@@ -34,7 +34,7 @@ const std::vector<VariantConfig> two_points = {{.variant = "v", .point = "base",
 
 std::vector<EffectRow> effects_of(std::vector<ResultRow> rows, const std::vector<VariantConfig>& variants,
                                   const PointSet& not_repeatable = {}) {
-    mark_what_speaks(rows);
+    mark_representative_rows(rows);
     return paired_effects(rows, variants, not_repeatable);
 }
 
@@ -42,7 +42,7 @@ std::vector<EffectRow> effects_of(std::vector<ResultRow> rows, const std::vector
 
 TEST(Effects, AreRatiosPairedBySeed) {
     std::vector<ResultRow> rows;
-    // Seeds differ by far more than the points do: only pairs can tell.
+    // Seeds differ by far more than the points do: only pairs show it.
     const double of_seed[] = {1, 10, 100, 1000};
     for (unsigned seed = 0; seed < 4; ++seed) {
         rows.push_back(row("0", "base", seed, "mse", of_seed[seed]));
@@ -130,7 +130,7 @@ TEST(Effects, AreNotJudgedWhereTheReferencesNoiseIsNotKnown) {
     ASSERT_EQ(effects.size(), 1u);
     set_verdicts(effects, {});
     EXPECT_EQ(effects[0].interval, interval::seeds);
-    EXPECT_EQ(effects[0].verdict, "") << "another reference may tell otherwise, however well the seeds agree";
+    EXPECT_EQ(effects[0].verdict, "") << "another reference may say otherwise, however well the seeds agree";
     EXPECT_EQ(effects[0].low_holm, effects[0].low);
 }
 

@@ -194,18 +194,18 @@ def over_scenes(folder, manifest, found, summary, sentence):
     """over_scenes.csv against its rules; what the report and tradeoff say is what stands there."""
     entries = {s["shot"]: s for s in manifest["shots"]}
     asset_of = {r["shot"]: entries[r["shot"]].get("asset") or entries[r["shot"]].get("scene") or r["shot"] for r in summary}
-    speaking = [r for r in summary if r["speaks"] == "1" and r["value"]]
+    representative = [r for r in summary if r["represents_shot"] == "1" and r["value"]]
     base, largest = {}, {}
-    for r in speaking:
+    for r in representative:
         largest[r["shot"]] = max(largest.get(r["shot"], 0), float(r["value"]))
-    for r in speaking:
+    for r in representative:
         if (r["variant"], r["point"]) == (found[0]["baseline_variant"], found[0]["baseline_point"]) and r["low"] and float(r["low"]) > 0:
             if float(r["value"]) > max(2 * float(r["floor"] or 0), 1e-6 * largest[r["shot"]]):
                 base[r["shot"]] = float(r["value"])
-    logs, asks = {}, {(v["variant"], v["point"]) for v in manifest["variants"] if v.get("asks_scene")}
-    for r in speaking:
+    logs, using_scene = {}, {(v["variant"], v["point"]) for v in manifest["variants"] if v.get("uses_scene_data")}
+    for r in representative:
         key = (r["variant"], r["point"])
-        if r["ranked"] == "1" and r["low"] and key not in asks and r["shot"] in base and float(r["value"]) > 0:
+        if r["ranked"] == "1" and r["low"] and key not in using_scene and r["shot"] in base and float(r["value"]) > 0:
             logs.setdefault(key, {})[r["shot"]] = math.log(float(r["value"]) / base[r["shot"]])
     ranked = [k for k, v in logs.items() if len(v) >= 0.9 * len(base)]
     common = [s for s in base if all(s in logs[k] for k in ranked)]
@@ -243,7 +243,7 @@ def over_scenes(folder, manifest, found, summary, sentence):
         for end in ("", "_low", "_high"):
             assert r["over_best" + end] == across[key]["against_best" + end], (key, r, across[key])
     with open(os.path.join(folder, "tradeoff", "answers.md"), encoding="utf-8") as stream:
-        whole = stream.read().split("## Which errs least, whatever it takes")[1]
+        whole = stream.read().split("## Least error at any cost")[1]
     answer = re.search(r"^\*\*(.*?)\*\* has the least error.*$", whole, re.M)
     assert answer[1] == name(first), answer[0]
     assert ("not distinguishable" in answer[0], "errs less than" in answer[0]) == (bool(tied), bool(behind)), answer[0]

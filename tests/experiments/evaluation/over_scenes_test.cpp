@@ -179,7 +179,7 @@ TEST(OverScenes, EveryErrorHasItsRows) {
                         .target = "specular",
                         .metric = metric,
                         .mask = "all"};
-        e.value = value, e.low = 0.9 * value, e.high = 1.1 * value, e.holds_all_noise = e.speaks_for_shot = true;
+        e.value = value, e.low = 0.9 * value, e.high = 1.1 * value, e.holds_all_noise = e.represents_shot = true;
         errors.push_back(e);
     };
     for (const char* shot : {"s", "t", "u", "v"})
@@ -188,7 +188,7 @@ TEST(OverScenes, EveryErrorHasItsRows) {
     const nlohmann::json manifest = {
         {"variants",
          {{{"variant", "none"}, {"point", "default"}},
-          {{"variant", "exact"}, {"point", "default"}, {"asks_scene", true}}}},
+          {{"variant", "exact"}, {"point", "default"}, {"uses_scene_data", true}}}},
         {"shots", {{{"shot", "u"}, {"asset", "same"}}, {{"shot", "v"}, {"asset", "same"}}}}};
     const std::vector<OverScenesRow> rows = errors_over_scenes(errors, manifest);
     ASSERT_EQ(rows.size(), 2u) << "of mse alone, for which less is better, and without what uses scene data";

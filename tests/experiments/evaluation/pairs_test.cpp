@@ -25,7 +25,7 @@ struct ShotOfPairs {
         MetricSummary e{.shot = "s", .frame = "0", .variant = variant, .point = "p"};
         e.target = "specular", e.metric = e.formula = "mse", e.mask = "reflective";
         e.value = value, e.low = value - half_width, e.high = value + half_width;
-        e.interval = interval::reference, e.seeds = 1, e.holds_all_noise = e.speaks_for_shot = true;
+        e.interval = interval::reference, e.seeds = 1, e.holds_all_noise = e.represents_shot = true;
         tables.errors.push_back(e);
     }
     void add_times(const std::string& variant, const std::vector<double>& milliseconds) {
@@ -134,7 +134,7 @@ TEST(Pairs, OfEqualPointsSeldomDiffer) {
             for (unsigned seed = 0; seed < 8; ++seed) {
                 ResultRow r{.shot = "s", .frame = "0", .variant = variant, .point = "p", .seed = seed};
                 r.target = "specular", r.metric = r.formula = "mse", r.mask = "reflective";
-                r.value = std::exp(0.7 * normal(random)), r.floor = 0, r.speaks_for_shot = true;
+                r.value = std::exp(0.7 * normal(random)), r.floor = 0, r.represents_shot = true;
                 rows.push_back(r);
             }
             const double of_copy = std::exp(0.01 / std::sqrt(2.0) * normal(random));

@@ -19,7 +19,7 @@ MetricSummary error_of(const std::string& variant, double value, double half, co
                     .mask = "reflective"};
     e.value = value, e.low = value - half, e.high = value + half;
     e.interval = interval::reference, e.seeds = 1;
-    e.holds_all_noise = e.speaks_for_shot = true;
+    e.holds_all_noise = e.represents_shot = true;
     return e;
 }
 
@@ -80,7 +80,7 @@ TEST(Standings, PairBySeedWherePairsHoldAllNoise) {
         for (const auto& [variant, value] : {std::pair("a", 1.0), std::pair("b", 1.05)}) {
             ResultRow r{.shot = "s", .frame = "0", .variant = variant, .point = "default", .seed = seed};
             r.target = "specular", r.metric = r.formula = "mse", r.mask = "reflective", r.floor = 0;
-            r.value = value * scatter[seed - 1] * (1 + 0.001 * double(seed)), r.speaks_for_shot = true;
+            r.value = value * scatter[seed - 1] * (1 + 0.001 * double(seed)), r.represents_shot = true;
             rows.push_back(r);
         }
     std::vector<MetricSummary> errors = summarise(rows);
@@ -107,7 +107,7 @@ TEST(Standings, KeepTheTrueBestAmongBestAndTiedOnHeavyTails) {
                     r.target = "specular", r.metric = r.formula = "mse", r.mask = "reflective", r.floor = 0;
                     const double truth = p == 0 ? 1 : 1.02;
                     r.value = truth * std::exp(std::normal_distribution<double>(-0.5, 1)(random));
-                    r.speaks_for_shot = true;
+                    r.represents_shot = true;
                     rows.push_back(r);
                 }
             std::vector<MetricSummary> errors = summarise(rows);

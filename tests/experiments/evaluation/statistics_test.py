@@ -61,7 +61,7 @@ class Statistics(unittest.TestCase):
     def test_bootstraps_are_scipys(self):
         values = self.random.exponential(1, 12)
         found = stats.bootstrap((values,), np.mean, n_resamples=20000, method="BCa", random_state=2).confidence_interval
-        # 1999 resamples tell an end of 95 % to about 6 % of the standard error; here to within four times that.
+        # 1999 resamples give an end of 95 % to about 6 % of the standard error; here to within four times that.
         np.testing.assert_allclose(statistics.bootstrap_over_scenes(values), found, atol=0.25 * stats.sem(values))
         self.assertEqual(statistics.bootstrap_over_scenes(values), statistics.bootstrap_over_scenes(values))
         self.assertEqual(statistics.bootstrap_over_scenes(values[:3]), (None, None))

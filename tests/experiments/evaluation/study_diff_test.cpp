@@ -38,7 +38,7 @@ struct MadeUpStudy {
     void add(const std::string& shot, const std::string& variant, unsigned seed, double value) {
         ResultRow r{.shot = shot, .frame = "0", .variant = variant, .point = "p", .seed = seed};
         r.target = "specular", r.metric = r.formula = "mse", r.mask = "all", r.value = value;
-        r.floor = 0, r.speaks_for_shot = true;  // against an exact reference: seeds are all that is random
+        r.floor = 0, r.represents_shot = true;  // against an exact reference: seeds are all that is random
         rows.push_back(r);
     }
 

@@ -25,7 +25,7 @@ struct MadeStudy {
                         .metric = "mse",
                         .mask = "reflective"};
         e.value = error, e.low = 0.99 * error, e.high = 1.01 * error;
-        e.holds_all_noise = e.speaks_for_shot = true;
+        e.holds_all_noise = e.represents_shot = true;
         tables.errors.push_back(e);
         TimeSummary t{
             .shot = shot, .variant = variant, .point = point, .stage = "total", .clock = "host_fence", .frames = 15};
@@ -112,10 +112,10 @@ TEST(Tradeoff, ChangesOfOneParameterHaveTheirVerdicts) {
                           {verdict::more, verdict::less, "saves cost"},
                           {verdict::less, verdict::less, "better in both"},
                           {verdict::more, verdict::more, "worse in both"},
-                          {verdict::not_distinguishable, verdict::more, "dearer, no error told"},
-                          {verdict::not_distinguishable, verdict::less, "cheaper, no error told"},
-                          {verdict::less, verdict::not_distinguishable, "less error, no cost told"},
-                          {verdict::not_distinguishable, verdict::not_distinguishable, "nothing told"}};
+                          {verdict::not_distinguishable, verdict::more, "dearer, error not significant"},
+                          {verdict::not_distinguishable, verdict::less, "cheaper, error not significant"},
+                          {verdict::less, verdict::not_distinguishable, "less error, cost not significant"},
+                          {verdict::not_distinguishable, verdict::not_distinguishable, "not significant"}};
     for (const Case& c : cases) {
         MadeStudy made;
         made.add_point("v", "a", {{"rays", 1}, {"wide", false}}),

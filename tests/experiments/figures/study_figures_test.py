@@ -89,7 +89,7 @@ def test_study(folder):
     frames = [r for r in frames if not is_over_frames(r) and not r["shot"].startswith("still")]
     check(drawn(panels["frames"], "y") == numbers(frames, "value"), "errors of frames")
     check(
-        any("cannot be told" in t.get_text() for a in panels["temporal"] for t in a.texts),
+        any("not determined" in t.get_text() for a in panels["temporal"] for t in a.texts),
         "a value is missing silently",
     )
 
@@ -110,13 +110,13 @@ def test_sweep_figures(folder):
     """Lines and maps over parameters hold the numbers of the points that differ in these alone."""
     results = Results(folder).narrowed(["still_a.main.160x90.w8.r8"])
     errors = results.errors_of("specular", "relmse", "reflective", with_hidden=True)
-    points = [("first", "first float_histories=true"), ("first round_up_tiles=true", "mended")]
+    points = [("first", "first float_histories=true"), ("first round_up_tiles=true", "fixed")]
     values = [[next(e.value for (_, _, name), e in errors.items() if name == p) for p in row] for row in points]
     chosen = request_of("map", options={"x": "float_histories", "y": "round_up_tiles", "where": {"race": False}})
     axes = STUDY_FIGURES["map"](results, chosen).get_axes()[0]
     check(np.allclose(axes.get_images()[0].get_array(), np.array(values) / np.min(values)), "ratios of the map")
     framed = [tuple(np.add(p.get_xy(), 0.43)) for p in axes.patches]
-    check(set(framed) == {(1.0, 1.0)}, f"only the least is told from none: {framed}")
+    check(set(framed) == {(1.0, 1.0)}, f"only the least is distinguishable from none: {framed}")
     chosen = request_of("response", options={"parameter": "float_histories", "where": {"round_up_tiles": True}, "show": "error"})
     figure = STUDY_FIGURES["response"](results, chosen)
     check(drawn(figure.get_axes(), "y") == sorted(values[1]), "the line over a parameter, of the others' values that are asked for")
@@ -125,7 +125,7 @@ def test_sweep_figures(folder):
         check(False, "a parameter that is none")
     except ResultsError as e:
         check("f.json: no point has the parameter 'float_historie'; did you mean 'float_histories'?" == str(e), e)
-    narrow = Results(folder).narrowed(["still_a.main.160x90.w8.r8"], [("sssr", "mended")])
+    narrow = Results(folder).narrowed(["still_a.main.160x90.w8.r8"], [("sssr", "fixed")])
     split = next(s for s in narrow.splits if (s["target"], s["mask"]) == ("specular", "reflective"))
     figure = STUDY_FIGURES["convergence"](narrow, request_of("convergence", "mse", options={"over": "seeds"}))
     means = [float(split["bias_squared"]) + float(split["variance"]) / n for n in (1, 2, 3, 4)]
@@ -138,7 +138,7 @@ def test_front(folder):
     exact = lambda v: Measured(v, 0.95 * v, 1.05 * v)
     places = {("v", name): (exact(t), exact(e)) for name, t, e in (("a", 1, 4), ("b", 2, 2), ("c", 2.05, 2.1), ("d", 4, 3), ("oracle", 1, 1))}
     results = Results(folder)
-    results.variants = {("v", "oracle"): {"asks_scene": True}}
+    results.variants = {("v", "oracle"): {"uses_scene_data": True}}
     line, beaten = error_time._judged(results, "s", places)
     check(line == [("v", "a"), ("v", "b")] and beaten == {("v", "d")}, f"{line}, {beaten}")
     os.makedirs(os.path.join(folder, "tradeoff"))
@@ -147,7 +147,7 @@ def test_front(folder):
             writer = csv.writer(file)
             writer.writerow(["shot", "variant", "point", "error", "unit", "is_nominal_front", "verdict"])
             for (variant, name), (_, error) in places.items():
-                verdict = "dominated" if name == "c" else "asks the scene" if name == "oracle" else "undecided"
+                verdict = "dominated" if name == "c" else "uses scene data" if name == "oracle" else "undecided"
                 writer.writerow(["s", variant, name, factor * error.value, "ms", int(name in "abd"), verdict])
         line, beaten = error_time._judged(results, "s", places)
         check(([k[1] for k in line], {k[1] for k in beaten}) == ((["a", "b", "d"], {"c"}) if is_same else (["a", "b"], {"d"})), f"{line}, {beaten}")

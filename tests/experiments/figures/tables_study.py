@@ -95,11 +95,11 @@ def write_results(folder, tables=TABLES, ratios=RATIOS):
     write_rows(os.path.join(folder, "effects.csv"), effects)
     errors = [
         {"shot": shot, "frame": frame, "variant": "sssr", "point": point, "target": "specular", "metric": "mse", "mask": "all"}
-        | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1, "speaks": int(frame == ""), "standing": "best" if point == "taps=4" else "behind"}
+        | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1, "represents_shot": int(frame == ""), "standing": "best" if point == "taps=4" else "behind"}
         for shot in SHOTS
         for frame, point, value in (("3", "default", 5.0), ("", "default", 0.0123), ("3", "taps=4", 0.002))
     ]
-    errors += [row | {"frame": "", "value": 0.00234, "low": "", "high": "", "speaks": 1} for row in errors if row["point"] == "taps=4"]
+    errors += [row | {"frame": "", "value": 0.00234, "low": "", "high": "", "represents_shot": 1} for row in errors if row["point"] == "taps=4"]
     write_rows(os.path.join(folder, "summary.csv"), errors)
     split = {"shot": "floor", "frame": "3", "variant": "sssr", "target": "specular", "mask": "all", "seeds": 8, "mse": 3}
     split |= {"bias_squared": 2, "bias_squared_low": 1.5, "bias_squared_high": 2.5, "variance": 1}

@@ -45,7 +45,7 @@ def test_numbers(folder):
     check(origin == "`ssrlab run configs/made_up.json`: commit abc1234, 2 shots at 320x180, 8 seeds, a device", origin)
     check(explained == "In brackets 95 % intervals of the mean over scenes like these (Student's t, scenes of one asset averaged first); in parentheses the range over shots; \N{PILCROW SIGN}: the interval is of these shots alone, not of other scenes: fewer than four assets; a number without brackets has no interval.", explained)
     levels = read(os.path.join(folder, "tables", "levels.md")).splitlines()
-    check(levels[4].startswith("| sssr, taps=4 | 0.00234 | 0.00234 |"), levels[4])  # as listed; `all` speaks for the shot
+    check(levels[4].startswith("| sssr, taps=4 | 0.00234 | 0.00234 |"), levels[4])  # as listed; `all` represents the shot
     check(levels[5].startswith("| sssr, default | 0.0123 [0.0111, 0.0135] |"), levels[5])
     parts = read(os.path.join(folder, "tables", "parts.md")).splitlines()
     check(parts[4] == "| default | 3.00 | 2.00 [1.50, 2.50] | 1.00 [0.90, 1.10] |", parts[4])
@@ -98,7 +98,7 @@ def test_best(folder):
 
 
 def test_display_names(folder):
-    """Points and shots that have a display name are called by it, and can be told apart by the groups that they are in."""
+    """Points and shots that have a display name are called by it, and can be distinguished by the groups that they are in."""
     write_results(folder)
     by_group = {"name": "groups", "rows": ["group", "point"], "columns": "shot_group", "over": "shot"}
     named = manifest([TABLES[1], TABLES[1] | by_group])
@@ -144,7 +144,7 @@ def test_footers(folder):
 
 
 def test_what_intervals_hold(folder):
-    """Marks tell apart what intervals hold and why there is none, in Markdown, LaTeX and the document that shows them."""
+    """Marks distinguish what intervals hold and why there is none, in Markdown, LaTeX and the document that shows them."""
     single = {k: v for k, v in TABLES[0].items() if k not in ("over", "sort")} | {"columns": ["metric", "shot"], "name": "single"}
     single["labels"] = {"flip": "FLIP of all frames"}
     one_seed = {("taps=4", "mse", "wall"): (2.0, "", "", "", ONE_SEED), ("taps=4", "flip", "wall"): (0.81, 0.80, 0.82, 0.2)}
@@ -205,9 +205,9 @@ def test_times(folder):
     check(f"(gpu_timestamp of node_{SHOTS[0]}) | 2.00" in lines[4] and f"of node_{SHOTS[1]})" in lines[4], lines[4])
     check(all(f"gpu_timestamp of node_{shot}" in lines[7] for shot in SHOTS), lines[7])
     write(os.path.join(folder, "manifest.json"), json.dumps(manifest([times], verdict="failed")))
-    check(tables(folder).returncode == 0, "a clock that did not prove itself")
+    check(tables(folder).returncode == 0, "a timer whose validation failed")
     lines = read(os.path.join(folder, "tables", "times.md")).splitlines()
-    check("a device, clock gpu_timestamp, which did not prove itself." in lines[7], lines[7])
+    check("a device, clock gpu_timestamp (timer validation failed)." in lines[7], lines[7])
 
 
 def test_shares(folder):
@@ -283,7 +283,7 @@ def test_counts(temporary):
     check("is not a whole number" in tables(folder).stderr, "half an operation")
 
 
-def test_means_over_what_is_told_apart(folder):
+def test_means_over_what_differs(folder):
     """Two metrics of a shot are not two shots."""
     for changed, parts in (
         ({"columns": "target"}, ("over a mean", "taps = 4", "shot = floor", "metric (mse, flip)")),
@@ -326,7 +326,7 @@ def test_refusals(folder):
 
 
 def test_documents(temporary):
-    """Kept summaries fill documents; a stale document and a stale summary are told."""
+    """Kept summaries fill documents; a stale document and a stale summary are reported."""
     folder, root = os.path.join(temporary, "results"), os.path.join(temporary, "tree")
     write_results(folder)
     document = os.path.join(root, "variants", "README.md")
@@ -399,7 +399,7 @@ def main():
         test_times(folder)
         test_shares(folder)
         test_counts(temporary)
-        test_means_over_what_is_told_apart(folder)
+        test_means_over_what_differs(folder)
         test_refusals(folder)
         test_tables_that_nobody_asks_for(temporary)
         test_documents(temporary)

@@ -226,7 +226,7 @@ std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsi
             for (ResultRow& row :
                  measure_targets(truth, own[seed % own.size()], inside, {.frame = "0", .variant = name, .seed = seed}))
                 rows.push_back(std::move(row));
-        for (ResultRow& row : rows) row.speaks_for_shot = true;
+        for (ResultRow& row : rows) row.represents_shot = true;
         return rows;
     };
     const PointSet without_seeds = {{"fallback", ""}};

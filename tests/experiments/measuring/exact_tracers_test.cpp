@@ -309,7 +309,7 @@ TEST_F(ExactTracers, TheSecondLayerOnlyEndsRays) {
 TEST_F(ExactTracers, WhoCannotAskOrSeeIsToldSo) {
     Player player("fence", small, false);
     Probed asking(player, "mcguire_dda", {{"tracer", "exact_scene"}});
-    EXPECT_TRUE(asking.variant->asks_scene());
+    EXPECT_TRUE(asking.variant->uses_scene_data());
     const std::string no_scene =
         "the tracer exact_scene uses scene data, which only ssrlab's commands provide, and not for captures";
     asking.probe.exact_hits = {};

@@ -61,7 +61,7 @@ EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, b
         {.variant = "v", .point = "base", .depends_on_seed = seeds > 0, .is_baseline = true},
         {.variant = "v", .point = "better", .depends_on_seed = seeds > 0}};
     if (!has_noise) noise.clear();
-    mark_what_speaks(rows);
+    mark_representative_rows(rows);
     return paired_effects(rows, variants, {}, noise).at(0);
 }
 

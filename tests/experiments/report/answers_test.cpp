@@ -13,7 +13,7 @@ using nlohmann::json;
 const json manifest = {
     {"primary", {{"metric", "mse"}, {"mask", "reflective"}, {"target", "specular"}}},
     {"clock", {{"aa_floors", {{"s", 0.1}}}, {"proofs", {{{"verdict", "passed"}, {"shots", {"s"}}}}}}},
-    {"variants", {{{"variant", "exact"}, {"point", "default"}, {"asks_scene", true}}}},
+    {"variants", {{{"variant", "exact"}, {"point", "default"}, {"uses_scene_data", true}}}},
     {"shots",
      {{{"shot", "s"},
        {"truth_ladder",
@@ -41,7 +41,7 @@ struct Made {
                         .formula = metric,
                         .mask = "reflective"};
         e.value = value, e.low = value - half, e.high = value + half;
-        e.holds_all_noise = true, e.speaks_for_shot = true;
+        e.holds_all_noise = true, e.represents_shot = true;
         e.interval = interval::reference;
         tables.errors.push_back(e);
         if (milliseconds > 0)

@@ -67,7 +67,7 @@ def choose(page, label, text):
 
 
 def pixels(page, pane, x=None, y=None):
-    """RGBA of one canvas pixel, or a number that tells pictures apart."""
+    """RGBA of one canvas pixel, or a number that differs between pictures."""
     where = f"{x}, {y}, 1, 1" if x is not None else "0, 0, c.width, c.height"
     script = f"const c = document.querySelectorAll('#panes canvas')[{pane}]; const d = c.getContext('2d').getImageData({where}).data;"
     if x is not None:

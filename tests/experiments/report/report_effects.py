@@ -26,17 +26,17 @@ def test_effects(page, folder, stepping_shot):
         for metric in ("relmse", "mse", "bias_squared", "variance")
     )
     rows = relative
-    points = ["first float_histories=true", "first round_up_tiles=true", RACING, "mended", "lucky"]
+    points = ["first float_histories=true", "first round_up_tiles=true", RACING, "fixed", "lucky"]
     shown = table_of(page, "#effect-table")[:-1]
     equal(
         [c[0][0].split("\n")[0] for c in shown],
-        ["float_histories = true", "round_up_tiles = true", "race = true", "sssr · mended", "One lucky seed"],
+        ["float_histories = true", "round_up_tiles = true", "race = true", "sssr · fixed", "One lucky seed"],
         "changes",
     )
     equal(shown[0][0][0].split("\n")[1], "keeps <b>32</b> bits & drifts less", "what the parameter means, as text")
     for cells, point in zip(shown, points):
         for cell, ratios in zip(cells[2:6], (relative, absolute, bias_squared, variance)):
-            if (point, ratios) == ("mended", bias_squared):
+            if (point, ratios) == ("fixed", bias_squared):
                 equal(cell, ["–", "null"], "the bias² of a point that has none")
                 continue
             if point == "lucky" and ratios in (bias_squared, variance):
@@ -56,7 +56,7 @@ def test_effects(page, folder, stepping_shot):
         ]
         equal([int(cells[i][1]) for i in (7, 8, 9)], [len(helped), 0, 7], f"shots that {point} helps, harms, and all")
         times = rows_of(folder, "time_effects.csv", point=point, against_point="first", stage="total")
-        equal(len(times), 7 if point == "mended" else 0, f"times of {point}")
+        equal(len(times), 7 if point == "fixed" else 0, f"times of {point}")
         if times:
             mean, _, _ = mean_ratio(times, point)
             check(abs(float(cells[6][1]) - mean) < 1e-12 * mean, f"mean ratio of times: {cells[6]}, expected {mean}")
@@ -110,9 +110,9 @@ def test_effects(page, folder, stepping_shot):
     )
     equal(arrows, ["◀"] * 4, "ratios beyond the scale")
     for metric, point, reason in (
-        ("settling_length", "sssr · mended", "no value for mended: not within the first half of 15 frames"),
+        ("settling_length", "sssr · fixed", "no value for fixed: not within the first half of 15 frames"),
         ("ghost_length", "round_up_tiles = true", "an error is not above 0"),
-        ("bias_squared", "sssr · mended", "bias² is not above 0"),
+        ("bias_squared", "sssr · fixed", "bias² is not above 0"),
     ):
         options = page.find_elements(By.XPATH, "//section[@id='effects']//label[starts-with(., 'Metric')]//option")
         choose_in(page, "effects", "Metric", next(o.text for o in options if o.text.startswith(metric)))
@@ -136,4 +136,4 @@ def test_effects(page, folder, stepping_shot):
     expected = rows_of(folder, "effects.csv", against="float_histories=false", **quantity)
     equal([r["against_point"] for r in expected], ["first round_up_tiles=true"], "what is otherwise the same")
     shown = table_of(page, "#effect-table")[:-1]
-    equal([(c[0][0], float(c[2][1])) for c in shown], [("sssr · mended", float(expected[0]["ratio"]))], "its ratio")
+    equal([(c[0][0], float(c[2][1])) for c in shown], [("sssr · fixed", float(expected[0]["ratio"]))], "its ratio")

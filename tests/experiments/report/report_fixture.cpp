@@ -142,7 +142,7 @@ Cell make_cell(const std::filesystem::path& folder, const std::string& shot, glm
     return cell;
 }
 
-/// What the viewer tells of a pixel beside its values: of the truth roughness and a rung of its ladder, which knows
+/// What the viewer shows of a pixel beside its values: of the truth roughness and a rung of its ladder, which knows
 /// three quarters of what arrives; of the techniques confidence, and verdicts that are right on the left, and hits of
 /// what is not there on the right.
 void add_pixel_images(const std::filesystem::path& folder, const std::string& shot, glm::uvec2 extent, json& images) {

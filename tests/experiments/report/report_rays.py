@@ -33,8 +33,8 @@ def test_rays(page, folder, shot_of_frames):
             ends = [float(x) for x in cells[2][0].split("[")[1].split("]")[0].split(",")]
             for end, name in zip(ends, ("low", "high")):  # rounded to a tenth
                 check(abs(end - 100 * float(by["correct"][name])) < 0.0501, f"interval of {point}: {cells[2][0]}")
-            told = [f"{name} {100 * float(by['miss: ' + name.replace(' ', '_')]['value']):.3g} %" for name in ("off screen", "too thick")]
-            equal(cells[6][0], ", ".join(told), "avoidable misses, the most frequent first")
+            misses = [f"{name} {100 * float(by['miss: ' + name.replace(' ', '_')]['value']):.3g} %" for name in ("off screen", "too thick")]
+            equal(cells[6][0], ", ".join(misses), "avoidable misses, the most frequent first")
         bars = page.execute_script(
             "return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => [+b.dataset.value, b.getAttribute('aria-label')])",
             part_of(shot),
@@ -63,7 +63,7 @@ def test_rays(page, folder, shot_of_frames):
 
 def test_error_shares(page, folder, shot):
     """Bars as long as the error, and their sentences."""
-    rows = [r for r in rows_of(folder, "hits.csv", shot=shot, stage="error") if r["point"] in ("first", "mended")]
+    rows = [r for r in rows_of(folder, "hits.csv", shot=shot, stage="error") if r["point"] in ("first", "fixed")]
     equal(len(rows), 10, "shares of two points")
     part = f"#error-shares details[data-shot='{shot}']"
     page.execute_script("document.querySelectorAll('#error-shares details').forEach(d => { d.open = true })")
@@ -89,13 +89,13 @@ def test_why(page, folder, shot, part, errors):
     missed, off_screen, too_thick = (f"{100 * sum(m) / 2:.2g} %" for m in missed)
     ours, least, more, less, ratio = page.execute_script(
         "return arguments[0].map(([value, digits]) => number(value, digits))",
-        [(errors["first"], 3), (errors["mended"], 3), (0.375 * errors["first"], 2), (0.125 * errors["mended"], 2), (errors["first"] / errors["mended"], 3)],
+        [(errors["first"], 3), (errors["fixed"], 3), (0.375 * errors["first"], 2), (0.125 * errors["fixed"], 2), (errors["first"] / errors["fixed"], 3)],
     )
     wanted = (
         f"sssr · first in {scene}, frame {frame}: 38 % of its error lies where rays missed what the screen shows, "
         "25 % where rays hit the wrong place, 19 % where the truth is not on the screen, 13 % where rays were right (filter, fallback, "
         f"view dependence), 6.3 % where nothing is there to be hit. {missed} of its rays missed so: {off_screen} left the screen, "
-        f"{too_thick} went too far behind a surface. Its mse, {ours}, is {ratio} times the least (sssr · mended, {least}); "
+        f"{too_thick} went too far behind a surface. Its mse, {ours}, is {ratio} times the least (sssr · fixed, {least}); "
         f"it errs more above all where rays missed what the screen shows: {more} against {less}. Its\u00a0rays Its\u00a0images"
     )
     text = "return document.querySelector(arguments[0]).textContent"

@@ -56,7 +56,7 @@ def test_stability(page, folder):
     failures = part_of(page, "Stages that are not finite")
     equal([f[1] for f in failures], ["amd_sssr/intersect: radiance", "of_another_build/trace: result"], "where they arise")
     check(len(failures[0][5]) > 10 and len(failures[0][6]) > 10, f"no operation or fix: {failures[0]}")
-    equal(failures[1][5:], ["unexplained in 1", ""], "what nobody has told of")
+    equal(failures[1][5:], ["unexplained in 1", ""], "what nothing explains")
     equal(part_of(page, "Spread of bad inputs"), [["amd_sssr · slides", "12 +2"]], "spread")
     equal(
         part_of(page, "Amplification"),

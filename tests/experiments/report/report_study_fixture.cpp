@@ -30,7 +30,7 @@ json parameters(bool float_histories, bool round_up_tiles, bool race) {
 
 const StudyPoint study_points[] = {{"none", "default", 3.0, 1, json::object()},
                                    {"sssr", "first", 1.0, 4, parameters(false, false, false)},
-                                   {"sssr", "mended", 0.5, 4, parameters(true, true, false)},
+                                   {"sssr", "fixed", 0.5, 4, parameters(true, true, false)},
                                    {"sssr", "first float_histories=true", 0.6, 4, parameters(true, false, false)},
                                    {"sssr", "first round_up_tiles=true", 1.0, 4, parameters(false, true, false)},
                                    {"sssr", "first race=true", 0.7, 4, parameters(false, false, true), "it races"},
@@ -87,17 +87,17 @@ struct RowMaker {
         cell.rows.push_back(r);
     }
 
-    /// `factor` tells masks, frames and metrics apart.
+    /// `factor` differs between masks, frames and metrics.
     double error(double factor) const { return 0.1 * factor * point.error * scatter(shot.name, seed); }
 };
 
 void add_errors(const RowMaker& make) {
     const bool has_frames = make.shot.frames.size() > 1;
-    const std::string last = std::to_string(make.shot.frames.back()), speaking = has_frames ? over_frames : last;
-    make.add(speaking, "specular", "mse", "mse", "reflective", make.error(0.01 * make.point.error));
+    const std::string last = std::to_string(make.shot.frames.back()), representative = has_frames ? over_frames : last;
+    make.add(representative, "specular", "mse", "mse", "reflective", make.error(0.01 * make.point.error));
     double factor = 1.0;
     for (const char* mask : {"reflective", "roughness_0_0.03", "roughness_0.03_0.3", "roughness_0.3_0.6"}) {
-        make.add(speaking, "specular", "relmse", "relmse_a", mask, make.error(factor));
+        make.add(representative, "specular", "relmse", "relmse_a", mask, make.error(factor));
         if (has_frames) make.add(last, "specular", "relmse", "relmse_a", mask, make.error(factor * 1.7));
         make.add(last, "incident", "bias", "bias", mask, -make.error(factor * 0.3));
         factor *= 1.4;
@@ -120,13 +120,13 @@ void add_temporal(const RowMaker& make) {
     if (make.shot.name != study_step_shot) return;
     const bool is_without_ghosts = make.point.variant == "none" || make.point.point == "first round_up_tiles=true";
     add("ghost_length", "ghost_projection_0.05", is_without_ghosts ? 0.0 : 6.0);
-    if (make.point.point != "mended") add("settling_length", "squared_error_step_0.05", 3.0);
-    if (make.point.point == "mended") add("settling_length", "squared_error_step_0.05", std::nullopt);
+    if (make.point.point != "fixed") add("settling_length", "squared_error_step_0.05", 3.0);
+    if (make.point.point == "fixed") add("settling_length", "squared_error_step_0.05", std::nullopt);
 }
 
 void add_split(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     if (point.seeds < 2) return;
-    const double variance = 0.001 * point.error, bias = point.point == "mended" ? -1e-5 : 0.05 * point.error;
+    const double variance = 0.001 * point.error, bias = point.point == "fixed" ? -1e-5 : 0.05 * point.error;
     cell.splits.push_back({shot.name, std::to_string(shot.frames.back()), point.variant, point.point, "specular",
                            "reflective", point.seeds, bias + variance, bias, variance, 0.8 * variance, 1.2 * variance,
                            500, bias - 2e-5, bias + 3e-5});
@@ -234,7 +234,7 @@ json study_manifest(const std::vector<StudyShot>& shots) {
                                    {"checks", json::array({{{"stage_kind", "compute"}, {"verdict", "passed"}}})}}})}}},
         {"notes",
          {study_step_shot +
-          ": sssr mended: no settling_length: not within the first half of 15 frames (all, reflective)"}},
+          ": sssr fixed: no settling_length: not within the first half of 15 frames (all, reflective)"}},
         {"parameter_docs",
          {{"sssr", {{"float_histories", "keeps <b>32</b> bits & drifts less"}, {"round_up_tiles", "counts tiles"}}}}},
         {"images", json::array()}};
@@ -323,10 +323,10 @@ void write_study_fixture(const std::filesystem::path& folder) {
                 add_temporal(make);
             }
             add_split(shot, point, cell);
-            if (point.point == "first" || point.point == "mended") add_hits(shot, point, cell);
-            if (point.point == "first" || point.point == "mended") add_costs(shot, point, cell);
+            if (point.point == "first" || point.point == "fixed") add_hits(shot, point, cell);
+            if (point.point == "first" || point.point == "fixed") add_costs(shot, point, cell);
             if (point.point == "first") add_times(shot, point, 1, cell);
-            if (point.point == "mended") add_times(shot, point, 2, cell);
+            if (point.point == "fixed") add_times(shot, point, 2, cell);
             cells.push_back(std::move(cell));
         }
     }
@@ -335,7 +335,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
         VariantConfig variant;
         variant.variant = p.variant, variant.point = p.point, variant.is_baseline = p.point == "first";
         variant.depends_on_seed = p.variant != "none";
-        if (p.point == "mended")
+        if (p.point == "fixed")
             variant.against = {{"float_histories", false}}, variant.against_point = "first round_up_tiles=true";
         variants.push_back(variant);
     }

@@ -32,10 +32,10 @@ def in_matrix(rows):
 def test_results(page, folder):
     choose_in(page, "results", "Metric", "relmse (relmse_a)")  # the only one with frames and a ladder
     rows = rows_of(folder, "summary.csv", target="specular", metric="relmse", mask="reflective")
-    speaking = [r for r in rows if r["frame"] in ("0", "")]
+    representative = [r for r in rows if r["frame"] in ("0", "")]
     page.execute_script("document.querySelector('#summary details').open = true")  # else its cells have no innerText
     shown = [c for c in table_of(page, "#summary") if c[1][0] != LADDER]
-    compared = [r for r in speaking if not is_single_change(r)]
+    compared = [r for r in representative if not is_single_change(r)]
     equal([float(c[3][1]) for c in shown], [float(r["value"]) for r in compared], "the table of results")
     absolute = [
         r
@@ -58,7 +58,7 @@ def test_results(page, folder):
     bold = page.execute_script(
         "return [...document.querySelectorAll('#summary td b')].map(b => b.closest('tr').cells[2].dataset.value)"
     )
-    equal(set(bold), {"mended"}, "a single seed is never the best, however small its error")
+    equal(set(bold), {"fixed"}, "a single seed is never the best, however small its error")
     hollow = page.execute_script(
         """return [...document.querySelectorAll('#roughness .point')].map(p =>
         [p.getAttribute('aria-label').includes('1 seed'), p.getAttribute('fill') === 'var(--card)'])"""
@@ -69,11 +69,11 @@ def test_results(page, folder):
     times = [float(r["median_ms"]) for r in rows_of(folder, "time_summary.csv", stage="total") if not is_single_change(r)]
     equal(sorted(values(page, "#matrix button.time")), sorted(times), "the matrix's times")
     ones = page.execute_script("return [...document.querySelectorAll('#matrix tbody tr')].map(r => [...r.querySelectorAll('button:not(.time)')].every(b => b.textContent === '1'))")
-    equal(ones, [False, False, True, False], "cells are relative to the mended point, not to the lucky one of a single seed")
+    equal(ones, [False, False, True, False], "cells are relative to the fixed point, not to the lucky one of a single seed")
     page.find_element(By.ID, "hasSingleChanges").click()
     equal(
         [float(c[3][1]) for c in table_of(page, "#summary") if c[1][0] != LADDER],
-        [float(r["value"]) for r in speaking],
+        [float(r["value"]) for r in representative],
         "with single changes",
     )
     page.find_element(By.ID, "hasSingleChanges").click()
@@ -87,7 +87,7 @@ def test_first_sentence(page, folder):
 
 
 def test_truth_ladder(page, folder):
-    """What bounds the techniques stands below them, is never the best, and says which frames it speaks of."""
+    """What bounds the techniques stands below them, is never the best, and says which frames it is of."""
     rungs = [c for c in table_of(page, "#summary") if c[1][0] == LADDER]
     equal([c[0][0].split(".")[0] for c in rungs], ["still_a", "moving"], "shots with a ladder")
     equal([c[2][1] for c in rungs], ["on_screen", "on_screen, last frame"], "rungs")
@@ -122,12 +122,12 @@ def test_roughness(page, folder):
             r for r in rows_of(folder, "summary.csv", target=target, metric=metric) if r["mask"].startswith("roughness")
         ]
         last = {STEP: "44", MOVING: "6"}
-        speaking = "" if metric == "relmse" else None
+        representative = "" if metric == "relmse" else None
         expected += [
             float(r["value"])
             for r in rows
             if not is_single_change(r)
-            and r["frame"] == (last.get(r["shot"], "0") if speaking is None or r["shot"] not in last else speaking)
+            and r["frame"] == (last.get(r["shot"], "0") if representative is None or r["shot"] not in last else representative)
         ]
     equal(sorted(values(page, "#roughness .point")), sorted(expected), "errors and biases by roughness")
     titles = page.execute_script("return [...document.querySelectorAll('#roughness h3')].map(t => t.innerText)")
@@ -210,7 +210,7 @@ def test_stages(page):
         check(words in text, f"the A/A floor: {text!r}")
     equal(
         page.find_element(By.CSS_SELECTOR, part + " .forms").text.split("\n")[1:],
-        ['sssr · first: form = "fast"', 'sssr · mended: form = "fast"'],
+        ['sssr · first: form = "fast"', 'sssr · fixed: form = "fast"'],
         "what was timed",
     )
     check(
@@ -248,15 +248,15 @@ def test_temporal(page, folder):
     frames = [
         r
         for shot in (MOVING, STEP)
-        for point in ("default", "first", "mended", "lucky")
+        for point in ("default", "first", "fixed", "lucky")
         for r in rows_of(
             folder, "summary.csv", shot=shot, point=point, target="specular", metric="relmse", mask="reflective"
         )
         if r["frame"]
     ]
-    frames.sort(key=lambda r: (r["shot"] != MOVING, int(r["frame"]), ["default", "first", "mended", "lucky"].index(r["point"])))
+    frames.sort(key=lambda r: (r["shot"] != MOVING, int(r["frame"]), ["default", "first", "fixed", "lucky"].index(r["point"])))
     equal(values(page, "#frame-charts .point"), [float(r["value"]) for r in frames], "errors of frames")
-    check("the scene changes at frame 30" in page.find_element(By.ID, "frame-charts").text, "the change is not told")
+    check("the scene changes at frame 30" in page.find_element(By.ID, "frame-charts").text, "the change is not named")
 
 
 def test_quiet(page):
@@ -264,7 +264,7 @@ def test_quiet(page):
     shown = page.find_element(By.TAG_NAME, "body").text
     for word in ("undefined", "[object"):
         check(word not in shown, f"the page says {word!r}")
-    # Stability is told in numbers of NaN.
+    # Stability is given in numbers of NaN.
     others = page.execute_script(
         "return [...document.querySelectorAll('main > section:not(#stability)')].map(s => s.innerText).join()"
     )

@@ -50,7 +50,7 @@ TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
     const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
     size_t over_frames = 0, of_last = 0;
     for (const MetricSummary& e : tables.errors) {
-        if (!e.speaks_for_shot || e.metric != "relmse" || e.mask != "reflective") continue;
+        if (!e.represents_shot || e.metric != "relmse" || e.mask != "reflective") continue;
         const bool has_frames = e.shot == study_moving_shot || e.shot == study_step_shot;
         EXPECT_EQ(e.frame, has_frames ? "" : "0") << e.shot;
         ++(has_frames ? over_frames : of_last);
@@ -89,7 +89,7 @@ TEST_F(StudyReport, ShowsReadersWithoutScriptsPresetsAlone) {
     write_report(folder);
     const std::string page = read_text(folder / "report.html");
     const std::string part = page.substr(page.find("<noscript>"), page.find("</noscript>") - page.find("<noscript>"));
-    EXPECT_NE(part.find("<td>mended"), std::string::npos);
+    EXPECT_NE(part.find("<td>fixed"), std::string::npos);
     EXPECT_EQ(part.find("float_histories=true"), std::string::npos);
     size_t rows = 0;
     for (size_t at = 0; (at = part.find("<tr><td>", at)) != std::string::npos; ++at) ++rows;

@@ -228,7 +228,7 @@ TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
     auto manifest = read_json(folder / "manifest.json");
     const auto warnings = report_warnings(manifest, errors, times);
     EXPECT_TRUE(contains(warnings, "This study: a clause that the study has to say."));
-    EXPECT_TRUE(contains(warnings, "The clock did not prove itself"));
+    EXPECT_TRUE(contains(warnings, "Timer validation failed"));
     EXPECT_TRUE(contains(
         warnings,
         "roughness_gradient.side.161x91: only 62 % of the reference's pixels reached the relative error of 3 %"));
@@ -244,7 +244,7 @@ TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
     EXPECT_TRUE(
         contains(report_warnings(manifest, errors, times), "mirror_pillars.front.160x90: a texture is missing."));
     EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "not finished"));
-    EXPECT_TRUE(contains(report_warnings(nlohmann::json::object(), errors, times), "not proven"));
+    EXPECT_TRUE(contains(report_warnings(nlohmann::json::object(), errors, times), "No timer was validated"));
     manifest["clock"]["proofs"][0]["verdict"] = "not_judged";
     EXPECT_TRUE(contains(report_warnings(manifest, errors, times), "The clock could not be judged"));
 }

@@ -153,10 +153,10 @@ def test_budget(page, folder, shot):
         may = [p for p in better if least_of(p) <= budget]
         misses = sorted((p for p in better if least_of(p) > budget), key=least_of)
         for (kind, text), own in zip(rows, (surely, may, misses)):
-            wanted = f"{label(own[0])} mse" if own else "nothing"
+            wanted = f"{label(own[0])} mse" if own else "no "
             check(text.strip().startswith(wanted), f"{kind} {budget} ms: {text!r}, expected {wanted!r}")
         note = texts(page, "#budget-note")[0]
-        check("Timer validation failed" in note and "Times nearer than 2 % are the same" in note, f"the clock and the A/A floor: {note}")
+        check("Timer validation failed" in note and "Times within 2 % are not distinguishable" in note, f"the clock and the A/A floor: {note}")
     axes = page.execute_script("return [...document.querySelectorAll('#answer-charts svg')].map(s => s.textContent)")
     check(axes and all(re.search(r"total time \(ms\), .*\d+x\d+", a) for a in axes), f"machine and size at the axes of times: {axes}")
     page.execute_script("const b = at('budget'); b.value = ''; b.dispatchEvent(new Event('input'))")
@@ -203,7 +203,7 @@ def test_matrix(page, shots):
     focused = page.execute_script("return [...document.querySelectorAll('#matrix tbody button:not(.time)')].indexOf(document.activeElement)")
     equal(focused, 7, "the cell that an arrow key goes to")
     equal(page.execute_script("return document.querySelectorAll('#matrix button[tabindex=\"0\"]').length"), 1, "tab stops")
-    check("[" in cells[7].get_attribute("aria-label"), "a cell tells its interval")
+    check("[" in cells[7].get_attribute("aria-label"), "a cell names its interval")
     page.find_element(By.CSS_SELECTOR, "#scatter .point").send_keys("\ue007")  # Enter
     equal(opened(page), wanted, "what a mark opens")
     page.find_element(By.CSS_SELECTOR, "#answer-pictures [role=button]").click()
@@ -257,12 +257,12 @@ def test_mistakes(page):
         if shot == "fence" and point != "default":
             wanted.append("disturbed: ")
         equal([b.split(":")[0] + ": " for b in badges], wanted, f"mistakes of {shot} {point}")
-    told = page.execute_script(
+    found = page.execute_script(
         """const row = report.errors[0], of = changes => mistakesOfError({...row, ...changes}).map(m => m.text);
         return [of({}), of({litNoise: 0.25 * row.value}), of({litNoise: 0.09 * row.value}), of({interval: "none: 1 seed"}),
             of({interval: "reference and seeds", seeds: 1}), [0, 0.03].map(t => mistakesOfReference({reached_share: 1, target_relative_error: t}).length)]"""
     )
-    equal(told, [[], ["lit noise 25 %"], [], ["1 seed"], ["1 of 2 seeds"], [1, 0]], "other mistakes")
+    equal(found, [[], ["lit noise 25 %"], [], ["1 seed"], ["1 of 2 seeds"], [1, 0]], "other mistakes")
 
 
 def test_provenance(page):

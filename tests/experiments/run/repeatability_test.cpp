@@ -22,10 +22,10 @@ TEST(Repeatability, IsWhatTheOrderOfThreadsCannotChange) {
     EXPECT_NE(reason(both).find("hierarchy.min_traversal_occupancy"), std::string::npos);
 
     EXPECT_EQ(reason({{"hierarchy.min_traversal_occupancy", 0}}), "") << "the fast form shares no moments";
-    nlohmann::json mended = faithful, raw = faithful;
-    mended["barrier_before_average"] = true;
+    nlohmann::json fixed = faithful, raw = faithful;
+    fixed["barrier_before_average"] = true;
     raw["denoise"] = false;
-    EXPECT_EQ(reason(mended), "");
+    EXPECT_EQ(reason(fixed), "");
     EXPECT_EQ(reason(raw), "");
     EXPECT_EQ(make_variant("mcguire_dda")->not_repeatable(), "");
 }
@@ -59,7 +59,7 @@ TEST_F(StudyTest, SaysWhichPointsDifferFromRunToRun) {
         }
     EXPECT_EQ(warnings, 1u);
 
-    // The same feature is left out by two: each must be told apart.
+    // The same feature is left out by two: each has its own entry.
     size_t alpha_tests = 0;
     for (const auto& part : manifest["shots"][0]["left_out"]) {
         const std::string what = part["what"];

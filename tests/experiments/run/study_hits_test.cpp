@@ -50,7 +50,7 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
     EXPECT_EQ(seeds["frostbite_sssr"], 2u) << "of the point's three, as many as are asked for";
     EXPECT_EQ(seeds["mcguire_dda"], 1u) << "without chance one tells all";
 
-    // Counted of every point but the one that asks the scene; the technique without rays only clears.
+    // Counted of every point but the one that uses scene data; the technique without rays only clears.
     std::map<std::string, std::map<std::string, size_t>> stages, totals;  // sums by point, quantity
     for (const CostRow& r : read_rows<CostRow>(folder / "judged/costs.csv")) {
         EXPECT_EQ(r.point.find("exact_scene"), std::string::npos);

@@ -120,7 +120,7 @@ TEST_F(StabilityTest, OriginalsShowWhereTheyFail) {
     EXPECT_GE(rows[6].verdict, Verdict::inside);
 }
 
-/// Of each stage in which values that are not finite arise, failures.json tells why.
+/// Of each stage in which values that are not finite arise, failures.json says why.
 TEST_F(StabilityTest, EachFailureOfTheOriginalsIsExplained) {
     const auto hit = [](const std::string& name, const std::string& fault) {
         return R"({"case": ")" + name + R"(", "family": "bad hit", )" +

@@ -26,8 +26,8 @@ PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "
 
 
 COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
-    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,speaks,standing,over_best,over_best_low,over_best_high,p_best,fronts",
-    "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,speaks",
+    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,fronts",
+    "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,represents_shot",
     "times.csv": "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
     "time_summary.csv": "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
     "effects.csv": "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,interval,p,family,p_holm,low_holm,high_holm,verdict",
@@ -35,7 +35,7 @@ COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
     "time_effects.csv": "shot,variant,point,against,against_variant,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
     "costs.csv": "shot,variant,point,stage,quantity,value",
 }
-NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "frames", "rounds", "width", "height", "seed", "disturbed", "speaks", "ranked", "frame")  # where a row says nothing of them, 0
+NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "frames", "rounds", "width", "height", "seed", "disturbed", "represents_shot", "ranked", "frame")  # where a row says nothing of them, 0
 
 
 def write_csv(folder, name, rows):
@@ -59,8 +59,8 @@ def write_study(folder):
     keys = {name: tuple(name.partition(":")[::2]) for name in PRESETS}
     keys = {name: (v, p or "default") for name, (v, p) in keys.items()}
     errors, times, counts, effects = [], [], [], []
-    errors += [{"shot": "moon", "variant": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "speaks": 1}]
-    oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "speaks": 1, "seed": 0}
+    errors += [{"shot": "moon", "variant": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "represents_shot": 1}]
+    oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "represents_shot": 1, "seed": 0}
     errors += [oracle | {"shot": s, "value": 0.01, "low": 0.01, "high": 0.01, "ranked": 1} for s in shots]
     # Over the frames of `sky` there is next to no error, and no time.
     nearly_none = {"shot": "sky", "variant": "none", "frame": "", "value": 0.0015, "low": 0.0014, "high": 0.0016, "ranked": 1, "floor": 0.001}
@@ -68,7 +68,7 @@ def write_study(folder):
     for number, a_shot in enumerate(shots):
         for name, (ms, error) in PRESETS.items():
             own = {"shot": a_shot, "variant": keys[name][0], "point": keys[name][1]}
-            row = own | {"frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": error * (number + 1), "speaks": 1}
+            row = own | {"frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": error * (number + 1), "represents_shot": 1}
             standing = {"standing": "best"} if name == "v:rays=8" else {"standing": "behind", "p_best": 0.001}
             errors.append(row | {"low": row["value"] * 0.99, "high": row["value"] * 1.01, "ranked": 1, "floor": 0.001, "seed": 0} | standing)
             for frame in range(FRAMES):
@@ -98,7 +98,7 @@ def write_study(folder):
         "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in (*shots, "sky")],
         "variants": [{"variant": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
     }
-    manifest["variants"].append({"variant": "oracle", "point": "default", "asks_scene": True, "parameters": {}})
+    manifest["variants"].append({"variant": "oracle", "point": "default", "uses_scene_data": True, "parameters": {}})
     with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
         json.dump(manifest, stream)
 
@@ -147,7 +147,7 @@ class Folder(unittest.TestCase):
         self.assertEqual(fit["point_names"], "rays=1; rays=2; rays=4; rays=8")
         self.assertEqual((at["floor", "v", 4.1]["fits"], at["floor", "v", 10]["fits"]), ("maybe", "surely"))  # 4.04 ms and 2 %
         self.assertEqual({s for s, _ in front}, {"floor", "wall", "roof", "sky"})  # moon was left out
-        self.assertEqual(front["floor", "oracle"]["verdict"], "asks the scene")
+        self.assertEqual(front["floor", "oracle"]["verdict"], "uses scene data")
         self.assertEqual({r["shot"] for r in read(self.out, "limits.csv")}, {"floor", "wall", "roof"})
         (limit, *_) = read(self.out, "limits.csv")
         self.assertEqual((limit["label"], float(limit["over_rung"])), ("v rays=8", 2.5))
@@ -165,7 +165,7 @@ class Folder(unittest.TestCase):
         self.assertIn("2 scenes are too few for an interval", answers)
         self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-52, -48] |", answers)
         self.assertIn("Multiples leave out sky:", answers)
-        self.assertIn("The clock did not prove itself in 1 of 3 shots", answers)
+        self.assertIn("Timer validation failed in 1 of 3 shots", answers)
         rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
         self.assertEqual(len([r for r in read(self.out, "stages.csv") if not r["shot"]]), 2)
@@ -184,7 +184,7 @@ class Folder(unittest.TestCase):
         changes, _ = self.cells(of="changes", rows=["machine", "change"], columns="quantity")
         self.assertAlmostEqual(changes["rays: 1 -> 2", "error"].value, 0.5)
         self.assertAlmostEqual(changes["rays: 1 -> 2", "cost"].value, 4.04)
-        self.assertIsNone(changes["rays: 1 -> 2", "cost per % of error"].value, "two scenes are too few to tell it")
+        self.assertIsNone(changes["rays: 1 -> 2", "cost per % of error"].value, "two scenes are too few to give it")
         # What was answered of other errors is none of these.
         summary = os.path.join(self.folder, "summary.csv")
         with open(summary, encoding="utf-8") as stream:
@@ -217,11 +217,11 @@ class Folder(unittest.TestCase):
     def test_the_readme_has_every_column(self):
         with open(os.path.join(TRADEOFF, "README.md"), encoding="utf-8") as stream:
             sections = re.split(r"^`(\w+\.csv)`", stream.read(), flags=re.M)
-        told = {name: set(re.findall(r"`(\w+)`", text)) for name, text in zip(sections[1::2], sections[2::2])}
+        explained = {name: set(re.findall(r"`(\w+)`", text)) for name, text in zip(sections[1::2], sections[2::2])}
         for name in (*FILES, "front.csv", "pairs.csv", "across.csv", "stages.csv"):
             with open(os.path.join(self.out, name), encoding="utf-8") as stream:
                 columns = stream.readline().strip().split(",")
-            self.assertEqual(set(columns) - told[name], set(), name)
+            self.assertEqual(set(columns) - explained[name], set(), name)
 
 
 if __name__ == "__main__":

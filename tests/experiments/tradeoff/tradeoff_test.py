@@ -34,7 +34,7 @@ class Draws(unittest.TestCase):
         half = 3.18245 * np.std(list(seeds.values()), ddof=1) / 2  # t(0.975, 3)
         draws = uncertainty.ShotDraws([point("a", 1, half, seeds=seeds)], 40000)
         low, high = uncertainty.interval(draws.errors[0])
-        # 40000 draws tell the ends to 3 % of the half-width; the exponential moves them by half^2 / 2 = 2 %.
+        # 40000 draws give the ends to 3 % of the half-width; the exponential moves them by half^2 / 2 = 2 %.
         self.assertAlmostEqual(low, 1 - half, delta=0.06 * half)
         self.assertAlmostEqual(high, 1 + half, delta=0.06 * half)
 
@@ -109,7 +109,7 @@ class Fits(unittest.TestCase):
         self.assertTrue(0 < fit.floor_low < 0.2 < fit.floor_high < 0.25)
         self.assertTrue(1 < fit.b_low < 1.25 < fit.b_high < 1.5)
 
-    def test_no_floor_is_told_from_0_where_there_is_none(self):
+    def test_no_floor_is_above_0_where_there_is_none(self):
         fit = self.fit(3 / self.costs)
         self.assertEqual(fit.floor_low, 0)
         self.assertAlmostEqual(fit.b, 1, delta=0.05)
@@ -126,7 +126,7 @@ class Fits(unittest.TestCase):
         self.assertGreater(bent.misfit, 10)
         self.assertGreater(bent.floor_high - bent.floor_low, 3 * (narrow.floor_high - narrow.floor_low))
 
-    def test_refuses_what_cannot_be_told(self):
+    def test_refuses_what_cannot_be_determined(self):
         self.assertIn("does not surely fall", self.fit(np.array([1, 1.01, 0.99, 1, 1.01, 0.99])).status)
         self.assertIn("does not surely fall", self.fit(0.2 + 0.01 * self.costs).status)
         step = self.fit(np.array([1, 0.2, 0.2, 0.2, 0.2, 0.2]))

@@ -79,7 +79,7 @@ class FakeSsrlab:
                     chance = random.Random(f"{shot} {p['parameters']} {seed}").gauss(0, NOISE)
                     common = random.Random(f"{shot} {seed}").gauss(0, 2 * NOISE)
                     value = error * math.exp(chance + common)
-                    row = {"target": "specular", "metric": "mse", "mask": "all", "seed": seed, "speaks": 1, "value": value}
+                    row = {"target": "specular", "metric": "mse", "mask": "all", "seed": seed, "represents_shot": 1, "value": value}
                     results.append(key | row | {"low": value * 0.999, "high": value * 1.001})
                 if study["costs"]:
                     costs.append(key | {"stage": "total", "quantity": "operations", "value": round(operations)})
@@ -96,7 +96,7 @@ class FakeSsrlab:
             json.dump({"variants": points, "shots": shots}, stream)
         for name, rows in (("results", results), ("costs", costs), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
             with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
-                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "speaks", "standing", "fits_from_ms"])
+                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "represents_shot", "standing", "fits_from_ms"])
                 writer.writeheader()
                 writer.writerows(rows)
 

@@ -87,7 +87,7 @@ const timesOf = shot =>
     report.times.filter(t => t.shot === shot && t.stage === "total" && t.variant && t.variant !== "none")
         .sort((a, b) => a.value - b.value);
 
-/// Rows of the shot that the headline speaks of, by the name of a metric.
+/// Rows of the shot of the headline's target and mask, by the name of a metric.
 const headlineRows = (shot, metric) => {
     const {target, mask} = headline;
     const of = report.errors.filter(r => r.shot === shot && r.metric === metric && r.value !== null);

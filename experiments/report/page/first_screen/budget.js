@@ -16,10 +16,10 @@ function showBudget() {
     };
     at("answer-budget")
         .append(
-            h("label", {}, "Time budget: ",
+            h("label", {}, "Time budget per frame: ",
               h("input",
                 {type: "number", id: "budget", min: 0, step: "any", value: budget.milliseconds, input: changed}),
-              " ms per frame. "),
+              " ms. "),
             h("small", {id: "budget-note"}), h("table", {id: "budget-answer", "aria-live": "polite"}));
 }
 
@@ -43,15 +43,15 @@ function drawBudget(shot) {
 /// From where on times differ, by two copies of a point.
 function floorText(shot) {
     const floor = aaFloor(shot);
-    if (floor === undefined) return "No point was timed twice: how near times are the same is not known.";
-    return floor > 0 ? `Times nearer than ${percent(floor)} are the same.` : "";
+    if (floor === undefined) return "No point was timed twice: the noise of times is not known.";
+    return floor > 0 ? `Times within ${percent(floor)} are not distinguishable.` : "";
 }
 
 /// The rows of the answer, and what they say where there is no such point.
 const budgetKinds = {
-    "fits": "nothing that was timed surely fits",
-    "may fit": "nothing of less error",
-    "just misses": "nothing of less error"
+    "fits": "no timed point surely fits",
+    "may fit": "no point of less error",
+    "just misses": "no point of less error"
 };
 
 /// Points by kind, the first the one to show: of those that surely fit the one of the least error; those of less error

@@ -80,10 +80,10 @@ function drawErrorTime() {
             timed ? "Total time of a technique's stages, medians over the frames; lines are 95 % intervals." :
                     "No times were measured.",
         isLog && timed && "The grey steps join the points that none other beats in both, whatever the intervals say.",
-        "Dashed: none. Dotted: the information limit of one frame (see Truth ladder), with its interval.",
+        "Dashed: none. Dotted: the lower bound for any single-frame technique (see Truth ladder), with its interval.",
         isLog && "An arrow marks a noise-corrected error that is not above 0.",
         rows.some(isOneSeed) && "Hollow: one seed alone, which has no interval and is left out of the steps.",
-        "A mark tells its parameters and numbers; a click opens its images."
+        "A mark shows its parameters and numbers; a click opens its images."
     ].filter(Boolean).join(" ");
     at("legend").replaceChildren(pointLegend(rows));
     const pairs = unique(rows.map(r => r.shot))

@@ -5,7 +5,7 @@ const fullColour = 8;  // a ratio of that size, or its inverse, has the full col
 const mostWideColumns = 14;  // more of them have narrow cells below upright names
 
 /// What the cells of one shot and metric are divided by: the least error but for single seeds, which may be so by
-/// chance, or that of none; null where it is not told.
+/// chance, or that of none; null where there is none.
 function columnReference(rows) {
     const positive = rows.filter(r => r.value > 0 && !isOneSeed(r));
     if (!positive.length || (!rows[0].isTime && better(rows[0].metric) !== "lower")) return null;

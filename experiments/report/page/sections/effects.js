@@ -224,8 +224,8 @@ function whyNoRatio(e) {
     const error = (variant, point) => report.errors.find(
         r => r.shot === e.shot && r.variant === variant && r.point === point && r.target === e.target &&
             metricKey(r) === metricKey(e) && r.mask === e.mask);
-    const untold = [error(e.variant, e.point), error(e.againstVariant, e.againstPoint)].find(r => r?.value === null);
-    return untold ? `no value for ${untold.point}: ${whyMissing(untold)}` :
+    const lacking = [error(e.variant, e.point), error(e.againstVariant, e.againstPoint)].find(r => r?.value === null);
+    return lacking ? `no value for ${lacking.point}: ${whyMissing(lacking)}` :
                     `${errorParts[e.metric] ?? "an error"} is not above 0`;
 }
 

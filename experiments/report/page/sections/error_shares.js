@@ -49,7 +49,7 @@ const causeTexts = {
     right: "where rays were right (filter, fallback, view dependence)",
     untraced: "where no ray was traced"
 };
-const leastShare = 0.01;  // smaller ones are not told
+const leastShare = 0.01;  // smaller ones are not named
 
 /// [{key, value}] of what `of(verdict)` gives, the largest first.
 const rankedCauses = of =>
@@ -177,7 +177,7 @@ function errorSharesPart(shot) {
           }),
           h("div", {}, why,
             limit ? h("p", {class: "note"},
-                      `Dotted: the information limit of one frame, ${
+                      `Dotted: the lower bound for any single-frame technique, ${
                       `${metric} ${number(limit.value)} ${interval(limit)}`.trim()}.`) :
                     "")),
         folded("All in sentences", h("ul", {class: "sentences"}, groups.map(g => h("li", {}, whyText(g)))))

@@ -54,13 +54,13 @@ function showNeeds() {
         at("needs").append(
             h("details", {},
               h("summary", {},
-                `${shot.shot}: ${leftOut.length ? leftOut.length + " parts left out" : "nothing left out"}`),
+                `${shot.shot}: ${leftOut.length ? leftOut.length + " parts skipped" : "nothing skipped"}`),
               table(
                   [{name: "Fact"}, {name: "Value"}, {name: "Why"}],
                   needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
               leftOut.length ?
                   table(
-                      [{name: "Left out"}, {name: "Serves only"}, {name: "Why"}, {name: "Time saved", number: true}],
+                      [{name: "Skipped"}, {name: "Serves only"}, {name: "Why"}, {name: "Time saved", number: true}],
                       leftOut.map(
                           l =>
                               [l.what, known(l.fact), known(l.why),

@@ -70,17 +70,17 @@ function hitPart(shot) {
         }));
     const columns = [
         {name: "Point"}, {name: "Rays of"}, {name: "Correct", number: true}, {name: "Error of distance", number: true},
-        {name: "Depth fetches", number: true}, {name: "Rays", number: true}, {name: "Avoidable misses were told as"}
+        {name: "Depth fetches", number: true}, {name: "Rays", number: true}, {name: "Avoidable misses reported as"}
     ];
     const lines = groups.map(({first, by}) => {
         const correct = by.get("correct"), distance = by.get("distance_error"), fetches = by.get("fetches");
-        const told = [...by.values()].filter(r => r.quantity.startsWith("miss: ")).sort((a, b) => b.value - a.value);
+        const misses = [...by.values()].filter(r => r.quantity.startsWith("miss: ")).sort((a, b) => b.value - a.value);
         return [
             pointLabel(first), passName(first, hasFrames),
             cell(correct.value, percent(correct.value), h("small", {}, percentInterval(correct))),
             cell(distance?.value, distance ? number(distance.value, 2) : ""),
             cell(fetches.value, number(fetches.value, 3)), cell(first.rays, number(first.rays, 6)),
-            told.slice(0, 3).map(r => `${r.quantity.slice(6).replace("_", " ")} ${percent(r.value)}`).join(", ")
+            misses.slice(0, 3).map(r => `${r.quantity.slice(6).replace("_", " ")} ${percent(r.value)}`).join(", ")
         ];
     });
     return [h(

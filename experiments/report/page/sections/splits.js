@@ -39,7 +39,7 @@ function drawSplits() {
     at("split-table").replaceChildren(table(columns, lines, {groupBy: 0}));
 }
 
-/// A squared bias that cannot be told from 0.
+/// A squared bias that is not distinguishable from 0.
 const isAboutZero = part => part.value <= 0 || (part.low !== null && part.low <= 0);
 
 const partCell = (part, hasNote) =>

@@ -77,7 +77,7 @@ function stagesOf(shot) {
     if (!times.length) return [stageBars(barRows), costTable(shot)];
     return [
         stages.length ? stageBars(barRows) :
-                        h("p", {class: "note"}, "No variant of this shot has a stage: all were left out."),
+                        h("p", {class: "note"}, "No variant of this shot has a stage: all were skipped."),
         savedNote(shot), floorNote(shot), formNote(own), costTable(shot),
         h("details", {open: own.length <= longTable}, h("summary", {}, "All stages as numbers"),
           table(columns, sorted.map(row), {groupBy: 0})),
@@ -94,7 +94,7 @@ const ambiguousParts = new Set(unique(stageRows.filter(t => t.stage !== "total")
                                    .map(key => [key.split("|")[0], lastPart(key.split("|")[1])].join("|"))
                                    .filter((key, i, all) => all.indexOf(key) !== i)
                                    .map(key => key.split("|")[1]));
-/// A stage's name, without its folder where the rest tells it.
+/// A stage's name, without its folder where the rest says it.
 const stageName = stage => (ambiguousParts.has(lastPart(stage)) ? stage : lastPart(stage)).replaceAll("_", " ");
 
 /// By name of a stage: the index of its look, the same in all techniques. No other name has it as long as there are
@@ -160,7 +160,7 @@ function savedNote(shot) {
     const leftOut = list(manifestShots().find(s => s.shot === shot)?.left_out).length;
     const share = s => cell(s.share, `${percent(s.share)} `, h("small", {}, `[${percent(s.low)}, ${percent(s.high)}]`));
     return folded(
-        `What is saved by the ${leftOut} parts that this scene has no use for`,
+        `Work that can be skipped: time saved by ${leftOut} parts`,
         table(
             [
                 {name: "Point"}, {name: "Share of its total that is saved", number: true},
@@ -171,7 +171,7 @@ function savedNote(shot) {
 }
 
 const longList = 6;  // of paragraphs; longer ones are folded
-/// What was timed: a point's name does not tell which form of a stage ran. Single changes equal their baseline in all
+/// What was timed: a point's name does not say which form of a stage ran. Single changes equal their baseline in all
 /// but what their name says.
 function formNote(times) {
     const isTimed = v => times.some(t => pointKey(t) === pointKey(v));

@@ -76,7 +76,7 @@ function whyMissing(row) {
     const note =
         list(report.manifest.notes)
             .find(n => n.startsWith(start) && n.slice(n.lastIndexOf("(") + 1, -1).split(", ").includes(row.mask));
-    return note ? note.slice(start.length, note.lastIndexOf(" (")) : "not told";
+    return note ? note.slice(start.length, note.lastIndexOf(" (")) : "reason unknown";
 }
 
 function showFrames(rows) {

@@ -67,7 +67,7 @@ function colorRamp(codes) {
 /// magma by Stefan van der Walt and Nathaniel Smith (matplotlib, CC0), every eighth entry, interpolated.
 const magma = colorRamp(
     "000004 030312 0a0822 130d34 1d1147 29115a 36106b 440f76 51127c 5d177f 6a1c81 762181 832681 902a81 9c2e7f aa337d b73779 c23b75 cf4070 db476a e55064 ee5b5e f4695c f9785d fb8761 fd9668 fea571 feb47b fec287 fed194 fde0a1 fceeb0 fcfdbf");
-/// Signed values: Okabe and Ito's blue and vermilion, which all kinds of colour vision tell apart, white between them,
+/// Signed values: Okabe and Ito's blue and vermilion, distinct with all kinds of colour vision, white between them,
 /// and darker ends.
 const diverging = colorRamp("002a44 0072b2 ffffff d55e00 552500");
 const badColor = [255, 0, 255];  // NaN and infinity: a colour that no scale has

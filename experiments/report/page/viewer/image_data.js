@@ -82,12 +82,12 @@ function decodeHalves(bytes, width, height) {
         for (let i = 0, x = 0; i < pixels; ++i) {
             const code = bytes[p * pixels + i] | bytes[count + p * pixels + i] << 8;
             const left = x ? plane[i - 1] : 0, above = i < width ? 0 : plane[i - width];
-            let foretold = x ? left : above;
+            let predicted = x ? left : above;
             if (x && i >= width) {
                 const corner = plane[i - width - 1], low = Math.min(left, above), high = Math.max(left, above);
-                foretold = corner >= high ? low : corner <= low ? high : left + above - corner;
+                predicted = corner >= high ? low : corner <= low ? high : left + above - corner;
             }
-            plane[i] = foretold + (code >> 1 ^ -(code & 1));
+            plane[i] = predicted + (code >> 1 ^ -(code & 1));
             if (++x === width) x = 0;
         }
         return plane;

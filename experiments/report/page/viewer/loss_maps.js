@@ -1,6 +1,6 @@
 // Which pixel loses to what: the method that is nearest to the truth, and the cause of each method's error.
 
-/// Okabe and Ito's colours, which all kinds of colour vision tell apart.
+/// Okabe and Ito's colours, distinct with all kinds of colour vision.
 const categoryCodes = ["e69f00", "56b4e9", "009e73", "f0e442", "0072b2", "d55e00", "cc79a7", "ffffff"];
 const darkGrey = [40, 40, 40], midGrey = [128, 128, 128];
 const cssColor = color => `background:rgb(${color})`;
@@ -116,7 +116,7 @@ const verdictMapLegend = () => [h(
 
 // --- causes
 
-/// The images that tell what of an error no single frame can know; none without a truth ladder.
+/// The images that show what of an error no single frame can know; none without a truth ladder.
 function ladderIndices() {
     const {results} = truthMethod() ?? {results: {}};
     if (!("on_screen" in results)) return [];
@@ -126,7 +126,7 @@ function ladderIndices() {
 const ladderImage = target => loadedImages.get(truthMethod()?.results[target]);
 
 /// How far the rung of the truth ladder is from the truth at a pixel, as [r, g, b] of the current target: what of an
-/// error a single image of the scene cannot tell. Of `specular` and `image` it is that of `incident` times the
+/// error a single image of the scene cannot avoid. Of `specular` and `image` it is that of `incident` times the
 /// surface's reflectance, as the truth's specular / incident has it. Null where the study has no such rung.
 function rungDifference(rung, i) {
     const [from, incident, specular] = [rung, "incident", "specular"].map(ladderImage);
@@ -150,7 +150,7 @@ function rungDistances() {
 }
 
 const causes = [
-    ["off_screen", "not on the screen: no single image tells", "56b4e9"],
+    ["off_screen", "not on the screen: no single image shows it", "56b4e9"],
     ["avoidable_miss", "ray missed what is on the screen", "f0e442"],
     ["wrong_place", "ray hit the wrong place", "e69f00"], ["false_hit", "ray hit what is not there", "cc79a7"],
     ["right", "ray was right: filter and shading", "009e73"],
@@ -214,6 +214,6 @@ function causeLegend() {
           "Not on the screen: where the rung on_screen of the truth ladder is from the truth by half of the error " +
               "or more. Else what became of the pixel's first ray, or of one among its 2 x 2 pixels. " +
               `Dark: below ${percent(visibleError)} of the scale of absolute differences.` +
-              (missing.length ? ` To tell all causes, this frame lacks ${missing.join(" and ")}.` : ""))
+              (missing.length ? ` To find all causes, this frame lacks ${missing.join(" and ")}.` : ""))
     ];
 }
