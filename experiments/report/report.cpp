@@ -57,6 +57,7 @@ constexpr const char* scripts[] = {"data.js",
                                    "viewer/loss_maps.js",
                                    "viewer/inspector.js",
                                    "viewer/crops.js",
+                                   "viewer/viewer_keep.js",
                                    "start.js"};
 
 std::string part(const std::string& name) {

@@ -21,6 +21,7 @@ function fill(element, attributes, children) {
 
 const at = id => document.getElementById(id);
 const unique = list => [...new Set(list)];
+const manifestShots = () => list(report.manifest.shots);
 const list = value => Array.isArray(value) ? value : [];
 /// How the study names points and shots, where it does.
 const pointLabels =
@@ -98,9 +99,11 @@ function table(columns, rows, options = {}) {
         show([...rows].sort((a, b) => compareCells(sortKey(a[i]), sortKey(b[i]), up)));
     }
     show(rows);
-    return h(
-        "table", {}, options.caption ? h("caption", {}, options.caption) : null, h("thead", {}, h("tr", {}, heads)),
-        body);
+    const whole =
+        h("table", {}, options.caption ? h("caption", {}, options.caption) : null, h("thead", {}, h("tr", {}, heads)),
+          body);
+    scrollWatcher.observe(whole);  // on narrow screens tables scroll by themselves
+    return whole;
 }
 
 const sortKey = cell => cell && cell.sort !== undefined ? cell.sort : cell instanceof Node ? cell.textContent : cell;
@@ -124,6 +127,48 @@ function clickable(element, act) {
         event.preventDefault();
         act(event);
     });
+}
+
+/// Whether `act` may be done here: what browsers may refuse (clipboard, address, full screen) throws.
+async function attempt(act) {
+    try {
+        await act();
+        return true;
+    } catch {
+        return false;
+    }
+}
+
+function saveFile(blob, name) {
+    const href = URL.createObjectURL(blob);
+    h("a", {href, download: name}).click();
+    setTimeout(() => URL.revokeObjectURL(href), 1000);
+}
+
+async function copyText(text) {
+    if (await attempt(() => navigator.clipboard.writeText(text))) return;
+    const area = h("textarea", {readonly: true});  // where a page that is a file has no clipboard of its own
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+}
+
+/// Buttons that copy a table as it is shown, for a spreadsheet, and save it.
+function tableActions(whole, name) {
+    const text = c => c.textContent.replace(/\s+/g, " ").trim();
+    const quoted = c => /[",]/.test(text(c)) ? `"${text(c).replaceAll("\"", "\"\"")}"` : text(c);
+    const lines = (of, separator) => [...whole.rows].map(row => [...row.cells].map(of).join(separator) + "\n").join("");
+    const said = h("output");
+    const copy = async () => {
+        await copyText(lines(text, "\t"));
+        said.textContent = "Copied.";
+    };
+    const save = () => saveFile(new Blob([lines(quoted, ",")], {type: "text/csv"}), name);
+    return h(
+        "div", {class: "controls"}, h("button", {click: copy}, "Copy table"), h("button", {click: save}, "Save table"),
+        said);
 }
 
 /// A word of warning beside what it concerns; `why` is read out, and shown beside the pointer.

@@ -153,7 +153,13 @@ function plot(options) {
 }
 
 const markRadius = 5, labelSize = 10.5;  // of the chart's own pixels
-const digitWidth = 0.64;                 // of DejaVu Sans, the widest font that the page names, over its size
+const textWidth = (() => {
+    const context = document.createElement("canvas").getContext("2d");
+    return text => {
+        context.font = `${labelSize}px ${getComputedStyle(document.body).fontFamily}`;
+        return context.measureText(text).width;
+    };
+})();
 
 const overlap = (a, b) =>
     Math.min(a.right, b.right) > Math.max(a.left, b.left) && Math.min(a.bottom, b.bottom) > Math.max(a.top, b.top);
@@ -161,14 +167,11 @@ const around = (x, y, rx, ry = rx) => ({left: x - rx, right: x + rx, top: y - ry
 
 /// The box of a text whose middle line is at `y`, with a pixel of air.
 function textBox({x, y, anchor}, text) {
-    const width = digitWidth * labelSize * text.length,
-          left = anchor === "start" ? x :
-        anchor === "end"            ? x - width :
-                                      x - width / 2;
+    const width = textWidth(text), left = anchor === "start" ? x : anchor === "end" ? x - width : x - width / 2;
     return {left: left - 1, right: left + width + 1, top: y - 0.6 * labelSize, bottom: y + 0.6 * labelSize};
 }
 
-/// Where a mark's number may stand, the best place first; far from it at the end of a line.
+/// Where a mark's name may stand, the best place first; far from it at the end of a line.
 function placesAround(x, y) {
     const near = [[7, -8], [8, 0], [7, 8], [-7, -8], [-8, 0], [-7, 8], [0, -12], [0, 12]];
     const far = [17, 26, 36, 48].flatMap(
@@ -183,7 +186,7 @@ function placesAround(x, y) {
           line});
     return [
         ...near.map(([dx, dy]) => place(dx, dy, [])),
-        // Points of the line from the mark's edge to the number.
+        // Points of the line from the mark's edge to the name.
         ...far.map(([dx, dy]) => place(dx, dy, [0.3, 0.45, 0.6, 0.75, 0.9].map(t => [x + t * dx, y + t * dy])))
     ];
 }
@@ -192,9 +195,9 @@ function placesAround(x, y) {
 /// and line meet no mark, text or line before, and the fewest of the `lines`, or none: its mark says its name.
 function placeLabels(labels, field, marks, lines) {
     const taken = [...marks], placed = [];
-    for (const {text, places} of labels) {
+    for (const {text, places, mark} of labels) {
         const free =
-            places.map(place => ({text, place, box: textBox(place, text)}))
+            places.map(place => ({text, place, mark, box: textBox(place, text)}))
                 .filter(
                     ({place, box}) => box.left >= field.left && box.right <= field.right && box.top >= field.top &&
                         box.bottom <= field.bottom && !taken.some(other => overlap(box, other)) &&
@@ -222,7 +225,8 @@ function pixelsOf({type, domain}, start, end) {
 }
 
 /// A chart of marks on two axes; `under`: layers below them; `levels`: [{y, text}], names of lines across it. Widths
-/// and heights are in CSS pixels at scale 1. A mark's number stands where it covers nothing.
+/// and heights are in CSS pixels at scale 1. A mark's name stands where it covers nothing: the figure's
+/// `unnamed` lists the marks that had no room for theirs.
 function markChart(
     {title, caption, width = 440, height = 300, x, y, marks, under = [], levels = [], marginBottom = 44, ticks = {}}) {
     const label = {labelAnchor: "center", labelArrow: "none"}, [marginLeft, marginRight, marginTop] = [62, 16, 14];
@@ -271,12 +275,14 @@ function markChart(
     const placed = placeLabels(
         [
             ...levels.map(l => ({text: l.text, places: levelPlaces(l.y)})),
-            ...shown.filter(m => m.number).map(m => ({text: String(m.number), places: placesAround(m.x, m.y)}))
+            ...shown.filter(m => m.name).map(m => ({text: m.name, places: placesAround(m.x, m.y), mark: m}))
         ],
         {left: marginLeft, right: width, top: marginTop - 4, bottom}, shown.map(m => around(m.x, m.y, markRadius)),
         lines);
     picture.append(svg("g", {}, placed.map(p => labelLine(p.place)), placed.map(labelText)));
-    return h("figure", {class: "chart"}, h("figcaption", {}, caption ?? title), picture);
+    const figure = h("figure", {class: "chart"}, h("figcaption", {}, caption ?? title), picture);
+    figure.unnamed = shown.filter(m => !placed.some(p => p.mark === m)).map(m => m.data);
+    return figure;
 }
 
 /// A mark's shape in `size` pixels, for legends and tables.
@@ -309,15 +315,14 @@ function legend(entries, actions = []) {
         actions.map(([name, act]) => h("button", {class: "plain", click: act}, name)));
 }
 
-/// The marks of `rows` get their point's colour, shape and number.
+/// The marks of `rows` get their point's colour, shape and name.
 function pointMark(row, more) {
-    const isNumbered = comparedPoints.length <= mostNumbered && shownPoints.colourBy === "point";
+    const isNamed = comparedPoints.length <= mostNamed && shownPoints.colourBy === "point";
     return {
         ...styleOf(row),
         isHollow: isOneSeed(row),
-        number: isNumbered ? pointNumber(row) : null,
+        name: isNamed ? markName(row) : null,
         data: {variant: row.variant, point: row.point, value: row.value},
-        open: () => openPoint(row),
         ...more
     };
 }

@@ -11,13 +11,23 @@ const singleChangeKeys = new Set(report.singleChanges.map(pointKey));
 const isSingleChange = row => singleChangeKeys.has(pointKey(row));
 const isSamePoint = (a, b) => a.shot === b.shot && pointKey(a) === pointKey(b);
 
-const allPoints = [...new Map(report.errors.map(r => [pointKey(r), {variant: r.variant, point: r.point}])).values()];
+/// Of a capture without truth, which has no errors, those that it ran.
+const allPoints = [...new Map((report.errors.length ? report.errors : list(report.manifest.variants))
+                                  .map(r => [pointKey(r), {variant: r.variant, point: r.point}]))
+                       .values()];
 const comparedPoints = allPoints.filter(p => !isSingleChange(p));
 const places = new Map(allPoints.map((p, i) => [pointKey(p), i]));
-/// Counted from 1 in the order of the study: what distinguishes marks where colours do not.
-const pointNumber = row => places.get(pointKey(row)) + 1;
 const variants = unique(allPoints.map(p => p.variant));
-const mostNumbered = 30;  // more numbers than that cover each other
+const mostNamed = 30;  // more names than that cover each other
+/// The point's name at a mark, no longer than it takes to differ from the others.
+const markName = (() => {
+    const count = variant => comparedPoints.filter(p => p.variant === variant).length;
+    const techniques = variants.filter(v => v !== "none");
+    return row => ownLabel(row) ??
+        (count(row.variant) === 1    ? row.variant :
+             techniques.length === 1 ? row.point :
+                                       pointLabel(row));
+})();
 
 /// What the reader chose to see. `hidden`: keys of points that legends switched off.
 const shownPoints = {
@@ -25,7 +35,7 @@ const shownPoints = {
     sort: "study",
     isGrouped: false,
     relativeTo: "best",  // or none: what cells of the matrix are divided by
-    colourBy: comparedPoints.length <= mostNumbered ? "point" : "variant",
+    colourBy: comparedPoints.length <= mostNamed ? "point" : "variant",
     // A grid has holes without them; a list of changes to a baseline is shown by its effects.
     hasSingleChanges: comparedPoints.some(p => (p.point.match(/=/g) ?? []).length > 1),
     hidden: new Set()
@@ -104,11 +114,11 @@ function styleOf(row) {
 /// [{label, keys, style}]: what colours and shapes stand for, of the points of `rows`.
 function legendGroups(rows) {
     const points = [...new Map(rows.map(r => [pointKey(r), r])).values()], by = shownPoints.colourBy;
-    const name = p => by === "point" ? `${pointNumber(p)} ${pointLabel(p)}` :
-        by === "variant"      ? p.variant :
-        by === "group"        ? groupOf(p) || "no group" :
-        by in parametersOf(p) ? `${by} = ${JSON.stringify(parametersOf(p)[by])}` :
-                                `without ${by}`;
+    const name = p => by === "point" ? pointLabel(p) :
+        by === "variant"             ? p.variant :
+        by === "group"               ? groupOf(p) || "no group" :
+        by in parametersOf(p)        ? `${by} = ${JSON.stringify(parametersOf(p)[by])}` :
+                                       `without ${by}`;
     const ordered = ["point", "variant", "group"].includes(by) ?
         points :
         [...points].sort((a, b) => compareCells(parametersOf(a)[by] ?? null, parametersOf(b)[by] ?? null, true));
@@ -183,7 +193,8 @@ const unitText = metric => {
 
 /// Names of shots as short as they still differ: their scenes, or without the parts that all of them share.
 const shortShot = (() => {
-    const shots = unique(report.errors.map(r => r.shot)), parts = shot => shot.split(".");
+    const shots = unique((report.errors.length ? report.errors : manifestShots()).map(r => r.shot)),
+          parts = shot => shot.split(".");
     const areScenesUnique = unique(shots.map(s => parts(s)[0])).length === shots.length;
     const isShared = (part, i) => i > 0 && shots.every(s => parts(s)[i] === part);
     const short = new Map(shots.map(

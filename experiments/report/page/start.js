@@ -17,15 +17,12 @@ addEventListener("beforeprint", () => {
 /// Resolves when the pictures are there.
 async function showStudy() {
     showHead();
-    if (report.errors.length)
-        await showAnswers();
-    else
-        leaveOut("answers");
+    await showAnswers();
     await new Promise(painted => setTimeout(painted));  // the first screen, before the rest is made
     if (report.errors.length)
         showExplorer();
     else
-        at("results").append(h("p", {class: "note"}, "results.csv has no rows."));
+        leaveOut("results");
     showHits();
     showStages();
     showRoughness();

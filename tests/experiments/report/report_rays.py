@@ -104,7 +104,7 @@ def test_why(page, folder, shot, part, errors):
     equal(page.execute_script(text, part + " li"), wanted, "the same in the list")
     choose = "[...document.querySelectorAll('#answer-shots button')].find(b => b.title.startsWith(arguments[0])).click()"
     first = page.execute_script("return answerChoice.shot")
-    page.execute_script("const w = at('why'); w.value = 'sssr|first'; w.dispatchEvent(new Event('change'))")
+    page.execute_script("return choosePoint({variant: 'sssr', point: 'first'})")
     page.execute_script(choose, shot)
     equal(page.execute_script(text, "#why-answer"), wanted, "the first screen's answer, kept from shot to shot")
     page.execute_script("document.querySelectorAll('#hits details.shot').forEach(d => { d.open = false })")

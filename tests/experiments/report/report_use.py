@@ -4,22 +4,31 @@ import json
 import os
 import re
 
-from report_browser import By, WebDriverWait, check, choose_in, equal, rows_of, until_ready
+from report_browser import By, WebDriverWait, check, choose_in, equal, rows_of, table_of, until_ready
 
 AXE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vendor", "axe.min.js")
 BEST, BASELINE = ("mcguire_dda", "stride=1"), ("mcguire_dda", "stride=4")
 
 
-def with_answers(folder):
-    """The report with answers of its first two shots made up, as a file beside it."""
+def changed_report(folder, change):
+    """The address of the report with `change` made to its data, as a file beside it."""
     with open(os.path.join(folder, "report.html")) as file:
         text = file.read()
     before, data, after = re.match(r'(.*<script type="application/json" id="data">)(.*?)(</script>.*)', text, re.S).groups()
     data = json.loads(data)
+    change(data)
+    path = os.path.join(folder, change.__name__ + ".html")
+    with open(path, "w") as file:
+        file.write(before + json.dumps(data).replace("<", "\\u003c") + after)
+    return "file://" + path
 
+
+def answered(data):
+    """Answers of its first two shots, made up."""
     def point(name):
         return {"variant": name[0], "point": name[1], "value": 0.125, "low": 0.12, "high": 0.13}
 
+    data["over_scenes"] = "Over 2 scenes one errs least."
     data["answers"] = [
         {
             "shot": shot["shot"],
@@ -31,10 +40,50 @@ def with_answers(folder):
         }
         for i, shot in enumerate(data["manifest"]["shots"][:2])
     ]
-    path = os.path.join(folder, "answers.html")
-    with open(path, "w") as file:
-        file.write(before + json.dumps(data).replace("<", "\\u003c") + after)
-    return [a["shot"] for a in data["answers"]], "file://" + path
+
+
+def test_without_truth(page, folder):
+    """A capture has no errors: its pictures and times come first."""
+    def capture(data):
+        data["errors"]["rows"] = data["frames"]["rows"] = []
+
+    page.get(changed_report(folder, capture))
+    until_ready(page)
+    check("without truth" in texts(page, "#over-scenes")[0], "what is said first")
+    check("3 variant points" in texts(page, "#subtitle")[0], "the points that it ran")
+    shots = rows_of(folder, "time_summary.csv", stage="total")
+    of_first = [r for r in shots if r["shot"] == shots[0]["shot"] and r["variant"] != "none"]
+    check(texts(page, "#answer-shots button")[0].startswith("mirror_pillars 3 points, "), "the shots")
+    shown = [float(row[1][1]) for row in table_of(page, "#answer-charts")]
+    equal(shown, sorted(float(r["median_ms"]) for r in of_first), "times")
+    equal(len(page.find_elements(By.CSS_SELECTOR, "#answer-pictures canvas")), 3, "a picture of each point")
+    check(not page.find_elements(By.ID, "results"), "a section of errors")
+    equal([e["message"] for e in page.get_log("browser")], [], "console messages")
+
+
+def test_sampled_rays(page, folder):
+    """Where a study judged some rays alone it says why nothing is said of causes."""
+    def sampled(data):
+        data["manifest"].setdefault("config", {})["hits"] = {"every": 2}
+
+    page.get(changed_report(folder, sampled))
+    until_ready(page)
+    for selector in ("#why-answer", "#error-shares .note:last-child"):
+        said = texts(page, selector)[0]
+        check("one pixel in 2 along each axis" in said and '"every": 1' in said, f"{selector} says {said!r}")
+
+
+def test_old_browser(page, folder):
+    """One that cannot inflate images: the page says so where they would be, and shows all else."""
+    old = {"source": "delete window.DecompressionStream"}
+    script = page.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", old)["identifier"]
+    page.get("file://" + os.path.join(folder, "report.html"))
+    until_ready(page)
+    page.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", {"identifier": script})
+    for selector in ("#answer-pictures", "#viewer"):
+        check("need a browser of 2023" in texts(page, selector)[0], f"{selector} without images")
+    equal(len(page.find_elements(By.CSS_SELECTOR, "#answer-charts .chart")), 2, "charts without images")
+    equal([e["message"] for e in page.get_log("browser")], [], "console messages of an old browser")
 
 
 def texts(page, selector):
@@ -43,12 +92,16 @@ def texts(page, selector):
 
 def test_answers(page, shots):
     """All of the first screen, at the size that it is made for."""
-    sentences = texts(page, "#answer-shots button")
-    equal(sentences[:2], [f"{s.split('.')[0]} In <{i}> one errs least, surely." for i, s in enumerate(shots)], "sentences")
-    check("No technique is named" in sentences[2], f"a shot without answer: {sentences[2]}")
+    equal(texts(page, "#over-scenes"), ["Over 2 scenes one errs least."], "what is said first")
+    first = page.execute_script("return [...document.querySelectorAll('#answers p, #answers button')].find(e => e.innerText).id")
+    equal(first, "over-scenes", "the first text of the first screen")
     equal(len(page.find_elements(By.CSS_SELECTOR, "#answer-charts .chart")), 2, "charts of both errors")
     for shot in (1, 0):
         page.find_elements(By.CSS_SELECTOR, "#answer-shots button")[shot].click()
+        names, sentences = [s.split(".")[0] for s in shots], texts(page, "#answer-shots button")
+        equal(sentences[shot], f"{names[shot]} In <{shot}> one errs least, surely.", "the chosen shot's sentence")
+        equal(sentences[1 - shot], f"{names[1 - shot]} mcguire_dda · stride=1, mse 0.125 [0.12, 0.13]", "another shot's best")
+        check("No technique is named" in sentences[2], f"a shot without answer: {sentences[2]}")
         check(texts(page, "#answer-note")[0].startswith(f"To eyes, too, in {shot}."), "the chosen shot's note")
         captions = page.execute_script("return [...document.querySelectorAll('#answer-charts figcaption')].map(c => c.innerText)")
         check(all(c.startswith(shots[shot].split(".")[0]) for c in captions), f"charts of the chosen shot: {captions}")
@@ -63,6 +116,10 @@ def test_answers(page, shots):
         c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => (a * 31 + b) % 1e9))"""
     )
     equal(len(set(colours)), 3, "three pictures that differ")
+    cut = "return [...document.querySelectorAll('#answers *')].filter(e => ['ellipsis'].includes(getComputedStyle(e).textOverflow) || getComputedStyle(e).webkitLineClamp !== 'none').length"
+    equal(page.execute_script(cut), 0, "texts of the first screen that may be cut off")
+    names = page.execute_script("return [...document.querySelectorAll('#answer-charts .chart:first-child .mark-label')].map(t => t.textContent)")
+    equal([n for n in names if n in ("stride=1", "stride=4")], ["stride=1", "stride=4"], "names at the marks")
     bottom = page.execute_script("return document.querySelector('#answers').getBoundingClientRect().bottom")
     check(bottom <= 800, f"the first screen ends at {bottom}")
     check(page.execute_script("return document.body.scrollWidth <= innerWidth"), "the page is wider than the window")
@@ -70,7 +127,8 @@ def test_answers(page, shots):
 
 
 def test_budget(page, folder, shot):
-    """Of what fits into the time, the least error; and what may fit or not."""
+    """Of what fits into the time the least error, what may fit, and what just misses; each with its picture."""
+    check(float(page.find_element(By.ID, "budget").get_attribute("value")) > 0, "a budget to begin with")
     of_shot = dict(shot=shot, stage="total")
     times = {(r["variant"], r["point"]): [float(r[c]) for c in ("median_ms", "low_ms")] for r in rows_of(folder, "time_summary.csv", **of_shot)}
     errors = {
@@ -78,6 +136,7 @@ def test_budget(page, folder, shot):
         for r in rows_of(folder, "summary.csv", shot=shot, metric="mse", mask="reflective", target="specular")
     }
     high_of = lambda point: max(float(r["fits_from_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["variant"], r["point"]) == point)
+    least_of = lambda point: max(float(r["may_fit_from_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["variant"], r["point"]) == point)
     label = lambda point: point[0] if point[1] == "default" else " · ".join(point)
     by_error = sorted(times, key=errors.get)
     best, cheapest = by_error[0], min(times, key=times.get)
@@ -85,17 +144,39 @@ def test_budget(page, folder, shot):
     between = (times[best][1] + times[best][0]) / 2  # within the interval of the best one's time
     for budget, fits in ((times[best][0] + 1, best), (times[best][0] + 1e-6, best), (between, cheapest), (times[cheapest][1] / 2, None)):
         page.execute_script("const b = at('budget'); b.value = arguments[0]; b.dispatchEvent(new Event('input'))", budget)
-        text = texts(page, "#budget-answer")[0]
-        wanted = f"By mse {label(fits)}, " if fits else "By mse: no timed point fits."
-        check(wanted in text, f"within {budget} ms: {text}")
-        equal("It is open whether " + label(best) in text, budget == between, f"doubts at {budget} ms: {text}")
-        check("Timer validation failed" in text, text)
-        equal(", which may not fit" in text.split("By flip")[0], bool(fits) and high_of(fits) > budget, f"may not fit {budget} ms: {text}")
-        check("Times within 2 % are not distinguishable" in text, f"the A/A floor: {text}")
+        rows = page.execute_script(
+            """return [...document.querySelectorAll('#budget-answer tr')].map(r => [r.cells[0].innerText, r.cells[1].innerText])"""
+        )
+        equal([r[0] for r in rows], ["fits", "may fit", "just misses"], "rows of the budget")
+        surely = [p for p in by_error if high_of(p) <= budget]
+        better = by_error[: by_error.index(surely[0])] if surely else by_error
+        may = [p for p in better if least_of(p) <= budget]
+        misses = sorted((p for p in better if least_of(p) > budget), key=least_of)
+        for (kind, text), own in zip(rows, (surely, may, misses)):
+            wanted = f"{label(own[0])} mse" if own else "no "
+            check(text.strip().startswith(wanted), f"{kind} {budget} ms: {text!r}, expected {wanted!r}")
+        note = texts(page, "#budget-note")[0]
+        check("Timer validation failed" in note and "Times within 2 % are not distinguishable" in note, f"the clock and the A/A floor: {note}")
     axes = page.execute_script("return [...document.querySelectorAll('#answer-charts svg')].map(s => s.textContent)")
     check(axes and all(re.search(r"total time \(ms\), .*\d+x\d+", a) for a in axes), f"machine and size at the axes of times: {axes}")
     page.execute_script("const b = at('budget'); b.value = ''; b.dispatchEvent(new Event('input'))")
-    equal(texts(page, "#budget-answer"), [""], "without a budget")
+    equal(texts(page, "#budget-answer") + texts(page, "#budget-note"), ["", ""], "without a budget")
+
+
+def test_chosen_point(page, shot):
+    """Pictures, marks and the reason follow a row of the budget and a mark."""
+    chosen = "return [...new Set([...document.querySelectorAll('#answer-charts .point.chosen')].map(m => m.dataset.point))]"
+    equal(page.execute_script(chosen), ["stride=1"], "the best is chosen first")
+    page.execute_script("const b = at('budget'); b.value = 1e6; b.dispatchEvent(new Event('input'))")
+    WebDriverWait(page, 20).until(lambda p: p.find_elements(By.CSS_SELECTOR, "#budget-answer .thumbnail canvas"))
+    page.execute_script("document.querySelector('#answer-charts .point[data-point=\"stride=4\"]').dispatchEvent(new Event('click'))")
+    equal(page.execute_script(chosen), ["stride=4"], "the mark that was clicked")
+    page.execute_script("answerOf(answerChoice.shot).baseline = null; return drawAnswerPictures()")
+    equal(texts(page, "#answer-pictures b")[2:], ["chosen: mcguire_dda · stride=4"], "its picture")
+    page.find_element(By.CSS_SELECTOR, "#budget-answer button").click()
+    equal(page.execute_script(chosen), ["stride=1"], "the budget's row that was clicked")
+    WebDriverWait(page, 20).until(lambda p: len(texts(p, "#answer-pictures b")) == 2)
+    page.execute_script("answerChoice.point = null; return drawChosenPoint()")
 
 
 def opened(page):
@@ -123,7 +204,7 @@ def test_matrix(page, shots):
     equal(focused, 7, "the cell that an arrow key goes to")
     equal(page.execute_script("return document.querySelectorAll('#matrix button[tabindex=\"0\"]').length"), 1, "tab stops")
     check("[" in cells[7].get_attribute("aria-label"), "a cell names its interval")
-    page.find_element(By.CSS_SELECTOR, "#answer-charts .point").send_keys("\ue007")  # Enter
+    page.find_element(By.CSS_SELECTOR, "#scatter .point").send_keys("\ue007")  # Enter
     equal(opened(page), wanted, "what a mark opens")
     page.find_element(By.CSS_SELECTOR, "#answer-pictures [role=button]").click()
     equal(opened(page), wanted, "what a picture opens")
@@ -139,12 +220,12 @@ def test_points(page):
 
     box = page.find_element(By.ID, "filter")
     box.send_keys("stride 4")
-    equal(rows(), ["3 mcguire_dda · stride=4"], "filtered points")
+    equal(rows(), ["mcguire_dda · stride=4"], "filtered points")
     equal(len(page.find_elements(By.CSS_SELECTOR, "#scatter .point")), 6, "filtered marks")
     equal(page.find_element(By.ID, "match").text, "1 of 3 points", "how many match")
     box.send_keys("\b" * 8)
     choose_in(page, "results", "Sort by", "mean error")
-    equal([r[0] for r in rows()], ["2", "3", "1"], "points by error")
+    equal(rows(), ["mcguire_dda · stride=1", "mcguire_dda · stride=4", "none"], "points by error")
     page.find_element(By.ID, "isGrouped").click()
     equal(texts(page, "#matrix tr.variant"), ["mcguire_dda", "none"], "groups")
     page.find_element(By.ID, "isGrouped").click()
@@ -210,18 +291,26 @@ def test_axe(page):
 
 def test_use(page, url, folder):
     """Uses a page of its own, and leaves `url` open as it was."""
-    shots, answers = with_answers(folder)
+    answers = changed_report(folder, answered)
     page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 1280, "height": 800, "deviceScaleFactor": 1, "mobile": False})
     page.get(answers)
     until_ready(page)
+    shots = page.execute_script("return report.answers.map(a => a.shot)")
     test_answers(page, shots)
     test_budget(page, folder, shots[0])
     test_matrix(page, shots)
+    test_chosen_point(page, shots[0])
     test_points(page)
     test_mistakes(page)
     test_provenance(page)
     test_paper(page)
     test_axe(page)
+    page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 400, "height": 800, "deviceScaleFactor": 1, "mobile": False})
+    check(page.execute_script("return document.body.scrollWidth <= innerWidth"), "the page is wider than a telephone")
+    test_without_truth(page, folder)
+    test_axe(page)
+    test_sampled_rays(page, folder)
+    test_old_browser(page, folder)
     page.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     page.get(url)
     until_ready(page)

@@ -1,7 +1,10 @@
-// The first screen: what the scenes say together and each shot says, and for the chosen one its pictures and its errors against time.
+// The first screen: what the scenes say together and each shot says, and for the chosen one its pictures, its errors
+// against time, and why the chosen point errs.
 
 const answerChoice = {
-    shot: null
+    shot: null,
+    point: null,   // {variant, point}; null: the best of the shot
+    request: null  // the last drawing of pictures, so that a slow one does not replace a later one
 };
 
 const answerOf = shot => report.answers.find(a => a.shot === shot);
@@ -10,6 +13,7 @@ const baselineLabel = shot => {
     const baseline = answerOf(shot)?.baseline;
     return baseline ? pointLabel(baseline) : undefined;
 };
+const chosenPoint = () => answerChoice.point ?? answerOf(answerChoice.shot)?.best;
 
 /// The sections below show the chosen shot, too.
 function showShotBelow(shot) {
@@ -26,12 +30,13 @@ function openPoint(row) {
 
 /// Resolves when the pictures are there.
 function showAnswers() {
-    const shots = unique(report.errors.map(r => r.shot));
-    answerChoice.shot = shots[0];
-    at("over-scenes").textContent = report.overScenes;
+    const shots = unique((report.errors.length ? report.errors : manifestShots()).map(r => r.shot));
+    answerChoice.shot = preferred(shots, addressedView()?.get("shot"));
+    at("over-scenes").textContent = report.errors.length ?
+        report.overScenes :
+        "This study has no errors: it ran without truth. What it has are pictures and times.";
     pointListeners.push(drawAnswerCharts);
     showBudget();
-    showWhy();
     return drawAnswers(shots);
 }
 
@@ -52,25 +57,35 @@ function drawAnswers(shots) {
                       click: choose(shot),
                       title: [shot, answerOf(shot)?.sentence].filter(Boolean).join("\n")
                   },
-                    answerText(shot)))));
-    at("answer-shots")
-        .style.setProperty(
-            "--lines",
-            shots.length <= mostWhole        ? "none" :
-                shots.length <= mostTwoLines ? 2 :
-                                               1);
-    const perceptual = answerOf(answerChoice.shot)?.perceptual_sentence;
-    at("answer-note").replaceChildren(perceptual ?? "");
+                    h("b", {}, shortShot(shot)), " ",
+                    isChosen(shot) || shots.length <= mostWhole ? answerText(shot) : answerInShort(shot)))));
+    at("answer-note").textContent = answerOf(answerChoice.shot)?.perceptual_sentence ?? "";
     drawAnswerCharts();
-    return drawAnswerPictures();
+    return drawChosenPoint();
 }
 
-/// The outer box may cut the text off after some lines; the inner one keeps it one text.
-const answerText = shot =>
-    h("span", {class: "cut"},
-      h("span", {}, h("b", {}, shortShot(shot)), " ", answerOf(shot)?.sentence ?? "No technique is named."));
-// Of many shots only the chosen one's sentence is shown whole, of others two lines or one.
-const mostWhole = 3, mostTwoLines = 6;
+const mostWhole = 2;  // of more shots only the chosen one has its whole sentence
+
+function answerText(shot) {
+    if (report.errors.length) return answerOf(shot)?.sentence ?? "No technique is named.";
+    const times = timesOf(shot).map(t => t.value);
+    return `${allPoints.length} points` +
+        (times.length ? `, ${number(Math.min(...times), 3)} to ${number(Math.max(...times), 3)} ms a frame` : "");
+}
+
+/// The columns of the answer, where there is no room for its sentence.
+function answerInShort(shot) {
+    const answer = answerOf(shot), best = answer?.best;
+    if (!best) return answer ? "Nothing is ranked." : answerText(shot);
+    const tied = answer.tied?.length ?? 0;
+    return `${pointLabel(best)}, ${headline.metric} ${number(best.value, 3)} ${interval(best, 3)}` +
+        (tied ? `, not distinguishable from ${tied} ${tied === 1 ? "other" : "others"}` : "");
+}
+
+/// Total times of the points in a shot, by ascending time.
+const timesOf = shot =>
+    report.times.filter(t => t.shot === shot && t.stage === "total" && t.variant && t.variant !== "none")
+        .sort((a, b) => a.value - b.value);
 
 /// Rows of the shot of the headline's target and mask, by the name of a metric.
 const headlineRows = (shot, metric) => {
@@ -82,59 +97,119 @@ const headlineRows = (shot, metric) => {
 
 /// Names of the metrics that stand side by side: one or two.
 const headlineMetrics = () => {
+    if (!report.errors.length) return [];
     const first = headlineMetric(report.errors);
     return [first, otherMetric(first, report.errors)].filter(Boolean).map(key => key.split("|")[0]);
 };
 
 function drawAnswerCharts() {
     const {shot} = answerChoice, metrics = headlineMetrics();
-    const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), {width: 420, height: 320}));
-    at("answer-charts").replaceChildren(...charts.filter(Boolean));
+    const size = {width: metrics.length > 1 ? 420 : 840, height: 320, open: choosePoint};
+    const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), size)).filter(Boolean);
+    at("answer-charts").replaceChildren(...(metrics.length ? charts : [timeTable(shot)]));
     drawBudget(shot);
-    drawWhy(shot);
-    at("answer-legend").replaceChildren(pointLegend(headlineRows(shot, metrics[0])));
+    markChosenPoint();
+    const isUnnamed = row => charts.some(c => c.unnamed.some(m => pointKey(m) === pointKey(row)));
+    const unnamed = metrics.length ? headlineRows(shot, metrics[0]).filter(isUnnamed) : [];
+    at("answer-legend").replaceChildren(unnamed.length ? legend(legendGroups(unnamed)) : "");
 }
 
-/// [{title, image, row}]: truth, best and baseline.
+/// Of a study without errors.
+function timeTable(shot) {
+    const rows = timesOf(shot).map(
+        t => [h("span", {}, icon(styleOf(t)), pointLabel(t)), cell(t.value, number(t.value, 3)), interval(t, 3)]);
+    return rows.length ?
+        scroller(table(
+            [{name: "Point"}, {name: `Total time (ms), ${timedOn(shot)}`, number: true}, {name: "95 % interval"}],
+            rows)) :
+        h("p", {class: "note"}, "No times were measured.");
+}
+
+/// The pictures, the marks and the reason follow the choice.
+function choosePoint({variant, point}) {
+    answerChoice.point = {variant, point};
+    return drawChosenPoint();
+}
+
+function drawChosenPoint() {
+    markChosenPoint();
+    drawWhy(answerChoice.shot, chosenPoint());
+    return drawAnswerPictures();
+}
+
+function markChosenPoint() {
+    const chosen = chosenPoint(), isChosen = data => Boolean(chosen) && pointKey(data) === pointKey(chosen);
+    for (const mark of document.querySelectorAll("#answer-charts .point"))
+        mark.classList.toggle("chosen", isChosen(mark.dataset));
+    for (const button of document.querySelectorAll("#answer-budget button"))
+        button.setAttribute("aria-pressed", String(isChosen(button.dataset)));
+}
+
+/// [{title, text, image, row}]: truth, best, baseline, and the chosen point where it is another; all points of a study
+/// without errors.
 function answerPictures(shot) {
-    const ofShot = report.images.map((image, index) => ({...image, index})).filter(i => i.shot === shot);
-    const frames = ofShot.map(i => Number(i.frame ?? 0)),
-          own = ofShot.filter((_, i) => frames[i] === Math.max(...frames));
-    const target = preferred(unique(own.map(i => i.target)), "image"), answer = answerOf(shot);
-    const {metric} = headline;
-    const text = p => `${metric} ${number(p.value, 3)} ${interval(p, 3)}`;
-    const of = (title, point) => point && {
-        title: `${title}: ${pointLabel(point)}`,
-        text: text(point),
-        row: {shot, ...point},
-        image: own.find(i => i.target === target && i.kind === "result" && pointKey(i) === pointKey(point))
+    const answer = answerOf(shot), metric = headline.metric, {point} = answerChoice;
+    const of = (title, p) => p && {
+        title: `${title}${pointLabel(p)}`,
+        text: p.value === undefined ? "" : `${metric} ${number(p.value, 3)} ${interval(p, 3)}`,
+        row: {shot, ...p},
+        image: answerImage(shot, p)
     };
+    const time = p => totalTime({shot, ...p});
+    if (!report.errors.length)
+        return allPoints.map(p => ({...of("", p), text: time(p) ? `${number(time(p).value, 3)} ms` : ""}));
+    const named = [answer?.best, answer?.baseline].filter(Boolean);
+    const isOther = point && !named.some(p => pointKey(p) === pointKey(point));
     return [
-        {title: "truth", text: target, image: own.find(i => i.target === target && i.kind === "reference")},
-        of(answer?.tied?.length ? "best, not distinguishable from others" : "best", answer?.best),
-        of("baseline", answer?.baseline)
+        {title: "truth", text: "", image: answerImage(shot, null)},
+        of(answer?.tied?.length ? "best, not distinguishable from others: " : "best: ", answer?.best),
+        of("baseline: ", answer?.baseline),
+        isOther ? of("chosen: ", headlineRows(shot, metric).find(r => pointKey(r) === pointKey(point)) ?? point) : null
     ].filter(Boolean);
 }
 
+/// Of the shot's last frame; null: the truth.
+function answerImage(shot, point) {
+    const ofShot = report.images.map((image, index) => ({...image, index}))
+                       .filter(i => i.shot === shot && (i.kind === "result" || i.kind === "reference"));
+    const last = Math.max(...ofShot.map(frameOf).map(Number)), own = ofShot.filter(i => Number(frameOf(i)) === last);
+    const target = preferred(unique(own.map(i => i.target)), "image");
+    return own.find(
+        i => i.target === target &&
+            (point ? i.kind === "result" && pointKey(i) === pointKey(point) : i.kind === "reference"));
+}
+
+/// A canvas with the image as displays show it; null where it cannot be had. Without a label it is decoration.
+async function answerCanvas(image, label) {
+    const pixels = image && hasInflate && await loadImage(image.index).catch(() => null);
+    if (!pixels) return null;
+    const canvas = h("canvas", {
+        width: pixels.width,
+        height: pixels.height,
+        role: label && "img",
+        "aria-label": label,
+        "aria-hidden": label ? null : "true"
+    });
+    const codes = displayTable(shotExposure(image.shot), "none");
+    canvas.getContext("2d").putImageData(colorPixels(pixels, codes), 0, 0);
+    return canvas;
+}
+
 async function drawAnswerPictures() {
-    const {shot} = answerChoice, wanted = answerPictures(shot);
-    const hasPictures = wanted.some(p => p.image) && typeof DecompressionStream !== "undefined";
+    const {shot} = answerChoice, wanted = answerPictures(shot), request = answerChoice.request = {};
+    const hasPictures = wanted.some(p => p.image);
     at("answer-pictures").hidden = !hasPictures;
     if (!hasPictures) return;
-    const images = await Promise.all(wanted.map(p => p.image && loadImage(p.image.index).catch(() => null)));
-    if (answerChoice.shot !== shot) return;  // another choice was made meanwhile
-    const exposure = manifestShots().find(s => s.shot === shot)?.exposure_ev,
-          codes = displayTable(Number.isFinite(exposure) ? exposure : 0, "none");
+    if (!hasInflate) return at("answer-pictures").replaceChildren(h("p", {class: "note"}, whyNoImages));
+    const canvases = await Promise.all(wanted.map(p => answerCanvas(p.image, `${p.title}, ${shot}`)));
+    if (answerChoice.request !== request) return;  // another choice was made meanwhile
+    at("answer-pictures").style.setProperty("--columns", Math.min(Math.max(wanted.length, 3), 4));
     at("answer-pictures").replaceChildren(...wanted.map(({title, text, row}, i) => {
-        const caption = h("figcaption", {}, h("b", {}, title), " ", h("small", {}, text));
-        if (!images[i])
+        const caption = h("figcaption", {}, h("b", {}, title), " ", h("small", {}, text)), canvas = canvases[i];
+        if (!canvas)
             return h(
                 "figure", {}, caption,
                 h("p", {class: "note"}, "Its image is in the results folder, not in this page."));
-        const canvas =
-            h("canvas",
-              {width: images[i].width, height: images[i].height, role: "img", "aria-label": `${title}, ${shot}`});
-        canvas.getContext("2d").putImageData(colorPixels(images[i], codes), 0, 0);
         if (row) {
             clickable(canvas, () => openPoint(row));
             canvas.tabIndex = 0;

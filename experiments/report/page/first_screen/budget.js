@@ -4,19 +4,23 @@ const budget = {
     milliseconds: null  // none: not asked
 };
 
-/// The box for the time, and the answer below it; once. Nothing where no time was measured.
+/// The box for the time, and the answer below it; once. Nothing where no time or no error was measured. It begins with
+/// the middle of the first shot's times, so that there is something that fits and something that does not.
 function showBudget() {
-    if (!report.times.some(t => t.stage === "total" && t.variant !== "none" && t.variant !== "")) return;
+    const times = timesOf(answerChoice.shot);
+    if (!times.length || !report.errors.length) return;
+    budget.milliseconds = Number(times[times.length >> 1].value.toPrecision(1));
     const changed = event => {
         budget.milliseconds = event.target.valueAsNumber > 0 ? event.target.valueAsNumber : null;
         drawAnswerCharts();
     };
     at("answer-budget")
         .append(
-            h("label", {}, "Time budget per frame ",
-              h("input", {type: "number", id: "budget", min: 0, step: "any", placeholder: "any", input: changed}),
-              " ms"),
-            h("p", {id: "budget-answer", "aria-live": "polite"}));
+            h("label", {}, "Time budget per frame: ",
+              h("input",
+                {type: "number", id: "budget", min: 0, step: "any", value: budget.milliseconds, input: changed}),
+              " ms. "),
+            h("small", {id: "budget-note"}), h("table", {id: "budget-answer", "aria-live": "polite"}));
 }
 
 /// Below the charts' marks: where the budget ends.
@@ -26,11 +30,14 @@ const budgetLine = x => budget.milliseconds > x.domain[0] && budget.milliseconds
 
 function drawBudget(shot) {
     if (!at("budget-answer")) return;
-    const parts = budget.milliseconds === null ? [] : headlineMetrics().flatMap(metric => budgetParts(shot, metric));
-    if (parts.length && !answerOf(shot)?.is_clock_proven)
-        parts.push("Timer validation failed: take the times with care. ");
-    if (parts.length) parts.push(floorText(shot));
-    at("budget-answer").replaceChildren(...parts);
+    const isAsked = budget.milliseconds !== null, byMetric = headlineMetrics().map(m => budgetPoints(shot, m));
+    const isProven = answerOf(shot)?.is_clock_proven;
+    at("budget-note").textContent = !isAsked ? "" :
+        isProven                             ? floorText(shot) :
+                                               "Timer validation failed: take the times with care. " + floorText(shot);
+    at("budget-answer")
+        .replaceChildren(
+            ...(isAsked ? [h("tbody", {}, Object.keys(budgetKinds).map(k => budgetRow(k, byMetric)))] : []));
 }
 
 /// From where on times differ, by two copies of a point.
@@ -40,35 +47,60 @@ function floorText(shot) {
     return floor > 0 ? `Times within ${percent(floor)} are not distinguishable.` : "";
 }
 
-/// "By mse A, 0.05 [0.04, 0.06], in 9 ms [8, 11]": the least error of the points whose median is within the budget, and
-/// those of less error whose median is not. What fits, and what may, is as time_summary.csv has it (fits_from_ms,
-/// may_fit_from_ms). Each name opens its images.
-function budgetParts(shot, metric) {
+/// The rows of the answer, and what they say where there is no such point.
+const budgetKinds = {
+    "fits": "no timed point surely fits",
+    "may fit": "no point of less error",
+    "just misses": "no point of less error"
+};
+
+/// Points by kind, the first the one to show: of those that surely fit the one of the least error; those of less error
+/// that may fit; of those of less error that do not fit the cheapest. What fits, and what may, is as time_summary.csv
+/// has it (fits_from_ms, may_fit_from_ms).
+function budgetPoints(shot, metric) {
     const timed = headlineRows(shot, metric)
                       .map(row => ({row, time: totalTime(row), badness: badness(metric, row.value)}))
                       .filter(p => p.time && p.badness !== null && !isOneSeed(p.row))
                       .sort((a, b) => a.badness - b.badness);
-    const error = row => row.low === null ? interval(row) && `(${interval(row)})` : interval(row, 3);
-    const parts = ({row, time}) => {
-        const open = event => {
-            event.preventDefault();
-            openPoint(row);
-        };
-        return [
-            h("a", {href: "#viewer", title: pointText(row), click: open}, pointLabel(row)),
-            `, ${number(row.value, 3)} ${error(row)}`.trimEnd() + `, in ${number(time.value, 3)} ms ${interval(time, 3)}`
-        ];
+    const limit = budget.milliseconds, fits = timed.find(p => p.time.fitsFromMs <= limit);
+    const better = timed.filter(p => p.time.fitsFromMs > limit && !(p.badness >= fits?.badness));
+    const misses =
+        better.filter(p => p.time.mayFitFromMs > limit).sort((a, b) => a.time.mayFitFromMs - b.time.mayFitFromMs);
+    return {
+        "fits": fits ? [fits] : [],
+        "may fit": better.filter(p => p.time.mayFitFromMs <= limit),
+        "just misses": misses.slice(0, 1)
     };
-    const limit = budget.milliseconds;
-    const best = timed.find(p => p.time.value <= limit), sure = timed.find(p => p.time.fitsFromMs <= limit);
-    const doubtful = timed.filter(
-        p => p.time.value > limit && p.time.mayFitFromMs <= limit && !(p.badness > best?.badness));
-    if (!best && !doubtful.length) return [`By ${metric}: no timed point fits. `];
-    return [
-        ...(best ? [`By ${metric} `, ...parts(best)] : [`By ${metric}: no timed point surely fits`]),
-        ...(best && best !== sure ? [", which may not fit", ...(sure ? ["; surely fits ", ...parts(sure)] : [])] : []),
-        ". ",
-        ...(doubtful.length ? ["It is open whether ",
-                               ...doubtful.flatMap((p, i) => [i ? "; " : "", ...parts(p)]), " fits. "] : [])
-    ];
+}
+
+/// "A mse 0.05 [0.04, 0.06], flip 0.1 [0.09, 0.12], 9 ms [8, 11]", with A's picture; a click chooses A. Of two points
+/// each is the first by one metric.
+function budgetRow(kind, byMetric) {
+    const points = new Map();
+    for (const found of byMetric)
+        for (const p of found[kind].slice(0, 1)) {
+            if (!points.has(pointKey(p.row))) points.set(pointKey(p.row), []);
+            points.get(pointKey(p.row)).push(p);
+        }
+    const shown = [...points.values()], names = found => found[kind].map(p => pointLabel(p.row));
+    const others = unique(byMetric.flatMap(names)).filter(name => !shown.some(([p]) => pointLabel(p.row) === name));
+    const part = own => {
+        const {row, time} = own[0], picture = h("span", {class: "thumbnail"});
+        answerCanvas(answerImage(row.shot, row), null).then(canvas => canvas && picture.append(canvas));
+        const values = own.map(p => `${p.row.metric} ${number(p.row.value, 3)} ${interval(p.row, 3)}`.trim());
+        return h(
+            "button", {
+                "data-variant": row.variant,
+                "data-point": row.point,
+                title: pointText(row),
+                click: () => choosePoint(row)
+            },
+            picture,
+            h("span", {}, h("b", {}, pointLabel(row)),
+              ` ${values.join(", ")}, ${number(time.value, 3)} ms ${interval(time, 3)}`));
+    };
+    return h(
+        "tr", {}, h("th", {scope: "row"}, kind),
+        h("td", {}, shown.length ? shown.map(part) : budgetKinds[kind],
+          others.length ? folded(`${others.length} more`, others.join(", ")) : ""));
 }

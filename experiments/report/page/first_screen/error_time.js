@@ -12,9 +12,10 @@ const frontOf = timed =>
 
 const rowText = row => `${row.metric} ${number(row.value)} ${interval(row)}${unitText(row.metric)}`;
 
-/// `all`: rows of one shot and metric. Without times the points stand beside each other. None is a line alone: its
-/// time and error would push all others together. Null where no row is shown.
-function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
+/// `all`: rows of one shot and metric; `open`: what a click on a mark does with its row. Without times the points stand
+/// beside each other. None is a line alone: its time and error would push all others together. Null where no row is
+/// shown.
+function errorTimeChart(shot, all, {width = 440, height = 320, open = openPoint} = {}) {
     const shown = chartedRows(all).filter(r => r.value !== null), none = shown.find(r => r.variant === "none");
     const rows = shown.length > 1 ? shown.filter(r => r !== none) : shown;
     if (!rows.length) return null;
@@ -24,8 +25,9 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
     const points = hasTimes ? timed : rows.map((row, i) => ({row, time: {value: i + 1, low: null, high: null}}));
     const y = errorAxis(isLog, points.map(p => p.row), metric + unitText(metric));
     const xLabel = cost ? `${cost.axis}, in the last frame` : "total time (ms), " + timedOn(shot);
+    const order = linearAxis([1, rows.length], "points, in the order of the study (no times)");
     const x = hasTimes ? logAxis(timed.flatMap(({time}) => [time.low ?? time.value, time.high ?? time.value]), xLabel) :
-                         linearAxis([1, rows.length], "points, in the order of the study (no times)");
+                         {...order, ticks: order.ticks.filter(Number.isInteger)};
     const mistakes = row => [...mistakesOfError(row), ...(hasTimes && !cost ? mistakesOfTime(row) : [])]
                                 .map(m => `\n! ${m.text}`)
                                 .join("");
@@ -36,6 +38,7 @@ function errorTimeChart(shot, all, {width = 440, height = 320} = {}) {
         ({row, time}) => pointMark(row, {
             x: time.value,
             y: row.value,
+            open: () => open(row),
             spanX: time.low === null ? null : [time.low, time.high],
             spanY: row.low === null ? null : [row.low, row.high],
             size: rows.length > 40 ? 3.6 : 4.5,

@@ -31,7 +31,7 @@ function showExplorer() {
             select(
                 "Colours and shapes stand for",
                 [
-                    ...(comparedPoints.length <= mostNumbered ? [["point", "points"]] : []), ["variant", "variants"],
+                    ...(comparedPoints.length <= mostNamed ? [["point", "points"]] : []), ["variant", "variants"],
                     ...(pointGroups.length > 1 ? [["group", "groups"]] : []),
                     ...swept.map(name => [name, name])
                 ],

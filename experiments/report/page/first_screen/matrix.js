@@ -67,13 +67,12 @@ function matrix(groups, order) {
                 button);
         });
         const isFirst = shownPoints.isGrouped && (i === 0 || order[i - 1].variant !== point.variant);
-        const label =
-            shownPoints.colourBy === "point" ? `${pointNumber(point)} ${pointLabel(point)}` : pointLabel(point);
         return [
             isFirst ?
                 h("tr", {class: "variant"}, h("th", {scope: "rowgroup", colspan: columns.length + 1}, point.variant)) :
                 null,
-            h("tr", {}, h("th", {scope: "row", title: pointText(point)}, icon(styleOf(point)), label), cells)
+            h("tr", {}, h("th", {scope: "row", title: pointText(point)}, icon(styleOf(point)), pointLabel(point)),
+              cells)
         ].filter(Boolean);
     });
     const element =

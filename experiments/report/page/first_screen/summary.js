@@ -111,7 +111,8 @@ function showSummary() {
         table(columns, rows.map(r => summaryRow(r, rows, best, others, otherBest)), {sortable: true, groupBy: 0});
     const isOpen = at("summary").querySelector("details")?.open ?? chosen.length <= longTable;
     const title = `All ${rows.length} values, with noise floors, times and seeds`;
-    at("summary").replaceChildren(h("details", {open: isOpen}, h("summary", {}, title), scroller(whole)));
+    at("summary").replaceChildren(h(
+        "details", {open: isOpen}, h("summary", {}, title), tableActions(whole, "summary_shown.csv"), scroller(whole)));
     const about = report.metrics[name];
     const direction = {
         lower: "Less is better.",

@@ -119,9 +119,21 @@ function whyText(group) {
         report.images.some(i => isSamePoint(i, row)) ? link("Its\u00a0images", "#viewer", () => openPoint(row)) : "");
 }
 
+/// Empty where nobody asked what became of rays.
+function whyNoShares() {
+    const {every} = report.manifest.config?.hits ?? {};
+    return every > 1 && !errorGroups.size ?
+        `Why a technique errs is not known: this study judged the rays of one pixel in ${every} along each axis, and ` +
+            "sharing out the error takes all of them (\"hits\": {\"every\": 1})." :
+        "";
+}
+
 function showErrorShares() {
     const shots = [...errorGroups.keys()];
-    if (!shots.length) return leaveOut("error-shares");
+    if (!shots.length) {
+        const why = whyNoShares();
+        return why ? at("error-shares").append(h("p", {class: "note"}, why)) : leaveOut("error-shares");
+    }
     at("error-shares").append(verdictLegend(sharedOut), shotParts(shots, errorSharesPart));
 }
 
@@ -172,26 +184,8 @@ function errorSharesPart(shot) {
     ];
 }
 
-/// For the first screen: the question, once.
-const whyChoice = {
-    key: ""
-};
-
-function showWhy() {
-    if (!errorGroups.size) return;
-    const changed = event => {
-        whyChoice.key = event.target.value;
-        drawWhy(answerChoice.shot);
-    };
-    at("answer-why").append(h("label", {}, "Why does ", h("select", {id: "why", change: changed}), " err?"));
-}
-
-/// What can be asked of the shot, and the answer; a choice is kept for the next shot.
-function drawWhy(shot) {
-    if (!at("why")) return;
-    const groups = errorShares(shot), chosen = groups.find(g => pointKey(g.row) === whyChoice.key);
-    at("why").replaceChildren(
-        h("option", {value: ""}, "…"),
-        ...groups.map(g => h("option", {value: pointKey(g.row), selected: g === chosen}, pointLabel(g.row))));
-    at("why-answer").replaceChildren(chosen ? whyText(chosen) : "");
+/// For the first screen: why the chosen point errs; where no errors were shared out, what that takes.
+function drawWhy(shot, point) {
+    const group = errorGroups.get(shot)?.find(g => pointKey(g.row) === pointKey(point ?? {}));
+    at("why-answer").replaceChildren(group ? whyText(group) : whyNoShares());
 }

@@ -47,8 +47,6 @@ const reachedCell = reference => reference.target_relative_error > 0 ?
     `${percent(reference.reached_share)} (of ${percent(reference.target_relative_error)})` :
     h("span", {}, badges(mistakesOfReference(reference)));
 
-const manifestShots = () => list(report.manifest.shots);
-
 function showNeeds() {
     for (const shot of manifestShots()) {
         const needs = list(shot.needs), leftOut = list(shot.left_out);

@@ -105,13 +105,7 @@ function addCrop() {
 }
 
 async function copyCrops() {
-    const text = at("crops-json");
-    text.select();
-    try {
-        await navigator.clipboard.writeText(text.value);
-    } catch {
-        document.execCommand("copy");  // where a page that is a file has no clipboard of its own
-    }
+    await copyText(at("crops-json").value);
     at("viewer-status").textContent = "Copied figures.json";
 }
 

@@ -7,6 +7,8 @@ const halfValues = Float32Array.from({length: 65536}, (_, bits) => {
     return sign * (exponent === 0 ? fraction * 2 ** -24 : (1024 + fraction) * 2 ** (exponent - 25));
 });
 
+const hasInflate = typeof DecompressionStream !== "undefined";
+const whyNoImages = "Images need a browser of 2023 or later (DecompressionStream).";
 const loading = new Map();       // index to promise
 const loadedImages = new Map();  // index to image
 const imageTexts = new Map();    // of files, until they are decoded

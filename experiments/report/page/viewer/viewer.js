@@ -25,6 +25,8 @@ const viewer = {
     request: 0,     // counts choices, so that a slow one does not replace a later one
     choices: null,  // what the controls of shot, target and images were made for
     isPlaying: false,
+    address: null,  // that shows the same again; null before anything is shown
+    keeping: 0      // the timer that puts it into the address bar
 };
 
 const firstShown = 6;
@@ -76,8 +78,8 @@ function showViewer() {
         at("viewer").append(h("p", {class: "note"}, "This study has no images."));
         return;
     }
-    if (typeof DecompressionStream === "undefined") {
-        at("viewer").append(h("p", {class: "note"}, "Images need a browser of 2023 or later (DecompressionStream)."));
+    if (!hasInflate) {
+        at("viewer").append(h("p", {class: "note"}, whyNoImages));
         return;
     }
     at("viewer").append(
@@ -90,11 +92,15 @@ function showViewer() {
         h("p", {class: "sr-only", id: "viewer-status", role: "status"}), h("div", {class: "panes", id: "panes"}),
         h("div", {id: "viewer-crop", hidden: true}),  // below the images, which stay where the pointer is
         h("div", {id: "viewer-legend"}), h("div", {class: "scroll", id: "readout", "aria-live": "off"}), keyHelp());
+    const addressed = addressedView();
+    if (addressed) restoreChoice(addressed);
     showLook();
     addEventListener("keydown", viewerKey);
     new ResizeObserver(drawAll).observe(at("panes"));
     const first = report.images.find(i => i.shot === answerChoice.shot) ?? report.images[0];
     const start = () => viewer.shot === null ? chooseShot(first.shot) : undefined;
+    addEventListener("hashchange", () => addressedView() && location.reload());
+    if (addressed) return chooseShot(addressed.get("shot")).then(() => restoreView(addressed));
     if (!report.images.some(i => i.file)) return start();
     // Images beside the page are loaded when the viewer is about to be seen.
     new IntersectionObserver((entries, observer) => {
@@ -143,13 +149,20 @@ function chooseFrame(frame) {
     const targets = targetsOf(viewer.methods);
     viewer.target = preferred(targets, viewer.target ?? "image");
     const compared = viewer.methods.filter(m => m.key === truthKey || !isSingleChange(m));
-    viewer.chosen ??= compared.slice(0, firstShown).map(m => m.key);
-    if (!viewer.methods.some(m => viewer.chosen.includes(m.key)))
-        viewer.chosen = compared.slice(0, firstShown).map(m => m.key);
+    if (!viewer.methods.some(m => viewer.chosen?.includes(m.key))) viewer.chosen = firstKeys(compared);
     const choices = JSON.stringify([viewer.shot, viewer.target, targets, viewer.methods.map(m => m.key)]);
     if (viewer.choices !== choices) showChoiceOfImages(targets);  // else the reader keeps filter and focus
     viewer.choices = choices;
     return showImages();
+}
+
+/// The truth and those of the least error, in the study's order.
+function firstKeys(methods) {
+    const errors =
+        new Map(headlineRows(viewer.shot, headline.metric).map(r => [pointKey(r), badness(r.metric, r.value)]));
+    const place = m => m.key === truthKey ? -Infinity : errors.get(m.key) ?? Infinity;
+    const first = [...methods].sort((a, b) => compareCells(place(a), place(b), true)).slice(0, firstShown);
+    return methods.filter(m => first.includes(m)).map(m => m.key);
 }
 
 /// What is to be there before the current choice can be painted.
@@ -290,4 +303,5 @@ function drawAll() {
     for (const pane of viewer.panes)
         if (pane.image) drawPane(pane, {pinned: viewer.pinned, splitAt: viewer.splitAt, box: crops.box});
     showReadout();
+    keepAddress();
 }

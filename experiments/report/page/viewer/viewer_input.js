@@ -117,6 +117,7 @@ const viewerKeys = {
     ".": () => stepFrame(1),
     "k": () => framesOf(viewer.shot).length > 1 ? togglePlaying() : undefined,
     "c": toggleCropMode,
+    "f": toggleFullScreen,
     "/": focusFilter,
 };
 // Those that a focused control needs for itself.

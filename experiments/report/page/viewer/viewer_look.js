@@ -133,13 +133,15 @@ function keyHelp() {
         ["e", "absolute difference"], ["d", "signed difference"], ["+ -", "zoom; the wheel does it at the pointer"],
         ["← ↑ → ↓", "move the pinned pixel, else the view"], ["Enter", "pin the pixel in the middle, or let go"],
         ["< >", "exposure"], [", .", "frame before and after"], ["k", "play, or stop"],
-        ["c", "crop: arrows move the box, with Shift they size it"], ["/", "filter the images"], ["0", "reset the view"]
+        ["c", "crop: arrows move the box, with Shift they size it"], ["f", "full screen"], ["/", "filter the images"],
+        ["0", "reset the view"]
     ];
     return h(
         "details", {id: "viewer-keys"}, h("summary", {}, "Keys"),
         h("p", {class: "note"},
           "They work while the viewer has the focus or the pointer. " +
-              "Dragging pans, a click pins a pixel, Shift and dragging draws a crop."),
+              "Dragging pans, a click pins a pixel, Shift and dragging draws a crop. The address of the page holds what is " +
+              "seen: kept or sent, it opens the same."),
         h("dl", {class: "keys"},
           keys.map(
               ([own, what]) =>

@@ -1,0 +1,68 @@
+"""What a reader takes along from a report: the address that shows the same again, pictures and tables."""
+
+from report_browser import WebDriverWait, check, choose, equal, pixels, until_ready
+from report_crops import SHOT
+from report_viewer import NAMES, OTHER_SHOT, captions
+
+
+def test_address(page, url):
+    """What is seen is in the address, which shows it again."""
+    state = """const {shot, target, mode, layout, curve, chosen, exposure, scale, active, pinned} = viewer;
+        return {shot, target, mode, layout, curve, chosen, exposure, scale, active, pinned, ...view}"""
+    page.execute_script("window.scrollTo(0, 0); at('viewer').scrollIntoView()")
+    choose(page, "Shot", OTHER_SHOT)
+    WebDriverWait(page, 20).until(lambda p: captions(p) == NAMES)
+    choose(page, "Show", "absolute difference")
+    page.execute_script(
+        """setExposure(1.5); setScale(-1); viewer.curve = 'reinhard'; Object.assign(view, {zoom: 4, x: 0.25, y: 0.5});
+        pin({x: 30, y: 40}); return choose([viewer.methods[1].key], false)"""
+    )
+    WebDriverWait(page, 10).until(lambda p: "30+40" in p.execute_script("return location.hash"), "the address")
+    before, seen, address = page.execute_script(state), pixels(page, 1), page.execute_script("return location.hash")
+    page.get("about:blank")
+    page.get(url + address)
+    until_ready(page)
+    equal(page.execute_script(state), before, "what the address shows")
+    equal(captions(page)[0], NAMES[0], "captions")
+    equal(pixels(page, 1), seen, "the picture")
+    equal(page.execute_script("return answerChoice.shot"), OTHER_SHOT, "the shot of the first screen")
+    page.get("about:blank")
+    page.get(url + "#viewer?shot=of+no+study&image=x")
+    until_ready(page)
+    equal(captions(page), NAMES, "an address of another study")
+    page.get("about:blank")
+    page.get(url)
+    until_ready(page)
+    equal(page.execute_script("return location.hash"), "", "nothing is kept before the reader changes something")
+
+
+def test_keeping(page):
+    """Pictures and tables as files, and for the clipboard."""
+    saved = page.execute_async_script(
+        """const done = arguments[0];
+        window.saveFile = async (blob, name) => {
+            const image = await createImageBitmap(blob), c = h('canvas', {width: image.width, height: image.height});
+            c.getContext('2d').drawImage(image, 0, 0);
+            const pane = viewer.panes[3].canvas, of = (canvas, x, y) => [...canvas.getContext('2d').getImageData(x, y, 1, 1).data];
+            done([name, image.width / pane.width, of(pane, 40, 50), of(c, pane.width + 12 + 40, pane.height + 24 + 12 + 24 + 50)]);
+        };
+        at('save-picture').click()"""
+    )
+    equal(saved[0], f"{SHOT}_image_color.png", "the picture's name")
+    check(2 < saved[1] < 2.1, f"four panes in two columns: {saved[1]} panes wide")
+    equal(saved[3], saved[2], "a pixel of the last pane")
+    cropped = page.execute_script("crops.box = [20, 30, 40, 30]; const c = shownPicture(); crops.box = null; return c.height / c.width")
+    check(0.75 < cropped < 0.95, f"crops of 4:3 below their captions: {cropped}")
+    table = page.execute_async_script(
+        """const done = arguments[0];
+        window.saveFile = async (blob, name) => done([await blob.text(), window.copied]);
+        window.copyText = text => { window.copied = text };
+        const [copy, save] = document.querySelectorAll('#summary .controls button');
+        copy.click(), save.click()"""
+    )
+    rows = page.execute_script("return document.querySelectorAll('#summary tr').length")
+    for text, separator in zip(table, (",", "\t")):
+        lines = text.split("\n")
+        equal(lines[0].split(separator)[:4], ["Shot", "Variant", "Point", "mse"], "the heading")
+        equal(len(lines), rows + 1, "lines of the table")
+    check("stride=4" in table[0] and ', ' in table[0].split('"')[1], f"points, and quoted intervals: {table[0]}")
