@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// How the values of a layer are stored in the file. In memory they are always float32: half is exact in it, and uint up
-/// to 2^24.
+/// How the values of a layer are stored in the file. In memory they are always float32: half is exact in it, and uint
+/// up to 2^24.
 enum class PixelType { half, float32, uint32 };
 
 struct Layer {

@@ -26,9 +26,11 @@ struct ReferenceOutput {
 /// the camera, lit by all light transport: what the lit colour buffer would hold of it (where the camera is behind the
 /// surface, its mirror image before it counts). What is lost is the dependence on the view, and reflections of
 /// reflections. `on_screen` takes `fallback` where the image does not show that point, on the side that was met: what
-/// is lost is what one frame does not show; a technique with a history may know more. Visibility is that of points, not of pixels.
+/// is lost is what one frame does not show; a technique with a history may know more. Visibility is that of points, not
+/// of pixels.
 struct TruthLadder {
-    /// RGB: variance of the mean of what a rung changes. Both share their samples, so that it is less than either's own.
+    /// RGB: variance of the mean of what a rung changes. Both share their samples, so that it is less than either's
+    /// own.
     struct ErrorVariance {
         HostImage incident, specular;  ///< of rung - incident; of reflectance * rung - specular
     };
@@ -139,8 +141,8 @@ struct ReferenceRun {
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 
-/// Hash of what a reference is asked to show: scene content, pose, camera, extent, seed, depth, ladder. Fails with Error
-/// if scene.content_hash is empty.
+/// Hash of what a reference is asked to show: scene content, pose, camera, extent, seed, depth, ladder. Fails with
+/// Error if scene.content_hash is empty.
 std::string reference_request(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                               const ReferenceSettings& settings);
 

@@ -18,8 +18,8 @@
 /// floor of relative errors, and, with a time limit, what all pixels cost.
 
 /// The informers of pixel (x, y): those of lower rank and of its material within a window of its lattice; where these
-/// are fewer than 4, within wider windows; then those of any material that is hit, and none where even the widest window
-/// holds none of lower rank. `found` is replaced: indices of pixels.
+/// are fewer than 4, within wider windows; then those of any material that is hit, and none where even the widest
+/// window holds none of lower rank. `found` is replaced: indices of pixels.
 void find_informers(const HostImage& material_id, unsigned x, unsigned y, std::vector<size_t>& found);
 
 /// Samples that each pixel needs for the target of the state's settings, estimated from its informers; one channel, 0

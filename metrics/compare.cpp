@@ -117,8 +117,7 @@ void check(const CompareOptions& options) {
 Comparison compare(const CompareOptions& options) {
     check(options);
     Comparison comparison{.options = options};
-    const Source reference = read_source(options.reference, options),
-                 test = read_source(options.test, options);
+    const Source reference = read_source(options.reference, options), test = read_source(options.test, options);
     if (reference.linear.extent != test.linear.extent)
         fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y,
              " pixels, but ", options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y,

@@ -16,8 +16,8 @@ struct SceneFacts {
         objects_move = false;
     bool has_environment = false;  ///< that is not black
     bool has_textures = false, has_alpha_masks = false, has_normal_maps = false, has_vertex_colors = false;
-    bool has_faulty_inputs = false;  ///< a G-buffer of files with values that are not finite, or normals that are not unit; what
-                                     ///< is rasterised has none
+    bool has_faulty_inputs = false;  ///< a G-buffer of files with values that are not finite, or normals that are not
+                                     ///< unit; what is rasterised has none
 
     bool is_still() const { return !camera_moves && !objects_move; }
 };

@@ -62,9 +62,9 @@ int diff_command(const DiffOptions& options);  ///< the exit code: 0, or 1 if a 
 
 struct TradeoffOptions {
     std::filesystem::path results, out;
-    std::string baseline, metric, mask, target, cost;               ///< empty: the study's own, and time
+    std::string baseline, metric, mask, target, cost;                   ///< empty: the study's own, and time
     std::vector<double> times{5, 10, 20, 40}, factors{0.5, 0.25, 0.1};  ///< ms or counts; of the baseline's error
-    std::vector<std::string> left_out;                              ///< scenes or shots
+    std::vector<std::string> left_out;                                  ///< scenes or shots
 };
 int tradeoff_command(const TradeoffOptions& options);  ///< the exit code: 0, 2 or 3
 

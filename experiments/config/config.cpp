@@ -47,7 +47,8 @@ Keys timing_keys() {
              "measured for each point, after the warm-up: at least 15, or 0 for none"},
             {"warm_up", whole(1, 1000), plain.warm_up, "frames before them"},
             {"most_share", number(0, 1e6), Default(plain.most_share, "a third"),
-             "what they may take in all, as a share of the time that the shot's references, renders and counts took: see \"What "
+             "what they may take in all, as a share of the time that the shot's references, renders and counts took: "
+             "see \"What "
              "the numbers mean\""},
             {"copies", flag(), plain.has_copies,
              "false times each point alone, in a third of the time, or half where no work can be skipped: the noise "

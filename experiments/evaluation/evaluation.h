@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 /// Writes what a results folder's numbers say, decided once for report, tables, figures and commands: summary.csv
-/// (means, intervals, standings), over_scenes.csv, time_summary.csv, effects.csv and time_effects.csv. `manifest` is the
-/// folder's; of points that it does not name it is taken that they depend on seeds and that runs repeat them.
+/// (means, intervals, standings), over_scenes.csv, time_summary.csv, effects.csv and time_effects.csv. `manifest` is
+/// the folder's; of points that it does not name it is taken that they depend on seeds and that runs repeat them.
 void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows, const nlohmann::json& manifest,
                       const std::vector<VariantConfig>& variants, const PrimaryComparisons& primary);
 

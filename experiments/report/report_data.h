@@ -21,8 +21,8 @@ struct ReportTables {
     StabilityTables stability;  ///< empty where `ssrlab stability` did not write into the folder
 };
 
-/// summary.csv, over_scenes.csv and time_summary.csv must be there, as this version writes them (require_evaluation()); other tables
-/// that are not are empty. `manifest` is the folder's.
+/// summary.csv, over_scenes.csv and time_summary.csv must be there, as this version writes them (require_evaluation());
+/// other tables that are not are empty. `manifest` is the folder's.
 ReportTables read_report_tables(const std::filesystem::path& folder, const nlohmann::json& manifest);
 
 /// What the page's scripts read (page/data.js): tables as arrays, with texts as indices into `texts`, since few texts

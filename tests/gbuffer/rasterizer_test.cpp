@@ -143,7 +143,8 @@ TEST(rasterizer, leaving_out_changes_no_bit) {
             << what;
     };
     scene.environment = {};
-    EXPECT_EQ(names(), (std::set<std::string>{"vertex colours", "motion vectors", "fallback", "prefiltered environment"}));
+    EXPECT_EQ(names(),
+              (std::set<std::string>{"vertex colours", "motion vectors", "fallback", "prefiltered environment"}));
     expect_same_bits("a still scene, a black environment");
     scene.instances.resize(2);  // the floor and what has textures, but no normal maps and no masks
     EXPECT_EQ(names(), (std::set<std::string>{"vertex colours", "motion vectors", "fallback", "prefiltered environment",

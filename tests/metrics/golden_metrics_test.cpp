@@ -54,8 +54,8 @@ std::map<std::string, Recorded> recorded_on_codes() {
 }
 
 /// Recorded in the full vectors, and no metrics here.
-const std::set<std::string> not_measured = {"rmse",         "relmse_lum_eps1e-2",   "smape_eps1e-2",
-                                            "mape_eps1e-2", "ssim_skimage_luma709"};
+const std::set<std::string> not_measured = {"rmse", "relmse_lum_eps1e-2", "smape_eps1e-2", "mape_eps1e-2",
+                                            "ssim_skimage_luma709"};
 
 double number(const nlohmann::json& value) {
     return value.is_string() && value == "inf" ? INFINITY : value.get<double>();

@@ -3,9 +3,9 @@
 #include "core/gpu/pass_graph.h"
 
 /// A G-buffer without NaN and Inf, in place of the graph's inputs as long as this lives: each
-/// shader that names `depth` reads the repaired one. A fault stays in its pixel, which becomes background (depth), black
-/// (colours), still (motion) or faces the viewer (normals of surfaces); normals that are not unit become so. What was sound
-/// keeps its bits. repair_image.frag has the rules.
+/// shader that names `depth` reads the repaired one. A fault stays in its pixel, which becomes background (depth),
+/// black (colours), still (motion) or faces the viewer (normals of surfaces); normals that are not unit become so. What
+/// was sound keeps its bits. repair_image.frag has the rules.
 class RepairedInputs {
 public:
     /// `is_wanted` false: all stays as it is, and nothing runs.

@@ -50,7 +50,6 @@ private:
          "half as much", "ssrlab; the document blends its texture's channels"}};
     // clang-format on
     Tracers tracers;
-
 };
 
 namespace {

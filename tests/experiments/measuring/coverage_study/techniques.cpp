@@ -29,14 +29,14 @@ int main(int argc, char** argv) {
         for (const char* scene : scenes)
             for (const unsigned seeds : seed_counts) {
                 std::map<std::string, Count> own;
-                for (const CoverageRow& r :
-                     technique_coverage({.scene = scene,
-                     .extent = {64, 36},
-                     .samples = 64,
-                     .seeds = references,
-                     .targets = {"specular", "image"},
-                     .metrics = {"mse", "relmse", "flip", "ssim", "mae", "smape", "psnr", "outliers", "relmse_trimmed"}},
-                                        seeds)) {
+                for (const CoverageRow& r : technique_coverage(
+                         {.scene = scene,
+      .extent = {64, 36},
+      .samples = 64,
+      .seeds = references,
+      .targets = {"specular", "image"},
+      .metrics = {"mse", "relmse", "flip", "ssim", "mae", "smape", "psnr", "outliers", "relmse_trimmed"}},
+                         seeds)) {
                     std::printf("%s,%u,%s,%s,%s,%s,%.0f,%.0f,%.4f,%.6g,%.6g,%.4g\n", scene, seeds, r.test.c_str(),
                                 r.target.c_str(), r.mask.c_str(), r.metric.c_str(), r.trials, r.intervals, r.coverage(),
                                 r.truth, r.mean, r.half_width);
