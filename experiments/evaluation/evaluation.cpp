@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/pairs.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
 #include "experiments/evaluation/time_effects.h"
@@ -51,7 +52,6 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
         if (const auto floor = aa_floor(manifest, t.shot)) floors[t.shot] = *floor;
     const std::vector<TimeSummary> times = summarise(rows.times, floors);
     set_fronts(errors, times, rows.costs);
-    write_rows(folder / "summary.csv", errors);
     write_rows(folder / "over_scenes.csv", errors_over_scenes(errors, manifest));
     write_rows(folder / "time_summary.csv", times);
 
@@ -62,6 +62,17 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
     std::vector<TimeEffectRow> of_times = time_effects(rows.times, variants);
     set_time_verdicts(of_times, manifest);
     write_rows(folder / "time_effects.csv", of_times);
+
+    StudyTables tables{.manifest = manifest,
+                       .errors = std::move(errors),
+                       .seeds = {},
+                       .times = times,
+                       .rounds = rows.times,
+                       .effects = std::move(effects),
+                       .time_effects = std::move(of_times),
+                       .costs = {}};
+    set_dominated(tables, primary);
+    write_rows(folder / "summary.csv", tables.errors);
 }
 
 void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace {
 
@@ -226,4 +227,27 @@ std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparison
         }
     }
     return rows;
+}
+
+void set_dominated(StudyTables& tables, const PrimaryComparisons& primary) {
+    std::set<std::string> metrics;
+    for (const MetricSummary& e : tables.errors)
+        if (e.mask == primary.mask && e.target == primary.target && !e.standing.empty()) metrics.insert(e.metric);
+    using PointOfShot = std::tuple<std::string, std::string, std::string, std::string>;  // metric, shot, variant, point
+    std::map<PointOfShot, std::string> found;
+    const auto note = [&](PointOfShot point, const std::string& says) {
+        std::string& worst = found[std::move(point)];
+        if (worst.empty() || says == "yes" || (says == "maybe" && worst == "no")) worst = says;
+    };
+    for (const std::string& metric : metrics)
+        for (const PairRow& pair : pairs_of(tables, {metric, primary.mask, primary.target})) {
+            if (pair.dominates.empty()) continue;
+            note({metric, pair.shot, pair.variant, pair.point}, pair.is_dominated);
+            note({metric, pair.shot, pair.other_variant, pair.other_point}, pair.dominates);
+        }
+    for (MetricSummary& e : tables.errors) {
+        const auto own = found.find({e.metric, e.shot, e.variant, e.point});
+        const bool is_asked = e.mask == primary.mask && e.target == primary.target && !e.standing.empty();
+        e.dominated = is_asked && own != found.end() ? own->second : "";
+    }
 }

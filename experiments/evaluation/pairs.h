@@ -40,3 +40,8 @@ std::map<PointName, double> counted_costs(const StudyTables& tables, const std::
 /// A point dominates another that errs more and costs no less, or costs more and errs no less: each of them certain. It
 /// may dominate where neither its cost nor its error is certainly the larger one.
 std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparisons& error, const std::string& cost = "");
+
+/// Sets MetricSummary::dominated of all errors with the mask and the target of `primary`: "yes" where some other point
+/// of the shot dominates the point by the error and by time (PairRow::is_dominated), else "maybe" where one may, else
+/// "no"; empty where the point is not ranked, or was not timed.
+void set_dominated(StudyTables& tables, const PrimaryComparisons& primary);

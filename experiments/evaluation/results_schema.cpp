@@ -93,6 +93,10 @@ const std::map<std::string, Meaning>& meanings() {
          {"",
           "costs (time, fetches, bytes, operations) where no ranked point of the shot has both less error and less "
           "cost"}},
+        {"dominated",
+         {"",
+          "yes: another point of the shot significantly beats it by this error and by time; maybe; no; empty: not "
+          "ranked or timed, or of another mask or target than the primary error"}},
         {"fits_from_ms", {"ms", "least time budget that the point fits"}},
         {"may_fit_from_ms", {"ms", "least time budget that it may fit"}},
         {"frames", {"", "how many frames were timed"}},

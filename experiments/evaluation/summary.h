@@ -28,6 +28,7 @@ struct MetricSummary {
     std::optional<double> over_best, over_best_low, over_best_high;  ///< value / the least ranked one, where paired
     std::optional<double> p_best;  ///< Holm-adjusted p of "no worse than the best measured"
     std::string fronts = {};       ///< the costs against which the point is on the front, see set_fronts()
+    std::string dominated = {};    ///< whether another point of the shot surely beats it, see set_dominated()
 
     static constexpr auto columns() {
         return std::tuple(
@@ -45,7 +46,7 @@ struct MetricSummary {
             Column{"standing", &MetricSummary::standing}, Column{"over_best", &MetricSummary::over_best},
             Column{"over_best_low", &MetricSummary::over_best_low},
             Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},
-            Column{"fronts", &MetricSummary::fronts});
+            Column{"fronts", &MetricSummary::fronts}, Column{"dominated", &MetricSummary::dominated});
     }
 };
 

@@ -4,7 +4,7 @@ time, over the frames of a sequence; or, without a fit, over how many seeds are 
 import numpy
 
 from paper_figures import style, sweeps
-from paper_figures.error_time import TIME_AXIS, front
+from paper_figures.error_time import TIME_AXIS
 from paper_figures.fetches import power_of
 from paper_figures.placed_labels import place_labels
 from ssrlab.results import Measured, ResultsError, frame_number, is_over_frames
@@ -17,6 +17,17 @@ def _over_parameter(results, chosen, errors, shot):
     if not sweeps.axis_values(families, 0)[1]:
         raise ResultsError(f"{chosen.where}: 'over' = \"{chosen.option('over')}\" has values that are no numbers")
     return {name: [(v[0], errors.get((shot, *key))) for v, key in points.items()] for name, points in families.items()}
+
+
+def front(places):
+    """Of {key: (time, error)} those that no other is at most as slow and at most as wrong as, by time."""
+    ordered = sorted(places, key=lambda k: (places[k][0].value, places[k][1].value))
+    found, least = [], float("inf")
+    for key in ordered:
+        if places[key][1].value < least:
+            found.append(key)
+            least = places[key][1].value
+    return found
 
 
 def _over_time(results, chosen, errors, shot):

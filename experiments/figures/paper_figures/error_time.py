@@ -1,42 +1,17 @@
 """Error against run time, both logarithmic, with intervals: a panel per shot, with the front of those that no other beats."""
 
-from paper_figures import style, tradeoff
+from paper_figures import style
 from paper_figures.placed_labels import place_labels
 
 TIME_AXIS = "time of a frame (ms)"
 MOST_NUMBERS = 20  # with a key below: more of them, and the key is larger than the plot
 
 
-def front(places):
-    """Of {key: (time, error)} those that no other is at most as slow and at most as wrong as, by time."""
-    ordered = sorted(places, key=lambda k: (places[k][0].value, places[k][1].value))
-    found, least = [], float("inf")
-    for key in ordered:
-        if places[key][1].value < least:
-            found.append(key)
-            least = places[key][1].value
-    return found
-
-
-def is_beaten(place, others):
-    """Whether some other is significantly faster and better: intervals that do not meet."""
-    time, error = place
-    if None in (time.low, error.low):
-        return False
-    return any(
-        None not in (t.high, e.high) and t.high < time.low and e.high < error.low for t, e in others if (t, e) != place
-    )
-
-
-def _judged(results, shot, places):
-    """(keys of the front by time, keys that are beaten): as `ssrlab tradeoff` judged them by intervals, where its file has these
-    very errors, else as front() and is_beaten() do. Techniques that use scene data, as no engine can, take no part."""
-    rows = tradeoff.judged(results, shot, {key: error for key, (_, error) in places.items()})
-    if rows and all(rows[k]["unit"] == "ms" for k in places):
-        line = [k for k in places if rows[k]["is_nominal_front"] == "1" and rows[k]["verdict"] in ("front", "undecided", "dominated")]
-        return sorted(line, key=lambda k: places[k][0].value), {k for k in places if rows[k]["verdict"] == "dominated"}
-    fair = {k: p for k, p in places.items() if not results.variants.get(k, {}).get("uses_scene_data")}
-    return front(fair), {k for k, p in places.items() if is_beaten(p, fair.values())}
+def _judged(results, shot, chosen, places):
+    """(keys of the front by time, keys that another dominates), as summary.csv says of this error."""
+    rows = results.error_rows(shot, chosen.target, chosen.metric, chosen.mask)
+    line = sorted((k for k in places if "time" in rows[k]["fronts"].split()), key=lambda k: places[k][0].value)
+    return line, {k for k in places if rows[k]["dominated"] == "yes"}
 
 
 def _places(results, errors, shot):
@@ -117,7 +92,7 @@ def draw(results, chosen):
         shown = {k: p for k, p in places.items() if p[1].value > 0}
         has_nonpositive |= len(shown) < len(places)
         of_none = _draw_none(axes, results, errors, shot)
-        line, beaten = _judged(results, shot, shown) if chosen.option("front", True) else ([], set())
+        line, beaten = _judged(results, shot, chosen, shown) if chosen.option("front", True) else ([], set())
         has_beaten |= bool(beaten)
         unbeaten |= shown.keys() - beaten
         whiskers[shot] = _draw_points(axes, results, shown, groups, beaten) + _draw_front(axes, shown, line)

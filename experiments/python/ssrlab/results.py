@@ -44,7 +44,7 @@ def exit_code(work, what):
 
 ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
 BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
-EVALUATED = {"summary.csv": ("represents_shot", "standing"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
+EVALUATED = {"summary.csv": ("represents_shot", "standing", "dominated"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
 
 
 @dataclass
@@ -240,10 +240,14 @@ class Results:
         better = self.direction_of(metric)
         return {"lower": value, "higher": -value, "near_zero": abs(value), "near_one": abs(value - 1)}[better]
 
+    def error_rows(self, shot, target, metric, mask):
+        """(variant, point) to its row of summary.csv."""
+        where = (shot, target, metric, mask)
+        return {(r["variant"], r["point"]): r for r in self.errors if (r["shot"], r["target"], r["metric"], r["mask"]) == where}
+
     def standings_of(self, shot, target, metric, mask):
         """(variant, point) to best, tied or behind, as ssrlab decided among the points of a shot."""
-        where = (shot, target, metric, mask)
-        return {(r["variant"], r["point"]): r["standing"] for r in self.errors if (r["shot"], r["target"], r["metric"], r["mask"]) == where}
+        return {key: row["standing"] for key, row in self.error_rows(shot, target, metric, mask).items()}
 
     def shots(self):
         """Those that were measured; of a study that measures no errors all."""

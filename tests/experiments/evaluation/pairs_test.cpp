@@ -117,6 +117,19 @@ TEST(Pairs, AreDecidedWhereTheStudyAskedForThem) {
     EXPECT_EQ(shot.pairs().at(0).decided_by, "standings");
 }
 
+TEST(Pairs, SayOfEachPointWhetherAnotherBeatsIt) {
+    ShotOfPairs shot;
+    shot.add("best", 1, 0.1, 10), shot.add("slow", 2, 0.1, 20), shot.add("near", 1.2, 0.3, 10),
+        shot.add("fast", 3, 0.1, 5);
+    shot.pairs();  // decides standings and times
+    set_dominated(shot.tables, specular_mse);
+    std::vector<std::string> found;
+    for (const MetricSummary& e : shot.tables.errors) found.push_back(e.dominated);
+    EXPECT_EQ(found, (std::vector<std::string>{"maybe", "yes", "maybe", "no"}));
+    set_dominated(shot.tables, {"mse", "all", "specular"});
+    for (const MetricSummary& e : shot.tables.errors) EXPECT_EQ(e.dominated, "") << "another mask";
+}
+
 /// Eight points with one error and one time: of shots in which any two are said to differ at most 5 % are expected for
 /// the errors and 5 % for the times. Errors have eight log-normal seeds, the intervals those of summarise(); copies
 /// differ by 2 % in 95 % of pairs, and frames by Student's t with 3 degrees of freedom.

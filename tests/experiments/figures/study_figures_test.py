@@ -134,23 +134,15 @@ def test_sweep_figures(folder):
 
 
 def test_front(folder):
-    """Fast and good points; those of an oracle take no part; where `ssrlab tradeoff` judged the same errors, its word counts."""
+    """The front and what is pale are as summary.csv says, whatever the numbers are."""
     exact = lambda v: Measured(v, 0.95 * v, 1.05 * v)
-    places = {("v", name): (exact(t), exact(e)) for name, t, e in (("a", 1, 4), ("b", 2, 2), ("c", 2.05, 2.1), ("d", 4, 3), ("oracle", 1, 1))}
-    results = Results(folder)
-    results.variants = {("v", "oracle"): {"uses_scene_data": True}}
-    line, beaten = error_time._judged(results, "s", places)
-    check(line == [("v", "a"), ("v", "b")] and beaten == {("v", "d")}, f"{line}, {beaten}")
-    os.makedirs(os.path.join(folder, "tradeoff"))
-    for factor, is_same in ((1.0, True), (1.1, False)):
-        with open(os.path.join(folder, "tradeoff", "front.csv"), "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(["shot", "variant", "point", "error", "unit", "is_nominal_front", "verdict"])
-            for (variant, name), (_, error) in places.items():
-                verdict = "dominated" if name == "c" else "uses scene data" if name == "oracle" else "undecided"
-                writer.writerow(["s", variant, name, factor * error.value, "ms", int(name in "abd"), verdict])
-        line, beaten = error_time._judged(results, "s", places)
-        check(([k[1] for k in line], {k[1] for k in beaten}) == ((["a", "b", "d"], {"c"}) if is_same else (["a", "b"], {"d"})), f"{line}, {beaten}")
+    places = {("v", name): (exact(t), exact(e)) for name, t, e in (("a", 1, 4), ("b", 2, 2), ("c", 2.05, 2.1), ("d", 0.5, 1))}
+    results, chosen = Results(folder), request_of("error_time", "mse")
+    said = {"a": ("bytes time", "no"), "b": ("time", "maybe"), "c": ("", "yes"), "d": ("bytes", "yes")}
+    error = {"shot": "s", "target": chosen.target, "metric": chosen.metric, "mask": chosen.mask, "variant": "v"}
+    results.errors = [error | {"point": p, "fronts": fronts, "dominated": dominated} for p, (fronts, dominated) in said.items()]
+    line, beaten = error_time._judged(results, "s", chosen, places)
+    check(line == [("v", "a"), ("v", "b")] and beaten == {("v", "c"), ("v", "d")}, f"{line}, {beaten}")
 
     few, many = list(range(20)), list(range(21))
     check(error_time.numbered(few, {3}) == few and error_time.numbered(many, {20, 3}) == [3, 20], "of many marks those on the front have numbers")

@@ -26,7 +26,7 @@ PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "
 
 
 COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
-    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,fronts",
+    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,fronts,dominated",
     "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,represents_shot",
     "times.csv": "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
     "time_summary.csv": "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
