@@ -102,7 +102,7 @@ def draw(results, chosen):
     panels[0].set_ylabel(f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels")
     notes = ["median times, mean errors; 95 % intervals"]
     if has_beaten:
-        notes.append("pale: another is significantly faster and better")
+        notes.append("pale: another point has significantly less error or time, and no more of the other")
     notes += results.warnings_of_times(list(every))
     notes += [style.NOT_POSITIVE_NOTE.replace("\n", " ")] if has_nonpositive else []
     notes += [style.ONE_SEED_NOTE] if any(e.is_one_seed for places in every.values() for _, e in places.values()) else []
