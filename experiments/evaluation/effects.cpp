@@ -217,8 +217,7 @@ std::vector<EffectRow> effects_of_splits(const SeedsOfPoint& point, const SeedsO
 /// `count`: of its family, which no p is multiplied by more than.
 void judge(EffectRow& e, double p_holm, size_t count) {
     e.p_holm = p_holm, e.verdict = verdict_of(p_holm, *e.ratio);
-    // A p that was cut off at 1 was multiplied by 1 / p at least.
-    const double factor = !(*e.p > 0) ? double(count) : p_holm < 1 ? p_holm / *e.p : std::max(double(count), 1 / *e.p);
+    const double factor = adjustment_factor(*e.p, p_holm, count);
     const bool is_exact = e.estimate.standard_error == 0;
     const auto [low, high] = is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor);
     e.low_holm = low, e.high_holm = high;

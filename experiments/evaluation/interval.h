@@ -1,7 +1,16 @@
 #pragma once
+#include <algorithm>
+#include <cstddef>
 
 /// The false-alarm rate of every verdict ("better", "worse", "behind", "changed"), for a family of comparisons (Holm).
 inline constexpr double significance = 0.05;
+
+/// By how much p was multiplied to become `p_holm`, among `count` p-values (holm_adjusted()): an interval of the
+/// probability of error significance / factor agrees with the verdict. A p that was cut off at 1 was multiplied by 1 /
+/// p at least.
+inline double adjustment_factor(double p, double p_holm, size_t count) {
+    return !(p > 0) ? double(count) : p_holm < 1 ? p_holm / p : std::max(double(count), 1 / p);
+}
 
 /// What a 95 % interval holds, or why there is none: the column `interval` of summary.csv and effects.csv, which
 /// report and figures print.

@@ -41,7 +41,7 @@ MeanOverScenes mean_of_scenes(std::span<const double> values) {
     double squares = 0;
     for (const double v : values) squares += (v - mean.value) * (v - mean.value);
     const double error = std::sqrt(squares / (n - 1) / n), half_width = student_t_quantile(0.975, degrees) * error;
-    mean.low = mean.value - half_width, mean.high = mean.value + half_width;
+    mean.standard_error = error, mean.low = mean.value - half_width, mean.high = mean.value + half_width;
     if (error > 0) mean.p = 2 * student_t_cdf(-std::abs(mean.value) / error, degrees);
     return mean;
 }

@@ -25,6 +25,7 @@ struct MeanOverScenes {
     std::optional<double> low, high;  ///< none below least_scenes
     std::optional<double> p;          ///< two-sided, of "the mean is 0"; also none where all scenes say the same
     size_t scenes = 0;
+    double standard_error = 0;  ///< of `value`; 0 below least_scenes
 };
 /// Fails with Error where there is no value.
 MeanOverScenes mean_over_scenes(std::span<const ShotValue> values);

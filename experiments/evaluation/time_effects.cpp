@@ -80,7 +80,7 @@ void set_time_verdicts(std::span<TimeEffectRow> effects, const nlohmann::json& m
     for (size_t i = 0; i < family.size(); ++i) {
         TimeEffectRow& e = *family[i];
         e.p = p[i], e.p_holm = adjusted[i];
-        const double factor = p[i] > 0 && adjusted[i] < 1 ? adjusted[i] / p[i] : double(family.size());
+        const double factor = adjustment_factor(p[i], adjusted[i], family.size());
         std::tie(e.low_holm, e.high_holm) = ratios[i].interval(significance / factor);
         e.verdict = verdict_of(adjusted[i], e.ratio);
     }

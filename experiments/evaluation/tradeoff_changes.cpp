@@ -1,5 +1,6 @@
 #include "experiments/evaluation/tradeoff.h"
 #include "metrics/quantiles.h"
+#include "metrics/statistics.h"
 
 #include <algorithm>
 #include <array>
@@ -86,6 +87,28 @@ bool has_worth(const Change& change) {
     return change.row.verdict == "buys error" || change.row.verdict == "saves cost";
 }
 
+/// Which of the means differ significantly from 0, adjusted together (Holm), with intervals that agree with it. Where
+/// all scenes say the same there is no p, and the mean is exact.
+std::vector<bool> judged_together(std::vector<MeanOverScenes*> means) {
+    std::vector<bool> is_significant;
+    std::vector<double> p;
+    for (const MeanOverScenes* m : means) {
+        is_significant.push_back(m->low && !m->p && m->value != 0);
+        if (m->p) p.push_back(*m->p);
+    }
+    const std::vector<double> adjusted = holm_adjusted(p);
+    for (size_t i = 0, next = 0; i < means.size(); ++i) {
+        MeanOverScenes& m = *means[i];
+        if (!m.p) continue;
+        const double degrees = double(m.scenes) - 2, factor = adjustment_factor(*m.p, adjusted[next], p.size());
+        const double wider = student_t_quantile(1 - significance / factor / 2, degrees) /
+                             student_t_quantile(1 - significance / 2, degrees);
+        m.low = m.value - (m.value - *m.low) * wider, m.high = m.value + (*m.high - m.value) * wider;
+        is_significant[i] = adjusted[next++] < significance;
+    }
+    return is_significant;
+}
+
 /// Each change over all scenes in which it was measured by one machine.
 std::vector<Change> pooled(const std::vector<Change>& changes) {
     const auto same = [](const Change& a, const Change& b) {
@@ -95,34 +118,45 @@ std::vector<Change> pooled(const std::vector<Change>& changes) {
         return name(a.row) == name(b.row);
     };
     std::vector<Change> found;
+    std::vector<MeanOverScenes> errors, costs;
     for (const Change& change : changes) {
         if (std::ranges::any_of(found, [&](const Change& other) { return same(other, change); })) continue;
-        std::vector<ShotValue> log_errors, costs;
+        std::vector<ShotValue> log_errors, differences;
         for (const Change& own : changes)
             if (same(own, change)) {
                 log_errors.push_back({own.asset, std::log(own.row.error_ratio)});
-                costs.push_back({own.asset, own.row.cost});
+                differences.push_back({own.asset, own.row.cost});
             }
-        const MeanOverScenes error = mean_over_scenes(log_errors), cost = mean_over_scenes(costs);
-        Change& mean = found.emplace_back(change);
-        ChangeRow& row = mean.row;
+        found.push_back(change);
+        errors.push_back(mean_over_scenes(log_errors)), costs.push_back(mean_over_scenes(differences));
+    }
+    std::map<std::string, std::vector<size_t>> of_machine;
+    for (size_t i = 0; i < found.size(); ++i) of_machine[found[i].row.machine].push_back(i);
+    for (const auto& [machine, family] : of_machine) {
+        std::vector<MeanOverScenes*> of_errors, of_costs;
+        for (const size_t i : family) of_errors.push_back(&errors[i]), of_costs.push_back(&costs[i]);
+        const std::vector<bool> errs = judged_together(of_errors), takes = judged_together(of_costs);
+        for (size_t k = 0; k < family.size(); ++k)
+            found[family[k]].is_error_significant = errs[k], found[family[k]].is_cost_significant = takes[k];
+    }
+    for (size_t i = 0; i < found.size(); ++i) {
+        const MeanOverScenes &error = errors[i], &cost = costs[i];
+        ChangeRow& row = found[i].row;
         row.shot.clear(), row.scenes = error.scenes, row.error_ratio = std::exp(error.value), row.cost = cost.value;
         row.error_low = row.error_high = row.cost_low = row.cost_high = std::nullopt;
         row.cost_per_percent = row.cost_per_percent_low = row.cost_per_percent_high = std::nullopt;
         if (error.low) row.error_low = std::exp(*error.low), row.error_high = std::exp(*error.high);
         row.cost_low = cost.low, row.cost_high = cost.high;
-        mean.is_error_significant = error.low && (*error.high < 0 || *error.low > 0);
-        mean.is_cost_significant = cost.low && (*cost.high < 0 || *cost.low > 0);
-        row.verdict = verdict_of(mean);
-        if (!has_worth(mean)) continue;
-        const double degrees = double(error.scenes) - 2, end = student_t_quantile(0.975, degrees);
+        row.verdict = verdict_of(found[i]);
+        if (!has_worth(found[i])) continue;
+        const double degrees = double(error.scenes) - 2;
         const Deviates of_t = deviates_of([&](double p) { return student_t_quantile(p, degrees); });
-        const auto moved = [&](const MeanOverScenes& m) {
+        const auto moved = [&](double value, double standard_error) {
             Deviates values = of_t;
-            for (double& v : values) v = m.value + (m.value - *m.low) / end * v;
+            for (double& v : values) v = value + standard_error * v;
             return values;
         };
-        set_worth(row, moved(error), moved(cost));
+        set_worth(row, moved(error.value, error.standard_error), moved(cost.value, cost.standard_error));
     }
     return found;
 }
