@@ -18,7 +18,7 @@ except ImportError as missing:
 from analysis import rows
 from analysis.answers import Answers
 from analysis.points import Study
-from ssrlab.results import ResultsError
+from ssrlab.results import exit_code
 
 SHOT = ("shot", "scene", "machine", "variant", "label")
 FILES = {
@@ -31,22 +31,14 @@ FILES = {
 
 def main():
     out = os.path.dirname(sys.argv[1])
-    try:
-        study = Study(out)
-        analysis = rows.Analysis(study, sorted(study.asked["factors"], reverse=True))
-        for name, columns in FILES.items():
-            rows.write(out, name, columns, getattr(analysis, name.removesuffix(".csv")))
-        with open(os.path.join(out, "answers.md"), "w", encoding="utf-8") as stream:
-            stream.write(Answers(analysis).text())
-        print(os.path.join(out, "answers.md"))
-    except ResultsError as mistake:
-        print(f"error: {mistake}", file=sys.stderr)
-        return 2
-    except OSError as fault:
-        print(f"error: cannot write the answers: {fault}", file=sys.stderr)
-        return 3
-    return 0
+    study = Study(out)
+    analysis = rows.Analysis(study, sorted(study.asked["factors"], reverse=True))
+    for name, columns in FILES.items():
+        rows.write(out, name, columns, getattr(analysis, name.removesuffix(".csv")))
+    with open(os.path.join(out, "answers.md"), "w", encoding="utf-8") as stream:
+        stream.write(Answers(analysis).text())
+    print(os.path.join(out, "answers.md"))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(exit_code(main, "the answers"))

@@ -1,3 +1,5 @@
+// Over 400 lines: what is timed of a shot, how its rounds are played within the budget, and what is read from them, all
+// of which are about TimedCopy. Which rounds count is in timed_rounds.h.
 #include "experiments/measuring/times/timing.h"
 
 #include "core/gpu/device.h"
@@ -167,10 +169,6 @@ std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies, const RoundsO
                              .first_ms = recorded_like(copy, copies).median_total(rounds),
                              .second_ms = copy.median_total(rounds)});
     return pairs;
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// What the copies that play take of a round.

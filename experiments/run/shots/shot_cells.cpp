@@ -4,6 +4,7 @@
 #include "experiments/measuring/rehearsal.h"
 #include "experiments/measuring/times/clock_proofs.h"
 #include "experiments/measuring/times/costs.h"
+#include "experiments/measuring/times/timed_rounds.h"
 #include "experiments/measuring/times/timing.h"
 #include "experiments/measuring/times/timing_lock.h"
 #include "experiments/run/shots/open_shot.h"
@@ -17,10 +18,6 @@
 #include <map>
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// A cell that is to be done.
 struct CellTask {
