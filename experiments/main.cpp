@@ -98,6 +98,13 @@ int parse_and_run(int argc, char** argv) {
     run_command_.add_flag("--times-again", run.takes_times_again,
                           "Take times again that other programs disturbed; the less disturbed are kept");
     run_command_
+        .add_option("--report-after", run.report_after,
+                    "Seconds of a running study until it writes tables and report of what is done; it goes on to do so "
+                    "for a twenty-fifth of the time, after ten minutes for half a hundredth")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
+        ->type_name("SECONDS");
+    run_command_
         .add_option(
             "--cells", run.cells,
             "Do only these cells, of a study that several processes or machines share: references, renders, "

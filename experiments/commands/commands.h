@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/run/run.h"
 #include "groundtruth/reference.h"
 
 #include <filesystem>
@@ -28,6 +29,7 @@ std::filesystem::path default_results(const std::filesystem::path& config);
 struct RunOptions {
     std::filesystem::path config, out;
     bool keep_all = false, replaces = false, prunes = false, takes_times_here = false, takes_times_again = false;
+    double report_after = RunSettings{}.report_after;
     std::vector<std::string> cells;  ///< as CellSelection takes them; empty: all
 };
 void run_study_command(const RunOptions& options, const CommonOptions& common);

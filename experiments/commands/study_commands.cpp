@@ -36,6 +36,7 @@ void run_study_command(const RunOptions& options, const CommonOptions& common) {
                .prunes = options.prunes,
                .takes_times_here = options.takes_times_here,
                .takes_times_again = options.takes_times_again,
+               .report_after = options.report_after,
                .cells = options.cells});
 }
 

@@ -193,8 +193,8 @@ std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& sco
     const std::string value = ", " + headline.metric + " " + shown(answer.best->value) +
                               interval_text(answer.best->low, answer.best->high) + gain_clause(answer, scored);
     const std::string name = name_of(*answer.best);
-    if (answer.unranked.size() + 1 == scored.size() && scored.size() > 1)
-        return text + name + " stands alone" + value + ".";
+    if (scored.size() == 1) return name + " is the only point" + value + limit_clause(answer) + ".";
+    if (answer.unranked.size() + 1 == scored.size()) return text + name + " stands alone" + value + ".";
     if (answer.tied.empty())
         text += name + " has the least error" + value;
     else
@@ -214,6 +214,7 @@ std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<S
         std::ranges::min_element(perceived, {}, [&](const Scored& s) { return shortfall(better, s.point.value); });
     const std::string by = "By " + metric + ", which is nearer to what people see, ",
                       own_value = shown(own->point.value) + interval_text(own->point.low, own->point.high);
+    if (perceived.size() == 1) return by + own_value + ".";
     if (own->error->standing == standing::best) return by + "it is the best, too: " + own_value + ".";
     if (own == first)
         return by + "it measures best, too: " + own_value +

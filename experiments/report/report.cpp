@@ -193,6 +193,10 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
                                                            "stability_stages.csv"}}));
             return {};
         }
+        if (std::filesystem::exists(folder / "study.json"))
+            fail("the study in ", folder.string(),
+                 " was stopped before its first results; the same `ssrlab run` continues it");
+        fail(folder.string(), " holds no results (manifest.json is missing); `ssrlab run` makes some");
     }
     const json manifest = read_json(folder / "manifest.json");
     if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");

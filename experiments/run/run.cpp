@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
+#include "experiments/measuring/times/timed_rounds.h"
 #include "experiments/run/shots/shot_cells.h"
 #include "experiments/run/study_results.h"
 #include "experiments/store/finished_run.h"
@@ -48,10 +49,13 @@ std::vector<std::string> lines_of(const StudyAnswers& answers) {
     return lines;
 }
 
+std::string report_file(const StudySession& study) {
+    return std::filesystem::absolute(study.settings.out / "report.html").lexically_normal().string();
+}
+
 void say_end(StudySession& study, const std::vector<std::string>& lines) {
     for (const std::string& line : lines) study.progress.say(line);
-    study.progress.say("\nReport: " +
-                       std::filesystem::absolute(study.settings.out / "report.html").lexically_normal().string());
+    study.progress.say("\nReport: " + report_file(study));
 }
 
 /// All that decides what a run of the whole study leaves.
@@ -97,8 +101,9 @@ public:
     void run() {
         if (const auto said = find_finished()) return say_end(study_, *said);
         for (const PlannedShot& shot : study_.plan.shots) {
-            do_cells(study_, shot, selection_);
-            if (selection_.is_all() && &shot != &study_.plan.shots.back() && are_results_due()) write(false);
+            do_cells(study_, shot, selection_, [&] {
+                if (selection_.is_all() && are_results_due()) write_meanwhile();
+            });
         }
         if (selection_.is_all()) {
             const std::vector<std::string> lines = lines_of(write(true));
@@ -112,10 +117,18 @@ public:
     }
 
 private:
-    /// Tables and report are of all shots so far: of a long study's time half a hundredth goes into those that
-    /// it does not end with. Where nothing was made, those that are there will do.
+    /// Tables and report are of all cells so far: soon after the start for who looks on, then for a twenty-fifth of the
+    /// time in the first ten minutes, and for half a hundredth of a long study's. Where nothing was made, those that
+    /// are there will do.
     bool are_results_due() const {
-        return study_.made > 0 && std::chrono::steady_clock::now() - written_ > 200 * took_;
+        const double pause = took_ * (seconds_since(start_) < 600 ? 25 : 200);
+        return study_.made > 0 && seconds_since(written_) > std::max(study_.settings.report_after, pause);
+    }
+
+    void write_meanwhile() {
+        write(false);
+        if (!std::exchange(has_said_where_, true))
+            study_.progress.say("The report so far: " + report_file(study_) + " (it fills while the study runs)");
     }
 
     /// What the run said that left the folder as it is; nothing if there is something to do, or to ask for.
@@ -137,15 +150,18 @@ private:
     StudyAnswers write(bool is_complete) {
         const auto start = std::chrono::steady_clock::now();
         StudyAnswers answers = write_results(study_, is_complete, before_);
-        written_ = std::chrono::steady_clock::now(), took_ = written_ - start;
+        took_ = seconds_since(start), written_ = std::chrono::steady_clock::now();
+        study_.work.add_overhead(took_);
         return answers;
     }
 
     StudySession& study_;
     const CellSelection& selection_;
     nlohmann::json before_;
-    std::chrono::steady_clock::time_point written_ = {};  ///< when results were last written ...
-    std::chrono::steady_clock::duration took_ = {};       ///< ... and how long that took
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point written_ = start_;  ///< when results were last written ...
+    double took_ = 0;                                         ///< ... and the seconds that it took
+    bool has_said_where_ = false;                             ///< the report of a study that is not done yet
 };
 
 /// While it lives Ctrl-C ends the program with a sentence, unless whoever started it ignores it. Nothing is lost:

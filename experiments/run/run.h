@@ -15,12 +15,13 @@ struct RunSettings {
     bool prunes = false;             ///< removes what earlier versions of the study left in the folder
     bool takes_times_here = false;   ///< in place of times that another machine took
     bool takes_times_again = false;  ///< that other programs disturbed; the less disturbed are kept
+    double report_after = 10;  ///< seconds until the first tables and report of a study that runs, and between them
     std::vector<std::string> cells;  ///< which are done, as CellSelection takes them; empty: all
 };
 
 /// Runs a study and fills the results folder (experiments/RESULTS.md). What is finished can be read while it runs:
-/// tables and report are written after the first shot, then as often as a two hundredth of the time allows, and at the
-/// end. Of a part of the cells nothing but these is written: merge_study() makes the tables once all are there.
+/// tables and report are written ten seconds after the start, then as often as a small share of the time allows, and at
+/// the end. Of a part of the cells nothing but these is written: merge_study() makes the tables once all are there.
 void run_study(const Config& config, const RunSettings& settings);
 
 /// `command` (run, merge, plan) on this study as a shell takes it in any folder: this program, the config and the

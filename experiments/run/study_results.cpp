@@ -35,6 +35,7 @@ nlohmann::json manifest_of(const StudySession& study, bool is_complete) {
     }
     manifest["provenance"] = provenance_entries(study.finished);
     manifest["is_complete"] = is_complete;
+    manifest["cells"] = {{"done", study.finished.size()}, {"planned", study.plan.cell_count()}};
     manifest["written"] = {{"ssrlab", study.maker["ssrlab"]}, {"at", time_stamp()}};
     return manifest;
 }

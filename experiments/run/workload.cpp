@@ -38,7 +38,7 @@ double Workload::share_done() const {
     Correction of_all;
     for (const auto& [name, family] : families_)
         for (const auto& [kind_name, kind] : family) of_all.add(kind);
-    double spent = 0, left = 0;
+    double spent = overhead_, left = 0;
     for (const auto& [name, family] : families_) {
         Correction of_family;
         for (const auto& [kind_name, kind] : family) of_family.add(kind);

@@ -18,6 +18,9 @@ public:
     /// They turned out to be done already, in so many seconds, which tell the time of others; 0: that is not known.
     void found(double seconds);
 
+    /// Time that went into none of the planned kinds: it is spent, and tells nothing of what is left.
+    void add_overhead(double seconds) { overhead_ += seconds; }
+
     /// In [0, 1]: time spent / (time spent + time expected).
     double share_done() const;
 
@@ -37,6 +40,6 @@ private:
 
     std::map<std::string, std::map<std::string, Kind>> families_;
     std::string family_, current_;
-    double units_ = 0, share_ = 0;
+    double units_ = 0, share_ = 0, overhead_ = 0;
     std::chrono::steady_clock::time_point start_;
 };

@@ -264,13 +264,16 @@ std::unique_ptr<OpenShot> opened(StudySession& study, const PlannedShot& shot) {
 void rehearse_once(StudySession& study) {
     if (study.is_rehearsed) return;
     const SpentTime::Span span(study.spent, compiling);
+    const auto start = std::chrono::steady_clock::now();
     rehearse(study.device, study.config.variants);
+    study.work.add_overhead(seconds_since(start));
     study.is_rehearsed = true;
 }
 
 }  // namespace
 
-void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection& selection) {
+void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection& selection,
+              const std::function<void()>& rendered) {
     std::vector<const PlannedCell*> planned;
     for (const PlannedCell& cell : shot.cells)
         if (selection.holds(cell)) planned.push_back(&cell);
@@ -282,12 +285,17 @@ void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection&
     rehearse_once(study);
     const std::unique_ptr<OpenShot> open = opened(study, shot);
     const std::string truth = open->truth.content_hash();
-    std::vector<std::optional<Cell>> cells(planned.size());
+    const size_t before = study.finished.size();
+    std::vector<bool> is_done(planned.size());
     for (const bool waits : {false, true})
         for (size_t i = 0; i < planned.size(); ++i) {
-            if (cells[i]) continue;
-            cells[i] = do_cell(study, task_of(study, *open, shot, *planned[i]), truth, waits);
-            if (cells[i]) say_result(study, *cells[i]);
+            if (is_done[i]) continue;
+            std::optional<Cell> cell = do_cell(study, task_of(study, *open, shot, *planned[i]), truth, waits);
+            if (!cell) continue;
+            say_result(study, *cell);
+            const size_t place = before + size_t(std::count(is_done.begin(), is_done.begin() + ptrdiff_t(i), true));
+            study.finished.insert(study.finished.begin() + ptrdiff_t(place), std::move(*cell));
+            is_done[i] = true;
+            if (i > 0 && is_done.front()) rendered();
         }
-    for (std::optional<Cell>& cell : cells) study.finished.push_back(std::move(*cell));
 }

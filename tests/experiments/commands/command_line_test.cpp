@@ -121,6 +121,30 @@ TEST_F(CommandLine, PrintsCommandsThatAShellTakesAsTheyAre) {
     EXPECT_EQ(report.text, "Report: " + (folder / "to here/report.html").string() + "\n");
 }
 
+TEST_F(CommandLine, ShowsWhatIsDoneOfAStudyThatRunsOrWasStopped) {
+    config(
+        R"({"shots": [{"scene": "sky_only", "resolution": [16, 16]}], "reference": {"samples": 16}, "timing": {"frames": 0}, "seeds": 16,
+               "variants": [{"variant": "none"}, {"variant": "amd_sssr"}, {"variant": "diligent_ssr"}]})");
+    fs::create_directories(folder / "o");
+    write_text(folder / "o/study.json", read_text(folder / "study.json"));
+    expect_mistake("report o", "was stopped before its first results; the same `ssrlab run` continues it");
+    fs::remove(folder / "o/study.json");
+    expect_mistake("report o", "holds no results");
+    const std::string run = "run study.json --out o --report-after 0";
+    const Outcome stopped =
+        ssrlab(run + " >log & until grep 'so far' log; do sleep 0.01; done; kill $!; wait $!; true");
+    EXPECT_NE(stopped.text.find(fs::weakly_canonical(folder / "o/report.html").string()), std::string::npos)
+        << stopped.text;
+    const auto manifest = [&] { return read_json(folder / "o/manifest.json"); };
+    EXPECT_FALSE(manifest()["is_complete"]);
+    EXPECT_LT(manifest()["cells"]["done"], manifest()["cells"]["planned"]);
+    EXPECT_NE(read_text(folder / "o/report.html").find("This study is not finished"), std::string::npos);
+
+    EXPECT_EQ(ssrlab(run).code, 0);
+    EXPECT_TRUE(manifest()["is_complete"]);
+    EXPECT_EQ(manifest()["cells"]["done"], manifest()["cells"]["planned"]);
+}
+
 TEST_F(CommandLine, NamesBrokenFiles) {
     write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
     expect_mistake("compare a.exr b.exr", "b.exr: no such file");

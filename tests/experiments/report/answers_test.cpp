@@ -98,6 +98,12 @@ TEST(Answers, RankNothingThatIntervalsCannotTellApart) {
         << a.sentence;
 }
 
+TEST(Answers, MakeNoVerdictOfOnePoint) {
+    Made made;
+    made.add("none", 0.6, 0.01);
+    EXPECT_TRUE(made.answer().sentence.starts_with("none is the only point, mse 0.6")) << made.answer().sentence;
+}
+
 TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
     Made made;
     made.add("none", 0.6, 0.01);

@@ -89,6 +89,13 @@ TEST(Workload, JudgesWhatItHasNotMetByItsLike) {
     EXPECT_NEAR(work.share_done(), 1.0 / 3, 1e-9) << "two units of b are left";
 }
 
+TEST(Workload, OverheadIsSpentAndSaysNothingOfTheRest) {
+    Workload work;
+    work.plan("renders", "a", 2, 3);
+    work.add_overhead(6);
+    EXPECT_NEAR(work.share_done(), 0.5, 1e-9) << "six seconds are over, two units of three seconds are left";
+}
+
 TEST(ProgressEstimate, NeverGoesBackwardsAndIsSmooth) {
     ProgressEstimate estimate;
     estimate.update(1, 0.01);

@@ -18,6 +18,23 @@ function showHead() {
     at("warnings")
         .replaceChildren(
             warnings.length ? folded(count, h("ul", {}, warnings.map(text => h("li", {class: "warning"}, text)))) : "");
+    if (manifest.is_complete === false) showProgress(manifest.cells ?? {}, new Date(manifest.written?.at));
+}
+
+/// A study writes its page again and again while it runs: whoever only looks sees it fill.
+function showProgress({done, planned}, written) {
+    const pause = 15, given_up = 300;  // seconds
+    const age = () => (Date.now() - written) / 1000;
+    const isRunning = age() < given_up;
+    at("warnings").before(h("p", {id: "progress", class: "warning"},
+                            `Not finished: ${done ?? "?"} of ${planned ?? "?"} cells were done at ${
+                                Number.isNaN(+written) ? "a time not recorded" : written.toLocaleTimeString()}. ` +
+                                (isRunning ? "This page reloads by itself until the study is done." :
+                                             "The command that started the study continues it.")));
+    if (!isRunning) return;
+    let used = 0;
+    for (const act of ["pointerdown", "keydown", "wheel"]) addEventListener(act, () => used = Date.now());
+    setInterval(() => Date.now() - used > 2 * pause * 1000 && age() < given_up && location.reload(), pause * 1000);
 }
 
 function showReferences() {
