@@ -23,10 +23,13 @@ std::string shown(double value) {
     return text;
 }
 
-/// Two, of a ratio; three near 1, where two would hide on which side it lies.
-std::string shown_ratio(double ratio) {
+/// Of a ratio `least_digits`; three near 1, where two would hide on which side it lies.
+std::string shown_ratio(double ratio, int least_digits = 2) {
     char text[32];
-    std::snprintf(text, sizeof text, std::abs(ratio - 1) < 0.1 ? "%.3g" : ratio < 9.95 ? "%.2g" : "%.0f", ratio);
+    if (ratio < 9.95)
+        std::snprintf(text, sizeof text, "%.*g", std::max(least_digits, std::abs(ratio - 1) < 0.1 ? 3 : 2), ratio);
+    else
+        std::snprintf(text, sizeof text, "%.0f", ratio);
     return std::string(text) + "x";
 }
 
@@ -40,7 +43,7 @@ std::string name_of(const AnswerPoint& p) {
 }
 
 std::string with_value(const AnswerPoint& p) {
-    return name_of(p) + ", " + shown(p.value) + interval_text(p.low, p.high);
+    return name_of(p) + " (" + shown(p.value) + interval_text(p.low, p.high) + ")";
 }
 
 std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
@@ -49,6 +52,11 @@ std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
         text += (i == 0 ? "" : i + 1 == points.size() ? " and " : ", ") + name_of(points[i]);
     if (points.size() > most) text += " and " + std::to_string(points.size() - most) + " more";
     return text;
+}
+
+/// " Not distinguishable from it: B and C."; empty where there is none such.
+std::string tied_sentence(const std::vector<AnswerPoint>& tied) {
+    return tied.empty() ? "" : " Not distinguishable from it: " + listed(tied, 3) + ".";
 }
 
 /// What one shot's points scored, and how long they took.
@@ -81,9 +89,12 @@ Ratio inverse(const Ratio& r) {
     };
     return {1 / r.value, inverted(r.high), inverted(r.low)};
 }
+/// With a third digit where two would show an interval as a point.
 std::string shown(const Ratio& r) {
-    return shown_ratio(r.value) +
-           (r.low && r.high ? " [" + shown_ratio(*r.low) + ", " + shown_ratio(*r.high) + "]" : "");
+    if (!r.low || !r.high) return shown_ratio(r.value);
+    const int digits = shown_ratio(*r.low) == shown_ratio(*r.high) ? 3 : 2;
+    return shown_ratio(r.value, digits) + " [" + shown_ratio(*r.low, digits) + ", " + shown_ratio(*r.high, digits) +
+           "]";
 }
 
 std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& shot, const Headline& headline) {
@@ -130,37 +141,38 @@ ClockRecord clock_of(const json& manifest, const std::string& shot) {
     return found;
 }
 
-/// "; Y takes 0.6x its time at 1.8x the error": of the front's cheaper points, the one with the least error among those
+/// " Y takes 0.6x its time at 1.8x the error.": of the front's cheaper points, the one with the least error among those
 /// that save a fifth of the time or more, and more than copies of the same point differ by.
-std::string cheaper_clause(const ShotAnswer& answer, const std::vector<Scored>& scored, const ClockRecord& clock) {
+std::string cheaper_sentence(const ShotAnswer& answer, const std::vector<Scored>& scored, const ClockRecord& clock) {
     const double worth_while = std::min(0.8, 1 - clock.floor);
     const TimeSummary* own = find(scored, *answer.best).time;
     if (!own || !(own->median > 0)) return "";
     for (auto p = answer.front.rbegin(); p != answer.front.rend(); ++p) {
         const TimeSummary* time = find(scored, *p).time;
         if (time->median > worth_while * own->median || !(answer.best->value > 0)) continue;
-        return "; " + name_of(*p) + " takes " + shown(ratio_of(*time, *own)) + " its time" +
+        return " " + name_of(*p) + " takes " + shown(ratio_of(*time, *own)) + " its time" +
                (clock.is_proven ? "" : " (timer validation failed)") + " at " +
-               shown(over_best(find(scored, *p), *answer.best)) + " the error";
+               shown(over_best(find(scored, *p), *answer.best)) + " the error.";
     }
-    return "; nothing on the front is faster by a fifth, or by more than copies of one point differ";
+    return " Nothing on the front is faster by a fifth, or by more than copies of one point differ.";
 }
 
-std::string limit_clause(const ShotAnswer& answer) {
+std::string limit_sentence(const ShotAnswer& answer) {
     if (!answer.limit) return "";
-    const std::string what = "the lower bound for any single-frame technique";
+    const std::string what = " lower bound for any single-frame technique";
     if (answer.limit->low.value_or(answer.limit->value) <= 0)  // noise can leave it below
-        return "; " + what + " is not distinguishable from 0";
+        return " The" + what + " is not distinguishable from 0.";
     const std::string limit = shown(answer.limit->value) + interval_text(answer.limit->low, answer.limit->high);
     const double least = answer.best->low.value_or(answer.best->value),
                  most = answer.limit->high.value_or(answer.limit->value);
-    return least > most ? "; " + what + " is " + limit : "; that reaches " + what + ", " + limit;
+    return least > most ? " The" + what + " is " + limit + "." : " That reaches the" + what + ", " + limit + ".";
 }
 
 std::string gain_clause(const ShotAnswer& answer, const std::vector<Scored>& scored) {
     if (!answer.baseline || answer.baseline->variant == answer.best->variant || !(answer.baseline->value > 0))
         return "";
-    return " (" + shown(inverse(over_best(find(scored, *answer.baseline), *answer.best))) + " that of none)";
+    return ", " + shown(inverse(over_best(find(scored, *answer.baseline), *answer.best))) +
+           " that of no reflections (none)";
 }
 
 /// "1 seed", of "none: 1 seed".
@@ -190,17 +202,13 @@ std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& sco
                         const ClockRecord& clock) {
     std::string text = unranked_text(answer, scored, headline);
     if (!answer.best) return text;
-    const std::string value = ", " + headline.metric + " " + shown(answer.best->value) +
+    const std::string value = ": " + headline.metric + " " + shown(answer.best->value) +
                               interval_text(answer.best->low, answer.best->high) + gain_clause(answer, scored);
     const std::string name = name_of(*answer.best);
-    if (scored.size() == 1) return name + " is the only point" + value + limit_clause(answer) + ".";
+    if (scored.size() == 1) return name + " is the only point" + value + "." + limit_sentence(answer);
     if (answer.unranked.size() + 1 == scored.size()) return text + name + " stands alone" + value + ".";
-    if (answer.tied.empty())
-        text += name + " has the least error" + value;
-    else
-        text += name + " has the least error measured" + value + ", but is not distinguishable from " +
-                listed(answer.tied, 3);
-    return text + cheaper_clause(answer, scored, clock) + limit_clause(answer) + ".";
+    text += name + (answer.tied.empty() ? " has the least error" : " measures the least error") + value + ".";
+    return text + tied_sentence(answer.tied) + cheaper_sentence(answer, scored, clock) + limit_sentence(answer);
 }
 
 /// By the standings of the perceptual error, which were decided as those of the physical one were.
@@ -220,10 +228,11 @@ std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<S
         return by + "it measures best, too: " + own_value +
                (own->error->standing.empty() ? "" : ", not distinguishable from others") + ".";
     if (own->error->standing == standing::behind)
-        return by + with_value(first->point) + ", is significantly better than it at " + own_value + ".";
+        return by + with_value(first->point) + " is significantly better; it has " + own_value + ".";
     const bool are_ranked = !own->error->standing.empty() && !first->error->standing.empty();
-    return by + with_value(first->point) + ", measures better" +
-           (are_ranked ? ", but is not distinguishable from it at " : ", not ranked, than it at ") + own_value + ".";
+    return by + with_value(first->point) + " measures better" +
+           (are_ranked ? ", but is not distinguishable from it" : ", but is not ranked") + "; it has " + own_value +
+           ".";
 }
 
 }  // namespace
@@ -308,22 +317,27 @@ std::string over_scenes_sentence(const ReportTables& tables, const json& manifes
     const auto named = [&](const std::string& variant, const std::string& point) {
         return name_of(AnswerPoint{.variant = variant, .point = point, .label = labels[{variant, point}]});
     };
-    const std::string baseline = named(first.baseline_variant, first.baseline_point),
+    const std::string baseline =
+                          (first.baseline_variant == "none" ? "no reflections (none)"
+                                                            : named(first.baseline_variant, first.baseline_point)),
                       name = named(first.variant, first.point);
-    std::string text = "Over " + std::to_string(first.scenes) +
-                       (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes " + name;
-    text += first.standing == standing::best ? " has the least error" : " has the least error measured";
-    const Ratio ratio{first.ratio, first.low, first.high};
-    text += name == baseline
-                ? " (geometric mean of " + headline.metric + ")"
-                : ", " + shown(ratio) + " that of " + baseline + " (geometric mean of " + headline.metric + ")";
+    const bool is_baseline = first.variant == first.baseline_variant && first.point == first.baseline_point;
+    const std::string over = "Over " + std::to_string(first.scenes) +
+                             (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes ",
+                      error = ": " + shown(Ratio{first.ratio, first.low, first.high}) + " that of " + baseline,
+                      mean = " (geometric mean of " + headline.metric + ")",
+                      measured = (is_baseline ? "" : error) + mean + ".";
     if (first.scenes < least_scenes)
-        return text + "; " + std::to_string(first.scenes) + (first.scenes == 1 ? " scene is" : " scenes are") +
+        return over + name + " measures the least error" + measured + " " + std::to_string(first.scenes) +
+               (first.scenes == 1 ? " scene is" : " scenes are") +
                " too few for an interval and a verdict, which take four.";
-    if (!tied.empty()) text += ", but is not distinguishable from " + listed(tied, 3);
+    std::string text = first.standing == standing::best
+                           ? over + name + " has the least error" + measured
+                           : over + "no technique is significantly the best. " + name + " measures the least error" +
+                                 measured + tied_sentence(tied);
     if (!behind.empty())
-        text += "; it is significantly better than " + (tied.empty() ? "all others" : listed(behind, 3));
-    return text + ".";
+        text += " It is significantly better than " + (tied.empty() ? "all others" : listed(behind, 3)) + ".";
+    return text;
 }
 
 json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headline) {

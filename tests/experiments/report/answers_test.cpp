@@ -65,10 +65,10 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
     made.add("beaten", 0.2, 0.002, 8);
     made.add("exact", 0.01, 0.001);
     const ShotAnswer a = made.answer();
-    EXPECT_EQ(
-        a.sentence,
-        "slow has the least error, mse 0.065 [0.06, 0.07] (0.1x that of none); quick takes 0.6x [0.49x, 0.73x] its "
-        "time at 1.8x the error; the lower bound for any single-frame technique is 0.05 [0.049, 0.051].");
+    EXPECT_EQ(a.sentence,
+              "slow has the least error: mse 0.065 [0.06, 0.07], 0.1x that of no reflections (none). quick takes 0.6x "
+              "[0.49x, 0.73x] its "
+              "time at 1.8x the error. The lower bound for any single-frame technique is 0.05 [0.049, 0.051].");
     ASSERT_EQ(a.front.size(), 3u);
     EXPECT_EQ(a.front[1].variant, "quick");
     EXPECT_EQ(a.perceptual_sentence, "");
@@ -84,6 +84,19 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
     EXPECT_EQ(made.answer(doubtful).sentence.find("quick takes"), std::string::npos);
 }
 
+TEST(Answers, GiveTheEndsOfNarrowIntervalsAThirdDigit) {
+    Made made;
+    made.add("slow", 0.065, 0.0001, 10);
+    made.add("quick", 0.0806, 0.0001, 6);
+    TimeSummary &slow = made.tables.times[0], &quick = made.tables.times[1];
+    slow.low = slow.high = 10, quick.low = 5.98, quick.high = 6.02;
+    EXPECT_NE(made.answer().sentence.find("takes 0.6x [0.598x, 0.602x] its time"), std::string::npos)
+        << made.answer().sentence;
+    quick.low = 5.5;
+    EXPECT_NE(made.answer().sentence.find("takes 0.6x [0.55x, 0.6x] its time"), std::string::npos)
+        << made.answer().sentence;
+}
+
 TEST(Answers, RankNothingThatIntervalsCannotTellApart) {
     Made made;
     made.add("a", 0.06, 0.002);
@@ -92,16 +105,15 @@ TEST(Answers, RankNothingThatIntervalsCannotTellApart) {
     const ShotAnswer a = made.answer();
     ASSERT_EQ(a.tied.size(), 1u);
     EXPECT_EQ(a.tied[0].variant, "b");
-    EXPECT_NE(
-        a.sentence.find("a has the least error measured, mse 0.06 [0.058, 0.062], but is not distinguishable from b;"),
-        std::string::npos)
+    EXPECT_NE(a.sentence.find("a measures the least error: mse 0.06 [0.058, 0.062]. Not distinguishable from it: b."),
+              std::string::npos)
         << a.sentence;
 }
 
 TEST(Answers, MakeNoVerdictOfOnePoint) {
     Made made;
     made.add("none", 0.6, 0.01);
-    EXPECT_TRUE(made.answer().sentence.starts_with("none is the only point, mse 0.6")) << made.answer().sentence;
+    EXPECT_TRUE(made.answer().sentence.starts_with("none is the only point: mse 0.6")) << made.answer().sentence;
 }
 
 TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
@@ -119,7 +131,7 @@ TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
     EXPECT_EQ(alone.sentence.find("has the least error"), std::string::npos) << alone.sentence;
     EXPECT_TRUE(
         alone.sentence.starts_with("a measures least, mse 0.06, but is only measured, as are 2 of 3 points (1 "
-                                   "seed). Among those that are ranked, none stands alone, mse 0.6"))
+                                   "seed). Among those that are ranked, none stands alone: mse 0.6"))
         << alone.sentence;
 
     made.add("c", 0.1, 0.002);
@@ -139,7 +151,7 @@ TEST(Answers, SayWhereALimitOfOneFrameIsReached) {
     Made made;
     made.add("a", 0.0505, 0.001);
     EXPECT_NE(
-        made.answer().sentence.find("that reaches the lower bound for any single-frame technique, 0.05 [0.049, 0.051]"),
+        made.answer().sentence.find("That reaches the lower bound for any single-frame technique, 0.05 [0.049, 0.051]"),
         std::string::npos)
         << made.answer().sentence;
 }
@@ -160,16 +172,16 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
     made.add("b", 0.08, 0.001);
     made.add("a", 0.2, 0.01, 0, "flip");
     made.add("b", 0.1, 0.01, 0, "flip");
-    EXPECT_NE(made.answer().perceptual_sentence.find(
-                  "b, 0.1 [0.09, 0.11], is significantly better than it at 0.2 [0.19, 0.21]"),
-              std::string::npos)
+    EXPECT_NE(
+        made.answer().perceptual_sentence.find("b (0.1 [0.09, 0.11]) is significantly better; it has 0.2 [0.19, 0.21]"),
+        std::string::npos)
         << made.answer().perceptual_sentence;
     made.tables.errors[3].value = 0.195, made.tables.errors[3].low = 0.185, made.tables.errors[3].high = 0.205;
-    EXPECT_NE(made.answer().perceptual_sentence.find("b, 0.195 [0.185, 0.205], measures better, but is not "
-                                                     "distinguishable from it at 0.2"),
+    EXPECT_NE(made.answer().perceptual_sentence.find("b (0.195 [0.185, 0.205]) measures better, but is not "
+                                                     "distinguishable from it; it has 0.2"),
               std::string::npos);
     made.tables.errors[3].holds_all_noise = false;
-    EXPECT_NE(made.answer().perceptual_sentence.find("measures better, not ranked"), std::string::npos)
+    EXPECT_NE(made.answer().perceptual_sentence.find("measures better, but is not ranked"), std::string::npos)
         << "its noise is not known";
     made.tables.errors[3].holds_all_noise = true;
     made.tables.errors[3].value = made.tables.errors[3].low = made.tables.errors[3].high = 0.3;
@@ -198,15 +210,17 @@ TEST(Answers, SayFirstWhatHoldsOverScenes) {
     EXPECT_EQ(sentence({"best", "behind"}, 5), "One scene is too few for a verdict over scenes, which takes four.");
     for (const char* shot : {"t", "u", "v", "w", "x"})
         made.tables.errors.push_back(made.tables.errors.front()), made.tables.errors.back().shot = shot;
-    EXPECT_EQ(
-        sentence({"best", "behind", "behind"}, 6),
-        "Over 6 scenes A, labelled has the least error, 0.1x [0.05x, 0.2x] that of none (geometric mean of mse); it "
-        "is significantly better than all others.");
+    EXPECT_EQ(sentence({"best", "behind", "behind"}, 6),
+              "Over 6 scenes A, labelled has the least error: 0.1x [0.05x, 0.2x] that of no reflections (none) "
+              "(geometric mean of mse). It "
+              "is significantly better than all others.");
     EXPECT_EQ(sentence({"tied", "tied", "behind"}, 5),
-              "Over 5 of 6 scenes A, labelled has the least error measured, 0.1x [0.05x, 0.2x] that of none (geometric "
-              "mean of mse), but is not distinguishable from b; it is significantly better than c.");
-    EXPECT_EQ(
-        sentence({"", ""}, 3),
-        "Over 3 of 6 scenes A, labelled has the least error measured, 0.1x that of none (geometric mean of mse); 3 "
-        "scenes are too few for an interval and a verdict, which take four.");
+              "Over 5 of 6 scenes no technique is significantly the best. A, labelled measures the least error: 0.1x "
+              "[0.05x, 0.2x] that of no reflections (none) (geometric mean of mse). Not distinguishable from it: b. It "
+              "is significantly "
+              "better than c.");
+    EXPECT_EQ(sentence({"", ""}, 3),
+              "Over 3 of 6 scenes A, labelled measures the least error: 0.1x that of no reflections (none) (geometric "
+              "mean of mse). 3 "
+              "scenes are too few for an interval and a verdict, which take four.");
 }

@@ -32,9 +32,11 @@ function openPoint(row) {
 function showAnswers() {
     const shots = unique((report.errors.length ? report.errors : manifestShots()).map(r => r.shot));
     answerChoice.shot = preferred(shots, addressedView()?.get("shot"));
-    at("over-scenes").textContent = report.errors.length ?
+    const text = report.errors.length ?
         report.overScenes :
         "This study has no errors: it ran without truth. What it has are pictures and times.";
+    const [, verdict, rest] = text.match(/^(.*?\.)( .*)?$/) ?? [, text, ""];
+    at("over-scenes").replaceChildren(h("b", {}, verdict), rest ?? "");
     pointListeners.push(drawAnswerCharts);
     showBudget();
     return drawAnswers(shots);
@@ -58,8 +60,10 @@ function drawAnswers(shots) {
                       title: [shot, answerOf(shot)?.sentence].filter(Boolean).join("\n")
                   },
                     h("b", {}, shortShot(shot)), " ",
-                    isChosen(shot) || shots.length <= mostWhole ? answerText(shot) : answerInShort(shot)))));
-    at("answer-note").textContent = answerOf(answerChoice.shot)?.perceptual_sentence ?? "";
+                    isChosen(shot) || shots.length <= mostWhole ? answerText(shot) : answerInShort(shot),
+                    isChosen(shot) && answerOf(shot)?.perceptual_sentence ?
+                        h("small", {id: "answer-note"}, answerOf(shot).perceptual_sentence) :
+                        ""))));
     drawAnswerCharts();
     return drawChosenPoint();
 }
@@ -111,8 +115,17 @@ function drawAnswerCharts() {
     markChosenPoint();
     const isUnnamed = row => charts.some(c => c.unnamed.some(m => pointKey(m) === pointKey(row)));
     const unnamed = metrics.length ? headlineRows(shot, metrics[0]).filter(isUnnamed) : [];
-    at("answer-legend").replaceChildren(unnamed.length ? legend(legendGroups(unnamed)) : "");
+    at("answer-legend")
+        .replaceChildren(
+            charts.length ? h("p", {class: "note"}, chartNote(shot)) : "",
+            ...(unnamed.length ? [h("p", {class: "note"}, "Not named above:"), legend(legendGroups(unnamed))] :
+                                 []));
 }
+
+/// How the charts are read.
+const chartNote = shot => (timesOf(shot).length ? "Lower left is better. Dashed steps: the least error for its time. " :
+                                                  "Lower is better. ") +
+    "[a, b] and lines at marks: 95 % intervals.";
 
 /// Of a study without errors.
 function timeTable(shot) {
@@ -162,7 +175,7 @@ function answerPictures(shot) {
     const isOther = point && !named.some(p => pointKey(p) === pointKey(point));
     return [
         {title: "truth", text: "", image: answerImage(shot, null)},
-        of(answer?.tied?.length ? "best, not distinguishable from others: " : "best: ", answer?.best),
+        of(`least ${metric}${answer?.tied?.length ? " measured" : ""}: `, answer?.best),
         of("baseline: ", answer?.baseline),
         isOther ? of("chosen: ", headlineRows(shot, metric).find(r => pointKey(r) === pointKey(point)) ?? point) : null
     ].filter(Boolean);

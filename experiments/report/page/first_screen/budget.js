@@ -25,7 +25,18 @@ function showBudget() {
 
 /// Below the charts' marks: where the budget ends.
 const budgetLine = x => budget.milliseconds > x.domain[0] && budget.milliseconds < x.domain[1] ?
-    [Plot.ruleX([budget.milliseconds], {stroke: "var(--accent)", strokeWidth: 1.5})] :
+    [
+        Plot.ruleX([budget.milliseconds], {stroke: "var(--accent)", strokeWidth: 1.5}),
+        Plot.text([budget.milliseconds], {
+            x: ms => ms,
+            text: ms => `budget ${number(ms, 3)} ms`,
+            frameAnchor: "bottom",
+            textAnchor: "start",
+            dx: 4,
+            dy: -14,
+            fill: "var(--accent)"
+        })
+    ] :
     [];
 
 function drawBudget(shot) {
@@ -42,9 +53,11 @@ function drawBudget(shot) {
 
 /// From where on times differ, by two copies of a point.
 function floorText(shot) {
-    const floor = aaFloor(shot);
-    if (floor === undefined) return "No point was timed twice: the noise of times is not known.";
-    return floor > 0 ? `Times within ${percent(floor)} are not distinguishable.` : "";
+    const floor = aaFloor(shot), isOfCpu = makers.some(m => m.device?.type === "cpu");
+    return (isOfCpu ? "A CPU's times, not a GPU's. " : "") +
+        (floor === undefined ? "No point was timed twice: the noise of times is not known." :
+             floor > 0       ? `Times within ${number(100 * floor, 2)} % are not distinguishable.` :
+                               "");
 }
 
 /// The rows of the answer, and what they say where there is no such point.
@@ -73,8 +86,8 @@ function budgetPoints(shot, metric) {
     };
 }
 
-/// "A mse 0.05 [0.04, 0.06], flip 0.1 [0.09, 0.12], 9 ms [8, 11]", with A's picture; a click chooses A. Of two points
-/// each is the first by one metric.
+/// "A 9 ms [8, 11], least mse 0.05 [0.04, 0.06], flip 0.1 [0.09, 0.12]", with A's picture; a click chooses A. Of two
+/// points each is the first by one metric.
 function budgetRow(kind, byMetric) {
     const points = new Map();
     for (const found of byMetric)
@@ -87,7 +100,12 @@ function budgetRow(kind, byMetric) {
     const part = own => {
         const {row, time} = own[0], picture = h("span", {class: "thumbnail"});
         answerCanvas(answerImage(row.shot, row), null).then(canvas => canvas && picture.append(canvas));
-        const values = own.map(p => `${p.row.metric} ${number(p.row.value, 3)} ${interval(p.row, 3)}`.trim());
+        const isLeast = metric => kind !== "just misses" && own.some(p => p.row.metric === metric);
+        const values =
+            headlineMetrics()
+                .map(metric => headlineRows(row.shot, metric).find(r => pointKey(r) === pointKey(row)))
+                .filter(Boolean)
+                .map(r => `${isLeast(r.metric) ? "least " : ""}${r.metric} ${number(r.value, 3)} ${interval(r, 3)}`.trim());
         return h(
             "button", {
                 "data-variant": row.variant,
@@ -97,7 +115,7 @@ function budgetRow(kind, byMetric) {
             },
             picture,
             h("span", {}, h("b", {}, pointLabel(row)),
-              ` ${values.join(", ")}, ${number(time.value, 3)} ms ${interval(time, 3)}`));
+              ` ${number(time.value, 3)} ms ${interval(time, 3)}, ${values.join(", ")}`));
     };
     return h(
         "tr", {}, h("th", {scope: "row"}, kind),

@@ -98,10 +98,15 @@ function missesText({row, by}) {
         (reasons.length ? `: ${reasons.map(m => `${shareText(m.value)} ${missTexts[m.key]}`).join(", ")}` : "") + ". ";
 }
 
-/// Why a point errs, with links to its rays and its images.
-function whyText(group) {
-    const {row} = group, hasRays = report.hits.some(r => r.stage !== errorStage && r.shot === row.shot);
-    const own = ownCauses(group), hasFrames = list(manifestShots().find(s => s.shot === row.shot)?.frames).length > 1;
+/// "technique in scene, frame 3"
+function placeText(row) {
+    const hasFrames = list(manifestShots().find(s => s.shot === row.shot)?.frames).length > 1;
+    return `${pointLabel(row)} in ${shortShot(row.shot)}${hasFrames ? `, frame ${row.frame}` : ""}`;
+}
+
+/// Links to a point's rays and its images.
+function rayLinks(row) {
+    const hasRays = report.hits.some(r => r.stage !== errorStage && r.shot === row.shot);
     const link = (text, href, act) =>
         h("a", {
             href,
@@ -111,12 +116,35 @@ function whyText(group) {
             }
         },
           text);
+    return [
+        ...(hasRays ? [link("Its\u00a0rays", "#hits", () => showRaysOf(row.shot)), " "] : []),
+        report.images.some(i => isSamePoint(i, row)) ? link("Its\u00a0images", "#viewer", () => openPoint(row)) : ""
+    ];
+}
+
+/// Why a point errs, in sentences.
+function whyText(group) {
+    const {row} = group, own = ownCauses(group);
     return h(
-        "span", {},
-        h("b", {}, `${pointLabel(row)} in ${shortShot(row.shot)}${hasFrames ? `, frame ${row.frame}` : ""}: `),
+        "span", {}, h("b", {}, `${placeText(row)}: `),
         own.length ? causesText(own) + ". " : "It has no error to share out. ", missesText(group),
-        comparisonText(group), hasRays ? [link("Its\u00a0rays", "#hits", () => showRaysOf(row.shot)), " "] : "",
-        report.images.some(i => isSamePoint(i, row)) ? link("Its\u00a0images", "#viewer", () => openPoint(row)) : "");
+        comparisonText(group), ...rayLinks(row));
+}
+
+/// The same at a glance: what wrong rays cost together, and a bar for each cause.
+function whyBars(group) {
+    const {row} = group, own = ownCauses(group), wrong = ["avoidable_miss", "wrong_place", "false_hit"];
+    if (!own.length) return whyText(group);
+    const ofWrong = own.filter(c => wrong.includes(c.key)).reduce((sum, c) => sum + c.value, 0);
+    const bar = ({key, value}) => h("li", {}, h("span", {class: "share"}, shareText(value)),
+                                    h("span", {class: "bar-room"}, h("span", {
+                                          style: `width: ${Math.min(100 * value / own[0].value, 100)}%; background: ${
+                                              sharedOut.find(v => v.key === key).color}`
+                                      })),
+                                    causeTexts[key].replace("where ", ""));
+    return h("div", {}, h("b", {}, `Why ${placeText(row)} errs. `),
+             ofWrong > 0 ? `${shareText(ofWrong)} of its squared error lies where rays were wrong. ` : "",
+             h("ul", {class: "causes"}, own.map(bar)), ...rayLinks(row));
 }
 
 /// Empty where nobody asked what became of rays.
@@ -187,5 +215,5 @@ function errorSharesPart(shot) {
 /// For the first screen: why the chosen point errs; where no errors were shared out, what that takes.
 function drawWhy(shot, point) {
     const group = errorGroups.get(shot)?.find(g => pointKey(g.row) === pointKey(point ?? {}));
-    at("why-answer").replaceChildren(group ? whyText(group) : whyNoShares());
+    at("why-answer").replaceChildren(group ? whyBars(group) : whyNoShares());
 }

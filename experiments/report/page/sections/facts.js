@@ -34,7 +34,18 @@ function showProgress({done, planned}, written) {
     if (!isRunning) return;
     let used = 0;
     for (const act of ["pointerdown", "keydown", "wheel"]) addEventListener(act, () => used = Date.now());
-    setInterval(() => Date.now() - used > 2 * pause * 1000 && age() < given_up && location.reload(), pause * 1000);
+    setInterval(() => Date.now() - used > 2 * pause * 1000 && age() < given_up && reloadInPlace(), pause * 1000);
+}
+
+/// The browser scrolls before the sections are drawn, and would end elsewhere.
+function reloadInPlace() {
+    history.scrollRestoration = "manual";
+    history.replaceState({top: scrollY}, "");
+    location.reload();
+}
+
+function scrollToPlace() {
+    if (history.state?.top !== undefined) scrollTo(0, history.state.top);
 }
 
 function showReferences() {
