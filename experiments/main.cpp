@@ -228,8 +228,12 @@ int parse_and_run(int argc, char** argv) {
 
     CompareCommandOptions compare;
     CLI::App& compare_command_ = *app.add_subcommand("compare", "Compare two images (EXR or PNG): one number per line");
-    compare_command_.add_option("reference", compare.reference)->required()->type_name("REFERENCE");
-    compare_command_.add_option("test", compare.test)->required()->type_name("TEST");
+    compare_command_.add_option("reference", compare.reference, "What is right: .exr (linear radiance) or .png (sRGB)")
+        ->required()
+        ->type_name("REFERENCE");
+    compare_command_.add_option("test", compare.test, "What is judged, of the same size and kind")
+        ->required()
+        ->type_name("TEST");
     compare_command_
         .add_option("--metric", compare.metrics,
                     "May be repeated; see: ssrlab list metrics; default: mse, relmse, relmse_trimmed, outliers, mae, "
@@ -390,7 +394,7 @@ int parse_and_run(int argc, char** argv) {
     std::string what;
     CLI::App& list_command_ = *app.add_subcommand(
         "list", "List scenes and what each tests, variants, their presets, tracers, metrics or devices");
-    list_command_.add_option("what", what)
+    list_command_.add_option("what", what, "What to list")
         ->required()
         ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "metrics", "devices"}))
         ->type_name("scenes|variants|presets|tracers|metrics|devices");
