@@ -54,9 +54,11 @@ std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
     return text;
 }
 
-/// " Not distinguishable from it: B and C."; empty where there is none such.
-std::string tied_sentence(const std::vector<AnswerPoint>& tied) {
-    return tied.empty() ? "" : " Not distinguishable from it: " + listed(tied, 3) + ".";
+/// " Not distinguishable from it: B and C."; empty where there is none such. `how`: by which test, if that is to be
+/// said.
+std::string tied_sentence(const std::vector<AnswerPoint>& tied, const std::string& how = "") {
+    if (tied.empty()) return "";
+    return " Not distinguishable from it" + (how.empty() ? "" : " (" + how + ")") + ": " + listed(tied, most) + ".";
 }
 
 /// What one shot's points scored, and how long they took.
@@ -208,7 +210,7 @@ std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& sco
     if (scored.size() == 1) return name + " is the only point" + value + "." + limit_sentence(answer);
     if (answer.unranked.size() + 1 == scored.size()) return text + name + " stands alone" + value + ".";
     text += name + (answer.tied.empty() ? " has the least error" : " measures the least error") + value + ".";
-    return text + tied_sentence(answer.tied) + cheaper_sentence(answer, scored, clock) + limit_sentence(answer);
+    return text + tied_sentence(answer.tied, 3) + cheaper_sentence(answer, scored, clock) + limit_sentence(answer);
 }
 
 /// By the standings of the perceptual error, which were decided as those of the physical one were.
@@ -228,11 +230,12 @@ std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<S
         return by + "it measures best, too: " + own_value +
                (own->error->standing.empty() ? "" : ", not distinguishable from others") + ".";
     if (own->error->standing == standing::behind)
-        return by + with_value(first->point) + " is significantly better; it has " + own_value + ".";
+        return by + with_value(first->point) + " is significantly better in paired differences; " +
+               name_of(own->point) + " has " + own_value + ".";
     const bool are_ranked = !own->error->standing.empty() && !first->error->standing.empty();
     return by + with_value(first->point) + " measures better" +
-           (are_ranked ? ", but is not distinguishable from it" : ", but is not ranked") + "; it has " + own_value +
-           ".";
+           (are_ranked ? ", but is not distinguishable" : ", but is not ranked") + "; " + name_of(own->point) +
+           " has " + own_value + ".";
 }
 
 }  // namespace
@@ -334,7 +337,7 @@ std::string over_scenes_sentence(const ReportTables& tables, const json& manifes
     std::string text = first.standing == standing::best
                            ? over + name + " has the least error" + measured
                            : over + "no technique is significantly the best. " + name + " measures the least error" +
-                                 measured + tied_sentence(tied);
+                                 measured + tied_sentence(tied, 2, "adjusted for all comparisons");
     if (!behind.empty())
         text += " It is significantly better than " + (tied.empty() ? "all others" : listed(behind, 3)) + ".";
     return text;

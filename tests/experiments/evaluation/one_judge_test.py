@@ -229,10 +229,10 @@ def over_scenes(folder, manifest, found, summary, sentence):
     name = lambda key: key[0] if key[1] == "default" else " ".join(key)  # noqa: E731
     tied = [name(k) for k, r in rows.items() if r["standing"] == "tied" and k != first]
     behind = [name(k) for k, r in rows.items() if r["standing"] == "behind"]
-    said = re.fullmatch(r"Over \d+ (?:of \d+ )?scenes (?:no technique is significantly the best\. )?(.*?) (?:has|measures) the least error.*?(?: Not distinguishable from it: (.*?)\.)?(?: It is significantly better than (.*?)\.)?", sentence)
+    said = re.fullmatch(r"Over \d+ (?:of \d+ )?scenes (?:no technique is significantly the best\. )?(.*?) (?:has|measures) the least error.*?(?: Not distinguishable from it \(.*?\): (.*?)\.)?(?: It is significantly better than (.*?)\.)?", sentence)
     assert said and said[1] == name(first) and ("no technique is" in sentence) == bool(tied), sentence
     listed = lambda text: re.split(r", | and ", re.sub(r" and \d+ more$", "", text)) if text else []  # noqa: E731
-    assert listed(said[2]) == tied[:3], (sentence, tied)
+    assert listed(said[2]) == tied[:2], (sentence, tied)
     assert listed(said[3]) == (behind[:3] if tied else ["all others"]), (sentence, behind)
 
     across = {(r["variant"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"]}

@@ -172,13 +172,13 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
     made.add("b", 0.08, 0.001);
     made.add("a", 0.2, 0.01, 0, "flip");
     made.add("b", 0.1, 0.01, 0, "flip");
-    EXPECT_NE(
-        made.answer().perceptual_sentence.find("b (0.1 [0.09, 0.11]) is significantly better; it has 0.2 [0.19, 0.21]"),
-        std::string::npos)
+    EXPECT_NE(made.answer().perceptual_sentence.find(
+                  "b (0.1 [0.09, 0.11]) is significantly better in paired differences; a has 0.2 [0.19, 0.21]"),
+              std::string::npos)
         << made.answer().perceptual_sentence;
     made.tables.errors[3].value = 0.195, made.tables.errors[3].low = 0.185, made.tables.errors[3].high = 0.205;
     EXPECT_NE(made.answer().perceptual_sentence.find("b (0.195 [0.185, 0.205]) measures better, but is not "
-                                                     "distinguishable from it; it has 0.2"),
+                                                     "distinguishable; a has 0.2"),
               std::string::npos);
     made.tables.errors[3].holds_all_noise = false;
     EXPECT_NE(made.answer().perceptual_sentence.find("measures better, but is not ranked"), std::string::npos)
@@ -214,11 +214,11 @@ TEST(Answers, SayFirstWhatHoldsOverScenes) {
               "Over 6 scenes A, labelled has the least error: 0.1x [0.05x, 0.2x] that of no reflections (none) "
               "(geometric mean of mse). It "
               "is significantly better than all others.");
-    EXPECT_EQ(sentence({"tied", "tied", "behind"}, 5),
-              "Over 5 of 6 scenes no technique is significantly the best. A, labelled measures the least error: 0.1x "
-              "[0.05x, 0.2x] that of no reflections (none) (geometric mean of mse). Not distinguishable from it: b. It "
-              "is significantly "
-              "better than c.");
+    EXPECT_EQ(
+        sentence({"tied", "tied", "behind"}, 5),
+        "Over 5 of 6 scenes no technique is significantly the best. A, labelled measures the least error: 0.1x "
+        "[0.05x, 0.2x] that of no reflections (none) (geometric mean of mse). Not distinguishable from it (adjusted "
+        "for all comparisons): b. It is significantly better than c.");
     EXPECT_EQ(sentence({"", ""}, 3),
               "Over 3 of 6 scenes A, labelled measures the least error: 0.1x that of no reflections (none) (geometric "
               "mean of mse). 3 "

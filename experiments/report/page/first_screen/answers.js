@@ -118,7 +118,7 @@ function drawAnswerCharts() {
     at("answer-legend")
         .replaceChildren(
             charts.length ? h("p", {class: "note"}, chartNote(shot)) : "",
-            ...(unnamed.length ? [h("p", {class: "note"}, "Not named above:"), legend(legendGroups(unnamed))] :
+            ...(unnamed.length ? [h("p", {class: "note"}, "Without room for its name in a chart:"), legend(legendGroups(unnamed))] :
                                  []));
 }
 

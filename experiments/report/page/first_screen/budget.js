@@ -46,9 +46,11 @@ function drawBudget(shot) {
     at("budget-note").textContent = !isAsked ? "" :
         isProven                             ? floorText(shot) :
                                                "Timer validation failed: take the times with care. " + floorText(shot);
+    const head = h("tr", {}, h("td"), h("td"), ["ms", ...headlineMetrics()].map(name => h("th", {scope: "col"}, name)));
     at("budget-answer")
-        .replaceChildren(
-            ...(isAsked ? [h("tbody", {}, Object.keys(budgetKinds).map(k => budgetRow(k, byMetric)))] : []));
+        .replaceChildren(...(isAsked ? [h("thead", {}, head), h("tbody", {}, Object.keys(budgetKinds).flatMap(
+                                                                               k => budgetRows(k, byMetric)))] :
+                                       []));
 }
 
 /// From where on times differ, by two copies of a point.
@@ -86,39 +88,39 @@ function budgetPoints(shot, metric) {
     };
 }
 
-/// "A 9 ms [8, 11], least mse 0.05 [0.04, 0.06], flip 0.1 [0.09, 0.12]", with A's picture; a click chooses A. Of two
-/// points each is the first by one metric.
-function budgetRow(kind, byMetric) {
+/// A point that needs up to so much more than the budget just misses it.
+const justMisses = 1.1;
+
+/// A row for each point with its picture, its time and its errors, the least in bold; a click chooses it. Of two points
+/// each is the first by one metric.
+function budgetRows(kind, byMetric) {
     const points = new Map();
     for (const found of byMetric)
-        for (const p of found[kind].slice(0, 1)) {
-            if (!points.has(pointKey(p.row))) points.set(pointKey(p.row), []);
-            points.get(pointKey(p.row)).push(p);
-        }
+        for (const p of found[kind].slice(0, 1)) points.set(pointKey(p.row), p);
     const shown = [...points.values()], names = found => found[kind].map(p => pointLabel(p.row));
-    const others = unique(byMetric.flatMap(names)).filter(name => !shown.some(([p]) => pointLabel(p.row) === name));
-    const part = own => {
-        const {row, time} = own[0], picture = h("span", {class: "thumbnail"});
+    const others = unique(byMetric.flatMap(names)).filter(name => !shown.some(({row}) => pointLabel(row) === name));
+    const misses = kind === "just misses" && shown.every(p => p.time.mayFitFromMs > justMisses * budget.milliseconds);
+    const head = h("th", {scope: "rowgroup", rowspan: Math.max(shown.length, 1)}, misses && shown.length ? "needs more" : kind,
+                   others.length ? folded(`${others.length} more`, others.join(", ")) : "");
+    if (!shown.length) return [h("tr", {}, head, h("td", {colspan: 2 + byMetric.length}, budgetKinds[kind]))];
+    return shown.map(({row, time}, i) => {
+        const picture = h("span", {class: "thumbnail"});
         answerCanvas(answerImage(row.shot, row), null).then(canvas => canvas && picture.append(canvas));
-        const isLeast = metric => kind !== "just misses" && own.some(p => p.row.metric === metric);
-        const values =
-            headlineMetrics()
-                .map(metric => headlineRows(row.shot, metric).find(r => pointKey(r) === pointKey(row)))
-                .filter(Boolean)
-                .map(r => `${isLeast(r.metric) ? "least " : ""}${r.metric} ${number(r.value, 3)} ${interval(r, 3)}`.trim());
-        return h(
-            "button", {
-                "data-variant": row.variant,
-                "data-point": row.point,
-                title: pointText(row),
-                click: () => choosePoint(row)
-            },
-            picture,
-            h("span", {}, h("b", {}, pointLabel(row)),
-              ` ${number(time.value, 3)} ms ${interval(time, 3)}, ${values.join(", ")}`));
-    };
-    return h(
-        "tr", {}, h("th", {scope: "row"}, kind),
-        h("td", {}, shown.length ? shown.map(part) : budgetKinds[kind],
-          others.length ? folded(`${others.length} more`, others.join(", ")) : ""));
+        const value = (v, isLeast) => h("td", {class: "number"}, isLeast ? h("b", {}, number(v.value, 3)) : number(v.value, 3),
+                                        " ", h("small", {}, interval(v, 3)));
+        const errors = headlineMetrics().map((metric, m) => {
+            const error = headlineRows(row.shot, metric).find(r => pointKey(r) === pointKey(row));
+            return error ? value(error, kind !== "just misses" && byMetric[m][kind][0] && pointKey(byMetric[m][kind][0].row) === pointKey(row)) :
+                           h("td");
+        });
+        return h("tr", {}, i === 0 ? head : "",
+                 h("td", {}, h("button", {
+                       "data-variant": row.variant,
+                       "data-point": row.point,
+                       title: pointText(row),
+                       click: () => choosePoint(row)
+                   },
+                     picture, h("b", {}, pointLabel(row)))),
+                 value(time), ...errors);
+    });
 }

@@ -131,20 +131,37 @@ function whyText(group) {
         comparisonText(group), ...rayLinks(row));
 }
 
-/// The same at a glance: what wrong rays cost together, and a bar for each cause.
+/// Causes that a reader takes for one: what happened to the rays.
+const causeGroups = [
+    {name: "rays were wrong", keys: ["avoidable_miss", "wrong_place", "false_hit"]},
+    {name: "rays were right (filter, fallback, view)", keys: ["right"]},
+    {name: "the screen does not show it", keys: ["unavoidable_miss", "empty"]},
+    {name: "no ray was traced", keys: ["untraced"]}
+];
+
+/// The same at a glance: a bar for each group of causes and, below it, for its parts.
 function whyBars(group) {
-    const {row} = group, own = ownCauses(group), wrong = ["avoidable_miss", "wrong_place", "false_hit"];
+    const {row} = group, own = ownCauses(group);
     if (!own.length) return whyText(group);
-    const ofWrong = own.filter(c => wrong.includes(c.key)).reduce((sum, c) => sum + c.value, 0);
-    const bar = ({key, value}) => h("li", {}, h("span", {class: "share"}, shareText(value)),
-                                    h("span", {class: "bar-room"}, h("span", {
-                                          style: `width: ${Math.min(100 * value / own[0].value, 100)}%; background: ${
-                                              sharedOut.find(v => v.key === key).color}`
-                                      })),
-                                    causeTexts[key].replace("where ", ""));
-    return h("div", {}, h("b", {}, `Why ${placeText(row)} errs. `),
-             ofWrong > 0 ? `${shareText(ofWrong)} of its squared error lies where rays were wrong. ` : "",
-             h("ul", {class: "causes"}, own.map(bar)), ...rayLinks(row));
+    const groups = causeGroups
+                       .map(({name, keys}) => {
+                           const parts = own.filter(c => keys.includes(c.key));
+                           return {name, parts, value: parts.reduce((sum, p) => sum + p.value, 0)};
+                       })
+                       .filter(g => g.parts.length)
+                       .sort((a, b) => b.value - a.value);
+    const bar = (value, text, fill, isGroup) =>
+        h("li", {class: isGroup ? "group" : null}, h("span", {class: "share"}, shareText(value)),
+          h("span", {class: "bar-room"},
+            h("span", {style: `width: ${Math.min(100 * value / groups[0].value, 100)}%; background: ${fill}`})),
+          text);
+    const color = key => sharedOut.find(v => v.key === key).color;
+    const bars = groups.flatMap(({name, parts, value}) => [
+        bar(value, name, parts.length > 1 ? "var(--ink)" : color(parts[0].key), true),
+        ...(parts.length > 1 ? parts.map(p => bar(p.value, causeTexts[p.key].replace("where ", ""), color(p.key))) : [])
+    ]);
+    return h("div", {}, h("b", {}, `Its squared error: ${placeText(row)}`), h("ul", {class: "causes"}, bars),
+             ...rayLinks(row));
 }
 
 /// Empty where nobody asked what became of rays.
