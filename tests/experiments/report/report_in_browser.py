@@ -19,11 +19,13 @@ from report_viewer import (
     test_exposure_and_tone_curves,
     test_false_color,
     test_flip_and_split,
+    test_flip_map,
     test_inspector,
     test_linked_images,
     test_linked_zoom,
     test_loss_maps,
     test_other_sections_open_it,
+    test_shot_beside,
 )
 
 
@@ -212,14 +214,13 @@ def main():
     ) as profile, tempfile.TemporaryDirectory(prefix="ssrlab_linked_") as linked:
         subprocess.run([program, folder], check=True)
 
-        def pixel_of(file, x, y):
-            out = subprocess.run(
-                [program, "--halves", os.path.join(folder, "images", file), str(x), str(y)],
-                check=True,
-                capture_output=True,
-                text=True,
-            ).stdout
-            return [float(v) for v in out.split()]
+        def output(option, *arguments):
+            """Of the program, whose arguments that end in .exr are images."""
+            of = [os.path.join(folder, "images", a) if str(a).endswith(".exr") else str(a) for a in arguments]
+            return subprocess.run([program, option, *of], check=True, capture_output=True, text=True).stdout
+
+        def pixel_of(*arguments):
+            return [float(v) for v in output("--halves", *arguments).split()]
 
         page = open_browser(profile)
         try:
@@ -242,6 +243,8 @@ def main():
             test_exposure_and_tone_curves(page)
             test_inspector(page, pixel_of)
             test_false_color(page)
+            test_flip_map(page, lambda *files: [float(v) for v in output("--flip", *files).split()])
+            test_shot_beside(page)
             test_loss_maps(page)
             test_chooser(page)
             test_crops(page)

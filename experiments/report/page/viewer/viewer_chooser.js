@@ -5,6 +5,11 @@ function showChoiceOfImages(targets) {
     at("viewer-choice")
         .replaceChildren(
             select("Shot", unique(report.images.map(i => i.shot)), viewer.shot, chooseShot),
+            ...(shotsBeside(viewer.shot).length ?
+                    [select(
+                        "Beside it", [["", "no other shot"], ...shotsBeside(viewer.shot)], viewer.beside ?? "",
+                        shot => chooseBeside(shot || null))] :
+                    []),
             select(
                 "Target", targets, viewer.target,
                 t => {
@@ -69,7 +74,7 @@ function chooser() {
                       checked: viewer.chosen.includes(method.key),
                       change: event => choose([method.key], event.target.checked)
                   }),
-                  own.length > 1 ? method.point || method.label : method.label));
+                  own.length > 1 && method.shot === viewer.shot ? method.point || method.label : method.label));
         const all = own.length > 1 ? h("button", {
             click: () => choose(listedKeys(own), !listedKeys(own).every(key => viewer.chosen.includes(key))),
             "aria-label": `all / none of ${variant}`
