@@ -164,6 +164,10 @@ int parse_and_run(int argc, char** argv) {
     diff_command_.add_flag("--all", diff.shows_all, "List all changes, not only the largest");
     diff_command_.add_option("--csv", diff.csv, "Also write all compared numbers, with p-values and verdicts")
         ->type_name("FILE.csv");
+    diff_command_
+        .add_option("--page", diff.page,
+                    "Also write a page with both pictures, their difference and the numbers of what changed")
+        ->type_name("FILE.html");
     diff_command_.callback([&] { status = diff_command(diff); });
 
     hand_on(*app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),

@@ -18,9 +18,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t page_bytes =
-    30'000'000;  ///< a page is mailed and opened at once: the images of larger ones lie beside it
-
 /// The page's scripts, in the order in which they build on each other.
 constexpr const char* scripts[] = {"data.js",
                                    "page.js",
@@ -59,6 +56,7 @@ constexpr const char* scripts[] = {"data.js",
                                    "viewer/inspector.js",
                                    "viewer/crops.js",
                                    "viewer/viewer_keep.js",
+                                   "diff.js",
                                    "start.js"};
 
 std::string part(const std::string& name) {
@@ -165,7 +163,8 @@ std::string filled_template(const std::string& text, const json& values,
     return filled;
 }
 
-/// `values`: those of page/template.html that are not the same on all pages, and of page/no_scripts.html.
+}  // namespace
+
 std::string page_text(const std::string& title, const json& data, json values) {
     values["title"] = title;
     values["data"] = script_text(data);
@@ -176,8 +175,6 @@ std::string page_text(const std::string& title, const json& data, json values) {
     values["script"] = script;
     return filled_template(part("template.html"), values, {{"no_scripts", part("no_scripts.html")}});
 }
-
-}  // namespace
 
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
     if (!std::filesystem::exists(folder / "manifest.json")) {
@@ -191,7 +188,7 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
                                                          {{"stability", stability_without_scripts(stability)},
                                                           {"tables",
                                                            "stability.csv, stability_cases.csv and "
-                                                           "stability_stages.csv"}}));
+                                                           "stability_stages.csv beside it"}}));
             return {};
         }
     }
@@ -216,7 +213,7 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     data["defaults"] = parameter_defaults(manifest);
     data["is_study"] = true;
     json values = without_scripts(data, headline, tables.errors, singles);
-    values["tables"] = "results.csv and summary.csv";
+    values["tables"] = "results.csv and summary.csv beside it";
     if (!tables.stability.rows.empty()) values["stability"] = stability_without_scripts(tables.stability);
     const json title = manifest.value("title", json());
     const auto page = [&] { return page_text(title.is_string() ? title.get<std::string>() : "Study", data, values); };

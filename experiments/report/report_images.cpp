@@ -185,6 +185,13 @@ ReportImages report_images(const fs::path& folder, const json& manifest, size_t 
     return report;
 }
 
+ReportImages embedded_images(const fs::path& folder, const json& manifest) {
+    ReportImages report;
+    ImageSink sink(folder, SIZE_MAX);
+    for (const Entry& entry : first_seeds(read_entries(folder, manifest))) sink.add(entry, report);
+    return report;
+}
+
 std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped, unsigned significand_bits) {
     const size_t pixels = rgb.pixel_count(), count = pixels * 3;
     std::array<std::vector<int16_t>, 3> planes;

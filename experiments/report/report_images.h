@@ -24,6 +24,9 @@ inline constexpr const char* report_image_folder = "report_images";
 /// Error if a file that the manifest lists is missing or broken, or if images of a shot differ in size.
 ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest, size_t budget);
 
+/// Those that `manifest` lists, all as texts. Fails as report_images().
+ReportImages embedded_images(const std::filesystem::path& folder, const nlohmann::json& manifest);
+
 /// RGB as IEEE half floats, rounded to the first `significand_bits` of their 10: planes G, R - G, B - G of the halves
 /// as ordered integers, shifted by the bits that are left out; of each value what the median edge detector (LOCO-I,
 /// Weinberger et al. 2000) foretells from its neighbours is taken off, modulo 65536, and the sign moved to the lowest

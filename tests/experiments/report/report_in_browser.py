@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 from report_browser import By, Select, check, choose, equal, open_browser, until_ready
+from report_diff import test_diff
 from report_keep import test_address, test_keeping
 from report_use import test_use
 from report_viewer import (
@@ -254,6 +255,7 @@ def main():
             check_quiet(page, url)
             subprocess.run([program, "--link", linked], check=True)
             test_linked_images(page, linked)
+            test_diff(page, program, folder, linked)
             test_without_scripts(page, url)
         finally:
             page.quit()

@@ -254,7 +254,7 @@ def test_shot_beside(page):
     """The same points of two shots together; each compared with its own truth, or with the same point."""
     choose(page, "Beside it", OTHER_SHOT)
     WebDriverWait(page, 20).until(lambda p: len(captions(p)) == 8, "both shots")
-    equal(captions(page), [name for n in NAMES for name in (n, f"{n}, fence low")], "each point beside its other")
+    equal(captions(page), [f"{n}, {shot}" for n in NAMES for shot in ("mirror_pillars front", "fence low")], "each point beside its other")
     page.execute_script("return setMode('absolute')")
     of = lambda base: page.execute_script(
         f"const [a, b] = viewer.shown.slice(6); return [a, b].map(s => baseOf(s.method) === {base})"

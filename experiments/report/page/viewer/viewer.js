@@ -90,19 +90,30 @@ const shotsBeside = shot => unique(report.images.map(i => i.shot)).filter(other 
     return other !== shot && a.width === b.width && a.height === b.height;
 });
 /// What of a shot's name another has not.
-const ownWords = (shot, other) =>
-    shot.split(/[. ]/).filter(word => !other.split(/[. ]/).includes(word)).join(" ") || shotLabel(shot);
+const ownWords = (shot, other) => {
+    const words = name => name.split(/[. ()]+/);
+    return words(shot).filter(word => !words(other).includes(word)).join(" ") || shotLabel(shot);
+};
 const besideKey = own => `${viewer.beside}|${own}`;
 
 /// methodsOf() the shot, and of the one beside it the same frame, or its last.
 function allMethods(frame) {
-    const own = methodsOf(viewer.shot, frame);
-    if (!viewer.beside) return own;
-    const frames = framesOf(viewer.beside), name = ownWords(viewer.beside, viewer.shot);
-    const others = methodsOf(viewer.beside, frames.includes(frame) ? frame : frames.at(-1))
-                       .map(m => ({...m, key: besideKey(m.own), label: `${m.label}, ${name}`}));
+    const {shot, beside} = viewer;
+    if (!beside) return methodsOf(shot, frame);
+    const named = (method, ofShot, other) => ({...method, label: `${method.label}, ${ownWords(ofShot, other)}`});
+    const own = methodsOf(shot, frame).map(m => named(m, shot, beside)), frames = framesOf(beside);
+    const others = methodsOf(beside, frames.includes(frame) ? frame : frames.at(-1))
+                       .map(m => named({...m, key: besideKey(m.own)}, beside, shot));
     const alone = others.filter(m => !own.some(o => o.own === m.own));
     return [...own.flatMap(m => [m, ...others.filter(o => o.own === m.own)]), ...alone];
+}
+
+/// What can stay beside `shot`; of two runs the other one of it.
+function keepBeside(shot) {
+    const before = viewer.beside, wanted = report.diff ? otherRun(shot) : before;
+    viewer.beside = shotsBeside(shot).includes(wanted) ? wanted : null;
+    if (!before || !viewer.beside) return;
+    viewer.chosen = viewer.chosen?.map(key => key.startsWith(before + "|") ? besideKey(key.slice(before.length + 1)) : key);
 }
 
 /// Shows the same points of another shot beside those that are shown; null: of none.
@@ -178,7 +189,7 @@ const shotExposure = shot => {
 
 function chooseShot(shot) {
     if (shot !== viewer.shot) {
-        if (!shotsBeside(shot).includes(viewer.beside)) viewer.beside = null;
+        keepBeside(shot);
         Object.assign(viewer, {shot, pinned: null, pointed: null, frame: framesOf(shot).at(-1)});
         Object.assign(view, {x: 0.5, y: 0.5, zoom: 1});
         setScale(0);

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "core/exr.h"
+#include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
 #include "metrics/flip.h"
 #include "tests/experiments/report/report_fixture.h"
@@ -23,6 +24,7 @@ static HostImage exposed_halves(const char* file, float gain) {
 /// report_page --link DIR              the same with its images beside the page
 /// report_page --study DIR             the same with the made-up study of changes, and a run of `ssrlab stability`
 /// report_page --stability DIR         the same with the latter alone
+/// report_page --diff OLD NEW FILE.html writes the page of what changed from one to another of such folders
 /// report_page --halves FILE.exr X Y   prints R G B of a pixel, rounded to half floats
 /// report_page --flip REF.exr TEST.exr EV   prints LDR-FLIP at this exposure, pixel by pixel, of both rounded to half
 /// floats
@@ -41,6 +43,8 @@ int main(int argc, char** argv) {
         } else if (argc == 3 && argv[1] == std::string("--stability")) {
             write_stability_fixture(argv[2]);
             write_report(argv[2]);
+        } else if (argc == 5 && argv[1] == std::string("--diff")) {
+            diff_command({.before = argv[2], .after = argv[3], .csv = {}, .page = argv[4]});
         } else if (argc == 5 && argv[1] == std::string("--halves")) {
             const HostImage image = read_exr_rgb(argv[2]);
             const float* pixel = image.pixel(unsigned(std::atoi(argv[3])), unsigned(std::atoi(argv[4])));
@@ -53,7 +57,8 @@ int main(int argc, char** argv) {
         } else {
             std::fprintf(
                 stderr,
-                "usage: report_page DIR | --link DIR | --study DIR | --stability DIR | --halves FILE.exr X Y | "
+                "usage: report_page DIR | --link DIR | --study DIR | --stability DIR | --diff OLD NEW FILE.html | "
+                "--halves FILE.exr X Y | "
                 "--flip REF.exr TEST.exr EV\n");
             return 2;
         }
