@@ -304,7 +304,7 @@ void add_frame_images(const std::filesystem::path& folder, const std::string& sh
                               {"point", is_truth ? "" : "first"},
                               {"seed", 0},
                               {"kind", frame < 6 ? "played" : kind},
-                              {"target", "image"},
+                              {"target", "specular"},
                               {"exr", exr}});
         }
 }
