@@ -57,6 +57,7 @@ constexpr const char* scripts[] = {"data.js",
                                    "viewer/crops.js",
                                    "viewer/viewer_keep.js",
                                    "diff.js",
+                                   "save_tools.js",
                                    "start.js"};
 
 std::string part(const std::string& name) {
@@ -163,6 +164,16 @@ std::string filled_template(const std::string& text, const json& values,
     return filled;
 }
 
+/// What the folder holds of the study's data, for programs other than browsers.
+json data_files(const std::filesystem::path& folder) {
+    json files = json::array();
+    for (const char* file :
+         {"results.csv", "summary.csv", "over_scenes.csv", "splits.csv", "effects.csv", "hits.csv", "costs.csv",
+          "times.csv", "time_summary.csv", "time_effects.csv", "parameters.csv", "stability.csv", "manifest.json"})
+        if (std::filesystem::exists(folder / file)) files.push_back(file);
+    return files;
+}
+
 }  // namespace
 
 std::string page_text(const std::string& title, const json& data, json values) {
@@ -213,7 +224,8 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     data["defaults"] = parameter_defaults(manifest);
     data["is_study"] = true;
     json values = without_scripts(data, headline, tables.errors, singles);
-    values["tables"] = "results.csv and summary.csv beside it";
+    values["files"] = data_files(folder);
+    values["tables"] = "and the images as EXR and PNG in images/, beside it";
     if (!tables.stability.rows.empty()) values["stability"] = stability_without_scripts(tables.stability);
     const json title = manifest.value("title", json());
     const auto page = [&] { return page_text(title.is_string() ? title.get<std::string>() : "Study", data, values); };

@@ -12,7 +12,7 @@ import tempfile
 
 from report_browser import By, Select, check, choose, equal, open_browser, until_ready
 from report_diff import test_diff
-from report_keep import test_address, test_keeping
+from report_keep import test_address, test_keeping, test_save_tools
 from report_use import test_use
 from report_viewer import (
     test_chooser,
@@ -237,6 +237,7 @@ def main():
             test_labels(page)
             test_address(page, url)
             test_keeping(page)
+            test_save_tools(page)
             page.get(url)
             until_ready(page)
             test_linked_zoom(page)

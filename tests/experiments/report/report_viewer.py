@@ -341,6 +341,7 @@ def test_crops(page):
         canvas(page, 0), *end
     ).release().key_up(Keys.SHIFT).perform()
     equal(page.execute_script("return crops.box"), [20, 50, 40, 30], "a box by Shift and dragging")
+    equal(page.find_element(By.ID, "save-picture").text, "Save crop", "what is saved of a crop")
     sums = page.execute_script(
         """const sum = (x, y, w, h) => {
             let all = 0;

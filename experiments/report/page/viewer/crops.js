@@ -46,6 +46,7 @@ function worstBox() {
 function clearCropBox() {
     crops.box = null;
     if (crops.list.length || crops.isOn) showCrops();
+    nameKeeping();
 }
 
 /// The pixels of both places, and all between.
@@ -110,6 +111,7 @@ async function copyCrops() {
 }
 
 function showCrops() {
+    nameKeeping();
     const panel = at("viewer-crop");
     panel.hidden = !crops.isOn && !crops.box && !crops.list.length;
     if (panel.hidden) return;

@@ -20,9 +20,9 @@ function showChoiceOfImages(targets) {
             h("span", {class: "button-row", role: "group", "aria-label": "Layout"},
               ...layouts.map(([key, name]) => h("button", {id: "layout-" + key, click: () => setLayout(key)}, name))),
             h("button", {id: "crop-mode", "aria-pressed": crops.isOn, click: toggleCropMode}, "Crop"),
-            h("button", {id: "save-picture", click: savePicture}, "Save picture"),
-            h("button", {id: "copy-picture", click: copyPicture}, "Copy picture"),
+            h("button", {id: "save-picture", click: savePicture}), h("button", {id: "copy-picture", click: copyPicture}),
             h("button", {id: "full-screen", click: toggleFullScreen}, "Full screen"), h("output", {id: "viewer-kept"}));
+    nameKeeping();
     const names = viewer.methods.map(m => [m.key, m.label]);
     at("viewer-images").replaceChildren(h("div", {class: "controls", id: "viewer-chips"}), chooser());
     at("viewer-pair")

@@ -97,6 +97,12 @@ function shownPicture() {
     return canvas;
 }
 
+/// Says what is saved and copied.
+function nameKeeping() {
+    for (const [id, does] of [["save-picture", "Save"], ["copy-picture", "Copy"]])
+        if (at(id)) at(id).textContent = `${does} ${crops.box ? "crop" : "picture"}`;
+}
+
 const pictureBlob = () => new Promise(resolve => shownPicture().toBlob(resolve, "image/png"));
 
 async function savePicture() {
