@@ -423,6 +423,10 @@ def test_frames_of_a_sequence(page, shot):
     WebDriverWait(page, 20).until(lambda p: p.execute_script("return viewer.frame") != 4, "playing")
     ActionChains(page).send_keys("k").perform()
     WebDriverWait(page, 20).until(lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "false", "stopping")
+    page.execute_script("arguments[0].click()", page.find_element(By.XPATH, f"//section[@id='temporal']//button[.='Play {shot}']"))
+    WebDriverWait(page, 20).until(lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "true", "playing from its section")
+    ActionChains(page).send_keys("k").perform()
+    WebDriverWait(page, 20).until(lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "false", "stopping again")
 
 
 def test_linked_images(page, folder):

@@ -176,6 +176,12 @@ function stepFrame(step) {
     return setFrame(frames[place]);
 }
 
+async function playShot(shot) {
+    at("viewer").scrollIntoView();
+    await chooseShot(shot);
+    if (!viewer.isPlaying) togglePlaying();
+}
+
 const playInterval = 200;  // ms between frames, longer where images must be loaded
 
 async function togglePlaying() {
