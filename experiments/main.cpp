@@ -158,7 +158,7 @@ int parse_and_run(int argc, char** argv) {
                              "Keep all images beside the page, in report_images/, even if they are small");
     report_command_.callback([&] { report_command(report_folder, links_images); });
 
-    hand_on(*app.add_subcommand("figures", "Draw the figures of a paper (PDF, SVG, PNG) from a results folder"),
+    hand_on(*app.add_subcommand("figures", "Draw the figures of a paper (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
             figures_command, status);
 
     DiffOptions diff;
@@ -171,6 +171,10 @@ int parse_and_run(int argc, char** argv) {
     diff_command_.add_flag("--all", diff.shows_all, "List all changes, not only the largest");
     diff_command_.add_option("--csv", diff.csv, "Also write all compared numbers, with p-values and verdicts")
         ->type_name("FILE.csv");
+    diff_command_
+        .add_option("--page", diff.page,
+                    "Also write a page with both pictures, their difference and the numbers of what changed")
+        ->type_name("FILE.html");
     diff_command_.callback([&] { status = diff_command(diff); });
 
     hand_on(*app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),

@@ -57,7 +57,7 @@ int figures_command(const std::vector<std::string>& arguments);
 int tables_command(const std::vector<std::string>& arguments);
 
 struct DiffOptions {
-    std::filesystem::path before, after, csv;
+    std::filesystem::path before, after, csv, page;
     bool judges_times = false, shows_all = false;
 };
 int diff_command(const DiffOptions& options);  ///< the exit code: 0, or 1 if a number changed

@@ -2,9 +2,9 @@
 #include "core/error.h"
 #include "experiments/commands/commands.h"
 #include "experiments/evaluation/study_diff.h"
+#include "experiments/report/diff_page.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -28,17 +28,11 @@ void print_techniques(const std::vector<NumberChange>& errors) {
     }
 }
 
-/// The relative change of a number, in either direction.
-double size_of(const NumberChange& c) {
-    const double ratio = *c.after / *c.before;
-    return ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : HUGE_VAL;
-}
-
 void print_changes(const std::vector<NumberChange>& all, bool shows_all) {
     std::vector<const NumberChange*> changed;
     for (const NumberChange& c : all)
         if (c.verdict == change::changed) changed.push_back(&c);
-    std::ranges::stable_sort(changed, std::greater{}, [](const NumberChange* c) { return size_of(*c); });
+    std::ranges::stable_sort(changed, std::greater{}, [](const NumberChange* c) { return c->size(); });
     const size_t count = shows_all ? changed.size() : std::min(changed.size(), most_named);
     for (size_t i = 0; i < count; ++i) {
         const NumberChange& c = *changed[i];
@@ -78,8 +72,8 @@ void print_times(const StudyDiff& diff, const DiffOptions& options) {
 }  // namespace
 
 int diff_command(const DiffOptions& options) {
-    const StudyDiff diff =
-        diff_studies(read_study_tables(options.before), read_study_tables(options.after), options.judges_times);
+    const StudyTables before = read_study_tables(options.before), after = read_study_tables(options.after);
+    const StudyDiff diff = diff_studies(before, after, options.judges_times);
     if (diff.errors.empty())
         fail(options.before.string(), " and ", options.after.string(), " have no shot and point in common");
     print_techniques(diff.errors);
@@ -92,6 +86,10 @@ int diff_command(const DiffOptions& options) {
         std::vector<NumberChange> all = diff.errors;
         all.insert(all.end(), diff.times.begin(), diff.times.end());
         write_rows(options.csv, all);
+    }
+    if (!options.page.empty()) {
+        write_diff_page(options.page, diff, {options.before, before.manifest}, {options.after, after.manifest});
+        std::cout << "\nPage: " << options.page.string() << '\n';
     }
     return changed > 0 || (options.judges_times && count_of(diff.times, change::changed) > 0) ? 1 : 0;
 }

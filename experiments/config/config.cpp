@@ -100,9 +100,10 @@ Keys study_keys(const json& variant = json::object()) {
         {"costs", flag(), plain.counts_costs,
          "counts what each stage of each point does in a shot's last frame (`costs.csv`): invocations, fetches, bytes, "
          "operations, without a clock. Costs each point another run of one seed, and the compilation of its shaders"},
-        {"images", one_of({"last", "all"}), "last",
-         "of which frames results, references, confidence and verdicts are kept as images: the last, or all that are "
-         "measured, which the report's viewer plays"},
+        {"images", one_of({"last", "all", "played"}), "last",
+         "of which frames results, references, confidence and verdicts are kept as images, which the report's viewer "
+         "plays: the last, or `all` that are measured. `played`: the last, and of each frame before it the reflections "
+         "alone (target `specular`), of the truth, too, where the frame has a reference"},
         {"timing", object_of(timing_keys()), otherwise("as below"), "how times are taken"},
         {"metrics", names_of_metrics(), Names{"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"},
          "what is measured"},
@@ -254,7 +255,9 @@ Config read_config(const std::filesystem::path& file) {
         hits.finish();
     }
     config.counts_costs = study.get<bool>("costs");
-    config.keeps_all_images = study["images"] == "all";
+    config.kept_images = study["images"] == "all"      ? KeptImages::measured
+                         : study["images"] == "played" ? KeptImages::played
+                                                       : KeptImages::last;
     read_measures(study, config);
     check_tables(study, config);
     check_tune(study, config);

@@ -93,6 +93,13 @@ struct PrimaryComparisons {
 /// fewer skewed errors do not cover.
 inline constexpr unsigned default_seeds = 8;
 
+/// Of which frames images are kept.
+enum class KeptImages {
+    last,      ///< of each shot's last
+    measured,  ///< of every measured one
+    played     ///< of each shot's last, and of those before it the reflections alone, which a viewer plays
+};
+
 /// A study: everything that `ssrlab run` reads.
 struct Config {
     std::filesystem::path file;  ///< what it was read from
@@ -103,9 +110,9 @@ struct Config {
     bool has_reference = true;  ///< else no error is measured: frames are timed and rays judged
     CompositeFormula composite = CompositeFormula::split_sum;
     TimingConfig timing;
-    std::optional<JudgedRays> hits;    ///< none: no ray is judged
-    bool counts_costs = false;         ///< what each stage does, see count_costs()
-    bool keeps_all_images = false;     ///< of every measured frame; else of each shot's last
+    std::optional<JudgedRays> hits;  ///< none: no ray is judged
+    bool counts_costs = false;       ///< what each stage does, see count_costs()
+    KeptImages kept_images = KeptImages::last;
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;
     std::vector<std::string> targets;

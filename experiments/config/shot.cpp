@@ -33,6 +33,12 @@ std::string Shot::name() const {
     return name + config.name_suffix;
 }
 
+StepImages Shot::images_of(const FrameStep& step, KeptImages kept) const {
+    if (&step == &steps.back() || (kept == KeptImages::measured && step.is_measured)) return StepImages::all;
+    const bool is_played = kept == KeptImages::played && !step.is_warm_up && !step.is_held;
+    return is_played ? StepImages::reflections : StepImages::none;
+}
+
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
     Shot shot{.config = config,
               .scene = load_scene(config.scene, search_path),

@@ -22,6 +22,9 @@ struct FrameStep {
 /// The frames that are rendered, in order: warm-up, each of the shot's frames, repetitions of the last.
 std::vector<FrameStep> timeline(const ShotConfig& config);
 
+/// Which images of a rendering are kept.
+enum class StepImages { none, reflections, all };
+
 /// A camera of a loaded scene: what a ShotConfig names.
 struct Shot {
     ShotConfig config;
@@ -34,6 +37,9 @@ struct Shot {
     /// (and `.n<count>` where some between are left out), `.w<warm-up>`, `.r<repetitions>`, and what is not the study's
     /// own of `.direct`, `.d16`, `.reversed`, `.octahedral_8` and the like.
     std::string name() const;
+
+    /// What a study that keeps `kept` keeps of one of `steps`.
+    StepImages images_of(const FrameStep& step, KeptImages kept) const;
 };
 
 /// Fails with Error if the scene or the camera is unknown (with a near miss) or broken.

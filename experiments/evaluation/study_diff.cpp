@@ -169,6 +169,11 @@ std::vector<PointOfShot> points_in_first(const ComparedFolder& first, const Comp
 
 }  // namespace
 
+double NumberChange::size() const {
+    const double ratio = *after / *before;
+    return ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : HUGE_VAL;
+}
+
 StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& after_tables, bool judges_times) {
     const ComparedFolder before(before_tables), after(after_tables);
     StudyDiff diff{.errors = {},

@@ -24,6 +24,9 @@ struct NumberChange {
     std::string verdict;
     std::string how;  ///< by what it was judged, or why it was not
 
+    /// Of the relative change of values that both are there, in either direction: |ln(after / before)|.
+    double size() const;
+
     static constexpr auto columns() {
         return std::tuple(Column{"shot", &NumberChange::shot}, Column{"frame", &NumberChange::frame},
                           Column{"variant", &NumberChange::variant}, Column{"point", &NumberChange::point},

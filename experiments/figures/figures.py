@@ -1,5 +1,6 @@
 """Paper figures from a results folder, as PDF, SVG and PNG: those that figures.json asks for (experiments/README.md), else all
-that the study has results for. Of each shot: error against time, times and counted costs of stages, and crops with error maps.
+that the study has results for. Of each shot: error against time, times and counted costs of stages, crops with error maps, and
+of shots in motion an animated GIF.
 Of the study: error and bias by roughness, bias and variance, effects of changes, temporal metrics, the error of each frame,
 errors against the truth ladder, what error a cost buys, and depth fetches per ray against the resolution.
 
@@ -35,6 +36,7 @@ from paper_figures import (
     frames,
     ladder,
     maps,
+    motion,
     request,
     response,
     roughness,
@@ -46,7 +48,7 @@ from paper_figures.crop_choice import read_crops
 from ssrlab.results import Results, ResultsError, exit_code
 
 # Kind of figure to what draws it: of one shot at a time, or of all that are asked for.
-SHOT_FIGURES = {"stage_times": stages.draw_times, "stage_costs": stages.draw_costs, "crops": crops.draw}
+SHOT_FIGURES = {"stage_times": stages.draw_times, "stage_costs": stages.draw_costs, "crops": crops.draw, "motion": motion.draw}
 STUDY_FIGURES = {
     "error_time": error_time.draw,
     "ladder": ladder.draw,
@@ -61,13 +63,13 @@ STUDY_FIGURES = {
     "fits": fits.draw,
     "fetches": fetches.draw,
 }
-UNASKED_OF_SHOTS = ("error_time", "stage_times", "stage_costs", "crops")  # without figures.json a file for each shot
+UNASKED_OF_SHOTS = ("error_time", "stage_times", "stage_costs", "crops", "motion")  # without figures.json a file for each shot
 UNASKED = ("ladder", "roughness_error", "roughness_bias", "bias_variance", "temporal", "frames", "fits", "fetches", "effects")
 UNMEASURED = ("stage_times", "stage_costs", "fetches")  # of studies without a reference, too
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="ssrlab figures", description="Paper figures (PDF, SVG, PNG) from a results folder.")
+    parser = argparse.ArgumentParser(prog="ssrlab figures", description="Paper figures (PDF, SVG, PNG) from a results folder, and shots in motion as animated GIFs.")
     parser.add_argument("results", help="a folder that `ssrlab run` filled")
     parser.add_argument("--out", help="default: figures in the results folder")
     parser.add_argument("--choice", metavar="figures.json", help="which figures, and how they look; crops that the report's viewer collected")
@@ -115,7 +117,7 @@ def make(results, requests, look, out):
         count = len(written)
         for name, figure in drawn(results, chosen):
             if figure is not None:
-                written += style.save(figure, out, name, look.formats)
+                written += figure.save(out, name) if isinstance(figure, motion.Animation) else style.save(figure, out, name, look.formats)
         if chosen.where and len(written) == count:
             raise ResultsError(f"{chosen.where}: the results have nothing for a figure of the kind {chosen.kind}")
     return len(written)

@@ -18,9 +18,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t page_bytes =
-    30'000'000;  ///< a page is mailed and opened at once: the images of larger ones lie beside it
-
 /// The page's scripts, in the order in which they build on each other.
 constexpr const char* scripts[] = {"data.js",
                                    "page.js",
@@ -49,6 +46,7 @@ constexpr const char* scripts[] = {"data.js",
                                    "sections/stability.js",
                                    "viewer/image_data.js",
                                    "viewer/image_colors.js",
+                                   "viewer/flip.js",
                                    "viewer/panes.js",
                                    "viewer/viewer.js",
                                    "viewer/viewer_chooser.js",
@@ -58,6 +56,8 @@ constexpr const char* scripts[] = {"data.js",
                                    "viewer/inspector.js",
                                    "viewer/crops.js",
                                    "viewer/viewer_keep.js",
+                                   "diff.js",
+                                   "save_tools.js",
                                    "start.js"};
 
 std::string part(const std::string& name) {
@@ -164,7 +164,18 @@ std::string filled_template(const std::string& text, const json& values,
     return filled;
 }
 
-/// `values`: those of page/template.html that are not the same on all pages, and of page/no_scripts.html.
+/// What the folder holds of the study's data, for programs other than browsers.
+json data_files(const std::filesystem::path& folder) {
+    json files = json::array();
+    for (const char* file :
+         {"results.csv", "summary.csv", "over_scenes.csv", "splits.csv", "effects.csv", "hits.csv", "costs.csv",
+          "times.csv", "time_summary.csv", "time_effects.csv", "parameters.csv", "stability.csv", "manifest.json"})
+        if (std::filesystem::exists(folder / file)) files.push_back(file);
+    return files;
+}
+
+}  // namespace
+
 std::string page_text(const std::string& title, const json& data, json values) {
     values["title"] = title;
     values["data"] = script_text(data);
@@ -175,8 +186,6 @@ std::string page_text(const std::string& title, const json& data, json values) {
     values["script"] = script;
     return filled_template(part("template.html"), values, {{"no_scripts", part("no_scripts.html")}});
 }
-
-}  // namespace
 
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
     if (!std::filesystem::exists(folder / "manifest.json")) {
@@ -190,7 +199,7 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
                                                          {{"stability", stability_without_scripts(stability)},
                                                           {"tables",
                                                            "stability.csv, stability_cases.csv and "
-                                                           "stability_stages.csv"}}));
+                                                           "stability_stages.csv beside it"}}));
             return {};
         }
         if (std::filesystem::exists(folder / "study.json"))
@@ -219,7 +228,8 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     data["defaults"] = parameter_defaults(manifest);
     data["is_study"] = true;
     json values = without_scripts(data, headline, tables.errors, singles);
-    values["tables"] = "results.csv and summary.csv";
+    values["files"] = data_files(folder);
+    values["tables"] = "and the images as EXR and PNG in images/, beside it";
     if (!tables.stability.rows.empty()) values["stability"] = stability_without_scripts(tables.stability);
     const json title = manifest.value("title", json());
     const auto page = [&] { return page_text(title.is_string() ? title.get<std::string>() : "Study", data, values); };

@@ -3,6 +3,13 @@
 
 #include <filesystem>
 
+/// A page is mailed and opened at once: the images of larger ones lie beside it.
+inline constexpr size_t page_bytes = 30'000'000;
+
+/// A page of `data` (page/data.js). `values`: those of page/template.html that are not the same on all pages, and of
+/// page/no_scripts.html.
+std::string page_text(const std::string& title, const nlohmann::json& data, nlohmann::json values);
+
 /// Reads manifest.json, results.csv, splits.csv, effects.csv, times.csv (these three may be absent) and the EXR images
 /// of a results folder (experiments/RESULTS.md), and writes summary.csv, time_summary.csv and report.html into it, each
 /// atomically. The page needs no network. It is one file with its images in it as long as it stays below 30 MB; else,

@@ -19,6 +19,10 @@ namespace {
 
 using nlohmann::json;
 
+/// Of frames that are only played: they are wrong by 1.6 % at most, two codes of 255 on a display, and take half the
+/// room.
+constexpr unsigned played_significand_bits = 5;
+
 /// What the manifest says of one image that is shown.
 struct Entry {
     std::string shot, variant, point, kind, target;
@@ -27,7 +31,7 @@ struct Entry {
 };
 
 bool is_shown(const std::string& kind) {
-    for (const char* shown : {"result", "reference", "confidence", "hits", "surface"})
+    for (const char* shown : {"result", "reference", "played", "confidence", "hits", "surface"})
         if (kind == shown) return true;
     return false;
 }
@@ -136,7 +140,9 @@ private:
         if (format == "palette") return encode_palette(rgb, description["palette"]);
         if (format == "bytes") return encode_bytes(rgb);
         size_t clamped = 0;
-        std::vector<unsigned char> bytes = encode_halves(rgb, clamped);
+        const unsigned bits = entry.kind == "played" ? played_significand_bits : 10;
+        if (bits < 10) description["significand_bits"] = bits;
+        std::vector<unsigned char> bytes = encode_halves(rgb, clamped, bits);
         if (clamped > 0)
             notes.push_back(entry.shot + ", " + entry.variant + " " + entry.point + ": " + std::to_string(clamped) +
                             " pixels are brighter than 65504, the largest half float, and are shown as that.");
@@ -179,7 +185,14 @@ ReportImages report_images(const fs::path& folder, const json& manifest, size_t 
     return report;
 }
 
-std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped) {
+ReportImages embedded_images(const fs::path& folder, const json& manifest) {
+    ReportImages report;
+    ImageSink sink(folder, SIZE_MAX);
+    for (const Entry& entry : first_seeds(read_entries(folder, manifest))) sink.add(entry, report);
+    return report;
+}
+
+std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped, unsigned significand_bits) {
     const size_t pixels = rgb.pixel_count(), count = pixels * 3;
     std::array<std::vector<int16_t>, 3> planes;
     for (std::vector<int16_t>& plane : planes) plane.resize(pixels);
@@ -193,7 +206,7 @@ std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped) 
                 is_beyond = true;
                 value = std::copysign(65504.0f, value);
             }
-            channels[c] = ordered(half(value).bits());
+            channels[c] = int16_t(ordered(half(value).round(significand_bits).bits()) >> (10 - significand_bits));
         }
         planes[0][i] = channels[1];
         planes[1][i] = int16_t(channels[0] - channels[1]), planes[2][i] = int16_t(channels[2] - channels[1]);

@@ -141,6 +141,28 @@ std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& o
     return save(out, shot, images);
 }
 
+nlohmann::json save_played_reference(const std::filesystem::path& out, const std::string& shot, unsigned frame,
+                                     const Reference& reference, float exposure_ev) {
+    return save(out, shot,
+                KeptImage{.name = "reference." + reference.hash.substr(0, 8) + ".specular",
+                          .entry = {{"shot", shot},
+                                    {"frame", frame},
+                                    {"variant", "reference"},
+                                    {"kind", "played"},
+                                    {"target", "specular"}},
+                          .rgb = reference.specular.mean,
+                          .exposure_ev = exposure_ev});
+}
+
+nlohmann::json save_played_image(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix,
+                                 const HostImage& specular, float exposure_ev) {
+    return save(out, row.shot,
+                KeptImage{.name = name_of(row, suffix) + ".played.specular",
+                          .entry = entry_of(row, "played", "specular"),
+                          .rgb = specular,
+                          .exposure_ev = exposure_ev});
+}
+
 nlohmann::json save_roughness_image(const std::filesystem::path& out, const std::string& shot, unsigned frame,
                                     const HostImage& roughness) {
     ContentHash hash;

@@ -29,6 +29,11 @@ HostImage relative_error(const HostImage& test, const HostImage& reference);
 /// and so does the key of the reference: other configs may fill the same folder.
 std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& out, const std::string& shot,
                                                   unsigned frame, const Reference& reference, float exposure_ev);
+/// The `specular` reflections of a frame that a viewer plays: of the truth, or of a point's run.
+nlohmann::json save_played_reference(const std::filesystem::path& out, const std::string& shot, unsigned frame,
+                                     const Reference& reference, float exposure_ev);
+nlohmann::json save_played_image(const std::filesystem::path& out, const ResultRow& row, const std::string& suffix,
+                                 const HostImage& specular, float exposure_ev);
 /// Perceptual `roughness` of the surfaces (one channel); its files are named by its content.
 nlohmann::json save_roughness_image(const std::filesystem::path& out, const std::string& shot, unsigned frame,
                                     const HostImage& roughness);

@@ -90,7 +90,7 @@ def auto_exposure(truth, tone_curve="none"):
     return float(np.floor(4 * np.log2((WHITE if tone_curve == "none" else 1.0) / bright)) / 4)
 
 
-def _best_of_each(results, images, errors, shot, metric):
+def best_of_each(results, images, errors, shot, metric):
     """`none`, and of each technique the point of least error that an engine could have, in the order of their errors."""
     variants = {}
     for key in images:
@@ -173,7 +173,7 @@ def draw(results, shot, chosen):
     if keys:
         keys = {REFERENCE: chosen.where or collected.crops[0].where, **keys}
     images = _images(results, shot, target, collected.frame if collected else None, keys)
-    shown = [k for k in keys if k != REFERENCE] or _best_of_each(results, images, errors, shot, chosen.metric)
+    shown = [k for k in keys if k != REFERENCE] or best_of_each(results, images, errors, shot, chosen.metric)
     if not shown or REFERENCE not in images:
         return None
     truth = images[REFERENCE]

@@ -23,6 +23,7 @@ OPTIONS = {  # keys of one kind alone
     "map": {"x", "y", "where", "show"},
     "convergence": {"over", "where"},
     "crops": {"columns", "rows", "boxes", "exposure", "tone_curve"},
+    "motion": set(),
     "roughness_error": set(),
     "roughness_bias": set(),
     "bias_variance": set(),

@@ -317,6 +317,12 @@ class Results:
         frames = [i.get("frame") or 0 for i in self.manifest.get("images", []) if i.get("shot") == shot]
         return max(frames, default=0)
 
+    def frames_with_images(self, shot, target):
+        """Numbers of the frames that results were kept of, ascending."""
+        images = self.manifest.get("images", [])
+        own = [i for i in images if i.get("shot") == shot and i.get("target") == target and i.get("kind") in ("result", "played")]
+        return sorted({i.get("frame") or 0 for i in own})
+
     def images_of(self, shot, target, frame=None, keys=None):
         """(variant, point) to RGB image of the first seed; the reference's key is ("reference", ""). Of the last frame,
         and of all points but single changes, unless others are asked for."""
@@ -327,7 +333,7 @@ class Results:
             if i.get("shot") == shot
             and i.get("target") == target
             and (i.get("frame") or 0) == frame
-            and i.get("kind") in ("result", "reference")
+            and i.get("kind") in ("result", "reference", "played")
             and ((i["variant"], i.get("point") or "") in keys if keys else (i["variant"], i.get("point") or "") not in self.hidden)
         ]
         first = {}

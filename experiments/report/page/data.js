@@ -35,6 +35,7 @@ function readData() {
     return {
         isStudy: raw.is_study,  // else the page shows `stability` alone
         stability,              // null: none
+        diff: raw.diff ?? null,  // of the page that `ssrlab diff --page` writes: experiments/report/diff_page.cpp
         manifest: raw.manifest,
         metrics: raw.metrics,
         defaults: raw.defaults,          // variant to {parameter: value}, of those that this build knows

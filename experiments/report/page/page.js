@@ -155,20 +155,22 @@ async function copyText(text) {
     area.remove();
 }
 
-/// Buttons that copy a table as it is shown, for a spreadsheet, and save it.
-function tableActions(whole, name) {
+/// Buttons that copy a table as it is shown, for a spreadsheet, and save it under the name that `name` gives.
+function tableButtons(whole, name, said = null) {
     const text = c => c.textContent.replace(/\s+/g, " ").trim();
     const quoted = c => /[",]/.test(text(c)) ? `"${text(c).replaceAll("\"", "\"\"")}"` : text(c);
     const lines = (of, separator) => [...whole.rows].map(row => [...row.cells].map(of).join(separator) + "\n").join("");
-    const said = h("output");
-    const copy = async () => {
+    const copy = async event => {
         await copyText(lines(text, "\t"));
-        said.textContent = "Copied.";
+        (said ?? event.target).textContent = "Copied.";
     };
-    const save = () => saveFile(new Blob([lines(quoted, ",")], {type: "text/csv"}), name);
-    return h(
-        "div", {class: "controls"}, h("button", {click: copy}, "Copy table"), h("button", {click: save}, "Save table"),
-        said);
+    const save = () => saveFile(new Blob([lines(quoted, ",")], {type: "text/csv"}), name());
+    return [h("button", {click: copy}, "Copy table"), h("button", {click: save}, "Save table")];
+}
+
+function tableActions(whole, name) {
+    const said = h("output");
+    return h("div", {class: "controls"}, tableButtons(whole, () => name, said), said);
 }
 
 /// A word of warning beside what it concerns; `why` is read out, and shown beside the pointer.

@@ -3,7 +3,7 @@
 document.body.append(tip, textureDefinitions());
 document.querySelectorAll(".scroll").forEach(box => scrollWatcher.observe(box));
 showStability();
-Promise.resolve(report.isStudy ? showStudy() : showStabilityAlone())
+Promise.resolve(report.diff ? showDiff() : report.isStudy ? showStudy() : showStabilityAlone())
     .then(scrollToPlace)
     .then(() => document.documentElement.setAttribute("data-ready", ""));
 

@@ -81,7 +81,8 @@ public:
 private:
     /// Times do not depend on which images are kept.
     std::vector<std::string> with_images(std::vector<std::string> what) const {
-        if (config_.keeps_all_images) what.push_back("all images");
+        if (config_.kept_images == KeptImages::measured) what.push_back("all images");
+        if (config_.kept_images == KeptImages::played) what.push_back("played images");
         return what;
     }
     std::string name(const std::vector<std::string>& sources, const std::string& request,

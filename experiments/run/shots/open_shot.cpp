@@ -57,9 +57,12 @@ void note_reference(Opening& opening, const Reference& reference, unsigned frame
                              warning.get<std::string>());
     open.entry["references"].push_back(std::move(entry));
     if (use.is_of_last) open.entry["reference"] = open.entry["references"].back();
-    if (use.is_of_last || (opening.config.keeps_all_images && use.is_of_measured))
-        opening.reference_images[frame] = save_reference_images(opening.settings.out, open.shot.name(), frame,
-                                                                reference, open.shot.camera.exposure_ev);
+    const std::filesystem::path& out = opening.settings.out;
+    const float exposure_ev = open.shot.camera.exposure_ev;
+    if (use.is_of_last || (opening.config.kept_images == KeptImages::measured && use.is_of_measured))
+        opening.reference_images[frame] = save_reference_images(out, open.shot.name(), frame, reference, exposure_ev);
+    else if (opening.config.kept_images == KeptImages::played)
+        opening.reference_images[frame] = {save_played_reference(out, open.shot.name(), frame, reference, exposure_ev)};
 }
 
 /// Lists the images of the references, and writes those of the surfaces, of each frame whose results are kept. Frames
@@ -67,18 +70,19 @@ void note_reference(Opening& opening, const Reference& reference, unsigned frame
 void enter_truth_images(Opening& opening) {
     OpenShot& open = opening.shot;
     for (const FrameStep& step : open.shot.steps) {
-        const FrameTruth* truth = open.truth.frame(step);
-        const bool is_kept = &step == &open.shot.steps.back() || (opening.config.keeps_all_images && step.is_measured);
-        if (!truth || !is_kept) continue;
+        const StepImages kept = open.shot.images_of(step, opening.config.kept_images);
+        const auto pose = open.truth.poses.find(step.frame);
+        if (kept == StepImages::none || pose == open.truth.poses.end()) continue;
         for (const auto& [frame, images] : opening.reference_images) {
-            if (open.truth.poses.at(frame) != truth->pose) continue;
+            if (open.truth.poses.at(frame) != pose->second) continue;
             for (nlohmann::json image : images) {
                 image["frame"] = step.frame;
                 open.images.push_back(std::move(image));
             }
         }
-        open.images.push_back(
-            save_roughness_image(opening.settings.out, open.shot.name(), step.frame, truth->roughness));
+        if (const FrameTruth* truth = open.truth.frame(step); truth && kept == StepImages::all)
+            open.images.push_back(
+                save_roughness_image(opening.settings.out, open.shot.name(), step.frame, truth->roughness));
     }
 }
 

@@ -78,10 +78,10 @@ private:
         settings_.report(double(++rendered_) / double(point_.shot.steps.size() * passes));
     }
 
-    /// Whether the images of this step are kept.
-    bool is_shown(unsigned seed, const FrameStep& step) const {
-        if (seed != point_.variant.seeds.front()) return false;
-        return point_.is_last(step) || (point_.config.keeps_all_images && step.is_measured);
+    /// The images of this step that are kept.
+    StepImages kept_images(unsigned seed, const FrameStep& step) const {
+        if (seed != point_.variant.seeds.front()) return StepImages::none;
+        return point_.shot.images_of(step, point_.config.kept_images);
     }
 
     /// In the names of a step's images, which other steps and cells would name alike.
@@ -95,14 +95,29 @@ private:
         images_.add(std::move(images));
     }
 
+    void save_images(unsigned seed, const FrameStep& step, const CompositedImages& images) {
+        const StepImages kept = kept_images(seed, step);
+        if (kept == StepImages::none) return;
+        const ResultRow row = point_.row(std::to_string(step.frame), seed);
+        if (kept == StepImages::all)
+            save([this, row, suffix = image_suffix(step), &truth = point_.truth.pose(step), images] {
+                return save_result_images(settings_.out, row, suffix, truth, images, point_.shot.camera.exposure_ev);
+            });
+        else
+            save([this, row, suffix = image_suffix(step), specular = images.specular] {
+                return ImageQueue::Entries{
+                    save_played_image(settings_.out, row, suffix, specular, point_.shot.camera.exposure_ev)};
+            });
+    }
+
     /// The rays that were recorded in this step against what they truly meet.
     void judge_rays(SeedInShot& seed, const FrameStep& step, const CameraData& camera, const CompositedImages& images) {
         const FrameTruth* truth = point_.truth.frame(step);
         const std::vector<Mask> masks =
             truth ? masks_of(*truth, images.confidence, point_.config) : std::vector<Mask>{everywhere};
         std::vector<RecordedRays>& recorded = seed.renderer.probe->recorded;
-        for (PointRays::VerdictMap& verdicts :
-             rays_.judge(seed.seed(), recorded, step, camera, images.specular, masks, is_shown(seed.seed(), step)))
+        for (PointRays::VerdictMap& verdicts : rays_.judge(seed.seed(), recorded, step, camera, images.specular, masks,
+                                                           kept_images(seed.seed(), step) == StepImages::all))
             save([&out = settings_.out, row = point_.row(std::to_string(step.frame), seed.seed()),
                   suffix = image_suffix(step), verdicts = std::move(verdicts)] {
                 return ImageQueue::Entries{save_verdict_image(out, row, suffix, verdicts.stage, verdicts.map)};
@@ -122,12 +137,7 @@ private:
                                                              truth ? truth->reflectance : HostImage{});
             errors.add(seed.errors, step, images);
             if (r.probe->is_recording) judge_rays(seed, step, frame.camera, images);
-            if (is_shown(seed.seed(), step) && point_.config.has_reference)
-                save([this, row = point_.row(std::to_string(step.frame), seed.seed()), suffix = image_suffix(step),
-                      &truth = point_.truth.pose(step), images] {
-                    return save_result_images(settings_.out, row, suffix, truth, images,
-                                              point_.shot.camera.exposure_ev);
-                });
+            if (point_.config.has_reference) save_images(seed.seed(), step, images);
         }
         report_step();
     }

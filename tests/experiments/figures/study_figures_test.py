@@ -15,7 +15,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from figures import SHOT_FIGURES, STUDY_FIGURES
 from matplotlib.text import Text
-from paper_figures import effects, error_time, fetches, style
+from paper_figures import effects, error_time, fetches, motion, style
+from PIL import Image
 from ssrlab.results import Measured, Results, ResultsError, is_over_frames
 
 
@@ -100,10 +101,34 @@ def test_study(folder):
     note = figures_of["error_time"]._supxlabel.get_text().replace("\n", " ")
     check("other programs disturbed up to 25 % of the timed frames" in note, note)
     check(
-        [name for name, figure in figures_of.items() if figure is None] == ["crops"],
-        "without images there are no crops",
+        [name for name, figure in figures_of.items() if figure is None] == ["crops", "motion"],
+        "without images there are no crops, and without frames no motion",
     )
     check_text_sizes(figures_of)
+
+
+def test_motion(folder):
+    """Frames of a GIF in order, each of truth and technique as they are displayed, and what they show."""
+    results = Results(folder)
+    shot = next(s for s in results.shots() if s.startswith("moving"))
+    chosen = request_of("motion", points=[("sssr", "first")])
+    with tempfile.TemporaryDirectory(prefix="ssrlab_motion_") as out:
+        contents = []
+        for name in ("one", "two"):
+            (file,) = SHOT_FIGURES["motion"](results, shot, chosen).save(out, name)
+            with open(file, "rb") as stream:
+                contents.append(stream.read())
+        check(contents[0] == contents[1], "the same results give other bytes")
+        with Image.open(file) as gif:
+            check(gif.n_frames == 4 and gif.info["comment"].decode().startswith(f"{shot}, specular, +2.5 EV"), f"{gif.n_frames} frames: {gif.info}")
+            for index, frame in enumerate((3, 4, 5, 6)):
+                gif.seek(index)
+                picture = np.asarray(gif.convert("RGB"), dtype=float)
+                for half, value in ((picture[:, : gif.width // 2], 1 / frame), (picture[:, gif.width // 2 :], 0.5 / frame)):
+                    wanted = 255 * motion.display(np.full((1, 1, 3), value), 2.5)[0, 0]
+                    middle = half[half.shape[0] // 2 - 20 : half.shape[0] // 2 + 20, half.shape[1] // 2 - 20 : half.shape[1] // 2 + 20]
+                    # Pillow's median cut keeps six of eight bits where it can be.
+                    check(np.abs(middle - wanted).max() <= 3, f"frame {frame}: {middle.mean()}, expected {wanted}")
 
 
 def test_sweep_figures(folder):
@@ -229,7 +254,7 @@ def test_images_of_frames(folder):
     """Of a sequence whose frames all have images, those of the last, or of the one that a crop names."""
     results = Results(folder)
     for frame, number in ((None, 6), (4, 4)):
-        images = results.images_of("moving.main.160x90.f3-6.w4", "image", frame)
+        images = results.images_of("moving.main.160x90.f3-6.w4", "specular", frame)
         found = {key: float(image[0, 0, 0]) for key, image in images.items()}
         expected = {("reference", ""): 1 / number, ("sssr", "first"): 0.5 / number}
         check(found.keys() == expected.keys(), f"images of frame {frame}: {found}")
@@ -268,6 +293,7 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     study = os.path.join(temporary, "study")
     subprocess.run([sys.argv[1], "--study", study], check=True)
     test_study(study)
+    test_motion(study)
     test_sweep_figures(study)
     test_front(study)
     test_stage_costs(study)

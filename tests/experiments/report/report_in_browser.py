@@ -11,7 +11,8 @@ import sys
 import tempfile
 
 from report_browser import By, Select, check, choose, equal, open_browser, until_ready
-from report_keep import test_address, test_keeping
+from report_diff import test_diff
+from report_keep import test_address, test_keeping, test_save_tools
 from report_use import test_use
 from report_viewer import (
     test_chooser,
@@ -19,11 +20,13 @@ from report_viewer import (
     test_exposure_and_tone_curves,
     test_false_color,
     test_flip_and_split,
+    test_flip_map,
     test_inspector,
     test_linked_images,
     test_linked_zoom,
     test_loss_maps,
     test_other_sections_open_it,
+    test_shot_beside,
 )
 
 
@@ -212,14 +215,13 @@ def main():
     ) as profile, tempfile.TemporaryDirectory(prefix="ssrlab_linked_") as linked:
         subprocess.run([program, folder], check=True)
 
-        def pixel_of(file, x, y):
-            out = subprocess.run(
-                [program, "--halves", os.path.join(folder, "images", file), str(x), str(y)],
-                check=True,
-                capture_output=True,
-                text=True,
-            ).stdout
-            return [float(v) for v in out.split()]
+        def output(option, *arguments):
+            """Of the program, whose arguments that end in .exr are images."""
+            of = [os.path.join(folder, "images", a) if str(a).endswith(".exr") else str(a) for a in arguments]
+            return subprocess.run([program, option, *of], check=True, capture_output=True, text=True).stdout
+
+        def pixel_of(*arguments):
+            return [float(v) for v in output("--halves", *arguments).split()]
 
         page = open_browser(profile)
         try:
@@ -235,6 +237,7 @@ def main():
             test_labels(page)
             test_address(page, url)
             test_keeping(page)
+            test_save_tools(page)
             page.get(url)
             until_ready(page)
             test_linked_zoom(page)
@@ -242,6 +245,8 @@ def main():
             test_exposure_and_tone_curves(page)
             test_inspector(page, pixel_of)
             test_false_color(page)
+            test_flip_map(page, lambda *files: [float(v) for v in output("--flip", *files).split()])
+            test_shot_beside(page)
             test_loss_maps(page)
             test_chooser(page)
             test_crops(page)
@@ -251,6 +256,7 @@ def main():
             check_quiet(page, url)
             subprocess.run([program, "--link", linked], check=True)
             test_linked_images(page, linked)
+            test_diff(page, program, folder, linked)
             test_without_scripts(page, url)
         finally:
             page.quit()

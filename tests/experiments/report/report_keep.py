@@ -1,8 +1,11 @@
 """What a reader takes along from a report: the address that shows the same again, pictures and tables."""
 
-from report_browser import WebDriverWait, check, choose, equal, pixels, until_ready
+import xml.etree.ElementTree
+
+from report_browser import By, WebDriverWait, check, choose, equal, pixels, until_ready
 from report_crops import SHOT
 from report_viewer import NAMES, OTHER_SHOT, captions
+from selenium.webdriver.common.action_chains import ActionChains
 
 
 def test_address(page, url):
@@ -66,3 +69,29 @@ def test_keeping(page):
         equal(lines[0].split(separator)[:4], ["Shot", "Variant", "Point", "mse"], "the heading")
         equal(len(lines), rows + 1, "lines of the table")
     check("stride=4" in table[0] and ', ' in table[0].split('"')[1], f"points, and quoted intervals: {table[0]}")
+
+
+def test_save_tools(page):
+    """A table or a plot that is pointed at can be saved; the plot's file is whole, with colours of its own."""
+    page.execute_script("window.saveFile = (blob, name) => { window.saved = [blob, name] }")
+
+    def saved(selector, place):
+        page.execute_script("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
+        ActionChains(page).move_to_element(page.find_element(By.CSS_SELECTOR, selector)).perform()
+        page.execute_script("window.saved = null")
+        ActionChains(page).move_to_element(page.find_elements(By.CSS_SELECTOR, "#save-tools button")[place]).click().perform()
+        WebDriverWait(page, 10).until(lambda p: p.execute_script("return window.saved") is not None, selector)
+        return page.execute_async_script(
+            "const done = arguments[0], [blob, name] = window.saved; blob.text().then(text => done([name, text, blob.size]))"
+        )
+
+    name, text, _ = saved("#scatter .chart > svg", 0)
+    check(name == f"results_{SHOT}.svg" and "var(" not in text and "<style" in text, f"a plot as {name}: {text[:200]}")
+    root = xml.etree.ElementTree.fromstring(text)
+    check(root.get("width") and "ms" in "".join(root.itertext()), "a plot's size and axis")
+    name, text, size = saved("#scatter .chart > svg", 1)
+    check(name == f"results_{SHOT}.png" and size > 5000, f"a plot as {name} of {size} bytes")
+    name, text, _ = saved("#references table", 1)
+    check(name == "references.csv" and text.startswith("Shot,"), f"a table as {name}: {text[:100]}")
+    links = [a.get_attribute("href").rsplit("/", 1)[-1] for a in page.find_elements(By.CSS_SELECTOR, "footer a")]
+    check({"results.csv", "summary.csv", "times.csv"} <= set(links) and "costs.csv" not in links, f"files beside the page: {links}")

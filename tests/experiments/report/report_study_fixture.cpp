@@ -291,7 +291,7 @@ void add_rung_images(const std::filesystem::path& folder, const std::string& sho
     add({{"variant", "sssr"}, {"point", "first"}, {"seed", 0}, {"kind", "result"}, {"target", "incident"}}, 0.5f);
 }
 
-/// Images of every frame of a sequence, each darker than the one before.
+/// Images of every frame of a sequence, each darker than the one before; all but the last are only played.
 void add_frame_images(const std::filesystem::path& folder, const std::string& shot, json& images) {
     for (unsigned frame = 3; frame <= 6; ++frame)
         for (const char* kind : {"reference", "result"}) {
@@ -303,8 +303,8 @@ void add_frame_images(const std::filesystem::path& folder, const std::string& sh
                               {"variant", is_truth ? "reference" : "sssr"},
                               {"point", is_truth ? "" : "first"},
                               {"seed", 0},
-                              {"kind", kind},
-                              {"target", "image"},
+                              {"kind", frame < 6 ? "played" : kind},
+                              {"target", "specular"},
                               {"exr", exr}});
         }
 }

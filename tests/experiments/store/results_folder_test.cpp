@@ -250,10 +250,15 @@ TEST_F(StudyTest, KeepsTheImagesOfEveryMeasuredFrame) {
     EXPECT_EQ(all.at("error specular").size(), 1u) << "targets are measured in the last frame";
 
     const size_t cells = count_cells(folder / "a");
-    study.keeps_all_images = false;
+    study.kept_images = KeptImages::played;
+    const auto played = kept();
+    for (const char* what : {"played specular", "result specular", "reference specular", "surface roughness"})
+        EXPECT_EQ(played.at(what).size(), std::string(what) == "played specular" ? 4u : 1u) << what;
+    for (const auto& [frame, name] : played.at("played specular")) EXPECT_LT(frame, 2u) << name;
+    study.kept_images = KeptImages::last;
     for (const auto& [what, own] : kept()) {
         EXPECT_EQ(own.size(), 1u) << what;
         EXPECT_EQ(own.back().first, 2u) << what;
     }
-    EXPECT_EQ(count_cells(folder / "a"), cells + 2) << "the point and the references' images are done anew";
+    EXPECT_EQ(count_cells(folder / "a"), cells + 4) << "the point and the references' images are done anew";
 }

@@ -15,6 +15,9 @@ function showTemporal() {
         report.errors.filter(r => temporalTables.some(t => t.metrics.includes(r.metric)) && !isSingleChange(r));
     const frames = report.frames.filter(r => r.value !== null);
     if (!rows.length && !frames.length) return leaveOut("temporal");
+    const played = unique(report.images.map(i => i.shot)).filter(shot => framesOf(shot).length > 1);
+    if (played.length)
+        at("temporal").append(h("div", {class: "controls"}, played.map(shot => h("button", {click: () => playShot(shot)}, `Play ${shotLabel(shot)}`))));
     if (rows.length) showTemporalTables(rows);
     if (frames.length) showFrames(frames);
 }

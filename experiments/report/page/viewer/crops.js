@@ -22,7 +22,7 @@ function toggleCropMode() {
 function worstBox() {
     const {width, height} = viewer.shown[0].image, w = Math.max(width >> 2, 1), h = Math.max(height >> 2, 1);
     const truth = viewer.shown.find(s => s.method.key === truthKey);
-    const others = viewer.shown.filter(s => s !== truth);
+    const others = shownOfShot().filter(s => s !== truth);
     const middle = [(width - w) >> 1, (height - h) >> 1, w, h];
     if (!truth || !others.length) return middle;
     const sums = new Float64Array((width + 1) * (height + 1));  // of all pixels above and to the left
@@ -46,6 +46,7 @@ function worstBox() {
 function clearCropBox() {
     crops.box = null;
     if (crops.list.length || crops.isOn) showCrops();
+    nameKeeping();
 }
 
 /// The pixels of both places, and all between.
@@ -69,7 +70,7 @@ function moveCropBox(dx, dy, isSizing) {
 
 /// The current box with all that its figure is to show.
 function currentCrop() {
-    const points = viewer.shown.filter(s => s.method.key !== truthKey)
+    const points = shownOfShot().filter(s => s.method.key !== truthKey)
                        .map(s => ({variant: s.method.variant, point: s.method.point}));
     return {
         shot: viewer.shot,
@@ -110,6 +111,7 @@ async function copyCrops() {
 }
 
 function showCrops() {
+    nameKeeping();
     const panel = at("viewer-crop");
     panel.hidden = !crops.isOn && !crops.box && !crops.list.length;
     if (panel.hidden) return;
@@ -120,7 +122,7 @@ function showCrops() {
         if (document.activeElement !== input) input.value = crops.box?.[i] ?? "";
     });
     at("crop-add").disabled = !crops.box || whyNoCrop() !== "";
-    const extra = viewer.shown.filter(s => s.method.key !== truthKey).length - mostCropPoints;
+    const extra = shownOfShot().filter(s => s.method.key !== truthKey).length - mostCropPoints;
     const ofExtra =
         extra > 0 ? `A figure has room for ${mostCropPoints} points: the last ${extra} shown are left out. ` : "";
     at("crop-note").textContent = ofExtra + whyNoCrop();

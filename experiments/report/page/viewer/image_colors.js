@@ -5,7 +5,7 @@ const luminance = rgb => 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 
 const meanDistance = (x, r) => (Math.abs(x[0] - r[0]) + Math.abs(x[1] - r[1]) + Math.abs(x[2] - r[2])) / 3;
 
-/// What a false-colour mode shows of one pixel; in the formulas `d` and `r` are difference and reference per channel.
+/// What a false-colour mode shows of one pixel, or of all at once (`mapOf`); in the formulas `d` and `r` are difference and reference per channel.
 const scalarModes = {
     absolute: {title: "absolute difference", formula: "mean over channels of |d|", isError: true, of: meanDistance},
     signed: {
@@ -21,6 +21,13 @@ const scalarModes = {
         isError: true,
         of: (x, r) => [0, 1, 2].reduce((sum, c) => sum + Math.abs(x[c] - r[c]) / Math.sqrt(r[c] * r[c] + 0.01), 0) / 3
     },
+    flip: {
+        title: "FLIP",
+        formula: "LDR-FLIP by Andersson et al. 2020 at the shot's exposure, as the metric flip",
+        isError: true,
+        isFixed: true,
+        mapOf: (image, base) => flipMap(image, base, shotExposure(image.shot))
+    },
     luminance: {title: "luminance", formula: "Rec. 709 luminance", of: x => luminance(x)},
     confidence: {title: "confidence", formula: "share of the result that is the technique's own", isFixed: true},
 };
@@ -29,20 +36,22 @@ const scalarModes = {
 function scalarsOf(image, base, mode) {
     const key = mode + (scalarModes[mode].isError ? base.index : "");
     if (!image.scalars.has(key)) {
-        const {of} = scalarModes[mode], values = new Float32Array(image.pixels);
-        const [r, g, b] = [0, 1, 2].map(c => image.halves.subarray(c * image.pixels, (c + 1) * image.pixels));
-        for (let i = 0; i < image.pixels; ++i)
-            values[i] = of([halfValues[r[i]], halfValues[g[i]], halfValues[b[i]]], base ? pixelRgb(base, i) : null);
-        image.scalars.set(key, values);
+        const {of, mapOf} = scalarModes[mode];
+        image.scalars.set(
+            key,
+            mapOf ? mapOf(image, base) :
+                    Float32Array.from(
+                        {length: image.pixels}, (_, i) => of(pixelRgb(image, i), base ? pixelRgb(base, i) : null)));
     }
     return image.scalars.get(key);
 }
 
-/// The scale that all images of a mode share: the largest of their 99 % quantiles of size, so that single pixels do not
+/// The scale that all images of a mode share, each with what it is compared with: the largest of their 99 % quantiles of size, so that single pixels do not
 /// darken the rest.
-function sharedMaximum(images, base, mode) {
+function sharedMaximum(pairs, mode) {
+    if (scalarModes[mode].isFixed) return 1;
     let largest = 0;
-    for (const image of images) {
+    for (const [image, base] of pairs) {
         const all = scalarsOf(image, base, mode);
         const step = Math.max(1, Math.floor(all.length / 20000));
         const sample = Float32Array.from({length: Math.floor(all.length / step)}, (_, i) => Math.abs(all[i * step]))

@@ -38,7 +38,7 @@ async function decodeImage(index) {
         await inflated(description.file ? await linkedText(description.file) : at("image-" + index).textContent);
     const image = {...description, index, pixels: description.width * description.height, scalars: new Map()};
     if (description.format === "halves")
-        image.halves = decodeHalves(bytes, description.width, description.height);
+        image.halves = decodeHalves(bytes, description);
     else
         image.codes = bytes;
     loadedImages.set(index, image);
@@ -75,7 +75,7 @@ function linkedText(file) {
 }
 
 /// Undoes encode_halves() of experiments/report/report_images.cpp.
-function decodeHalves(bytes, width, height) {
+function decodeHalves(bytes, {width, height, significand_bits: kept = 10}) {
     const pixels = width * height, count = 3 * pixels;
     const planes = [0, 1, 2].map(p => {
         const plane = new Int16Array(pixels);
@@ -92,7 +92,8 @@ function decodeHalves(bytes, width, height) {
         }
         return plane;
     });
-    const halves = new Uint16Array(count), bits = ordered => ordered < 0 ? 0x7fff - ordered : ordered;
+    const halves = new Uint16Array(count), dropped = 10 - kept;
+    const bits = ordered => ordered < 0 ? 0x8000 | -1 - ordered << dropped : ordered << dropped;
     for (let i = 0; i < pixels; ++i) {
         const green = planes[0][i];
         halves[i] = bits(planes[1][i] + green << 16 >> 16);

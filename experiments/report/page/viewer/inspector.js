@@ -65,25 +65,31 @@ function showReadout() {
             h("p", {class: "note"}, "Point at an image to read all values of a pixel; a click or Enter pins it."));
         return;
     }
-    const ref = base(), i = place.y * viewer.shown[0].image.width + place.x;
+    const i = place.y * viewer.shown[0].image.width + place.x;
     const unknowable = rungDistances()?.[i] ?? null;
     const columns = [
         "Image", "R", "G", "B", "Luminance", "Signed difference", "Absolute difference", "Relative error",
-        "Unknowable share", "Confidence", "Ray"
-    ].map((name, c) => ({name, number: c > 0 && c < 10}));
+        ...(viewer.mode === "flip" ? ["FLIP"] : []), "Unknowable share", "Confidence", "Ray"
+    ].map((name, c) => ({name, number: c > 0 && name !== "Ray"}));
+    const flipCell = (image, ref) => {
+        const values = ref && image.scalars.get("flip" + ref.index);  // of images that are shown
+        return values ? cell(values[i], number(values[i], 4)) : "–";
+    };
     const rows = inspectedMethods().filter(m => resultIndex(m) !== undefined).map(method => {
         const image = resultOf(method);
         if (!image) return [method.label, missingText(), ...Array(columns.length - 2).fill("")];
-        const rgb = pixelRgb(image, i), hasError = ref && image !== ref;
+        const rgb = pixelRgb(image, i), ref = baseOf(method), hasError = hasBase({method, image});
         const error = mode => hasError ? scalarModes[mode].of(rgb, pixelRgb(ref, i)) : null;
         const absolute = error("absolute"), confidence = loadedImages.get(method.confidence);
-        const share = unknowable === null || !(absolute > 0) || viewer.baseKey !== truthKey ?
+        const isOfTruth = viewer.baseKey === truthKey && method.shot === viewer.shot;
+        const share = unknowable === null || !(absolute > 0) || !isOfTruth ?
             null :
             Math.min(unknowable / absolute, 1);
         return [
             method.label, ...rgb.map(v => cell(v, number(v, 5))), number(luminance(rgb), 5),
             cell(error("signed"), hasError && error("signed") > 0 ? "+" : "", number(error("signed"), 4)),
-            cell(absolute, number(absolute, 5)), cell(error("relative"), number(error("relative"), 4)), percent(share),
+            cell(absolute, number(absolute, 5)), cell(error("relative"), number(error("relative"), 4)),
+            ...(viewer.mode === "flip" ? [flipCell(image, ref)] : []), percent(share),
             confidence                          ? cell(pixelByte(confidence, i), pixelByte(confidence, i).toFixed(2)) :
                 method.confidence === undefined ? "–" :
                                                   missingText(),

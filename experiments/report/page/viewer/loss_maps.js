@@ -18,7 +18,7 @@ const clearLead = 1.01;
 
 /// For each pixel which of the shown methods has the least absolute difference: {pixels, names, colors, shares}.
 const nearestMap = () => ofPainting("nearest", () => {
-    const ref = truth(), methods = viewer.shown.filter(s => s.method.key !== truthKey);
+    const ref = truth(), methods = shownOfShot().filter(s => s.method.key !== truthKey);
     const errors = methods.map(s => scalarsOf(s.image, ref, "absolute"));
     const alike = methods.length, places = new Uint16Array(ref.pixels), counts = new Array(alike + 1).fill(0);
     for (let i = 0; i < ref.pixels; ++i) {
@@ -162,13 +162,13 @@ causePlace.empty = causePlace.unavoidable_miss;
 
 const visibleError = 0.01;  // of the false-colour scale: below it a pixel has no cause to look for
 
-const otherImages = ref => viewer.shown.map(s => s.image).filter(i => i !== ref);
+const errorPairs = ref => shownOfShot().filter(s => s.image !== ref).map(s => [s.image, ref]);
 
 /// For each pixel the cause of a method's error, and each cause's share of the sum of absolute differences.
 const causeMap = (method, image) => ofPainting(method.key, () => {
     const ref = truth(), error = scalarsOf(image, ref, "absolute"), rays = verdictImages(method),
           limit = rungDistances();
-    const maximum = ofPainting("maximum", () => sharedMaximum(otherImages(ref), ref, "absolute"));
+    const maximum = ofPainting("maximum", () => sharedMaximum(errorPairs(ref), "absolute"));
     const places = new Uint8Array(image.pixels), sums = new Array(causes.length).fill(0);
     for (let i = 0; i < image.pixels; ++i) {
         const e = error[i];
@@ -192,7 +192,7 @@ function causePicture(method, image) {
 }
 
 function causeLegend() {
-    const methods = viewer.shown.filter(s => s.method.key !== truthKey);
+    const methods = shownOfShot().filter(s => s.method.key !== truthKey);
     if (!truth() || !methods.length) return [];
     const own = causes.filter(([key]) => key !== "small");
     const columns = [

@@ -1,8 +1,10 @@
 // The viewer: which images are shown, and how.
 
 const truthKey = "reference";
+const sameKey = "same point";  // of viewer.shot, as what images of the shot beside it are compared with
 const viewer = {
     shot: null,
+    beside: null,  // a shot whose images can be shown with those of `shot`
     frame: null,
     target: null,
     mode: "color",
@@ -11,7 +13,7 @@ const viewer = {
     exposure: 0,
     curve: "none",
     scale: 0,
-    methods: [],        // of shot and frame, the truth first
+    methods: [],        // of shot and frame, the truth first, each followed by that of the shot beside it
     chosen: null,       // keys of methods, in the order in which they are shown; kept from shot to shot
     shown: [],          // {method, image} of those whose image is there
     baseKey: truthKey,  // of what differences are taken against
@@ -37,19 +39,30 @@ const resultIndex = method =>
     method?.results[method.key === truthKey || !isLadderRung(viewer.target) ? viewer.target : "incident"];
 const resultOf = method => loadedImages.get(resultIndex(method));
 const truth = () => resultOf(truthMethod());
-const base = () => resultOf(viewer.methods.find(m => m.key === viewer.baseKey)) ?? truth();
+/// Of the images that are shown those of `viewer.shot` itself.
+const shownOfShot = () => viewer.shown.filter(s => s.method.shot === viewer.shot);
+/// What a method's differences are taken against; where that is the truth, that of its own shot.
+const baseMethod = method => viewer.methods.find(
+    viewer.baseKey === truthKey     ? m => m.own === truthKey && m.shot === method.shot :
+        viewer.baseKey === sameKey ? m => m.own === method.own && m.shot === viewer.shot :
+                                     m => m.key === viewer.baseKey);
+const baseOf = method => resultOf(baseMethod(method)) ?? truth();
+/// Whether there is such a difference to look at.
+const hasBase = ({method, image}) => baseOf(method) !== undefined && image !== baseOf(method);
 const frameOf = image => image.frame ?? 0;
 
-/// All images of a shot's frame by method: {key, label, variant, point, results: {target: index}, confidence: index,
-/// verdicts: [{stage, index}], roughness: index}.
+/// All images of a shot's frame by method: {shot, own: its key in the shot, key: its key in the viewer, label, variant,
+/// point, results: {target: index}, confidence: index, verdicts: [{stage, index}], roughness: index}.
 function methodsOf(shot, frame) {
     const methods = new Map();
     report.images.forEach((image, index) => {
         if (image.shot !== shot || frameOf(image) !== frame) return;
-        const isTruth = image.kind === "reference" || image.kind === "surface";
+        const isTruth = image.variant === truthKey;
         const key = isTruth ? truthKey : pointKey(image);
         if (!methods.has(key))
             methods.set(key, {
+                shot,
+                own: key,
                 key,
                 label: isTruth ? "truth" : pointLabel(image),
                 variant: image.variant,
@@ -68,6 +81,48 @@ function methodsOf(shot, frame) {
             method.results[image.target] = index;
     });
     return [...methods.values()].sort((a, b) => (b.key === truthKey) - (a.key === truthKey));
+}
+
+const firstImage = shot => report.images.find(i => i.shot === shot);
+/// The shots whose images fit beside those of `shot`.
+const shotsBeside = shot => unique(report.images.map(i => i.shot)).filter(other => {
+    const [a, b] = [firstImage(shot), firstImage(other)];
+    return other !== shot && a.width === b.width && a.height === b.height;
+});
+/// What of a shot's name another has not.
+const ownWords = (shot, other) => {
+    const words = name => name.split(/[. ()]+/);
+    return words(shot).filter(word => !words(other).includes(word)).join(" ") || shotLabel(shot);
+};
+const besideKey = own => `${viewer.beside}|${own}`;
+
+/// methodsOf() the shot, and of the one beside it the same frame, or its last.
+function allMethods(frame) {
+    const {shot, beside} = viewer;
+    if (!beside) return methodsOf(shot, frame);
+    const named = (method, ofShot, other) => ({...method, label: `${method.label}, ${ownWords(ofShot, other)}`});
+    const own = methodsOf(shot, frame).map(m => named(m, shot, beside)), frames = framesOf(beside);
+    const others = methodsOf(beside, frames.includes(frame) ? frame : frames.at(-1))
+                       .map(m => named({...m, key: besideKey(m.own)}, beside, shot));
+    const alone = others.filter(m => !own.some(o => o.own === m.own));
+    return [...own.flatMap(m => [m, ...others.filter(o => o.own === m.own)]), ...alone];
+}
+
+/// What can stay beside `shot`; of two runs the other one of it.
+function keepBeside(shot) {
+    const before = viewer.beside, wanted = report.diff ? otherRun(shot) : before;
+    viewer.beside = shotsBeside(shot).includes(wanted) ? wanted : null;
+    if (!before || !viewer.beside) return;
+    viewer.chosen = viewer.chosen?.map(key => key.startsWith(before + "|") ? besideKey(key.slice(before.length + 1)) : key);
+}
+
+/// Shows the same points of another shot beside those that are shown; null: of none.
+function chooseBeside(shot) {
+    const chosen = viewer.chosen.filter(key => !viewer.beside || !key.startsWith(besideKey("")));
+    if (!shot && viewer.baseKey === sameKey) viewer.baseKey = truthKey;
+    viewer.beside = shot;
+    viewer.chosen = shot ? chosen.flatMap(own => [own, besideKey(own)]) : chosen;
+    return chooseFrame(viewer.frame);
 }
 
 const framesOf = shot => unique(report.images.filter(i => i.shot === shot).map(frameOf)).sort((a, b) => a - b);
@@ -118,6 +173,7 @@ async function openViewer({shot, points = [], target}) {
     const wanted =
         own.filter(m => points.includes(m.label)).sort((a, b) => points.indexOf(a.label) - points.indexOf(b.label));
     viewer.chosen = [truthKey, ...wanted.map(m => m.key)];
+    viewer.beside = null;
     viewer.layout = "side";
     viewer.target = target ?? viewer.target;
     at("viewer").scrollIntoView();
@@ -133,6 +189,7 @@ const shotExposure = shot => {
 
 function chooseShot(shot) {
     if (shot !== viewer.shot) {
+        keepBeside(shot);
         Object.assign(viewer, {shot, pinned: null, pointed: null, frame: framesOf(shot).at(-1)});
         Object.assign(view, {x: 0.5, y: 0.5, zoom: 1});
         setScale(0);
@@ -145,12 +202,12 @@ function chooseShot(shot) {
 
 function chooseFrame(frame) {
     viewer.frame = frame;
-    viewer.methods = methodsOf(viewer.shot, frame);
+    viewer.methods = allMethods(frame);
     const targets = targetsOf(viewer.methods);
     viewer.target = preferred(targets, viewer.target ?? "image");
-    const compared = viewer.methods.filter(m => m.key === truthKey || !isSingleChange(m));
+    const compared = viewer.methods.filter(m => m.shot === viewer.shot && (m.key === truthKey || !isSingleChange(m)));
     if (!viewer.methods.some(m => viewer.chosen?.includes(m.key))) viewer.chosen = firstKeys(compared);
-    const choices = JSON.stringify([viewer.shot, viewer.target, targets, viewer.methods.map(m => m.key)]);
+    const choices = JSON.stringify([viewer.shot, viewer.beside, viewer.target, targets, viewer.methods.map(m => m.key)]);
     if (viewer.choices !== choices) showChoiceOfImages(targets);  // else the reader keeps filter and focus
     viewer.choices = choices;
     return showImages();
@@ -167,8 +224,8 @@ function firstKeys(methods) {
 
 /// What is to be there before the current choice can be painted.
 function neededImages() {
-    const methods =
-        viewer.methods.filter(m => viewer.chosen.includes(m.key) || m.key === viewer.baseKey || m.key === truthKey);
+    const chosen = viewer.methods.filter(m => viewer.chosen.includes(m.key));
+    const methods = [...chosen, ...chosen.map(baseMethod), truthMethod()].filter(Boolean);
     const needed = methods.map(resultIndex);
     if (viewer.mode === "confidence") needed.push(...methods.map(m => m.confidence));
     if (viewer.mode === "rays" || viewer.mode === "cause")
@@ -180,12 +237,18 @@ function neededImages() {
 /// Loads what is chosen, and shows it.
 async function showImages() {
     const request = ++viewer.request;
-    const missing = neededImages().some(i => !loadedImages.has(i));
-    at("panes").setAttribute("aria-busy", missing);
+    const missing = neededImages().some(i => !loadedImages.has(i)), isFlip = viewer.mode === "flip";
+    at("panes").setAttribute("aria-busy", missing || isFlip);
     await loadImages(neededImages());
     if (request !== viewer.request) return;  // another choice was made meanwhile
-    at("panes").setAttribute("aria-busy", "false");
     setShown();
+    if (isFlip)
+        for (const {method, image} of viewer.shown.filter(hasBase)) {
+            scalarsOf(image, baseOf(method), "flip");  // takes a second for two megapixels
+            await new Promise(resolve => setTimeout(resolve));
+            if (request !== viewer.request) return;
+        }
+    at("panes").setAttribute("aria-busy", "false");
     layOut();
     if (viewer.pinned) loadForInspector();
 }
@@ -237,7 +300,7 @@ function layOut() {
     showPair();
     showCrops();
     const wantedOf = item => {
-        const hasError = viewer.hasErrorRow && base() && item.image !== base();
+        const hasError = viewer.hasErrorRow && hasBase(item);
         return [{item, mode: viewer.mode}, ...(hasError ? [{item, mode: "absolute"}] : [])];
     };
     const current = shown[viewer.active];
@@ -261,7 +324,7 @@ function pictureOf({method, image}, mode, table, maximumOf) {
     const inColor = note => ({pixels: colorPixels(image, table), note});
     if (mode === "nearest")
         return method.key === truthKey ? {pixels: nearestMap().pixels, note: "nearest method"} : inColor("");
-    if (mode === "cause") return causePicture(method, image) ?? inColor("");
+    if (mode === "cause") return method.shot === viewer.shot && causePicture(method, image) || inColor("");
     if (mode === "rays") return verdictPicture(method) ?? inColor(method.key === truthKey ? "" : "no verdicts");
     if (mode === "confidence") {
         const own = loadedImages.get(method.confidence);
@@ -271,18 +334,18 @@ function pictureOf({method, image}, mode, table, maximumOf) {
             note: "confidence"
         };
     }
-    if (mode === "color" || isError(mode) && (!base() || image === base())) return inColor("");
-    const {title, isSigned} = scalarModes[mode];
-    return {pixels: falseColorPixels(scalarsOf(image, base(), mode), image, maximumOf(mode), isSigned), note: title};
+    if (mode === "color" || isError(mode) && !hasBase({method, image})) return inColor("");
+    const {title, isSigned} = scalarModes[mode], values = scalarsOf(image, baseOf(method), mode);
+    return {pixels: falseColorPixels(values, image, maximumOf(mode), isSigned), note: title};
 }
 
 /// Fills the panes' pictures anew: colours depend on mode, exposure, curve and scale.
 function paint() {
     lossMaps.clear();
     const table = displayTable(viewer.exposure, viewer.curve), maxima = {};
-    const maximumOf = mode => maxima[mode] ??=
-        sharedMaximum(viewer.shown.map(s => s.image).filter(i => !isError(mode) || i !== base()), base(), mode) * 2 **
-        viewer.scale;
+    const maximumOf = mode => maxima[mode] ??= 2 ** viewer.scale *
+        sharedMaximum(
+            viewer.shown.filter(s => !isError(mode) || hasBase(s)).map(s => [s.image, baseOf(s.method)]), mode);
     for (const pane of viewer.panes) {
         const {item, mode, other} = pane.wanted;
         const picture = pictureOf(item, mode, table, maximumOf);

@@ -5,6 +5,11 @@ function showChoiceOfImages(targets) {
     at("viewer-choice")
         .replaceChildren(
             select("Shot", unique(report.images.map(i => i.shot)), viewer.shot, chooseShot),
+            ...(shotsBeside(viewer.shot).length ?
+                    [select(
+                        "Beside it", [["", "no other shot"], ...shotsBeside(viewer.shot)], viewer.beside ?? "",
+                        shot => chooseBeside(shot || null))] :
+                    []),
             select(
                 "Target", targets, viewer.target,
                 t => {
@@ -15,9 +20,9 @@ function showChoiceOfImages(targets) {
             h("span", {class: "button-row", role: "group", "aria-label": "Layout"},
               ...layouts.map(([key, name]) => h("button", {id: "layout-" + key, click: () => setLayout(key)}, name))),
             h("button", {id: "crop-mode", "aria-pressed": crops.isOn, click: toggleCropMode}, "Crop"),
-            h("button", {id: "save-picture", click: savePicture}, "Save picture"),
-            h("button", {id: "copy-picture", click: copyPicture}, "Copy picture"),
+            h("button", {id: "save-picture", click: savePicture}), h("button", {id: "copy-picture", click: copyPicture}),
             h("button", {id: "full-screen", click: toggleFullScreen}, "Full screen"), h("output", {id: "viewer-kept"}));
+    nameKeeping();
     const names = viewer.methods.map(m => [m.key, m.label]);
     at("viewer-images").replaceChildren(h("div", {class: "controls", id: "viewer-chips"}), chooser());
     at("viewer-pair")
@@ -69,7 +74,7 @@ function chooser() {
                       checked: viewer.chosen.includes(method.key),
                       change: event => choose([method.key], event.target.checked)
                   }),
-                  own.length > 1 ? method.point || method.label : method.label));
+                  own.length > 1 && method.shot === viewer.shot ? method.point || method.label : method.label));
         const all = own.length > 1 ? h("button", {
             click: () => choose(listedKeys(own), !listedKeys(own).every(key => viewer.chosen.includes(key))),
             "aria-label": `all / none of ${variant}`
@@ -169,6 +174,12 @@ function stepFrame(step) {
     if (frames.length < 2) return;
     const place = (frames.indexOf(viewer.frame) + step + frames.length) % frames.length;
     return setFrame(frames[place]);
+}
+
+async function playShot(shot) {
+    at("viewer").scrollIntoView();
+    await chooseShot(shot);
+    if (!viewer.isPlaying) togglePlaying();
 }
 
 const playInterval = 200;  // ms between frames, longer where images must be loaded

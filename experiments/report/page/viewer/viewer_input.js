@@ -105,6 +105,7 @@ const viewerKeys = {
     "-": () => zoomByKey(1 / 1.5),
     "e": () => toggledMode("absolute"),
     "d": () => toggledMode("signed"),
+    "v": () => toggledMode("flip"),
     "s": () => setLayout("side"),
     "x": () => setLayout("split"),
     "[": () => setSplit(viewer.splitAt - 0.05),

@@ -12,6 +12,7 @@ function viewerAddress() {
     state.append("look", numbers(viewer.exposure, viewer.scale, viewer.splitAt, Number(viewer.hasErrorRow)));
     state.append("pair", numbers(viewer.active, viewer.previous));
     if (at("viewer").getBoundingClientRect().top > innerHeight) state.append("top", 1);  // the reader is above it
+    if (viewer.beside) state.append("beside", viewer.beside);
     if (viewer.pinned) state.append("pinned", numbers(viewer.pinned.x, viewer.pinned.y));
     return addressStart + state;
 }
@@ -44,6 +45,8 @@ function restoreChoice(state) {
         if (Object.hasOwn(values, state.get(key))) viewer[key] = state.get(key);
     Object.assign(viewer, {chosen: state.getAll("image"), target: state.get("target")});
     viewer.baseKey = state.get("baseKey") ?? truthKey;
+    const beside = state.get("beside");
+    viewer.beside = shotsBeside(state.get("shot")).includes(beside) ? beside : null;
 }
 
 async function restoreView(state) {
@@ -92,6 +95,12 @@ function shownPicture() {
             context.drawImage(pane.canvas, x, y + line, width, height);
     });
     return canvas;
+}
+
+/// Says what is saved and copied.
+function nameKeeping() {
+    for (const [id, does] of [["save-picture", "Save"], ["copy-picture", "Copy"]])
+        if (at(id)) at(id).textContent = `${does} ${crops.box ? "crop" : "picture"}`;
 }
 
 const pictureBlob = () => new Promise(resolve => shownPicture().toBlob(resolve, "image/png"));

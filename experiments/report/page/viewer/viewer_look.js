@@ -2,7 +2,7 @@
 
 const viewerModes = [
     ["color", "colour"], ["absolute", "absolute difference"], ["signed", "signed difference"],
-    ["relative", "relative error"], ["luminance", "luminance"], ["nearest", "which method is nearest to the truth"],
+    ["relative", "relative error"], ["flip", "FLIP"], ["luminance", "luminance"], ["nearest", "which method is nearest to the truth"],
     ["cause", "cause of the error"], ["rays", "where rays ended"], ["confidence", "confidence"]
 ];
 
@@ -55,10 +55,14 @@ function showLook() {
             h("button", {id: "reset", click: reset}, "Reset view"));
 }
 
+const baseNames = () =>
+    [...viewer.methods.map(m => [m.key, m.label]),
+     ...(viewer.beside ? [[sameKey, `the same point, ${ownWords(viewer.shot, viewer.beside)}`]] : [])];
+
 /// What differences are taken against: the truth, or any other image.
 function showBases() {
     at("viewer-base")
-        .replaceChildren(select("Against", viewer.methods.map(m => [m.key, m.label]), viewer.baseKey, key => {
+        .replaceChildren(select("Against", baseNames(), viewer.baseKey, key => {
             viewer.baseKey = key;
             return showImages();
         }));
@@ -99,19 +103,21 @@ function showLegend(maximumOf) {
     const shownAs = `${viewer.shot}${at("viewer-time").hidden ? "" : `, frame ${viewer.frame}`}, ${
         viewer.target}; exposure ${at("exposure-value").textContent} EV, ${
         curve} (for display alone: all values are kept). Magenta: not finite.`;
+    const isPlayed = viewer.shown.some(s => s.image.kind === "played");
+    const ofPlayed = isPlayed ? " This frame was kept for playing: its reflections alone, rounded to 1.6 % in this page." : "";
     const parts = viewer.mode === "nearest" ? nearestLegend() :
         viewer.mode === "cause"             ? causeLegend() :
         viewer.mode === "rays"              ? verdictMapLegend() :
                                               [];
     const scaled = scalarModes[viewer.mode] ? viewer.mode : viewer.hasErrorRow ? "absolute" : null;
-    const hasBar = scaled && viewer.shown.length && (!isError(scaled) || base());
+    const hasBar = scaled && viewer.shown.length && (!isError(scaled) || viewer.shown.some(hasBase));
     at("viewer-legend")
-        .replaceChildren(...(hasBar ? [colorBar(scaled, maximumOf)] : []), ...parts, h("p", {class: "note"}, shownAs));
+        .replaceChildren(...(hasBar ? [colorBar(scaled, maximumOf)] : []), ...parts, h("p", {class: "note"}, shownAs + ofPlayed));
 }
 
 function colorBar(mode, maximumOf) {
-    const {formula, isSigned, isFixed} = scalarModes[mode];
-    const maximum = isFixed ? 1 : maximumOf(mode);
+    const {formula, isSigned} = scalarModes[mode];
+    const maximum = mode === "confidence" ? 1 : maximumOf(mode);
     const bar = h("canvas", {width: 256, height: 1, role: "img", "aria-label": "Colour scale"});
     const context = bar.getContext("2d");
     (isSigned ? diverging : magma).forEach((color, i) => {
@@ -119,7 +125,7 @@ function colorBar(mode, maximumOf) {
         context.fillRect(i, 0, 1, 1);
     });
     const against = isError(mode) && viewer.baseKey !== truthKey ?
-        ` against ${viewer.methods.find(m => m.key === viewer.baseKey)?.label}` :
+        ` against ${new Map(baseNames()).get(viewer.baseKey)}` :
         "";
     return h(
         "p", {class: "color-bar", id: "color-bar"}, h("span", {}, isSigned ? `−${number(maximum, 3)}` : "0"), bar,
@@ -130,7 +136,7 @@ function keyHelp() {
     const keys = [
         ["1…9", "one image in place (with a split: on the left)"], ["Space", "the one before in its place"],
         ["n p", "next and previous image in place"], ["s", "side by side"], ["x", "split"], ["[ ]", "move the split"],
-        ["e", "absolute difference"], ["d", "signed difference"], ["+ -", "zoom; the wheel does it at the pointer"],
+        ["e", "absolute difference"], ["d", "signed difference"], ["v", "FLIP"], ["+ -", "zoom; the wheel does it at the pointer"],
         ["← ↑ → ↓", "move the pinned pixel, else the view"], ["Enter", "pin the pixel in the middle, or let go"],
         ["< >", "exposure"], [", .", "frame before and after"], ["k", "play, or stop"],
         ["c", "crop: arrows move the box, with Shift they size it"], ["f", "full screen"], ["/", "filter the images"],
