@@ -12,7 +12,8 @@ import re
 
 from ssrlab import statistics
 from ssrlab.results import ResultsError
-from paper_tables import formats, summary_file
+from paper_tables import summary_file
+from paper_tables.markdown import markdown
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
 
@@ -103,7 +104,7 @@ def filled(text, summaries, file):
         table, cells = tables[block["name"]]
         if block["excerpt"]:
             table, cells = _excerpt(table, cells, block["excerpt"], f"{file}: table {block['name']}")
-        return block["head"] + formats.markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
+        return block["head"] + markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
 
     numbers = Numbers(summaries, file)
     return NUMBER.sub(lambda n: n["head"] + numbers.text(n["expression"]) + n["end"], BLOCK.sub(made, text))
