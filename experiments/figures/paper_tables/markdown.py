@@ -43,20 +43,32 @@ def _shows_interval(cell):
     return formats.has_interval(cell) and (_reach(cell) > WIDE or _includes_one(cell))
 
 
+def _writer(value, low=None, high=None):
+    """How a value, the ends of its interval and of its range are written: with three digits, or fewer where the interval is wide."""
+    if 0 < abs(value) < 1e-4:
+        return lambda n: f"{n:.2e}"
+    places = _places(value, low, high)
+    return lambda n: _number(n, min(places, _places(n)))
+
+
+def number(value):
+    return _writer(value)(value)
+
+
+def with_interval(cell):
+    """0.71 [0.58, 0.85]; without the interval where there is none."""
+    text = _writer(cell.value, cell.low, cell.high)
+    return text(cell.value) + (f" [{text(cell.low)}, {text(cell.high)}]" if formats.has_interval(cell) else "")
+
+
 def _value(cell):
     """(0.71 [0.58, 0.85], ["0.37 to 0.90"]): the number, and what stands in parentheses behind it and its marks."""
     if cell.value is None:
         return NO_VALUE, []
-    if cell.is_count():
-        ends = [numbers.count(n) for n in (cell.least, cell.most)] if formats.has_range(cell) else []
-        return numbers.count(cell.value), [" to ".join(ends)] if len(set(ends)) > 1 else []
-    if 0 < abs(cell.value) < 1e-4:
-        text = lambda n: f"{n:.2e}"  # noqa: E731
-    else:
-        places = _places(cell.value, cell.low, cell.high)
-        text = lambda n: _number(n, min(places, _places(n)))  # noqa: E731
-    ends = f" [{text(cell.low)}, {text(cell.high)}]" if _shows_interval(cell) else ""
-    return text(cell.value) + ends, [f"{text(cell.least)} to {text(cell.most)}"] if formats.has_range(cell) else []
+    text = numbers.count if cell.is_count() else _writer(cell.value, cell.low, cell.high)
+    ends = [text(n) for n in (cell.least, cell.most)] if formats.has_range(cell) else []
+    words = [] if cell.is_count() and len(set(ends)) == 1 else [" to ".join(ends)] if ends else []
+    return with_interval(cell) if _shows_interval(cell) else text(cell.value), words
 
 
 class _Marks:

@@ -88,6 +88,27 @@ def test_reading():
     check(names == {fence: "fence main", sponza: "sponza", "fence.side.320x180.w12.d16": "fence side d16"}, names)
 
 
+def test_names_in_prose(temporary):
+    """What a sentence claims of a table is made from it: which point is first, its interval, the largest of a mean's shots."""
+    folder, root = os.path.join(temporary, "prose"), os.path.join(temporary, "tree of prose")
+    write_results(folder)
+    document = os.path.join(root, "README.md")
+    said = {
+        'first("made_up", "levels", column="floor")': "sssr, taps=4",
+        'first("made_up", "levels", column="floor", without=["sssr, taps=4"])': "sssr, default",
+        'shown("made_up", "levels", "default", "floor")': "0.0123 [0.0111, 0.0135]",
+        'number(most("made_up", "changes", "taps = 4", "mse"))': "2.00",
+        'len(shots("made_up", "levels"))': "2",
+    }
+    write(document, "".join(f"<!-- table made_up {name} -->\n<!-- end of table -->\n" for name in ("levels", "changes")) + "".join(f"<!--= {asked} -->?<!--/-->\n" for asked in said))
+    result = tables(folder, "--keep", "--root", root)
+    check(result.returncode == 0, result.stderr)
+    for asked, answer in said.items():
+        check(f"<!--= {asked} -->{answer}<!--/-->" in read(document), f"{asked}: {read(document)}")
+    write(document, read(document).replace('column="floor")', 'column="ceiling")', 1))
+    check("is not one line of made_up levels" in tables("--fill", "--root", root).stderr, "a column that is not there")
+
+
 def test_bold(folder):
     """A ratio with a verdict of effects.csv is bold, in a table of single shots; "!wall" leaves that one out."""
     table = TABLES[0] | {"columns": ["metric", "shot"], "where": {"metric": "mse"}}
@@ -425,6 +446,7 @@ def main():
         write_results(folder)
         test_numbers(folder)
         test_reading()
+        test_names_in_prose(temporary)
         test_bold(folder)
         test_best(folder)
         test_display_names(folder)
