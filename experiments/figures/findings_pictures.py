@@ -201,7 +201,7 @@ def march():
         rows = []
         for point, others in (("amd_sssr, corrected", "cells"), ("diligent_ssr, corrected", "cells"), ("frostbite_sssr, best", "hierarchy")):
             color, _ = look(point)
-            names = {point: ("own march", "o"), f"{point} tracer={others}": (f"{others}", {"cells": "s", "hierarchy": "^"}[others]), f"{point} tracer=exact_scene": ("exact rays", "D")}
+            names = {point: ("own march", "o"), f"{point} tracer={others}": {"cells": ("cell by cell", "s"), "hierarchy": ("AMD's march", "^")}[others], f"{point} tracer=exact_scene": ("exact rays", "D")}
             rows.append((point, [Mark(text, color, mark, cells[name, scene], mark == "D") for name, (text, mark) in names.items()]))
         panels.append(Panel(scene, rows))
     return Picture(panels, "MSE of the reflection, 95 % intervals", columns=2)
