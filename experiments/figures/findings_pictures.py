@@ -61,7 +61,7 @@ class Picture:
     is_log: bool = True
     has_range: bool = False  # thin lines: the range over shots
     columns: int = 3
-    kind: str = "dots"  # or bars: shares that add up; lines: over the numbers that are its rows' labels
+    kind: str = "dots"  # "bars": shares that add up; "lines": over the numbers that are its rows' labels
     note: str = ""
     extra: dict = field(default_factory=dict)  # axis limits
 
@@ -306,7 +306,7 @@ def draw_dots(axes, panel, picture, has_labels):
     else:
         axes.locator_params(axis="x", nbins=6)
     axes.set_yticks(range(len(panel.rows)), [label for label, _ in panel.rows] if has_labels else [])
-    axes.set_ylim(len(panel.rows) - 0.5, -0.5)
+    axes.set_ylim(len(panel.rows) - 0.4, -0.6)  # with room for whole marks
     axes.grid(axis="y", visible=len(places) > 2 * len(panel.rows))
 
 
