@@ -68,7 +68,14 @@ def _value(cell):
     text = numbers.count if cell.is_count() else _writer(cell.value, cell.low, cell.high)
     ends = [text(n) for n in (cell.least, cell.most)] if formats.has_range(cell) else []
     words = [] if cell.is_count() and len(set(ends)) == 1 else [" to ".join(ends)] if ends else []
-    return with_interval(cell) if _shows_interval(cell) else text(cell.value), words
+    if _shows_interval(cell):
+        return with_interval(cell), words
+    return _apart_from_one(cell.value) if cell.is_significant and text(cell.value) == "1.00" else text(cell.value), words
+
+
+def _apart_from_one(ratio):
+    """With as many digits as say to which side of 1 it lies."""
+    return next((shown for places in range(3, 7) if float(shown := f"{ratio:.{places}f}") != 1), "1.00")
 
 
 class _Marks:

@@ -76,6 +76,8 @@ def test_reading():
     check("where they reach further than 5 % or include 1; the others are within \N{PLUS-MINUS SIGN}0.030 %" in text, text)
     check("<details>" not in text and "commit 0123456789," in text, text)
     check("| x | 0.00010 [-0.00040, 0.00060] | 12.3 |" in made([("x", str(i), *n) for i, n in enumerate(numbers[5:])]), "an interval about 0")
+    significant = Cell("t", "x", "y", 1.0016, 1.001, 1.0022, interval="reference", is_significant=True)
+    check("| x | **1.002** |" in markdown(about, [significant], "."), "on which side of 1 a significant ratio is")
     for rows, columns in ((9, 1), (1, 6)):
         text = made([(f"r{i}", f"c{j}", 1.5, 1.49, 1.51) for i in range(rows) for j in range(columns)])
         head = f"<details>\n<summary><code>a</code> &lt; b; {rows} row{'s' * (rows > 1)}, {columns} column{'s' * (columns > 1)}</summary>\n\n| | c0 |"
