@@ -5,11 +5,13 @@
 #include <string>
 #include <string_view>
 
-/// Calls `write` with a temporary name beside `file`, then renames it to `file`; removes the temporary if `write` throws.
+/// Calls `write` with a temporary name beside `file`, then renames it to `file`; removes the temporary if `write`
+/// throws. Makes the folders above it. Fails with MachineError where these, or the new name, cannot be made.
 void write_atomically(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
 
 /// Atomic text file. Fails with MachineError where the disk is full or the folder cannot be written.
 void write_text(const std::filesystem::path& file, std::string_view text);
+/// All bytes of a file as they are. Fails with Error if it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 
 /// The content hash of everything added, as 32 hexadecimal digits (XXH3, 128 bits).
@@ -21,7 +23,7 @@ public:
     ContentHash& operator=(const ContentHash&) = delete;
 
     void add(std::span<const std::byte> bytes);
-    void add(std::string_view text);
+    void add(std::string_view text);  ///< its length, too: "ab" and "c" differ from "a" and "bc"
     /// Adds the bytes of a plain value without padding, or of a vector of such.
     template <class T>
         requires std::is_arithmetic_v<T>

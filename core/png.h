@@ -3,13 +3,14 @@
 
 #include <filesystem>
 
-/// Writes an RGB image as 8-bit sRGB after multiplying by 2^exposure_ev and clamping to [0, 1]; NaN is written as magenta,
-/// so that it is seen. Atomic as write_exr().
+/// Writes an RGB image as 8-bit sRGB after multiplying by 2^exposure_ev and clamping to [0, 1]; NaN is written as
+/// magenta, so that it is seen. Atomic as write_exr(), and fails as it does; with Error if the image has zero size.
 void write_png(const std::filesystem::path& file, const HostImage& rgb, float exposure_ev = 0.0f);
 
 /// Reads an 8-bit or 16-bit PNG, grey or colour, as sRGB *codes* in [0, 1] (not linear), three channels.
+/// Fails with Error if the file is missing or no PNG.
 HostImage read_png_codes(const std::filesystem::path& file);
 
-/// IEC 61966-2-1.
+/// IEC 61966-2-1, both ways; 0 and 1 are kept.
 float srgb_from_linear(float linear);
 float linear_from_srgb(float code);

@@ -17,7 +17,7 @@ public:
     }
     glm::vec3 eye() const { return eye_; }
 
-    bool frames(glm::vec3 position) const;
+    bool frames(glm::vec3 position) const;  ///< world space (m); hidden or not
     /// Whether the image shows what is infinitely far along `direction`. An orthographic camera shows one direction at
     /// most, which no sample ever has.
     bool frames_direction(glm::vec3 direction) const;

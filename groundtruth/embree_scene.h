@@ -48,6 +48,7 @@ public:
     const InstanceRecord& instance(uint32_t index) const { return instances_[index]; }
     bool has_alpha_tests() const { return !alpha_tests_.empty(); }
 
+    /// Of a hit. `u`, `v`: barycentrics of the second and the third corner, as Embree gives them.
     SurfacePoint point(uint32_t instance, uint32_t triangle, float u, float v) const;
     void prefetch(uint32_t instance, uint32_t triangle) const {
         const char* record = reinterpret_cast<const char*>(&instances_[instance].triangles[triangle]);

@@ -15,7 +15,7 @@ public:
     double mean_luminance() const { return mean_luminance_; }  ///< over the sphere
 
     glm::vec3 sample(glm::uvec2 bits, float& pdf) const;  ///< unit direction; pdf in sr^-1
-    float pdf(glm::vec3 direction) const;
+    float pdf(glm::vec3 direction) const;                 ///< with which sample() draws a unit direction, sr^-1
 
 private:
     unsigned width_ = 0, height_ = 0;  ///< cells in longitude and latitude

@@ -38,6 +38,7 @@ public:
     struct Choice {
         uint32_t group, rest;  ///< rest: uniform 32-bit fixed point
     };
+    /// A group with its probability(). `bits`: uniform 32-bit fixed point.
     Choice sample(uint32_t cell, uint32_t bits) const;
 
 private:

@@ -25,6 +25,7 @@ struct PunctualArrival {
     glm::vec3 irradiance;  ///< at normal incidence (W m^-2)
     bool is_infinite;      ///< the light is at no place
 };
+/// `point`: m, world space. Range and cone as KHR_lights_punctual has them.
 PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
 
 /// Chooses among emissive triangles, punctual lights and the environment: a group by LightChoice, and within it in
@@ -55,6 +56,7 @@ public:
     /// from a point of `cell`.
     float triangle_pdf(uint32_t cell, uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
                        float distance) const;
+    /// The same (sr^-1) of a unit direction to the environment; 0 where it is not sampled.
     float environment_pdf(uint32_t cell, glm::vec3 direction) const;
 
 private:

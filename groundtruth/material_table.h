@@ -34,7 +34,8 @@ public:
     void prefetch_corners(uint32_t instance, uint32_t triangle) const;
     void prefetch_texels(uint32_t instance, uint32_t triangle, float u, float v) const;
 
-    /// Radiance that the material emits at barycentrics (u, v), on a side that emits; none where a mask cuts it out.
+    /// Radiance (W sr^-1 m^-2) that the material emits at barycentrics (u, v), on a side that emits; none where a mask
+    /// cuts it out.
     glm::vec3 emission(uint32_t instance, uint32_t triangle, float u, float v) const;
 
     /// What emission() cannot exceed but by vertex colours above 1.

@@ -104,6 +104,7 @@ public:
     void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
                PixelEstimate& estimate) const;
 
+    /// What this scene does not need; nothing with PathTracerSettings::keep_all.
     const std::vector<LeftOut>& left_out() const;
 
 private:

@@ -37,4 +37,5 @@ struct ReferenceAudit {
         0;  ///< Reference::cut_share of all light: share of the image's that paths beyond max_depth carry
     std::vector<std::string> warnings;  ///< sentences, without a full stop; empty if there are none
 };
+/// Of a finished reference: audit_halves() of all its outputs, and what its depth cuts off.
 ReferenceAudit audit_reference(const Reference& reference);

@@ -10,5 +10,7 @@ struct CameraFile {
     float exposure_ev = 0;
 };
 
+/// Every number reads back as the same bits. Atomic as write_text(), and fails as it does.
 void write_camera(const std::filesystem::path& file, const CameraFile& camera);
+/// Fails with Error, which names file and key, where one is missing, unknown, no number or out of range.
 CameraFile read_camera(const std::filesystem::path& file);

@@ -11,4 +11,5 @@ struct LeadingVertices {
         triangle_normal;  ///< per vertex: the unit normal of the triangle it leads, in object space; 0 if none
 };
 
+/// Of all triangles of the mesh, in their order.
 LeadingVertices find_leading_vertices(const Mesh& mesh);

@@ -31,7 +31,7 @@ SceneFacts material_facts(const Scene& scene);
 
 /// What the pixels of one frame show, as shares of all pixels.
 struct PixelFacts {
-    float background = 0.0f;
+    float background = 0.0f;                           ///< no surface
     float reflective = 0.0f;                           ///< specular reflectance is not zero
     float mirror = 0.0f;                               ///< ... and as smooth as both renderers distinguish
     float moving = 0.0f;                               ///< surfaces whose motion vector exceeds a hundredth of a pixel
@@ -43,5 +43,6 @@ PixelFacts pixel_facts(const HostGBuffer& gbuffer);
 struct SceneFact {
     std::string name, value, why;
 };
+/// All facts of a scene and of the pixels of a frame, in the order in which they are printed.
 std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& facts);
 std::vector<SceneFact> list_facts(const PixelFacts& facts);

@@ -9,6 +9,7 @@
 /// What can be said of a clock. On a busy machine work takes longer than it is: then its times prove nothing, for or
 /// against the clock.
 enum class ClockVerdict { passed, failed, not_judged };
+/// As in manifest.json: "passed", "failed", "not_judged".
 const char* name_of(ClockVerdict verdict);
 
 /// Passes of known relative work, timed as every stage is timed.
@@ -43,6 +44,6 @@ inline constexpr unsigned clock_attempts = 3;
 /// `measured_ms`, `expected` and `foreign_load`.
 void judge(ClockCheck& check);
 
-/// Takes about five seconds, three times that if it has to repeat.
+/// Of the clock that suits the device, or of `clock`. Takes about five seconds, three times that if it has to repeat.
 ClockProof prove_clock(Device& device, const CpuTimesReader& cpu_times = read_cpu_times);
 ClockProof prove_clock(Device& device, Clock clock, const CpuTimesReader& cpu_times = read_cpu_times);

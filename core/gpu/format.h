@@ -16,9 +16,10 @@ struct FormatFacts {
     bool is_color_renderable, is_filterable;  ///< in WebGL 2 with EXT_color_buffer_float
 };
 const FormatFacts& facts_of(Format format);
+/// In the order of Format.
 std::span<const FormatFacts> all_formats();
 
-/// Texels of the format from float32 channels and back. Halves are rounded to the nearest even, unorm bytes to the
-/// nearest.
+/// Texels of the format from float32 channels and back: as many values as the texels have channels. Halves are rounded
+/// to the nearest even, unorm values to the nearest after clamping to [0, 1].
 void encode_texels(Format format, std::span<const float> values, std::byte* texels);
 void decode_texels(Format format, const std::byte* texels, std::span<float> values);

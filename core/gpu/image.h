@@ -31,7 +31,7 @@ struct Image {
     unsigned mips = 1, first_mip = 0;
     std::shared_ptr<struct ImageStorage> storage;
 
-    Image mip(unsigned level) const;
+    Image mip(unsigned level) const;          ///< counted from first_mip; half the extent for each, at least 1
     Image as(std::string shader_name) const;  ///< the same image, bound to another variable
 };
 
@@ -41,5 +41,5 @@ struct Buffer {
     size_t size = 0;   ///< bytes
     std::shared_ptr<struct BufferStorage> storage;
 
-    Buffer as(std::string shader_name) const;
+    Buffer as(std::string shader_name) const;  ///< the same bytes, bound to another block
 };

@@ -24,7 +24,7 @@ struct PassCost {
     uint64_t atomics = 0;       ///< their 4 bytes are both read and written
     uint64_t operations = 0;    ///< scalar arithmetic as the shader states it, see count_in() in counted_shader.h
 
-    void add(const PassCost& other);
+    void add(const PassCost& other);  ///< its counts; `stage` stays
 };
 
 struct CostQuantity {

@@ -92,6 +92,7 @@ public:
     /// is the graph's divided by `divisor`, rounded down, at least 1. Asking again with another format, size or mip
     /// count makes a new one.
     Image image(const std::string& name, Format format, unsigned mips = 1, unsigned divisor = 1);
+    /// The same with an extent of its own (pixels).
     Image image_of(const std::string& name, Format format, glm::uvec2 extent, unsigned mips = 1);
     /// The same, with zeros at first.
     Image image_black_at_first(const std::string& name, Format format, glm::uvec2 extent);
@@ -102,6 +103,7 @@ public:
     struct History {
         Image current, previous;  ///< named `name` and `previous_<name>`
     };
+    /// Of the graph's extent, or of `extent`.
     History history(const std::string& name, Format format);
     History history(const std::string& name, Format format, glm::uvec2 extent);
 
@@ -109,6 +111,7 @@ public:
     Pass compute(const std::string&
                      shader);  ///< "mcguire_dda/trace.comp", found under variants/, core/shaders/ or the project's root
     Pass fragment(const std::string& shader);  ///< over the whole of its outputs
+    /// Meshes one after the other, which the vertex shader places.
     Pass draw(const std::string& vertex_shader, const std::string& fragment_shader, std::vector<Draw> draws);
 
     /// Starts a frame: forgets the times of the last one and exchanges histories. Every pass may use `camera`, `params`
@@ -136,17 +139,18 @@ public:
 
     void clear(const Image& image,
                glm::vec4 value);  ///< all its mips; timed as the stage "clear"; depth: x depth, y stencil
-    void clear(const Buffer& buffer, uint32_t value);
+    void clear(const Buffer& buffer, uint32_t value);  ///< each of its words of 4 bytes; the same stage
+    /// Uploads fail with Error where extent, channels or size differ from those of the image or buffer.
     void upload(const Image& image,
                 const HostImage& pixels);  ///< one mip, same extent and channel count; converted to the format
-    void upload_rgba8(const Image& image, std::span<const uint8_t> texels);
-    void upload(const Buffer& buffer, std::span<const std::byte> bytes);
+    void upload_rgba8(const Image& image, std::span<const uint8_t> texels);  ///< one mip, 4 bytes a texel, row by row
+    void upload(const Buffer& buffer, std::span<const std::byte> bytes);     ///< all of it
     HostImage download(const Image& image);  ///< mip first_mip; as many channels as the format has; depth: one
     std::vector<std::byte> download(const Buffer& buffer);
 
     /// Stages since begin_frame(), in order; a stage run several times is summed. On a GPU this waits for the frame.
     std::vector<PassTime> times();
-    /// From the first to the last command of the frame; the sum of stages on a CPU.
+    /// ms, from the first to the last command of the frame; the sum of stages on a CPU.
     double frame_milliseconds();
 
     /// From now on every pass counts what it does, or none does; images are the same bits either way, times are not.
@@ -170,24 +174,24 @@ private:
 /// One pass, described and then run by run() or dispatch().
 class PassGraph::Pass {
 public:
-    Pass& read(const Image& image, Sampling sampling = {});
+    Pass& read(const Image& image, Sampling sampling = {});  ///< through a sampler of the image's name
     Pass& read_linear(const Image& image) { return read(image, {.is_linear = true}); }
-    Pass& write(const Image& image);
-    Pass& use(const Buffer& buffer);
-    Pass& stencil(Stencil stencil);
+    Pass& write(const Image& image);  ///< a storage image of a compute pass, else an output of the fragment shader
+    Pass& use(const Buffer& buffer);  ///< to read or to write
+    Pass& stencil(Stencil stencil);   ///< of fragment passes and draws; none without it, and so for depth()
     Pass& depth(DepthTest test);
     Pass& set(const std::string& name, float value);  ///< a member of the shader's push_constant block
     Pass& set(const std::string& name, int value);
     Pass& set(const std::string& name, unsigned value);
     Pass& set(const std::string& name, glm::vec4 value);
     Pass& include(const std::string& name, std::string glsl);  ///< what `#include "name"` stands for in this pass
-    Pass& label(std::string stage);
+    Pass& label(std::string stage);                            ///< in place of the shader's path
     const std::string& stage() const { return label_; }
 
     /// Compute: one invocation per pixel of the first written image, or of `extent`; fragment, draw: over the outputs.
     void run();
     void run(glm::uvec2 extent);
-    void dispatch_groups(glm::uvec3 groups);
+    void dispatch_groups(glm::uvec3 groups);                    ///< compute: so many workgroups
     void dispatch(const Buffer& arguments, size_t offset = 0);  ///< three uints: numbers of groups
 
 private:

@@ -17,6 +17,7 @@ struct CameraPose {
     float near = 0.1f, far = 100.0f;   ///< m
 };
 
+/// At a frame, which may lie between two. Fails with Error where the node that it hangs on has a scale of 0.
 CameraPose pose_camera(const SceneCamera& camera, const ScenePose& scene_pose, float frame);
 
 struct FrameView {
@@ -29,6 +30,7 @@ struct FrameView {
     std::optional<unsigned> index;           ///< how many frames were rendered before; none: `frame` many
     std::optional<unsigned> previous_frame;  ///< pose of the one before; none: frame - 1. Not looked at if index is 0
 
+    /// How many frames were rendered before this one.
     unsigned rendered_index() const { return index.value_or(frame); }
     /// Pose of the frame rendered before; none for the first.
     std::optional<unsigned> predecessor() const {

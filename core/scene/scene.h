@@ -97,7 +97,7 @@ struct Environment {
     HostImage latlong;      ///< image: RGB, already times the scale; see core/shared/environment.h for its mapping
     float rotation = 0.0f;  ///< image: about +Y (radians)
 
-    bool is_black() const;
+    bool is_black() const;                          ///< in every direction
     glm::vec3 radiance(glm::vec3 direction) const;  ///< direction: unit, world space
 };
 

@@ -15,6 +15,7 @@ sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from ssrlab.results import Results, ResultsError, exit_code  # noqa: E402
 from paper_tables import documents, formats, latex, summary_file  # noqa: E402
 from paper_tables.cells import Table, cells_of  # noqa: E402
+from paper_tables.markdown import markdown  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
 
@@ -66,7 +67,7 @@ def make(folder, out, summary_folder):
     for entry in entries:
         table, cells = cells_of(results, Table(entry))
         made_from = summary_file.made_from(origin, table, cells)
-        write(os.path.join(out, table["name"] + ".md"), formats.markdown(table, cells, made_from))
+        write(os.path.join(out, table["name"] + ".md"), markdown(table, cells, made_from))
         write(os.path.join(out, table["name"] + ".tex"), latex.latex(table, cells, made_from))
         write(os.path.join(out, table["name"] + ".csv"), formats.comma_separated(cells))
         tables.append(table)

@@ -2,9 +2,10 @@
 summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "caption": "..."} -->` shows an excerpt: the
 named rows and columns in that order (all, where a key is left out).
 
-Numbers in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells() and over_scenes() of kept tables (Numbers),
-fixed(value, places), min, max, sum, len and abs."""
+Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots() and
+over_scenes() of kept tables (Numbers), number(value) of three digits, fixed(value, places), min, max, sum, len, zip and abs."""
 
+import functools
 import json
 import math
 import os
@@ -12,7 +13,8 @@ import re
 
 from ssrlab import statistics
 from ssrlab.results import ResultsError
-from paper_tables import formats, summary_file
+from paper_tables import summary_file
+from paper_tables.markdown import markdown, number, with_interval
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
 
@@ -24,40 +26,78 @@ class Numbers:
     """What an expression in prose may name; tables by the name of their study's summary and their own."""
 
     def __init__(self, summaries, file):
-        self.summaries, self.file = summaries, file
+        self.file = file
+        self._read = functools.cache(lambda study: summary_file.read(os.path.join(summaries, study + ".csv")))
 
-    def cells(self, study, table, rows=None, columns=None, with_interval=False):
-        """The values of a kept table: of the rows and of the columns whose names hold all of these whole words (None: all), where they
-        have one (and, if asked, an interval)."""
-        _, tables = summary_file.read(os.path.join(self.summaries, study + ".csv"))
+    def _table(self, study, table):
+        """(what is said of it, its cells that have a value)"""
+        _, tables = self._read(study)
         if table not in tables:
             raise ResultsError(f"{self.file}: {study} has no table '{table}'; it has: {', '.join(tables)}")
-        holds = lambda words, name: all(re.search(rf"(?<!\w){re.escape(w)}(?!\w)", name) for w in ([words] if isinstance(words, str) else words or []))
-        found = [c for c in tables[table][1] if holds(rows, c.row) and holds(columns, c.column) and c.value is not None]
-        return [c.value for c in found if c.low is not None or not with_interval]
+        about, cells = tables[table]
+        return about, [c for c in cells if c.value is not None]
 
-    def cell(self, study, table, row, column):
-        """The one value of a row and a column, by words as above."""
-        found = self.cells(study, table, row, column)
+    def _found(self, study, table, rows, columns):
+        """Cells of the rows and of the columns that are called so, or else whose names hold all of these whole words (None: all)."""
+        _, found = self._table(study, table)
+        for of, words in (("row", rows), ("column", columns)):
+            words = [words] if isinstance(words, str) else words or []
+            named = [c for c in found if [getattr(c, of)] == words]
+            holds = lambda name: all(re.search(rf"(?<!\w){re.escape(w)}(?!\w)", name) for w in words)  # noqa: B023, E731
+            found = named or [c for c in found if holds(getattr(c, of))]
+        return found
+
+    def _one(self, study, table, row, column):
+        found = self._found(study, table, row, column)
         if len(found) != 1:
             raise ResultsError(f"{self.file}: {len(found)} cells of {study} {table} are of '{row}' and '{column}'; one was meant")
         return found[0]
 
-    def over_scenes(self, study, table, column, base, as_in=None):
-        """One column over another, of a table whose rows are shots: "mean [low, high]" over scenes like these (geometric; scenes of one
+    def cells(self, study, table, rows=None, columns=None, with_interval=False):
+        """The values of a kept table, of those that have one (and, if asked, an interval)."""
+        return [c.value for c in self._found(study, table, rows, columns) if c.low is not None or not with_interval]
+
+    def cell(self, study, table, row, column):
+        """The one value of a row and a column."""
+        return self._one(study, table, row, column).value
+
+    def shown(self, study, table, row, column):
+        """The same with its interval, as text."""
+        return with_interval(self._one(study, table, row, column))
+
+    def most(self, study, table, row, column):
+        """The largest of the shots that a mean is over."""
+        return self._one(study, table, row, column).most
+
+    def first(self, study, table, row=None, column=None, without=()):
+        """The name of the least value: of the columns in a row, or of the rows in a column. `without`: names that do not compete."""
+        of = "column" if row else "row"
+        found = [c for c in self._found(study, table, row, column) if getattr(c, of) not in without]
+        if not found or len({getattr(c, of) for c in found}) < len(found):
+            raise ResultsError(f"{self.file}: '{row or column}' is not one line of {study} {table}")
+        return getattr(min(found, key=lambda c: c.value), of)
+
+    def shots(self, study, table):
+        return self._table(study, table)[0]["shots"]
+
+    def ratio_over_scenes(self, study, table, column, base, as_in=None):
+        """(mean, low, high) of one column over another, of a table whose rows are shots, over scenes like these (geometric; scenes of one
         asset averaged first). `as_in`: of the shots of this table of the study alone."""
-        _, tables = summary_file.read(os.path.join(self.summaries, study + ".csv"))
-        about, cells = tables[table]
+        about, cells = self._table(study, table)
         values = {(c.row, c.column): c.value for c in cells if c.value}
-        shots = [s for s in tables[as_in or table][0]["shots"] if (s, column) in values and (s, base) in values]
+        shots = [s for s in self.shots(study, as_in or table) if (s, column) in values and (s, base) in values]
         if not shots:
             raise ResultsError(f"{self.file}: no shot of {study} {table} has both '{column}' and '{base}'")
-        mean, low, high, _ = statistics.geometric_mean_over_scenes([(about["assets"][s], math.log(values[s, column] / values[s, base])) for s in shots])
-        mean, low, high = (v and f"{v:#.3g}".rstrip(".") for v in (mean, low, high))
+        return statistics.geometric_mean_over_scenes([(about["assets"][s], math.log(values[s, column] / values[s, base])) for s in shots])[:3]
+
+    def over_scenes(self, *chosen, **options):
+        """The same as text: "mean [low, high]"."""
+        mean, low, high = (v and f"{v:#.3g}".rstrip(".") for v in self.ratio_over_scenes(*chosen, **options))
         return mean if low is None else f"{mean} [{low}, {high}]"
 
     def text(self, expression):
-        names = {"cell": self.cell, "cells": self.cells, "over_scenes": self.over_scenes, "fixed": lambda value, places: f"{value:.{places}f}"}
+        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "over_scenes": self.over_scenes}
+        names |= {"number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}
         try:
             return str(eval(expression, {"__builtins__": {}} | names))  # of our own documents
@@ -103,7 +143,7 @@ def filled(text, summaries, file):
         table, cells = tables[block["name"]]
         if block["excerpt"]:
             table, cells = _excerpt(table, cells, block["excerpt"], f"{file}: table {block['name']}")
-        return block["head"] + formats.markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
+        return block["head"] + markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
 
     numbers = Numbers(summaries, file)
     return NUMBER.sub(lambda n: n["head"] + numbers.text(n["expression"]) + n["end"], BLOCK.sub(made, text))

@@ -1,4 +1,4 @@
-"""What the cells of a table say, and the table as Markdown and CSV."""
+"""What the cells of a table say in full, for LaTeX, and the table as CSV."""
 
 import csv
 import io
@@ -20,49 +20,49 @@ DISTURBED = "\N{SECTION SIGN}"
 NO_VALUE = "\N{EN DASH}"
 
 
-def _has_interval(cell):
+def has_interval(cell):
     return cell.value is not None and cell.low is not None and cell.high is not None
 
 
-def _lesser(cell):
-    return [LESSER[kind] for kind in (cell.interval or "").split(BOTH) if kind in LESSER] if _has_interval(cell) else []
+def lesser(cell):
+    return [LESSER[kind] for kind in (cell.interval or "").split(BOTH) if kind in LESSER] if has_interval(cell) else []
 
 
-def _has_range(cell):
+def has_range(cell):
     return cell.least is not None and cell.least != cell.most
 
 
-def _is_part(table, cell):
+def is_part(table, cell):
     """A mean over fewer than the table has, since the others have no value."""
     return cell.mean_of is not None and cell.mean_of < table["over_count"]
 
 
-def _reasons(cell):
-    return [] if _has_interval(cell) else [r for r in cell.reasons() if r != "no value"]
+def reasons(cell):
+    return [] if has_interval(cell) else [r for r in cell.reasons() if r != "no value"]
 
 
 def cell_text(table, cell):
     """0.71 [0.70, 0.73] (0.37 to 0.90; 6 of 8): the value, its interval, the range over shots, and how many of them have a value;
     with marks that notes() explains."""
-    marks = "".join(dict.fromkeys(mark for mark, _ in _lesser(cell))) + DISTURBED * bool(cell.disturbed_share)
+    marks = "".join(dict.fromkeys(mark for mark, _ in lesser(cell))) + DISTURBED * bool(cell.disturbed_share)
     words = []
     if cell.value is None:
         text = NO_VALUE
     else:
         text = numbers.count(cell.value) if cell.is_count() else numbers.with_interval(cell)
-        if _has_range(cell):
+        if has_range(cell):
             places = numbers.decimals(cell.value, cell.low, cell.high)
             least, most = (numbers.count(n) if cell.is_count() else numbers.text(n, places) for n in (cell.least, cell.most))
             words += [f"{least} to {most}"] if least != most or not cell.is_count() else []
-        if _is_part(table, cell):
+        if is_part(table, cell):
             words.append(f"{cell.mean_of} of {table['over_count']}")
     if cell.clock and len(table["clocks"]) > 1:
         words.append(cell.clock)
-    words += _reasons(cell)
+    words += reasons(cell)
     return text + marks + (f" ({'; '.join(words)})" if words else "")
 
 
-def _of_scenes(table):
+def of_scenes(table):
     """What intervals of means over shots are of."""
     if table["over"] not in SAMPLED:
         return ""
@@ -74,25 +74,36 @@ def _of_scenes(table):
     return ", of these scenes as they are: over others they are wider"  # a summary of before they were the sample
 
 
+def sentence(found):
+    text = "; ".join(found)
+    return text and text[0].upper() + text[1:] + "."
+
+
 def notes(table, cells):
     """What brackets, parentheses and marks of the table mean; "" where it has none."""
+    found = []
+    if any(has_interval(c) for c in cells):
+        found.append("in brackets 95 % intervals" + of_scenes(table))
+    found += dict.fromkeys(f"{mark}: {meaning}" for c in cells for mark, meaning in lesser(c))
+    for lacking, of in (("interval", [c for c in cells if c.value is not None]), ("number", [c for c in cells if c.value is None])):
+        named = list(dict.fromkeys(f'"{reason}"' for c in of for reason in reasons(c)))
+        if named:
+            found.append(f"{', '.join(named)}: why there is no {lacking}")
+    if any(c.value is not None and not has_interval(c) and not reasons(c) and not c.is_count() for c in cells):
+        found.append("a number without brackets has no interval")
+    return sentence(found + other_notes(table, cells))
+
+
+def other_notes(table, cells):
+    """What is said beside intervals."""
     over = {"shot": "shots", "scene": "scenes"}.get(table["over"], f"all {table['over']}")
     found = []
-    if any(_has_interval(c) for c in cells):
-        found.append("in brackets 95 % intervals" + _of_scenes(table))
-    if any(_has_range(c) for c in cells):
+    if any(has_range(c) for c in cells):
         found.append(f"in parentheses the range over {over}")
-    if any(_is_part(table, c) and c.value is not None for c in cells):
+    if any(is_part(table, c) and c.value is not None for c in cells):
         found.append(f"\"n of {table['over_count']}\": so many of the {over} have a value and are in the mean")
-    found += dict.fromkeys(f"{mark}: {meaning}" for c in cells for mark, meaning in _lesser(c))
-    for lacking, of in (("interval", [c for c in cells if c.value is not None]), ("number", [c for c in cells if c.value is None])):
-        reasons = list(dict.fromkeys(f'"{reason}"' for c in of for reason in _reasons(c)))
-        if reasons:
-            found.append(f"{', '.join(reasons)}: why there is no {lacking}")
     if any(c.is_count() for c in cells):
         found.append("counts of the last frame, exact but for rounding to three digits; k, M, G: thousands, millions, billions")
-    if any(c.value is not None and not _has_interval(c) and not _reasons(c) and not c.is_count() for c in cells):
-        found.append("a number without brackets has no interval")
     if any(c.value is None for c in cells):
         found.append(f"{NO_VALUE}: no value")
     share = max((c.disturbed_share for c in cells if c.disturbed_share), default=None)
@@ -107,8 +118,7 @@ def notes(table, cells):
         found.append("bold: significantly the best of all points of its shot")
     if any(c.standing == TIED for c in cells):
         found.append("italic: the best measured of its shot, or not distinguishable from it")
-    text = "; ".join(found)
-    return text and text[0].upper() + text[1:] + "."
+    return found
 
 
 def is_bold(cell):
@@ -120,25 +130,6 @@ def grid(cells):
     rows = list(dict.fromkeys(c.row for c in cells))
     columns = list(dict.fromkeys(c.column for c in cells))
     return rows, columns, {(c.row, c.column): c for c in cells}
-
-
-def markdown(table, cells, made_from):
-    rows, columns, at = grid(cells)
-
-    def shown(row, column):
-        cell = at.get((row, column))
-        if cell is None:
-            return ""
-        text = cell_text(table, cell)
-        mark = "**" if is_bold(cell) else "*" if cell.standing == TIED else ""
-        return f"{mark}{text}{mark}"
-
-    escaped = [c.replace("|", "\\|") for c in columns]
-    lines = [f"{table['caption']}", "", "| | " + " | ".join(escaped) + " |", "|---" * (len(columns) + 1) + "|"]
-    for row in rows:
-        name = row.replace("|", "\\|")
-        lines.append(f"| {name} | " + " | ".join(shown(row, c) for c in columns) + " |")
-    return "\n".join([*lines, "", f"{made_from} {notes(table, cells)}".rstrip(), ""])
 
 
 def comma_separated(cells):

@@ -17,8 +17,13 @@ sys.path[:0] = [os.path.dirname(script), os.path.join(os.path.dirname(script), "
 sys.dont_write_bytecode = True
 
 from paper_figures import numbers  # noqa: E402
-from paper_tables import summary_file  # noqa: E402
+from paper_tables import shot_names, summary_file  # noqa: E402
+from paper_tables.cell import Cell  # noqa: E402
+from paper_tables.markdown import markdown  # noqa: E402
 from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows  # noqa: E402
+
+
+A = "\N{MODIFIER LETTER SMALL A}"
 
 
 def check(is_true, what):
@@ -38,23 +43,72 @@ def test_numbers(folder):
     # 0.0745, so that the interval is [0.928, 1.077].
     half = math.sqrt(2) * math.log(1 / 0.9) / 2
     check(abs(math.exp(half) - 1.0773) < 1e-4, "the expectation itself")
-    check(changes[2] == "| | mse | flip |", changes[2])
-    check(changes[4] == "| sixteen \\| taps | 0.250 [0.217, 0.289]\N{PILCROW SIGN} |  |", changes[4])  # sorted by mse
-    check(changes[5] == "| taps = 4 | 1.000 [0.928, 1.077]\N{PILCROW SIGN} (0.500 to 2.000) | 0.810 |", changes[5])
+    check(changes[2] == f"| | mse | flip{A} |", changes[2])
+    check(changes[4] == "| sixteen \\| taps | 0.250 [0.217, 0.289] |  |", changes[4])  # sorted by mse
+    check(changes[5] == "| taps = 4 | 1.00 [0.93, 1.08] (0.50 to 2.00) | 0.810 |", changes[5])
     origin, _, explained = changes[7].partition(". ")
     check(origin == "`ssrlab run configs/made_up.json`: commit abc1234, 2 shots at 320x180, 8 seeds, a device", origin)
-    check(explained == "In brackets 95 % intervals of the mean over scenes like these (Student's t, scenes of one asset averaged first); in parentheses the range over shots; \N{PILCROW SIGN}: the interval is of these shots alone, not of other scenes: fewer than four assets; a number without brackets has no interval.", explained)
+    check(explained == "In brackets 95 % intervals of the mean over scenes like these (Student's t, scenes of one asset averaged first); the interval is of these shots alone, not of other scenes: fewer than four assets; \N{MODIFIER LETTER SMALL A}: no interval; in parentheses the range over shots.", explained)
     levels = read(os.path.join(folder, "tables", "levels.md")).splitlines()
-    check(levels[4].startswith("| sssr, taps=4 | 0.00234 | 0.00234 |"), levels[4])  # as listed; `all` represents the shot
+    check(levels[4].startswith(f"| sssr, taps=4 | 0.00234{A} | 0.00234{A} |"), levels[4])  # as listed; `all` represents the shot
     check(levels[5].startswith("| sssr, default | 0.0123 [0.0111, 0.0135] |"), levels[5])
     parts = read(os.path.join(folder, "tables", "parts.md")).splitlines()
-    check(parts[4] == "| default | 3.00 | 2.00 [1.50, 2.50] | 1.00 [0.90, 1.10] |", parts[4])
+    check(parts[4] == "| default | 3.00 | 2.00 [1.50, 2.50] | 1.00 [0.90, 1.10] |" and parts[2].startswith(f"| | mse{A} |"), parts[2:5])
     latex = read(os.path.join(folder, "tables", "changes.tex"))
     check(r"\toprule" in latex and r"\caption{What each change does\_to \{the\} error}" in latex, latex)
     check(r"taps = 4 & 1.000 {\scriptsize [0.928, 1.077]\P{} (0.500 to 2.000)} & 0.810 \\" in latex, latex)
     grid = list(csv.reader(open(os.path.join(folder, "tables", "changes.csv"))))
     check(grid[0] == ["", "mse", "mse low", "mse high", "flip", "flip low", "flip high"], grid[0])
     check(abs(float(grid[2][1]) - 1) < 1e-12 and abs(float(grid[2][2]) - math.exp(-half)) < 1e-9, grid[2])
+
+
+def test_reading():
+    """Three digits, intervals where they decide something, short names of shots; what is long is folded, with all that is said of it."""
+    fence, sponza, moving = "fence.main.320x180.w12", "sponza.nave.320x180.w12", "fence.main.1920x1080.f3-9.w12"
+    about = {"caption": "`a` < b", "shots": [fence, sponza, moving], "over": None, "over_count": None, "clocks": []}
+
+    def made(cells, **changed):
+        return markdown(about | changed, [Cell("t", *c, interval="reference") for c in cells], f"commit {'0123456789' * 4}, {fence}.")
+
+    numbers = ((18421, 17374, 19602), (67420, 67400, 67440), (0.99961, 0.9995, 0.9997), (0.983, 0.954, 1.012), (0, 0, 0), (0.0001, -0.0004, 0.0006), (12.3456, 12.3, 12.4))
+    text = made([("x", str(i), *n) for i, n in enumerate(numbers[:5])])
+    check("| x | 18400 [17400, 19600] | 67400 | 1.00 | 0.983 [0.954, 1.01] | 0 |" in text, text)
+    check("where they reach further than 5 % or include 1; the others are within \N{PLUS-MINUS SIGN}0.030 %" in text, text)
+    check("<details>" not in text and "commit 0123456789," in text, text)
+    check("| x | 0.00010 [-0.00040, 0.00060] | 12.3 |" in made([("x", str(i), *n) for i, n in enumerate(numbers[5:])]), "an interval about 0")
+    significant = Cell("t", "x", "y", 1.0016, 1.001, 1.0022, interval="reference", is_significant=True)
+    check("| x | **1.002** |" in markdown(about, [significant], "."), "on which side of 1 a significant ratio is")
+    for rows, columns in ((9, 1), (1, 6)):
+        text = made([(f"r{i}", f"c{j}", 1.5, 1.49, 1.51) for i in range(rows) for j in range(columns)])
+        head = f"<details>\n<summary><code>a</code> &lt; b; {rows} row{'s' * (rows > 1)}, {columns} column{'s' * (columns > 1)}</summary>\n\n| | c0 |"
+        check(text.startswith(head) and text.endswith("within \N{PLUS-MINUS SIGN}0.67 %.\n\n</details>\n"), text)
+    text = made([(f"mse, {shot}", "x", 1.5, 1.49, 1.51) for shot in (fence, sponza)])
+    check("| mse, fence | 1.50 |" in text and "| mse, sponza | 1.50 |" in text and ", fence. Shots: camera main, after 12 frames; sponza: nave." in text, text)
+    text = made([("x", shot, 1.5, 1.49, 1.51) for shot in (fence, moving)])
+    check("| | fence 320x180 after 12 frames | fence 1920x1080 frames 3 to 9 after 12 frames |" in text, text)
+    names = shot_names.short_names([fence, sponza, "a picture", "fence.side.320x180.w12.d16"])
+    check(names == {fence: "fence main", sponza: "sponza", "fence.side.320x180.w12.d16": "fence side d16"}, names)
+
+
+def test_names_in_prose(temporary):
+    """What a sentence claims of a table is made from it: which point is first, its interval, the largest of a mean's shots."""
+    folder, root = os.path.join(temporary, "prose"), os.path.join(temporary, "tree of prose")
+    write_results(folder)
+    document = os.path.join(root, "README.md")
+    said = {
+        'first("made_up", "levels", column="floor")': "sssr, taps=4",
+        'first("made_up", "levels", column="floor", without=["sssr, taps=4"])': "sssr, default",
+        'shown("made_up", "levels", "default", "floor")': "0.0123 [0.0111, 0.0135]",
+        'number(most("made_up", "changes", "taps = 4", "mse"))': "2.00",
+        'len(shots("made_up", "levels"))': "2",
+    }
+    write(document, "".join(f"<!-- table made_up {name} -->\n<!-- end of table -->\n" for name in ("levels", "changes")) + "".join(f"<!--= {asked} -->?<!--/-->\n" for asked in said))
+    result = tables(folder, "--keep", "--root", root)
+    check(result.returncode == 0, result.stderr)
+    for asked, answer in said.items():
+        check(f"<!--= {asked} -->{answer}<!--/-->" in read(document), f"{asked}: {read(document)}")
+    write(document, read(document).replace('column="floor")', 'column="ceiling")', 1))
+    check("is not one line of made_up levels" in tables("--fill", "--root", root).stderr, "a column that is not there")
 
 
 def test_bold(folder):
@@ -77,7 +131,7 @@ def test_best(folder):
     write_results(folder, [levels])
     check(tables(folder).returncode == 0, "a best")
     lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
-    check(lines[4].startswith("| sssr, taps=4 | **0.00234** | **0.00234** |") and lines[5].startswith("| sssr, default | 0.0123 ["), lines[4:6])
+    check(lines[4].startswith(f"| sssr, taps=4 | **0.00234{A}** | **0.00234{A}** |") and lines[5].startswith("| sssr, default | 0.0123 ["), lines[4:6])
     check("bold: significantly the best" in lines[7] and "italic" not in lines[7], lines[7])
     file = os.path.join(folder, "summary.csv")
     rows = list(csv.DictReader(open(file)))
@@ -109,7 +163,7 @@ def test_display_names(folder):
     write(os.path.join(folder, "manifest.json"), json.dumps(named))
     check(tables(folder).returncode == 0, "display names")
     lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
-    check(lines[2] == "| | The floor | wall |" and lines[4].startswith(r"| four \| taps | 0.00234 |"), lines[2:5])
+    check(lines[2] == "| | The floor | wall |" and lines[4].startswith(rf"| four \| taps | 0.00234{A} |"), lines[2:5])
     check(lines[5].startswith("| sssr, default |"), lines[5])
     lines = read(os.path.join(folder, "tables", "groups.md")).splitlines()
     check(lines[2] == "| | rooms |" and [line.split(" | ")[0] for line in lines[4:6]] == [r"| sssr, four \| taps", "| faithful, default"], lines)
@@ -122,7 +176,7 @@ def test_footers(folder):
     write_results(folder, TABLES, RATIOS | missing)
     check(tables(folder).returncode == 0, "missing values")
     lines = read(os.path.join(folder, "tables", "changes.md")).splitlines()
-    check(lines[4].startswith("| taps = 4 | 0.500 [0.450, 0.556]\N{PILCROW SIGN} (1 of 2) | 0.810"), lines[4])
+    check(lines[4].startswith("| taps = 4 | 0.500 [0.450, 0.556] (1 of 2) | 0.810"), lines[4])
     check(lines[5] == "| sixteen \\| taps | \N{EN DASH} |  |", lines[5])
     check("2 shots at" in lines[7] and "\"n of 2\": so many of the shots have a value" in lines[7], lines[7])
     check(lines[7].endswith("\N{EN DASH}: no value."), lines[7])
@@ -134,7 +188,7 @@ def test_footers(folder):
     write_results(folder, [TABLES[0]], RATIOS | {("taps=4", "mse", "wall"): (-1.0, "", "", "", "none: an error is not above 0")})
     check(tables(folder).returncode == 0, "no geometric mean")
     lines = read(os.path.join(folder, "tables", "changes.md")).splitlines()
-    check(lines[5].startswith("| taps = 4 | \N{EN DASH} (an error is not above 0) | 0.810"), lines[5])
+    check(lines[5].startswith(f"| taps = 4 | \N{EN DASH}{A} | 0.810") and f"{A}: no number: an error is not above 0" in lines[7], lines[5])
 
     incomplete = manifest(TABLES) | {"is_complete": False}
     incomplete["provenance"][0]["ssrlab"]["commit"] = ""
@@ -155,11 +209,13 @@ def test_what_intervals_hold(folder):
     result = tables(folder, "--keep", "--root", root)
     check(result.returncode == 0, result.stderr)
     text = read(os.path.join(folder, "tables", "single.md"))
-    marked = "| taps = 4 | **0.500 [0.450, 0.556]** | 2.00 (1 seed) | 0.8100 [0.8000, 0.8200]\N{DAGGER} | 0.8100 [0.8000, 0.8200]\N{DAGGER} |"
-    check(marked in text, text)
-    check("\N{DAGGER}: the interval holds the seeds alone" in text and '"1 seed": why there is no interval' in text, text)
+    marked = f"| taps = 4 | **0.500 [0.450, 0.556]** | 2.00{A} | 0.810 | 0.810 |"
+    heads = f"| | mse, floor | mse, wall | FLIP of all frames, floor\N{DAGGER} | FLIP of all frames, wall\N{DAGGER} |"
+    check(marked in text and heads in text, text)
+    check("\N{DAGGER}: the interval holds the seeds alone" in text and f"{A}: no interval: 1 seed" in text, text)
+    check("In brackets 95 % intervals where they reach further than 5 %; the others are within \N{PLUS-MINUS SIGN}1.3 %;" in text, text)
     mean = read(os.path.join(folder, "tables", "changes.md"))
-    check("| 1.00 (0.50 to 2.00; 1 seed) | 0.8100 [0.8030, 0.8171]\N{DAGGER}\N{PILCROW SIGN} |" in mean, mean)
+    check(f"| 1.00{A} (0.50 to 2.00) | 0.810 |" in mean and "flip\N{DAGGER}" in mean, mean)
     check(text in read(os.path.join(root, "README.md")) and mean in read(os.path.join(root, "README.md")), "marks are lost where they are kept")
     document = os.path.join(root, "README.md")
     number = "-->2.00<!--/-->"
@@ -189,7 +245,7 @@ def test_times(folder):
     lines = read(os.path.join(folder, "tables", "ratios.md")).splitlines()
     check(lines[4] == "| taps=4 | 1.00 [0.90, 1.10] | 1.00 [0.90, 1.10]\N{SECTION SIGN} |", lines[4])
     lines = read(os.path.join(folder, "tables", "mean.md")).splitlines()
-    check(lines[4].endswith("]\N{PILCROW SIGN}\N{SECTION SIGN} |"), lines[4])
+    check(lines[4].endswith("]\N{SECTION SIGN} |") and "; the interval is of these shots alone" in lines[-1], lines)
     file = os.path.join(folder, "time_summary.csv")
     write(file, read(file).replace("gpu_timestamp", "host_fence", 1))
     check(tables(folder).returncode == 0, "two clocks")
@@ -231,7 +287,7 @@ def test_shares(folder):
     result = tables(folder)
     check(result.returncode == 0, result.stderr)
     lines = read(os.path.join(folder, "tables", "rays.md")).splitlines()
-    check(lines[2] == "| | correct | false_hit | empty |", lines[2])
+    check(lines[2] == f"| | correct | false_hit | empty{A} |", lines[2])
     grid = list(csv.reader(open(os.path.join(folder, "tables", "rays.csv"))))
     check(grid[1][0] == "default, trace", grid[1])
     numbers = [float(text) if text else None for text in grid[1][1:]]
@@ -269,9 +325,9 @@ def test_counts(temporary):
     check(result.returncode == 0, result.stderr)
     text = read(os.path.join(root, "README.md")).replace("\N{NO-BREAK SPACE}", " ")
     check("| trace | 12.3 M | 10.0 k | 0 | 3.00 M | 10.0 k | 40 |" in text, text)
-    check("| trace | 6.09 M (3.00 M to 12.3 M) | 10.0 k | \N{EN DASH} (a count is 0) |" in text, text)
+    check(f"| trace | 6.09 M (3.00 M to 12.3 M) | 10.0 k | \N{EN DASH}{A} |" in text, text)
     check("| total | 349 k (987 to 123 M) | 663 k | 0 |" in text, text)
-    check('"a count is 0": why there is no number;' in text, text)
+    check(f"{A}: no number: a count is 0;" in text, text)
     check("exact but for rounding to three digits; k, M, G" in text and "no interval" not in text.split("mean -->")[0], text)
     made = [read(os.path.join(folder, "tables", name + ".md")) for name in ("counts", "mean")]
     check(all(table in read(os.path.join(root, "README.md")) for table in made), f"{made} became {text}")
@@ -296,7 +352,7 @@ def test_means_over_what_differs(folder):
     result = tables(folder)
     check(result.returncode == 0, result.stderr)  # over a parameter
     line = read(os.path.join(folder, "tables", "changes.md")).splitlines()[4]
-    check(line == "| floor | 0.354 [0.315, 0.396] (0.250 to 0.500) | 0.810 [0.800, 0.820]\N{DAGGER} (1 of 2) |", line)
+    check(line == "| floor | 0.354 [0.315, 0.396] (0.250 to 0.500) | 0.810 (1 of 2) |", line)
 
 
 def test_tables_that_nobody_asks_for(temporary):
@@ -391,6 +447,8 @@ def main():
         folder = os.path.join(temporary, "single")
         write_results(folder)
         test_numbers(folder)
+        test_reading()
+        test_names_in_prose(temporary)
         test_bold(folder)
         test_best(folder)
         test_display_names(folder)

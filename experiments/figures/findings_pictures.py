@@ -1,0 +1,403 @@
+#!/usr/bin/env python3
+"""A picture for each finding (experiments/findings/pictures/NAME.svg), from the kept summaries (experiments/summaries).
+
+usage: experiments/figures/findings_pictures.py [--out DIR] [NAME ...]
+
+Without names all. Each file holds a hash of the numbers that it shows, by which a test knows whether it is up to date. Needs
+Debian's python3-matplotlib and -numpy, and the built ssrlab for means over scenes.
+"""
+
+import argparse
+import hashlib
+import io
+import json
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how it draws)
+
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "python"))
+
+from paper_figures import style  # noqa: E402
+from paper_tables import shot_names, summary_file  # noqa: E402
+from paper_tables.cell import Cell  # noqa: E402
+from paper_tables.documents import Numbers  # noqa: E402
+from ssrlab.results import exit_code  # noqa: E402
+
+EXPERIMENTS = Path(__file__).resolve().parent.parent
+SUMMARIES = EXPERIMENTS / "summaries"
+OUT = EXPERIMENTS / "findings/pictures"
+WIDTH = style.WIDTHS["slide"]  # cm: letters that can be read where a page is narrowed to a column of text
+TECHNIQUES = ["mcguire_dda", "amd_sssr", "diligent_ssr", "frostbite_sssr", "simple_ssr", "four_mode_ssr"]  # colours, as in the README's pictures
+PUBLISHED = ["mcguire_dda", "amd_sssr, repeatable", "diligent_ssr, current", "frostbite_sssr, frostbite_2015"]
+BEST = ["mcguire_dda, best", "amd_sssr, best", "diligent_ssr, best", "frostbite_sssr, best", "simple_ssr, corrected", "four_mode_ssr, corrected"]
+GREY = "#666666"
+
+
+@dataclass
+class Mark:
+    series: str  # its name in the legend; "": not in it
+    color: str
+    mark: str
+    cell: Cell
+    is_hollow: bool = False
+
+
+@dataclass
+class Panel:
+    title: str
+    rows: list  # (label, [Mark]) from above
+    line: float = None  # a value that the others are compared with
+
+
+@dataclass
+class Picture:
+    panels: list
+    xlabel: str
+    is_log: bool = True
+    has_range: bool = False  # thin lines: the range over shots
+    columns: int = 3
+    kind: str = "dots"  # "bars": shares that add up; "lines": over the numbers that are its rows' labels
+    note: str = ""
+    extra: dict = field(default_factory=dict)  # axis limits
+
+
+def grid(study, table):
+    """{(row, column): Cell}, with short names of shots in both."""
+    _, tables = summary_file.read(str(SUMMARIES / f"{study}.csv"))
+    about, cells = tables[table]
+    names = {word for c in cells for name in (c.row, c.column) for word in name.split(", ")} & set(about["shots"])
+    short = shot_names.short_names(sorted(names, key=about["shots"].index))
+    shown = lambda name: ", ".join(short.get(word, word) for word in name.split(", "))  # noqa: E731
+    return {(shown(c.row), shown(c.column)): c for c in cells}
+
+
+def look(point):
+    """Colour and mark of a point's technique."""
+    technique = point.split(",")[0]
+    return (GREY, "|") if technique == "none" else style.series(TECHNIQUES.index(technique))
+
+
+def technique_mark(point, cell, series="", is_hollow=False):
+    return Mark(series, *look(point), cell, is_hollow)
+
+
+def techniques():
+    numbers = Numbers(str(SUMMARIES), __file__)
+
+    def mark(point, base):
+        if point == base:
+            return Cell("", point, "", 1.0)
+        return Cell("", point, "", *numbers.ratio_over_scenes("comparison", "by_scene", point, base, as_in="gains"))
+
+    points = [*PUBLISHED, *BEST]
+    by_error = sorted(points, key=lambda p: mark(p, "none").value)
+    return Picture(
+        [
+            Panel("error over that of no reflections", [(p, [technique_mark(p, mark(p, "none"), is_hollow=p in PUBLISHED)]) for p in by_error], 1.0),
+            Panel("error over that of Frostbite's best", [(p, [technique_mark(p, mark(p, "frostbite_sssr, best"), is_hollow=p in PUBLISHED)]) for p in by_error], 1.0),
+        ],
+        "ratio of MSE, mean over scenes like these, 95 % intervals",
+        columns=2,
+        note="hollow: as published",
+    )
+
+
+def budgets():
+    cells = grid("quality", "at_time")
+    times = ["5 ms", "10 ms", "20 ms", "40 ms"]
+    marks = {t: [(p, [technique_mark(p, cells[p, t], is_hollow=cells[p, t].mean_of < 16)]) for p in TECHNIQUES] for t in times}
+    return Picture(
+        [Panel(f"within {t}", rows, 1.0) for t, rows in marks.items()], "error over that of no reflections, 95 % intervals", columns=4, extra={"xlim": (0.13, 1.8)}, note="hollow: fits in some of the 16 scenes only"
+    )
+
+
+def metrics():
+    cells = grid("comparison", "eye")
+    rows = [(row, [Mark("", style.COLORS[0], "o", c)]) for (row, _), c in sorted(cells.items(), key=lambda item: -item[1].value)]
+    return Picture([Panel("", rows, 0.5)], "share of 43 pairs that the metric orders as the readers did, 95 % intervals; line: chance", is_log=False, columns=1, extra={"xlim": (0.2, 1.02)})
+
+
+CAUSES = {
+    "right": "the ray was right",
+    "unavoidable_miss": "not on the screen",
+    "empty": "nothing to meet",
+    "avoidable_miss": "missed what the screen shows",
+    "wrong_place": "hit elsewhere",
+    "false_hit": "false hit",
+    "untraced": "not traced",
+}
+
+
+def causes():
+    cells = grid("comparison", "causes")
+    rows = []
+    for point in ["mcguire_dda, best", "amd_sssr, repeatable", "amd_sssr, best", "diligent_ssr, best", "frostbite_sssr, best", "simple_ssr, corrected", "four_mode_ssr, corrected"]:
+        rows.append((point, [Mark(text, style.COLORS[i], "", cells[point, f"error: {name}"]) for i, (name, text) in enumerate(CAUSES.items())]))
+    return Picture([Panel("", rows)], "share of the squared error, mean over 43 shots", is_log=False, columns=1, kind="bars", extra={"xlim": (0, 1)})
+
+
+LIMITS = ["mirror_pillars", "roughness_gradient", "contact_hardening", "fence", "metal_corner", "floating_holes", "curved_mirror", "offscreen_mirror", "border_crossing"]
+LIMITS += ["passing_pillars", "moving_objects", "stepping_emitter", "modern_hall_mirror_floor", "metal_rough_spheres", "cesium_milk_truck"]
+
+
+def limit():
+    cells = grid("comparison", "limits")
+    points = ["none, default", *BEST[:4]]
+    rows = [(shot, [technique_mark(p, cells[shot, p], p) for p in points]) for shot in sorted(LIMITS, key=lambda s: cells[s, "frostbite_sssr, best"].value)]
+    return Picture([Panel("", rows, 1.0)], "MSE over the information limit of one frame (line), 95 % intervals", columns=1)
+
+
+def third_party():
+    cells = grid("comparison", "third_party")
+    shots = sorted({row for row, _ in cells}, key=lambda s: cells[s, "frostbite_sssr, best"].value)
+    points = ["none", "mcguire_dda", *BEST]
+    rows = [(shot, [technique_mark(p, cells[shot, p], p, is_hollow=p == "mcguire_dda") for p in points]) for shot in shots]
+    return Picture([Panel("", rows)], "FLIP of the reflection (intervals by seeds are smaller than the marks); hollow: as published", is_log=False, columns=1)
+
+
+def corrections():
+    of_amd, of_diligent = grid("amd_sssr", "changes"), grid("diligent", "changes")
+    amd = ["corrected", "repeatable hierarchy.thickness_at_hit_mip=true", "repeatable running_variance=true", "repeatable redraw_below_horizon=true", "repeatable float_histories=true"]
+    amd += ["repeatable fresh_neighborhood=true", "repeatable trace_orphans=true", "repeatable independent_noise_shifts=true", "repeatable inward_rays=black"]
+    diligent = ["corrected", "current temporal_radiance_stability_factor=0.9", "current premultiply_confidence=true", "current own_ray=true", "current float_histories=true"]
+    diligent += ["current linear_hit_depth=true", "current guard_previous_clip=true"]
+
+    def rows(names, cells, technique, prefix=""):
+        label = lambda name: "all (corrected)" if name == "corrected" else name.split(" ")[1].removeprefix("hierarchy.").removesuffix("=true")  # noqa: E731
+        return [(label(name), [technique_mark(technique, cells[prefix + name, "mse"])]) for name in names]
+
+    return Picture(
+        [Panel("AMD SSSR", rows(amd, of_amd, "amd_sssr"), 1.0), Panel("DiligentFX", rows(diligent, of_diligent, "diligent_ssr", "diligent_ssr, "), 1.0)],
+        "MSE over that of the published form, mean over six shots; thin: range over the shots",
+        has_range=True,
+        columns=2,
+    )
+
+
+def estimators():
+    cells = grid("frostbite", "forms")
+    panels = []
+    for lobe, bias, title in (("visible_normals", "0.7", "visible normals, cut off at 0.7"), ("normals", "0.0", "all normals, the whole lobe")):
+        rows = []
+        for scene in ("contact_hardening", "firefly", "glossy_stretch", "metal_corner", "roughness_gradient"):
+            marks = []
+            for i, (form, taps) in enumerate((form, taps) for form in "bc" for taps in (4, 16)):
+                cell = cells[f"lobe = {lobe}, importance_bias = {bias}, {scene}", f"estimator = {form}, taps = {taps}, max_rays = 1"]
+                marks.append(Mark(f"{form}, {taps} rays", style.COLORS[i // 2], "os"[i % 2], cell, taps == 16))
+            rows.append((scene, marks))
+        panels.append(Panel(title, rows, 1.0))
+    return Picture(panels, "MSE over that of form a with the same rays, 95 % intervals", columns=2)
+
+
+def march():
+    cells = grid("parts", "absolute")
+    panels = []
+    for scene in ("fence", "floating_holes", "roughness_gradient", "metal_corner"):
+        rows = []
+        for point, others in (("amd_sssr, corrected", "cells"), ("diligent_ssr, corrected", "cells"), ("frostbite_sssr, best", "hierarchy")):
+            color, _ = look(point)
+            names = {point: ("own march", "o"), f"{point} tracer={others}": {"cells": ("cell by cell", "s"), "hierarchy": ("AMD's march", "^")}[others], f"{point} tracer=exact_scene": ("exact rays", "D")}
+            rows.append((point, [Mark(text, color, mark, cells[name, scene], mark == "D") for name, (text, mark) in names.items()]))
+        panels.append(Panel(scene, rows))
+    return Picture(panels, "MSE of the reflection, 95 % intervals", columns=2)
+
+
+def thickness():
+    cells = grid("tracers_thickness", "mse")
+    panels = []
+    for scene in ("fence", "floating_holes", "curved_mirror", "metal_corner", "moving_objects", "sponza"):
+        rows = []
+        for value in ("0.001", "0.01", "0.05", "0.25", "1", "10"):
+            marks = []
+            for name, text, color, mark in (
+                ("dda.relative_thickness", "linear tracing", style.COLORS[0], "o"),
+                ("hierarchy.relative_depth_buffer_thickness", "AMD's hierarchy", style.COLORS[1], "s"),
+            ):
+                if (f"{name}={value}", scene) in cells:
+                    marks.append(Mark(text, color, mark, cells[f"{name}={value}", scene]))
+            rows.append((value, marks + [Mark("exact rays", GREY, "", cells["tracer=exact_scene", scene])]))
+        panels.append(Panel(scene, rows))
+    return Picture(panels, "thickness, as a share of the depth (intervals are smaller than the marks)", kind="lines")
+
+
+def temporal():
+    frostbite, amd = grid("frostbite_whole", "choices"), grid("amd_stages", "stages")
+    shots = {"roughness_gradient": "at rest: roughness_gradient", "passing_pillars": "in motion: passing_pillars", "thin_pole": "in motion: thin_pole"}
+    names = ["temporal_filter=false", "history_weight=0.8", "history_weight=0.95", "neighborhood_clamp=false", "previous_frame=false"]
+    rows = [
+        (name, [Mark(text, style.COLORS[i], style.MARKS[i], frostbite[f"frostbite_2015 {name}", f"mse, {shot}"], i == 0) for i, (shot, text) in enumerate(shots.items())])
+        for name in names
+    ]
+    stages = ["prefilter=false", "reprojection=false", "temporal_resolve=false", "denoise=false"]
+    of_amd = [(name, [Mark("mean of three, two of which move", GREY, "D", amd[f"repeatable {name}", "mse"])]) for name in stages]
+    return Picture([Panel("Frostbite", rows, 1.0), Panel("AMD SSSR", of_amd, 1.0)], "MSE over that of the published form, 95 % intervals", columns=2)
+
+
+def fragments():
+    cells, means = grid("best", "times"), grid("diligent", "stage_times")
+    same = ["amd_sssr, repeatable", "amd_sssr, corrected", "diligent_ssr, current", "diligent_ssr, corrected"]
+    of_same = [(p, [technique_mark(p, means["total", p], is_hollow="corrected" not in p)]) for p in same]
+    points = ["amd_sssr, repeatable", "amd_sssr, best", "diligent_ssr, current", "diligent_ssr, best"]
+    shots = {"contact_hardening": "320x184", "fence": "320x184", "moving_emitter": "320x184", "metal_corner": "960x540"}
+    rows = [(f"{shot}, {size}", [technique_mark(p, cells[p, shot], p, "best" not in p) for p in points]) for shot, size in shots.items()]
+    panels = [Panel("the same surfaces, mean over six shots", of_same), Panel("as their presets are", rows)]
+    return Picture(panels, "time of a frame's reflections (ms), 95 % intervals; hollow: as published", columns=2)
+
+
+def resolution():
+    cells = grid("resolutions", "errors")
+    points = {"mcguire_dda, any_scale": "no limit", "mcguire_dda, dda.max_steps=128": "128 steps"}
+    points |= {f"{t} hierarchy.max_traversal_intersections={n}": f"{n} steps" for t in ("amd_sssr, repeatable", "diligent_ssr, current") for n in (4096, 128)}
+    points["frostbite_sssr, best"] = "best"
+    panels = []
+    for scene in ("fence", "mirror_pillars", "roughness_gradient"):
+        rows = []
+        for point, text in points.items():
+            color, _ = look(point)
+            sizes = [("320x180", True), ("1920x1080", False)]
+            rows.append((f"{point.split(',')[0]}, {text}", [Mark(size, color, "o", cells[point, f"{scene} {size}"], is_small) for size, is_small in sizes]))
+        panels.append(Panel(scene, rows))
+    return Picture(panels, "MSE of the reflection, 95 % intervals (most are smaller than the marks)", columns=3)
+
+
+PICTURES = {p.__name__: p for p in (techniques, budgets, metrics, causes, limit, third_party, corrections, estimators, march, thickness, temporal, fragments, resolution)}
+
+
+def shown_numbers(picture):
+    """The hash of all that a picture shows, whatever draws it."""
+    told = [[p.title, p.line, [[label, [[m.series, m.color, m.mark, m.cell.value, m.cell.low, m.cell.high, m.cell.least, m.cell.most] for m in marks]] for label, marks in p.rows]] for p in picture.panels]
+    return hashlib.sha256(json.dumps([told, picture.xlabel, picture.note, picture.kind]).encode()).hexdigest()
+
+
+def number(x):
+    """Of a tick."""
+    return f"{x:,.0f}".replace(",", "\N{THIN SPACE}") if x >= 1000 else style.number(x)
+
+
+def places_of(panel):
+    """(y, Mark) of all marks, those of a row below each other."""
+    most = max(len(marks) for _, marks in panel.rows)
+    step = 0.0 if most <= 2 else 0.62 / (most - 1)
+    return [(row + (i - (len(marks) - 1) / 2) * step, mark) for row, (_, marks) in enumerate(panel.rows) for i, mark in enumerate(marks)]
+
+
+def draw_dots(axes, panel, picture, has_labels):
+    places = places_of(panel)
+    for look_of in dict.fromkeys((m.series, m.color, m.mark, m.is_hollow) for _, m in places):
+        same = [(y, m.cell) for y, m in places if (m.series, m.color, m.mark, m.is_hollow) == look_of]
+        _, color, mark, is_hollow = look_of
+        if picture.has_range:
+            ranges = [(y, c) for y, c in same if c.least is not None]
+            axes.hlines([y for y, _ in ranges], [c.least for _, c in ranges], [c.most for _, c in ranges], color=color, linewidth=0.8, alpha=0.5)
+        known = [(y, c) for y, c in same if c.low is not None]
+        axes.hlines([y for y, _ in known], [c.low for _, c in known], [c.high for _, c in known], color=color, linewidth=1.8)
+        axes.plot([c.value for _, c in same], [y for y, _ in same], mark, color=color, markerfacecolor="white" if is_hollow else color)
+    if panel.line is not None:
+        axes.axvline(panel.line, color=GREY, linestyle="--", linewidth=1)
+    ends = [end for _, m in places for end in (m.cell.value, m.cell.low, m.cell.high) if end is not None]
+    if picture.is_log and max(ends) > 1.5 * min(ends) > 0:  # on a log axis there is room for few ticks
+        axes.set_xscale("log")
+        style.log_axis(axes.xaxis, number)
+    else:
+        axes.locator_params(axis="x", nbins=6)
+    axes.set_yticks(range(len(panel.rows)), [label for label, _ in panel.rows] if has_labels else [])
+    axes.set_ylim(len(panel.rows) - 0.4, -0.6)  # with room for whole marks
+    axes.grid(axis="y", visible=len(places) > 2 * len(panel.rows))
+
+
+def draw_legend(figure, picture, panels):
+    """What several techniques share is grey in it."""
+    colors = {}
+    for panel in picture.panels:
+        for _, marks in panel.rows:
+            for m in marks:
+                colors.setdefault((m.series, m.mark, m.is_hollow), set()).add(m.color)
+    for (series, mark, is_hollow), found in colors.items():
+        if series and picture.kind == "dots":
+            color = found.pop() if len(found) == 1 else GREY
+            panels[0].plot([], [], mark, color=color, markerfacecolor="white" if is_hollow else color, label=series)
+    style.draw_legend(figure, panels)
+
+
+def draw_bars(axes, panel, picture, has_labels):
+    for place, (_, marks) in enumerate(panel.rows):
+        left = 0.0
+        for mark in marks:
+            axes.barh(place, mark.cell.value, left=left, color=mark.color, height=0.7, label=mark.series)
+            left += mark.cell.value
+    axes.set_yticks(range(len(panel.rows)), [label for label, _ in panel.rows] if has_labels else [])
+    axes.set_ylim(len(panel.rows) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
+
+
+def draw_lines(axes, panel, picture, has_labels):
+    for series in dict.fromkeys(mark.series for _, marks in panel.rows for mark in marks):
+        points = [(float(label), mark) for label, marks in panel.rows for mark in marks if mark.series == series]
+        first = points[0][1]
+        if not first.mark:  # the same at all places
+            axes.axhline(first.cell.value, color=first.color, linestyle="--", label=series)
+            continue
+        known = [(x, m.cell) for x, m in points if m.cell.low is not None]
+        axes.vlines([x for x, _ in known], [c.low for _, c in known], [c.high for _, c in known], color=first.color)
+        axes.plot([x for x, _ in points], [m.cell.value for _, m in points], first.mark, linestyle="-", color=first.color, label=series)
+    axes.set(xscale="log", yscale="log")
+    style.log_axis(axes.xaxis)
+    style.log_axis(axes.yaxis)
+
+
+DRAW = {"dots": draw_dots, "bars": draw_bars, "lines": draw_lines}
+
+
+def draw(picture):
+    rows = max(len(p.rows) for p in picture.panels)
+    most = max(len(marks) for p in picture.panels for _, marks in p.rows)
+    height = 3.6 if picture.kind == "lines" else 1.1 + rows * (0.42 if picture.kind == "bars" or most <= 2 else 0.3 + 0.06 * most)
+    columns = min(picture.columns, len(picture.panels))
+    lines = -(-len(picture.panels) // columns)
+    size = (WIDTH * style.CENTIMETRE, height * lines * style.scale() * style.CENTIMETRE)
+    figure, axes = plt.subplots(lines, columns, figsize=size, layout="constrained", squeeze=False)
+    panels = list(axes.flat[: len(picture.panels)])
+    for index, (one, panel) in enumerate(zip(panels, picture.panels)):
+        labels = [label for label, _ in panel.rows]
+        DRAW[picture.kind](one, panel, picture, index % columns == 0 or labels != [label for label, _ in picture.panels[index - 1].rows])
+        one.set_title(panel.title)
+        one.set(**picture.extra)
+    draw_legend(figure, picture, panels)
+    style.note(figure, picture.xlabel + (f"; {picture.note}" if picture.note else ""))
+    return figure
+
+
+def save(name, folder):
+    picture = PICTURES[name]()
+    figure = draw(picture)
+    file = folder / f"{name}.svg"
+    made_by = f"ssrlab, matplotlib {matplotlib.__version__}"
+    drawn = io.StringIO()
+    figure.savefig(drawn, format="svg", metadata={"Date": None, "Creator": made_by, "Source": shown_numbers(picture)})
+    plt.close(figure)
+    text = drawn.getvalue().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")  # Verdana is as wide
+    file.write_text("\n".join(line.rstrip() for line in text.splitlines()) + "\n", encoding="utf-8")
+    print(f"{file}: {file.stat().st_size} bytes")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="A picture for each finding (SVG).")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(PICTURES)}; default: all")
+    parser.add_argument("--out", type=Path, default=OUT, help="default: experiments/findings/pictures")
+    arguments = parser.parse_args()
+    if unknown := [name for name in arguments.names if name not in PICTURES]:
+        parser.error(f"there is no picture '{unknown[0]}'; there are {', '.join(PICTURES)}")
+    style.apply(width=WIDTH)
+    matplotlib.rcParams["svg.fonttype"] = "none"  # letters, not their outlines: a third of the size
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    for name in arguments.names or PICTURES:
+        save(name, arguments.out)
+
+
+if __name__ == "__main__":
+    sys.exit(exit_code(main, "the pictures"))

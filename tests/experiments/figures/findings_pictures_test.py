@@ -1,0 +1,49 @@
+"""The findings' pictures show what the kept summaries hold today, are small, and are all shown.
+
+usage: findings_pictures_test.py FINDINGS_PICTURES_SCRIPT
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+script = Path(sys.argv[1])
+FINDINGS = script.parent.parent / "findings"
+MOST_BYTES = 60_000  # a page of 13 pictures loads in a second over a slow line
+
+
+def check(is_true, what):
+    if not is_true:
+        sys.exit(f"findings_pictures_test: {what}")
+
+
+def noted(text, what):
+    """Of the file's metadata: <dc:source>, the hash of all that it shows, or <dc:creator>."""
+    return re.search(rf"<dc:{what}>(.*?)</dc:{what}>", text, re.DOTALL)[1]
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        drawn = subprocess.run([sys.executable, "-B", script, "--out", folder], capture_output=True, text=True)
+        check(drawn.returncode == 0 and not drawn.stderr, drawn.stderr)
+        new = {file.name: file.read_text(encoding="utf-8") for file in Path(folder).glob("*.svg")}
+    kept = {file.name: file.read_text(encoding="utf-8") for file in (FINDINGS / "pictures").glob("*.svg")}
+    check(kept.keys() == new.keys(), f"{sorted(kept)} are kept, {sorted(new)} are drawn")
+    text = (FINDINGS / "README.md").read_text(encoding="utf-8")
+    again = f"experiments/figures/{script.name} draws it anew"
+    for name, picture in kept.items():
+        check(noted(picture, "source") == noted(new[name], "source"), f"{name} shows other numbers than the summaries hold; {again}")
+        if noted(picture, "creator") == noted(new[name], "creator"):  # of the same version of matplotlib
+            check(picture == new[name], f"{name} is drawn otherwise now; {again}")
+        check(len(picture.encode()) <= MOST_BYTES, f"{name} has {len(picture.encode())} bytes")
+        check(f"](pictures/{name})" in text, f"no finding shows {name}")
+    headings = [part.split("\n", 1) for part in text.split("\n## ")[1:]]
+    without = [title for title, part in headings if "](pictures/" not in part and title != "What this does not show"]
+    check(not without, f"findings without a picture: {without}")
+    unknown = subprocess.run([sys.executable, "-B", script, "absent"], capture_output=True, text=True)
+    check(unknown.returncode == 2 and "no picture 'absent'" in unknown.stderr, unknown.stderr)
+
+
+main()
