@@ -77,9 +77,9 @@ def test_save_tools(page):
 
     def saved(selector, place):
         page.execute_script("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
-        ActionChains(page).move_to_element(page.find_element(By.CSS_SELECTOR, selector)).perform()
+        ActionChains(page, duration=0).move_to_element(page.find_element(By.CSS_SELECTOR, selector)).perform()
         page.execute_script("window.saved = null")
-        ActionChains(page).move_to_element(page.find_elements(By.CSS_SELECTOR, "#save-tools button")[place]).click().perform()
+        ActionChains(page, duration=0).move_to_element(page.find_elements(By.CSS_SELECTOR, "#save-tools button")[place]).click().perform()
         WebDriverWait(page, 10).until(lambda p: p.execute_script("return window.saved") is not None, selector)
         return page.execute_async_script(
             "const done = arguments[0], [blob, name] = window.saved; blob.text().then(text => done([name, text, blob.size]))"

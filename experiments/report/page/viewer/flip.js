@@ -68,7 +68,8 @@ const flipXyz = (r, g, b) => [
 ];
 function flipLab(r, g, b) {
     const edge = 6 / 29;
-    const [x, y, z] = flipXyz(r, g, b).map(t => t > edge ** 3 ? Math.cbrt(t) : t / (3 * edge * edge) + 4 / 29);
+    const root = t => t > edge ** 3 ? Math.cbrt(t) : t / (3 * edge * edge) + 4 / 29;
+    const [tx, ty, tz] = flipXyz(r, g, b), x = root(tx), y = root(ty), z = root(tz);
     const lightness = 116 * y - 16;
     return [lightness, 0.01 * lightness * 500 * (x - y), 0.01 * lightness * 200 * (y - z)];
 }
@@ -80,12 +81,12 @@ function flipLook(image, gain, bad) {
     const width = image.width + 2 * colorRadius, height = image.height + 2 * colorRadius;
     const [y, cx, cz] = [0, 1, 2].map(() => ({width, height, values: new Float32Array(width * height)}));
     const within = (v, size) => Math.min(Math.max(v - colorRadius, 0), size - 1);  // the border is repeated
-    const display = v => Math.min(Math.max(halfValues[v] * gain, 0), 1);
+    const display = halfValues.map(v => Math.min(Math.max(v * gain, 0), 1)), {halves, pixels} = image;
     for (let v = 0, to = 0; v < height; ++v)
         for (let u = 0; u < width; ++u, ++to) {
             const i = within(v, image.height) * image.width + within(u, image.width);
             if (bad?.[i]) continue;
-            const [x, luminance, z] = flipXyz(...[0, 1, 2].map(c => display(image.halves[c * image.pixels + i])));
+            const [x, luminance, z] = flipXyz(display[halves[i]], display[halves[pixels + i]], display[halves[2 * pixels + i]]);
             y.values[to] = luminance;
             cx.values[to] = x - luminance;
             cz.values[to] = luminance - z;
@@ -100,7 +101,7 @@ function flipLook(image, gain, bad) {
             clamped(3.241003275 * x - 1.537398934 * luminance - 0.498615861 * z),
             clamped(-0.969224334 * x + 1.875930071 * luminance + 0.041554224 * z),
             clamped(0.055639423 * x - 0.204011202 * luminance + 1.057148933 * z));
-        for (let c = 0; c < 3; ++c) colors[c][i] = lab[c];
+        [colors[0][i], colors[1][i], colors[2][i]] = lab;
     }
     const border = colorRadius - featureRadius, inner = {width: width - 2 * border, height: height - 2 * border};
     inner.values = new Float32Array(inner.width * inner.height);
@@ -124,7 +125,7 @@ function flipMap(image, base, exposure) {
     // That of the base is needed for every other image.
     if (!hasBad && !base.scalars.has(key)) base.scalars.set(key, flipLook(base, 2 ** exposure, null));
     const looks = [hasBad ? flipLook(base, 2 ** exposure, bad) : base.scalars.get(key), flipLook(image, 2 ** exposure, bad)];
-    const colorsAt = (look, i) => look.colors.map(plane => plane[i]);
+    const colorsAt = ({colors: [l, a, b]}, i) => [l[i], a[i], b[i]];
     const greatest = flipDistance(flipLab(0, 1, 0), flipLab(0, 0, 1)) ** 0.7, knee = 0.4 * greatest;
     const differs = (name, i) => Math.abs(looks[0][name][i] - looks[1][name][i]);
     return Float32Array.from({length: image.pixels}, (_, i) => {

@@ -244,7 +244,7 @@ async function showImages() {
     setShown();
     if (isFlip)
         for (const {method, image} of viewer.shown.filter(hasBase)) {
-            scalarsOf(image, baseOf(method), "flip");  // takes a second for two megapixels
+            scalarsOf(image, baseOf(method), "flip");  // takes seconds for two megapixels
             await new Promise(resolve => setTimeout(resolve));
             if (request !== viewer.request) return;
         }

@@ -179,6 +179,7 @@ function stepFrame(step) {
 async function playShot(shot) {
     at("viewer").scrollIntoView();
     await chooseShot(shot);
+    if (at("panes").getBoundingClientRect().top > 0.7 * innerHeight) at("panes").scrollIntoView();  // in small windows
     if (!viewer.isPlaying) togglePlaying();
 }
 
