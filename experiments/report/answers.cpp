@@ -54,9 +54,9 @@ std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
     return text;
 }
 
-/// " Not distinguishable from it: B and C."; empty where there is none such. `how`: by which test, if that is to be
-/// said.
-std::string tied_sentence(const std::vector<AnswerPoint>& tied, const std::string& how = "") {
+/// " Not distinguishable from it: B and C."; empty where there is none such. `most`: are named; `how`: by which test, if
+/// that is to be said.
+std::string tied_sentence(const std::vector<AnswerPoint>& tied, size_t most, const std::string& how = "") {
     if (tied.empty()) return "";
     return " Not distinguishable from it" + (how.empty() ? "" : " (" + how + ")") + ": " + listed(tied, most) + ".";
 }
