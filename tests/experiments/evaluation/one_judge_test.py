@@ -143,7 +143,11 @@ def tables(witnesses, folder, errors, effects):
                 witnesses.add("tables", shot, point, best, SAME if standing == "tied" else MORE)
     with open(os.path.join(folder, "tables", "changes.md"), encoding="utf-8") as stream:
         lines = [[c.strip() for c in line.strip("| \n").split("|")] for line in stream if line.startswith("|")]
-    head, rows = lines[0][1:], {line[0].replace("\\", ""): line[1:] for line in lines[2:]}
+    with open(os.path.join(folder, "tables", "changes.csv"), newline="", encoding="utf-8") as stream:
+        columns = next(csv.reader(stream))[1:]
+    head = [c for c in columns if c in {r["shot"] for r in effects}]  # with whole names: those of Markdown are short
+    assert len(head) == len(lines[0]), (head, lines[0])
+    rows = {line[0].replace("\\", ""): line[1:] for line in lines[2:]}
     for r in effects:
         name = ", ".join(r[k] for k in ("variant", "point", "against_variant", "against_point", "against"))
         if r["verdict"] and name in rows and r["shot"] in head:
@@ -261,6 +265,7 @@ def main():
             witnesses = sorted({w for of_pair in said.values() for w in of_pair})
             several = sum(len(of_pair) > 2 for of_pair in said.values())
             print(f"{os.path.basename(folder)}: {len(said)} pairs, {several} with three witnesses or more; {', '.join(witnesses)}; {', '.join(sorted(verdicts))}")
+            assert folder != made_up or {"effects.csv", "pairs.csv", "report", "summary.csv", "table of effects", "tables"} <= set(witnesses), witnesses
             assert several and {SAME, MORE} <= verdicts or folder != made_up, "the made-up study has ties and differences"
 
 
