@@ -153,7 +153,7 @@ std::string cheaper_sentence(const ShotAnswer& answer, const std::vector<Scored>
         const TimeSummary* time = find(scored, *p).time;
         if (time->median > worth_while * own->median || !(answer.best->value > 0)) continue;
         return " " + name_of(*p) + " takes " + shown(ratio_of(*time, *own)) + " its time" +
-               (clock.is_proven ? "" : " (timer validation failed)") + " at " +
+               (clock.is_proven ? "" : " (timer not validated)") + " at " +
                shown(over_best(find(scored, *p), *answer.best)) + " the error.";
     }
     return " Nothing on the front is faster by a fifth, or by more than copies of one point differ.";

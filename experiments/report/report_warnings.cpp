@@ -133,8 +133,7 @@ void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool h
                 shots_of(proof) + ".");
         else if (verdict != "passed")
             warnings.push_back(
-                "The clock could not be judged, since other programs were at work on the machine; the "
-                "times of these shots are not proven: " +
+                "The timer was not validated, since other programs were at work on the machine, for the times of " +
                 shots_of(proof) + ".");
     }
     if (member(clock, "aa_floors").empty())

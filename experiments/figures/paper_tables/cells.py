@@ -211,10 +211,10 @@ def _refuse_shared(selection, name, rows):
 
 
 def _clock(selection, row):
-    """With what must be known before a time is believed: whether timer validation passed, and whose it is where others
+    """With what must be known before a time is believed: whether the timer was validated, and whose it is where others
     are of another machine."""
     clock = row["clock"] + (f" of {host}" if (host := selection.hosts.get(row["shot"])) else "")
-    return clock if row["shot"] in selection.proven else f"{clock} (timer validation failed)"
+    return clock if row["shot"] in selection.proven else f"{clock} (timer not validated)"
 
 
 def _about(selection, filled):

@@ -307,7 +307,7 @@ class Results:
         proofs = self.manifest.get("clock", {}).get("proofs", [])
         proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof.get("shots", [])}
         found = [f"other programs disturbed up to {100 * max(shares):.0f} % of the timed frames"] if max(shares, default=0.0) > 0 else []
-        return found + (["timer validation failed"] if proofs and not set(shots) <= proven else [])
+        return found + (["timer not validated"] if proofs and not set(shots) <= proven else [])
 
     def exposure(self, shot):
         """The shot's exposure in EV."""

@@ -85,7 +85,7 @@ class Answers:
             lines.append("**No point was timed twice**: of their noise only the scatter of frames is known.")
         unproven = [s.label for s in shots if not s.is_clock_proven]
         if unproven:
-            lines.append(f"**Timer validation failed in {len(unproven)} of {len(shots)} shots** (manifest.json, `clock`).")
+            lines.append(f"**The timer was not validated in {len(unproven)} of {len(shots)} shots** (manifest.json, `clock`).")
         busy = [p.disturbed_share for s in shots for p in s.judged()]
         if busy and max(busy) > 0:
             lines.append(f"Other work disturbed {100 * sum(busy) / len(busy):.0f} % of the timed frames.")

@@ -79,7 +79,7 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
 
     json doubtful = manifest;
     doubtful["clock"]["proofs"][0]["verdict"] = "failed";
-    EXPECT_NE(made.answer(doubtful).sentence.find("its time (timer validation failed) at 1.8x"), std::string::npos);
+    EXPECT_NE(made.answer(doubtful).sentence.find("its time (timer not validated) at 1.8x"), std::string::npos);
     doubtful["clock"]["aa_floors"]["s"] = 0.45;  // 0.6 of the time is then no difference
     EXPECT_EQ(made.answer(doubtful).sentence.find("quick takes"), std::string::npos);
 }

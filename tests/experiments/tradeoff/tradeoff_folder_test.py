@@ -165,7 +165,7 @@ class Folder(unittest.TestCase):
         self.assertIn("2 scenes are too few for an interval", answers)
         self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-52, -48] |", answers)
         self.assertIn("Multiples leave out sky:", answers)
-        self.assertIn("Timer validation failed in 1 of 3 shots", answers)
+        self.assertIn("The timer was not validated in 1 of 3 shots", answers)
         rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
         self.assertEqual(len([r for r in read(self.out, "stages.csv") if not r["shot"]]), 2)

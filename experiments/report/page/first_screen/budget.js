@@ -45,7 +45,7 @@ function drawBudget(shot) {
     const isProven = answerOf(shot)?.is_clock_proven;
     at("budget-note").textContent = !isAsked ? "" :
         isProven                             ? floorText(shot) :
-                                               "Timer validation failed: take the times with care. " + floorText(shot);
+                                               "The timer was not validated: take the times with care. " + floorText(shot);
     const head = h("tr", {}, h("td"), h("td"), ["ms", ...headlineMetrics()].map(name => h("th", {scope: "col"}, name)));
     at("budget-answer")
         .replaceChildren(...(isAsked ? [h("thead", {}, head), h("tbody", {}, Object.keys(budgetKinds).flatMap(
