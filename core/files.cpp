@@ -2,14 +2,15 @@
 
 #include "core/error.h"
 
+#include <unistd.h>
+#include <xxhash.h>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <unistd.h>
-#include <xxhash.h>
 
-void write_atomically(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write) {
+void write_atomically(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path&)>& write) {
     static std::atomic<unsigned> counter = 0;
     std::error_code error;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
@@ -42,8 +43,11 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
 
 std::string read_text(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file)) fail("cannot read ", file.string(), ": no such file, or no permission");
-    return {std::istreambuf_iterator<char>(in), {}};
+    if (!in || std::filesystem::is_directory(file))
+        fail("cannot read ", file.string(), ": no such file, or no permission");
+    std::string text;  // in blocks: character by character it took a tenth of a small study's time
+    for (char block[1 << 16]; in.read(block, sizeof(block)), in.gcount() > 0;) text.append(block, size_t(in.gcount()));
+    return text;
 }
 
 ContentHash::ContentHash() : state_(XXH3_createState()) { XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_)); }

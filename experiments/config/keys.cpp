@@ -158,17 +158,18 @@ std::string key_table(const Keys& keys) {
     return "| key | values | meaning | default |\n|---|---|---|---|\n" + rows_of(keys, "");
 }
 
-ConfigObject::ConfigObject(JsonObject object, const Keys& keys) : object_(std::move(object)), keys_(keys) {
-    for (const Key& key : keys_) object_.has(key.name);
+ConfigObject::ConfigObject(JsonObject object, std::shared_ptr<const Keys> keys)
+    : object_(std::move(object)), keys_(std::move(keys)) {
+    for (const Key& key : *keys_) object_.has(key.name);
     object_.finish();
-    for (const Key& key : keys_)
+    for (const Key& key : *keys_)
         if (object_.has(key.name) || key.initial.words == required.words)
             check(object_.any(key.name), key.values, key.name, at(key.name));
 }
 
 const Key& ConfigObject::declared(const std::string& key) const {
-    const auto found = std::ranges::find(keys_, key, &Key::name);
-    if (found == keys_.end()) throw std::out_of_range("'" + key + "' is not a declared key of a config");
+    const auto found = std::ranges::find(*keys_, key, &Key::name);
+    if (found == keys_->end()) throw std::out_of_range("'" + key + "' is not a declared key of a config");
     return *found;
 }
 
@@ -194,7 +195,9 @@ std::vector<std::string> ConfigObject::known_texts(const std::string& key, const
     return names;
 }
 
-ConfigObject ConfigObject::object(const std::string& key) { return {plain(key), declared(key).values.members}; }
+ConfigObject ConfigObject::object(const std::string& key) {
+    return {plain(key), std::shared_ptr<const Keys>(keys_, &declared(key).values.members)};
+}
 
 JsonObject ConfigObject::plain(const std::string& key) {
     has(key);
@@ -208,14 +211,14 @@ std::vector<JsonObject> ConfigObject::elements(const std::string& key) {
 
 json ConfigObject::values() {
     json all = json::object();
-    for (const Key& key : keys_)
+    for (const Key& key : *keys_)
         if (const json& value = (*this)[key.name]; !value.is_null()) all[key.name] = value;
     return all;
 }
 
 void ConfigObject::finish() const {
     JsonObject object = object_;
-    for (const Key& key : keys_)
+    for (const Key& key : *keys_)
         if (object.has(key.name) && !asked_.contains(key.name))
             throw std::logic_error(at(key.name) + ": '" + key.name + "' is declared, but nothing reads it");
 }

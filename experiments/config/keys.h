@@ -1,6 +1,7 @@
 #pragma once
 #include "core/json.h"
 
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -65,7 +66,9 @@ std::string key_table(const Keys& keys);
 class ConfigObject {
 public:
     /// Fails on keys that are not declared, with the nearest that is, on values that do not fit, and on missing keys.
-    ConfigObject(JsonObject object, const Keys& keys);
+    ConfigObject(JsonObject object, std::shared_ptr<const Keys> keys);
+    ConfigObject(JsonObject object, Keys keys)
+        : ConfigObject(std::move(object), std::make_shared<const Keys>(std::move(keys))) {}
 
     bool has(const std::string& key);
     /// The value, or the declared default. Fails with std::out_of_range if the key is not declared.
@@ -94,7 +97,7 @@ private:
     const Key& declared(const std::string& key) const;
 
     JsonObject object_;
-    Keys keys_;
+    std::shared_ptr<const Keys> keys_;
     std::set<std::string> asked_;
 };
 

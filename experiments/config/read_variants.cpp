@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <set>
 #include <span>
@@ -113,11 +114,22 @@ void refuse_unread(std::span<const VariantConfig> points, const std::string& whe
     }
 }
 
+/// variant_keys() of the technique with its defaults, made once: they hold the schemas of all its parameters several
+/// times, and took most of the time in which a study of many entries was read.
+std::shared_ptr<const Keys> kept_keys(const std::string& name, const Variant& plain) {
+    static std::mutex mutex;
+    static std::map<std::string, std::shared_ptr<const Keys>> kept;
+    const std::lock_guard lock(mutex);
+    std::shared_ptr<const Keys>& keys = kept[name];
+    if (!keys) keys = std::make_shared<const Keys>(variant_keys(plain));
+    return keys;
+}
+
 void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& study_seeds,
                 std::vector<VariantConfig>& variants) {
     const std::string name = entry.text("variant");
     const auto plain = make_checked(entry.at("variant"), name);
-    ConfigObject object(std::move(entry), variant_keys(*plain));
+    ConfigObject object(std::move(entry), kept_keys(name, *plain));
     if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
     object.has("variant");
     const std::vector<std::string> presets = object.texts("preset");

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <map>
 
+AmdParameters::AmdParameters() = default;
+
 HostGBuffer amd_golden_gbuffer(const std::string& set) {
     const nlohmann::json meta = golden_meta(set);
     const glm::vec2 from_now_to_before(-1.0f);

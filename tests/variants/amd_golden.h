@@ -8,6 +8,8 @@
 
 /// The parameters of all passes, for tests that run them one by one.
 struct AmdParameters {
+    AmdParameters();
+
     ParameterSet params;
     AmdTracingParameters tracing{params};
     AmdDenoiserParameters denoiser{params};

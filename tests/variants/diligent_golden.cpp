@@ -27,6 +27,8 @@ nlohmann::json our_names(const nlohmann::json& recorded, const std::string& set)
 
 }  // namespace
 
+DiligentParameters::DiligentParameters() = default;
+
 std::vector<std::string> diligent_sets_with(const std::string& file) {
     std::vector<std::string> sets = golden_sets("diligent/");
     std::erase_if(sets, [&](const std::string& set) { return !is_golden(set + "/" + file); });

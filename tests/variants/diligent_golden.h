@@ -9,6 +9,8 @@
 
 /// The parameters of all passes, for tests that run them one by one.
 struct DiligentParameters {
+    DiligentParameters();
+
     ParameterSet params;
     DiligentTracingParameters tracing{params};
     DiligentFilterParameters filter{params};

@@ -21,6 +21,8 @@ std::vector<uint32_t> read_list(PassGraph& graph, const Buffer& list, uint32_t c
 
 }  // namespace
 
+FrostbiteParameters::FrostbiteParameters() = default;
+
 FrostbiteTraced trace_frostbite(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteParameters& parameters) {
     const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
     const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);

@@ -6,6 +6,8 @@
 
 /// The parameters of all passes, for tests that run them one by one.
 struct FrostbiteParameters {
+    FrostbiteParameters();
+
     ParameterSet params;
     FrostbiteRayParameters ray{params};
     FrostbiteResolveParameters resolve{params};

@@ -2,10 +2,15 @@
 #include "core/gpu/shader.h"
 #include "variants/registry.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
+#include <sstream>
+#include <string_view>
 
 // Prints, for the test that compiles them in a browser, the GLSL ES 3.00 of every shader of every technique that keeps
 // to WebGL 2: of its defaults, of each preset, and of each of these with one parameter changed. A JSON array of objects
@@ -35,17 +40,38 @@ std::vector<nlohmann::json> other_values(const Parameter& p) {
     return values;
 }
 
+/// How often each word comes outside of comments. By hand: std::regex takes 20 times as long, 10 s for all sources.
+std::map<std::string_view, int> word_counts(std::string_view source) {
+    const auto is_part = [](char c) { return std::isalnum(uint8_t(c)) || c == '_'; };
+    std::map<std::string_view, int> counts;
+    for (size_t at = 0; at < source.size();) {
+        const std::string_view rest = source.substr(at);
+        if (rest.starts_with("//")) {
+            at = std::min(source.find('\n', at), source.size());
+        } else if (rest.starts_with("/*")) {
+            at = std::min(source.find("*/", at + 2), source.size() - 2) + 2;
+        } else if (is_part(rest.front())) {
+            const auto end = std::ranges::find_if_not(rest, is_part);
+            ++counts[rest.substr(0, size_t(end - rest.begin()))];
+            at += size_t(end - rest.begin());
+        } else {
+            ++at;
+        }
+    }
+    return counts;
+}
+
 /// Without the constants that the shader does not name.
 std::string what_counts(const std::string& source) {
     static const std::regex declaration(R"(^const \w+ (\w+) = .*;$)");
-    std::multiset<std::string> words;
-    static const std::regex word(R"([A-Za-z_]\w*)");
-    for (std::sregex_iterator i(source.begin(), source.end(), word), end; i != end; ++i) words.insert(i->str());
+    const std::map<std::string_view, int> words = word_counts(source);
     std::string result;
     std::istringstream in(source);
     std::smatch match;
     for (std::string line; std::getline(in, line); result += line + '\n')
-        if (std::regex_match(line, match, declaration) && words.count(match[1]) == 1) line.clear();
+        if (line.starts_with("const ") && std::regex_match(line, match, declaration) &&
+            words.at(std::string_view(&*match[1].first, size_t(match[1].length()))) == 1)
+            line.clear();
     return result;
 }
 
