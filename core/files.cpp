@@ -45,7 +45,7 @@ std::string read_text(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in || std::filesystem::is_directory(file))
         fail("cannot read ", file.string(), ": no such file, or no permission");
-    std::string text;  // in blocks: character by character it took a tenth of a small study's time
+    std::string text;  // in blocks: character by character it took 7 % of the CPU of StudyTest
     for (char block[1 << 16]; in.read(block, sizeof(block)), in.gcount() > 0;) text.append(block, size_t(in.gcount()));
     return text;
 }
