@@ -30,10 +30,9 @@ const budgetLine = x => budget.milliseconds > x.domain[0] && budget.milliseconds
         Plot.text([budget.milliseconds], {
             x: ms => ms,
             text: ms => `budget ${number(ms, 3)} ms`,
-            frameAnchor: "bottom",
-            textAnchor: "start",
-            dx: 4,
-            dy: -14,
+            frameAnchor: "top",
+            lineAnchor: "bottom",
+            dy: -2,
             fill: "var(--accent)"
         })
     ] :
