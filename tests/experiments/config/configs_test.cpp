@@ -233,7 +233,7 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
     EXPECT_EQ(combinations["visible_normals"].size(), 3u * 2 * 2 * 2);
 }
 
-/// Every switch and choice of the technique, alone; of rays per tile, which matter from two rays on, in a study of theirs.
+/// Every switch and choice of the technique, alone. Those that matter from two rays on have a study of theirs.
 TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
     std::set<std::string> changed;
     for (const char* study : {"frostbite_whole.json", "frostbite_tiles.json"})
