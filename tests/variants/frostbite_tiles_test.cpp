@@ -68,6 +68,26 @@ TEST_F(FrostbiteTilesTest, GetTheLeastNumberWhereProbesAgreeAndTheLargestWhereTh
     }
 }
 
+/// Three tiles: all probes hit and agree, half of them hit and they differ, a quarter hits and they agree.
+TEST_F(FrostbiteTilesTest, GetRaysByTheShareOfProbesThatHit) {
+    for (unsigned i = 0; i < 16; ++i) {
+        set_probe({1, 1}, i, hit, 0.3f);
+        set_probe({3, 1}, i, i % 2 ? hit : missed, i % 2 ? 0.8f : 0.0f);
+        set_probe({5, 1}, i, i % 4 ? missed : hit, 0.3f);
+    }
+    struct Rule {
+        const char* rays_by;
+        std::array<float, 3> rays;
+    };
+    for (const auto& [rays_by, rays] :
+         {Rule{"deviation", {1, 4, 1}}, Rule{"hit_ratio", {4, 3, 2}}, Rule{"product", {1, 3, 1}}}) {
+        parameters.params.assign(
+            {{"min_rays", 1}, {"max_rays", 4}, {"dilate_tiles", false}, {"hysteresis", 0}, {"rays_by", rays_by}});
+        const HostImage found = count();
+        for (unsigned i = 0; i < 3; ++i) EXPECT_EQ(*found.pixel(1 + 2 * i, 1), rays[i]) << rays_by << " " << i;
+    }
+}
+
 TEST_F(FrostbiteTilesTest, NeverGetFewerThanOneOrMoreThanTheLargestNumber) {
     parameters.params.assign({{"min_rays", 4}, {"max_rays", 2}});
     fill({2, 2}, hit, 0.3f);

@@ -110,6 +110,60 @@ TEST_F(SimpleSsrTest, TheRuleOf45DegreesLeavesOutSteepViews) {
     EXPECT_GT(left_out, 50u);
 }
 
+/// A board in the air, 3 m away, above a mirror floor that ends 6 m away, below nothing.
+SyntheticHit floor_and_board(const CameraRay& ray) {
+    const float to_board = -3.0f / ray.direction.z;
+    const glm::vec3 at = ray.origin + to_board * ray.direction;
+    if (std::abs(at.x) < 0.5f && at.y > -0.1f && at.y < 0.5f)
+        return {.distance = to_board, .normal = {0, 0, 1}, .lit = glm::vec3(1)};
+    return floor_below_nothing(ray);
+}
+
+/// Against the same steps with depths by formula: a ray that passes metres behind the board is said to meet it.
+TEST_F(SimpleSsrTest, ThePrintedMirrorMeetsWhateverIsSeenBeforeItsRay) {
+    const HostImage printed = render({}, floor_and_board, "slides_mirror_printed"),
+                    thin = render({}, floor_and_board, "slides_mirror");
+    const CameraData camera = camera_data(pose, nullptr, {.extent = extent});
+    struct Seen {
+        bool is_board, is_mirror;
+        glm::vec3 position;
+    };
+    std::vector<Seen> seen;
+    for (unsigned i = 0; i < extent.x * extent.y; ++i) {
+        const CameraRay ray = camera_ray(pose, extent, glm::vec2(i % extent.x, i / extent.x) + 0.5f);
+        const SyntheticHit hit = floor_and_board(ray);
+        seen.push_back({std::isfinite(hit.distance) && hit.metalness == 0, hit.metalness > 0,
+                        ray.origin + hit.distance * ray.direction});
+    }
+    const auto meets_board = [&](glm::vec3 origin, glm::vec3 direction) {
+        for (int i = 1; i <= 512; ++i) {
+            const float distance = 40.0f * float(i) / 512;
+            const glm::vec3 point = origin + distance * direction;
+            const glm::vec4 clip = camera.clip_from_view * glm::vec4(point, 1);
+            const glm::vec2 ndc = glm::vec2(clip) / clip.w;
+            if (std::abs(ndc.x) >= 1 || std::abs(ndc.y) >= 1) return false;
+            const glm::uvec2 pixel((0.5f + 0.5f * ndc) * glm::vec2(extent));
+            const auto& [is_board, is_mirror, position] = seen[pixel.y * extent.x + pixel.x];
+            const bool is_own_plane = position.y - origin.y < 0.5f * direction.y * distance;
+            if (is_board && !is_own_plane && position.z > point.z) return true;
+        }
+        return false;
+    };
+    size_t hits = 0, far_behind = 0;
+    for (size_t i = 0; i < seen.size(); ++i) {
+        if (!seen[i].is_mirror) continue;
+        const glm::vec3 origin = seen[i].position;
+        const bool is_met = meets_board(origin, glm::reflect(glm::normalize(origin), glm::vec3(0, 1, 0)));
+        ASSERT_EQ(printed.values[4 * i + 3], is_met ? 1.0f : 0.0f) << i % extent.x << ", " << i / extent.x;
+        hits += is_met;
+        if (origin.z > -4) continue;
+        far_behind += is_met;
+        ASSERT_EQ(thin.values[4 * i + 3], 0) << i % extent.x << ", " << i / extent.x;
+    }
+    EXPECT_GT(hits, 100u);
+    EXPECT_GT(far_behind, 20u);
+}
+
 TEST_F(SimpleSsrTest, PreviousFrameShowsWhereItsSurfaceWas) {
     const auto with_light = [](float radiance) {
         return [=](const CameraRay& ray) {

@@ -1,5 +1,5 @@
-// How many rays each tile gets, from its probes: none if none of them hits, else the more the more they differ. That
-// hits and perceptual variance decide is published (slides), the rule is ours.
+// How many rays each tile gets, from its probes: none if none of them hits, else the more the more they differ, or hit.
+// That hits and perceptual variance decide is published (slides), the rule is ours.
 #include "frostbite_sssr/tile.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -47,8 +47,16 @@ bool is_hit_around(ivec2 tile) {
     return false;
 }
 
+float share_of_rays(TileProbes found) {
+    const uint by_deviation = 0u, by_hit_ratio = 1u;  // parameter `rays_by`
+    float deviation = clamp(found.deviation / (variance_scale * (found.mean + 0.05)), 0.0, 1.0);
+    if (rays_by == by_deviation) return deviation;
+    float hit_ratio = float(found.hits) / max(float(found.count), 1.0);
+    return rays_by == by_hit_ratio ? hit_ratio : hit_ratio * deviation;
+}
+
 uint rays_for(TileProbes found) {
-    float share = clamp(found.deviation / (variance_scale * (found.mean + 0.05)), 0.0, 1.0);
+    float share = share_of_rays(found);
     float rays = mix(least_rays(), float(max_rays), share);
     return uint(rays + 0.5);
 }

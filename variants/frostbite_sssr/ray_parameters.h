@@ -22,8 +22,12 @@ struct FrostbiteRayParameters {
         {"rays", "of each traced pixel in a tile whose probes agree, but at most max_rays", "ssrlab"}, Use::constant};
     Param<unsigned> max_rays{params, "max_rays", 1, {1, 4},
         {"rays", "of each traced pixel in a tile whose probes differ", "slides measure 1 and 4"}, Use::constant};
+    Choice rays_by{params, "rays_by", "deviation", {"deviation", "hit_ratio", "product"},
+        {"", "how far from min_rays to max_rays a tile is. deviation: of its probes' compressed luminance, over variance_scale; "
+         "hit_ratio: the share of its probes that hit; product: of both",
+         "slides: the ratio of hits and how much they differ; how these make a number is ours"}};
     Param<float> variance_scale{params, "variance_scale", 0.5f, {1e-3f, 1e3f},
-        {"of the mean", "standard deviation of the probes' compressed luminance at which a tile gets max_rays", "ssrlab"}};
+        {"of the mean", "standard deviation of the probes' compressed luminance that counts as 1", "ssrlab"}};
     Switch dilate_tiles{params, "dilate_tiles", true,
         {"", "a tile is skipped only if its eight neighbours' probes miss, too; probes alone overlook thin objects, and "
          "tiles pop", "ssrlab"}};

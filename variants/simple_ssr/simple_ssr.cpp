@@ -116,6 +116,14 @@ VariantEntry simple_ssr_entry() {
             {{"slides_mirror",
               "mirror rays alone, steps in view space, the previous frame's colour",
               {{"previous_frame", true}}},
+             {"slides_mirror_printed",
+              "the same march as the notes print it, their inequality turned round: a step behind what is seen there "
+              "is "
+              "a hit, however far behind, from either side, and is not refined",
+              {{"previous_frame", true},
+               {"view_space.thickness", 1e6},
+               {"view_space.front_faces_only", false},
+               {"view_space.refinements", 0}}},
              {"slides_mirror_45",
               "the same, with no rays where the view is steeper than 45 degrees",
               {{"previous_frame", true}, {"rule_of_45_degrees", true}}},

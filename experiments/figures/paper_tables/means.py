@@ -61,7 +61,7 @@ def _geometric_mean(parts, assets):
 
 
 def _arithmetic_mean(parts, assets):
-    """Of shares; intervals as those of _geometric_mean()."""
+    """Of shares, and of counts of fetches; intervals as those of _geometric_mean()."""
     filled = [i for i, c in enumerate(parts) if c.value is not None]
     cells = [parts[i] for i in filled]
     result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
@@ -76,7 +76,9 @@ def _arithmetic_mean(parts, assets):
     if assets:
         _over_scenes(result, [(parts[i], assets[i]) for i in filled], statistics.mean_over_scenes)
         if result.low is not None:
-            result.low, result.high = max(result.low, 0.0), min(result.high, 1.0)
+            result.low = max(result.low, 0.0)
+            if result.most <= 1:  # a share
+                result.high = min(result.high, 1.0)
     return result
 
 

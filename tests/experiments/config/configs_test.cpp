@@ -233,12 +233,12 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
     EXPECT_EQ(combinations["visible_normals"].size(), 3u * 2 * 2 * 2);
 }
 
-/// Every switch and choice of the technique, alone.
+/// Every switch and choice of the technique, alone. Those that matter from two rays on have a study of theirs.
 TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
-    const Config config = read_config(source / "experiments/configs/frostbite_whole.json");
     std::set<std::string> changed;
-    for (const VariantConfig& variant : config.variants)
-        for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
+    for (const char* study : {"frostbite_whole.json", "frostbite_tiles.json"})
+        for (const VariantConfig& variant : read_config(source / "experiments/configs" / study).variants)
+            for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
     const std::unique_ptr<Variant> variant = make_variant("frostbite_sssr");
     // Other tracers, and parameters that only they read, are none of Frostbite's choices.
     const auto is_own = [](const std::string& name) {

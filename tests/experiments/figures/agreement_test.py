@@ -56,6 +56,14 @@ class Agreement(unittest.TestCase):
         over_parameter = means.mean(types.SimpleNamespace(of="effects", over="taps"), [c for c, _ in parts], [a for _, a in parts])
         self.assertEqual(over_parameter.interval, "seeds")
 
+    def test_only_shares_end_at_one(self):
+        """Tables of rays have shares, and counts of fetches, which may be any."""
+        table, assets = types.SimpleNamespace(of="hits", over="shot"), ["a", "b", "c", "d"]
+        shares = means.mean(table, [Cell("t", "r", "c", v) for v in (0.5, 0.9, 1, 1)], assets)
+        self.assertEqual(shares.high, 1)
+        fetches = means.mean(table, [Cell("t", "r", "c", v) for v in (20, 30, 40, 50)], assets)
+        self.assertTrue(20 < fetches.value < fetches.high, fetches)
+
     def test_notes_say_what_intervals_are_of(self):
         cell = Cell("t", "r", "c", 1.0, 0.9, 1.1)
 
