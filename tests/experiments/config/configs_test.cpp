@@ -194,7 +194,7 @@ TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
     EXPECT_GE(scenes.size(), 6u);
     const nlohmann::json plain = make_variant("diligent_ssr", {}, "current")->params.values();
     unsigned changes = 0;
-    for (const std::string preset : {"documented", "corrected"}) {
+    for (const std::string preset : {"april_2024", "corrected"}) {
         const nlohmann::json changed = make_variant("diligent_ssr", {}, preset)->params.values();
         for (const auto& [name, value] : changed.items()) {
             if (value == plain[name] || name == "mask" || is_of_stability(name))
