@@ -111,7 +111,7 @@ TEST_P(AmdIntersectionOf, HasTheOriginalsRatesWithItsDefaults) {
         squares += (found - expected) * (found - expected);
     }
     EXPECT_EQ(ours.pixels, recorded["pixels_covered"]);
-    EXPECT_LT(changed, 0.05 * ours.pixels);  // twice the original's between its own runs
+    EXPECT_LT(changed, 0.05 * ours.pixels);                       // twice the original's between its own runs
     constexpr double given_up_together = 4, standard_errors = 4;  // a false alarm in 16000 for each rate
     EXPECT_NEAR(ours.hits, theirs.hits, standard_errors * std::sqrt(given_up_together * changed));
     EXPECT_NEAR(ours.confidence, theirs.confidence, standard_errors * std::sqrt(given_up_together * squares));

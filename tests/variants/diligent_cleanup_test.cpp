@@ -118,8 +118,9 @@ TEST_F(DiligentCleanup, GuidedFilterKeepsWhatDepthExplains) {
     for (unsigned x = 0; x < extent.x; ++x) ASSERT_NEAR(step.pixel(x, 12)[0], x < 16 ? 1 : 3, 1e-4) << x;
 
     // White noise on a plane that faces the camera: a window of windows of 5x5, weights (1 2 3 4 5 4 3 2 1) / 25 each
-    // way, whose squares add up to 0.0185. About the mean of 308 pixels that share neighbours 0.0160 is left of it, with
-    // a standard deviation of 0.0061 (200 such images). Of 16 images five standard errors: one false alarm in a million.
+    // way, whose squares add up to 0.0185. About the mean of 308 pixels that share neighbours 0.0160 is left of it,
+    // with a standard deviation of 0.0061 (200 such images). Of 16 images five standard errors: one false alarm in a
+    // million.
     SetUp();
     for (float& depth : inputs.depth.values) depth = inputs.depth.values[0];
     const auto variance_of = [](const HostImage& image, unsigned channel) {

@@ -21,7 +21,8 @@ struct HistoryFormat : VariantTest {
         };
         HostImage found;
         for (unsigned frame = 0; frame < frames; ++frame) {
-            const CameraData camera = camera_data(pose, frame > 0 ? &pose : nullptr, {.extent = extent, .frame = frame});
+            const CameraData camera =
+                camera_data(pose, frame > 0 ? &pose : nullptr, {.extent = extent, .frame = frame});
             const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
             graph.upload(gbuffer.motion, motion_of(pose, camera, scene));
             graph.begin_frame(camera, variant->params, gbuffer.images());

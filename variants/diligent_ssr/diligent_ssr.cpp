@@ -141,9 +141,8 @@ VariantEntry diligent_ssr_entry() {
                     {"document_text",
                      "april_2024 with what the document's text says in place of its shaders: visible normals by "
                      "Heitz's disk, a number of samples by the roughness, a sigma from the variance",
-                     changed(diligent_april_2024, {{"half_vectors", "disk"},
-                                                   {"variable_samples", true},
-                                                   {"sigma_from_variance", true}})},
+                     changed(diligent_april_2024,
+                             {{"half_vectors", "disk"}, {"variable_samples", true}, {"sigma_from_variance", true}})},
                     {"current", "July 2026, with its defaults, within WebGL 2", nlohmann::json::object()},
                     {"vulkan",
                      "current as the original runs on Vulkan: levels of the hierarchy are read one by one, without "

@@ -159,8 +159,10 @@ std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
             "distance_error", [](const Count& c) { return quantile(c.distance_errors, 0.5); },
             [](const Count& c) { return double(c.distance_errors.size()); });
         const RaysOf all_rays = [](const Count& c) { return c.rays; };
-        add("fetches", [](const Count& c) { return c.fetches / c.rays; }, all_rays);
-        for (const auto& [name, share_below] : {std::pair("median", 0.5), std::pair("90 %", 0.9), std::pair("most", 1.0)})
+        add(
+            "fetches", [](const Count& c) { return c.fetches / c.rays; }, all_rays);
+        for (const auto& [name, share_below] :
+             {std::pair("median", 0.5), std::pair("90 %", 0.9), std::pair("most", 1.0)})
             add(
                 std::string("fetches: ") + name,
                 [&](const Count& c) { return quantile(c.fetches_of_rays, share_below); }, all_rays);
