@@ -14,7 +14,7 @@ unsigned place_in_block(unsigned x, unsigned y) {
 
 TEST_F(DiligentHits, AreWhereMirrorRaysMeetTheWall) {
     for (const DepthDirection direction : {DepthDirection::standard, DepthDirection::reversed})
-        for (const char* preset : {"documented", "current", "corrected"}) {
+        for (const char* preset : {"april_2024", "current", "corrected"}) {
             SCOPED_TRACE(testing::Message() << preset << ", reversed " << (direction == DepthDirection::reversed));
             view.depth_direction = direction;
             const std::vector<Preset>& presets = find_variant("diligent_ssr").presets;

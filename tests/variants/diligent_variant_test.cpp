@@ -11,7 +11,7 @@
 
 namespace {
 
-const char* const presets[] = {"documented", "current", "corrected"};
+const char* const presets[] = {"april_2024", "current", "corrected"};
 
 nlohmann::json preset_parameters(const std::string& name) {
     return std::ranges::find(find_variant("diligent_ssr").presets, name, &Preset::name)->parameters;

@@ -56,7 +56,7 @@ TEST_F(Halton, FillsTheSquareTheMoreEvenlyTheMoreSequences) {
 
 TEST_F(Halton, RotatesEachPixelSeedAndDimensionByItself) {
     // First points over pixels, seeds or dimensions are uniform: chi-square over 16 x 16 cells has 255 degrees of
-    // freedom and a standard deviation of 22.6; 5 of them.
+    // freedom and a standard deviation of 22.6; 5 of them: a false alarm in 2 * 10^5, of the correlation in 10^6.
     for (int varied = 0; varied < 3; ++varied) {
         std::vector<double> count(256, 0.0);
         const unsigned points = 1 << 14;

@@ -122,7 +122,7 @@ BENCHMARK_CAPTURE(march, amd_repeatable, "repeatable", as_is)->Apply(at_both_siz
 BENCHMARK_CAPTURE(march, amd_quarter_rate, "repeatable", quarter)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(march, amd_from_mip_1, "repeatable", coarser)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(march, amd_corrected, "corrected", as_is)->Apply(at_both_sizes);
-BENCHMARK_CAPTURE(frames, diligent_documented, "diligent_ssr", "documented", full)->Apply(at_both_sizes);
+BENCHMARK_CAPTURE(frames, diligent_april_2024, "diligent_ssr", "april_2024", full)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_current, "diligent_ssr", "current", full)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_current_mip_views, "diligent_ssr", "current", views)->Apply(at_both_sizes);
 BENCHMARK_CAPTURE(frames, diligent_current_half, "diligent_ssr", "current", half)->Apply(at_both_sizes);

@@ -96,6 +96,12 @@ TracingVariant::Needless DiligentSsr::find_needless(const SceneFacts& facts) {
 
 namespace {
 
+const nlohmann::json diligent_april_2024 = {{"mask", "stencil"},
+                                            {"spatial_kernel", "double_gaussian"},
+                                            {"distribution_floor", false},
+                                            {"short_ray_guard", false},
+                                            {"history_search", "device_depth"}};
+
 const nlohmann::json diligent_corrected = {{"temporal_radiance_stability_factor", 0.9},
                                            {"hierarchy.partial_texels", "clamped"},
                                            {"hierarchy.unproject_jitter", true},
@@ -130,14 +136,18 @@ VariantEntry diligent_ssr_entry() {
             "with a "
             "confidence in place of an environment; neighbours' rays are reused by ratio estimators, history is "
             "accumulated, and what stays noisy is filtered.",
-        .presets = {{"documented",
-                     "April 2024, as its document describes it",
-                     {{"mask", "stencil"},
-                      {"spatial_kernel", "double_gaussian"},
-                      {"distribution_floor", false},
-                      {"short_ray_guard", false},
-                      {"history_search", "device_depth"}}},
-                    {"current", "July 2026, with its defaults", nlohmann::json::object()},
+        .presets = {{"april_2024", "the shaders of commit e96a1d4 of April 2024, whose README is the document",
+                     diligent_april_2024},
+                    {"document_text",
+                     "april_2024 with what the document's text says in place of its shaders: visible normals by "
+                     "Heitz's disk, a number of samples by the roughness, a sigma from the variance",
+                     changed(diligent_april_2024,
+                             {{"half_vectors", "disk"}, {"variable_samples", true}, {"sigma_from_variance", true}})},
+                    {"current", "July 2026, with its defaults, within WebGL 2", nlohmann::json::object()},
+                    {"vulkan",
+                     "current as the original runs on Vulkan: levels of the hierarchy are read one by one, without "
+                     "the copies that WebGL 2 needs",
+                     {{"hierarchy", "mip_views"}}},
                     {"corrected",
                      "every defect fixed, and history that averages; deliberate choices of the original are unchanged",
                      diligent_corrected},

@@ -15,7 +15,8 @@ struct DiligentFilterParameters {
     Switch bilateral_cleanup{params, "bilateral_cleanup", true,
         {"", "filters what is still noisy", "ssrlab, to measure the stage"}};
     Param<float> spatial_reconstruction_radius{params, "spatial_reconstruction_radius", 4.0f, {0.0f, 32.0f},
-        {"pixels", "radius of the disk of neighbours, from a roughness of 0.2 on; smaller below",
+        {"pixels", "radius of the disk of neighbours, from a roughness of 0.2 on; smaller below. From 2 on a larger one is further from the "
+         "truth, and not less noisy, as there are always eight neighbours (README.md)",
          "DiligentFX, SpatialReconstructionRadius; its user interface offers 2 to 8"}};
     Param<float> temporal_radiance_stability_factor{params, "temporal_radiance_stability_factor", 1.0f, {0.0f, 1.0f},
         {"", "weight of history in the colour. The default of 1 never averages: history is only moved by the clamp to its "
@@ -43,7 +44,8 @@ struct DiligentFilterParameters {
          "proportion is ssrlab's"}};
     Switch sigma_from_variance{params, "sigma_from_variance", false,
         {"", "the standard deviation of the cleanup's kernel grows with that of the radiance d, as d / (d + 0.1), in place of a "
-         "threshold", "DiligentFX's document, without a formula"}};
+         "threshold. Below 1, it can only narrow the kernel: one that widens takes a bilateral_cleanup_spatial_sigma_factor above 1",
+         "DiligentFX's document, without a formula"}};
 
     // What differs between 2024 and 2026.
     Choice spatial_kernel{params, "spatial_kernel", "gaussian", {"gaussian", "double_gaussian"},

@@ -28,7 +28,8 @@ struct DiligentTracingParameters {
         {"", "what a ray without a hit contributes, and the share that a hit's confidence leaves. weight: only less "
          "confidence; fallback: the environment in the ray's direction", "DiligentFX: weight; fallback: SSSR 1.5"}};
     Param<float> ggx_importance_sample_bias{params, "ggx_importance_sample_bias", 0.3f, {0.0f, 1.0f},
-        {"of the lobe", "share of the sampled visible normals that is cut off, those furthest from the view direction",
+        {"of the lobe", "share of the sampled visible normals that is cut off, those furthest from the view direction. 0 is further from the "
+         "truth than 0.3; more is less noisy on average, not in every scene (README.md)",
          "DiligentFX, GGXImportanceSampleBias"}};
 
     Switch roughness_perceptual{params, "roughness_perceptual", true,

@@ -43,6 +43,8 @@ private:
          "the document specifies motion vectors, but its algorithm uses the previous camera's matrix"}};
     Switch neighborhood_clamp{params, "neighborhood_clamp", true,
         {"", "clamps the history to the least and largest of the 3x3 neighbours, each channel and the confidence alone", "the document"}};
+    Switch float_histories{params, "float_histories", false,
+        {"", "keeps the history in 32 bits in place of 16, whose storing darkens it on devices that truncate", "ssrlab; the document does not say"}};
     Switch reject_other_surfaces{params, "reject_other_surfaces", false,
         {"", "takes nothing of the history where the frame before showed another surface, by 1 % of its distance", "ssrlab; the document has no test"}};
     Switch weigh_by_confidence{params, "weigh_by_confidence", false,
@@ -90,7 +92,7 @@ Reflections FourModeSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
     tracers.run(graph, graph.compute(shader).write(traced), {slot()},
                 tracers.images(graph, gbuffer.depth, {}, {slot()}), ray_probe, is_stochastic() ? num_rays : 1);
     if (!is_temporal) return {traced, traced, 3};
-    const PassGraph::History blended = graph.history("blended", Format::rgba16f);
+    const PassGraph::History blended = graph.history("blended", float_histories ? Format::rgba32f : Format::rgba16f);
     graph.compute("four_mode_ssr/blend.comp")
         .read(traced)
         .read_linear(blended.previous)

@@ -55,6 +55,7 @@ void main() {
         color = weighed_color(pixel);
         if (temporal_filter) color = blended(pixel, color);
     }
-    imageStore(accumulated, pixel, color);
+    const float largest_half = 65504.0;
+    imageStore(accumulated, pixel, float_histories ? color : min(color, largest_half));
     imageStore(reflections, pixel, without_factors(pixel, color));
 }

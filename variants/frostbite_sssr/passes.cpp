@@ -116,7 +116,8 @@ FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, co
 Image frostbite_accumulate(PassGraph& graph, const GBuffer& gbuffer, const Image& split_sum,
                            const FrostbiteResolved& resolved, const FrostbiteResolveParameters& parameters) {
     if (!parameters.temporal_filter && parameters.reflectance_after_filter) return resolved.radiance;
-    const PassGraph::History accumulated = graph.history("accumulated", Format::rgba32f);
+    const PassGraph::History accumulated =
+        graph.history("accumulated", parameters.float_histories ? Format::rgba32f : Format::rgba16f);
     const Image reflections = graph.image("reflections", Format::rgba32f);
     graph.compute("frostbite_sssr/accumulate.comp")
         .read(gbuffer.motion)

@@ -60,6 +60,8 @@ struct FrostbiteResolveParameters {
         {"", "clamps history to the box of the 3x3 neighbours' colours", "slides; Karis 2014"}};
     Param<float> clamp_scale{params, "clamp_scale", 2.0f, {0.0f, 100.0f},
         {"", "by which that box is expanded about its centre", "slides: expanded; the factor is ours"}};
+    Switch float_histories{params, "float_histories", true,
+        {"", "keeps history in 32 bits; in 16 some devices truncate it, so that it darkens", "ssrlab; the slides do not say"}};
     Switch reflectance_after_filter{params, "reflectance_after_filter", true,
         {"", "multiplies by the integral of the BRDF after the temporal filter; otherwise before it", "slides"}};
     // clang-format on

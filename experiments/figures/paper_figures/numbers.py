@@ -9,7 +9,7 @@ def decimals(value, low=None, high=None):
     if size == 0 or not math.isfinite(size):
         return 2
     most = 3 - math.floor(math.log10(size))
-    half = (high - low) / 2 if low is not None and high is not None else None
+    half = max(high - low, 0) / 2 if low is not None and high is not None else None  # means of equal values round either way
     wanted = most - 1 if not half else 1 - math.floor(math.log10(half))
     return max(min(wanted, most), 0)
 

@@ -48,6 +48,7 @@ private:
         VerdictSums verdicts{};
         std::vector<double> missed_by_outcome;
         std::vector<float> distance_errors;  ///< relative, of rays that were right
+        std::vector<float> fetches_of_rays;
     };
     struct Key {
         std::string stage, mask;
@@ -57,7 +58,8 @@ private:
     std::vector<unsigned> seeds_;
 
     Count& count(const Key& key, unsigned seed);
-    static std::optional<double> median_distance_error(const Count& count);  ///< none without right rays
+    /// One of `values` that at least that share of them does not exceed; none of none.
+    static std::optional<double> quantile(std::vector<float> values, double share_below);
 };
 
 /// The verdict of each pixel's first ray in one colour each (RGB), black where none was traced: right green, wrong

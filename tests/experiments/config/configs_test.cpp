@@ -194,7 +194,7 @@ TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
     EXPECT_GE(scenes.size(), 6u);
     const nlohmann::json plain = make_variant("diligent_ssr", {}, "current")->params.values();
     unsigned changes = 0;
-    for (const std::string preset : {"documented", "corrected"}) {
+    for (const std::string preset : {"april_2024", "corrected"}) {
         const nlohmann::json changed = make_variant("diligent_ssr", {}, preset)->params.values();
         for (const auto& [name, value] : changed.items()) {
             if (value == plain[name] || name == "mask" || is_of_stability(name))
@@ -233,12 +233,14 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
     EXPECT_EQ(combinations["visible_normals"].size(), 3u * 2 * 2 * 2);
 }
 
-/// Every switch and choice of the technique, alone. Those that matter from two rays on have a study of theirs.
+/// Every switch and choice of the technique, alone. Those that matter from two rays on, or after many frames, have
+/// studies of theirs.
 TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
     std::set<std::string> changed;
-    for (const char* study : {"frostbite_whole.json", "frostbite_tiles.json"})
+    for (const char* study : {"frostbite_whole.json", "frostbite_tiles.json", "half_histories.json"})
         for (const VariantConfig& variant : read_config(source / "experiments/configs" / study).variants)
-            for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
+            if (variant.variant == "frostbite_sssr")
+                for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
     const std::unique_ptr<Variant> variant = make_variant("frostbite_sssr");
     // Other tracers, and parameters that only they read, are none of Frostbite's choices.
     const auto is_own = [](const std::string& name) {

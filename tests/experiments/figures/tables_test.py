@@ -43,6 +43,7 @@ def test_numbers(folder):
     # 0.0745, so that the interval is [0.928, 1.077].
     half = math.sqrt(2) * math.log(1 / 0.9) / 2
     check(abs(math.exp(half) - 1.0773) < 1e-4, "the expectation itself")
+    check(numbers.decimals(23.2, 23.2, math.nextafter(23.2, 0)) == 1, "ends of an interval that round past each other")
     check(changes[2] == f"| | mse | flip{A} |", changes[2])
     check(changes[4] == "| sixteen \\| taps | 0.250 [0.217, 0.289] |  |", changes[4])  # sorted by mse
     check(changes[5] == "| taps = 4 | 1.00 [0.93, 1.08] (0.50 to 2.00) | 0.810 |", changes[5])

@@ -169,6 +169,18 @@ TEST(JudgedHits, FetchesAreAMeanOverRays) {
     EXPECT_DOUBLE_EQ(judged({{few, seen_at_3_3}, {many, nothing}})("fetches"), 6.5);
 }
 
+TEST(JudgedHits, FetchesHaveADistributionOverRays) {
+    std::vector<JudgedRay> rays;
+    for (unsigned i = 0; i < 20; ++i) {
+        rays.push_back({miss(), nothing});
+        rays.back().ray.fetches = (7 * i) % 20;  // 0 to 19, in no order
+    }
+    const Quantities found = judged(rays);
+    EXPECT_DOUBLE_EQ(found("fetches: median"), 10);
+    EXPECT_DOUBLE_EQ(found("fetches: 90 %"), 18);
+    EXPECT_DOUBLE_EQ(found("fetches: most"), 19);
+}
+
 TEST(JudgedHits, MasksAndTheGridChoosePixels) {
     // 4 x 4 pixels with two rays each; the first of both is a hit where x and y are even, all others miss.
     std::vector<JudgedRay> rays;
