@@ -35,6 +35,8 @@ TEST_F(FixedStride, RefinesLongStrides) {
         refined["fixed_stride.binary_search_steps"] = steps;
         const float position = trace(to_column(), refined).position.x, stride = 8 / std::exp2(float(steps));
         EXPECT_TRUE(position >= column - 1e-3f && position <= column + stride + 1e-3f) << steps << ": " << position;
+        refined["fixed_stride.refine"] = false;
+        EXPECT_EQ(trace(to_column(), refined).position.x, coarse.position.x) << steps;
     }
 }
 

@@ -1,4 +1,5 @@
 #include "variants/common/variant_entry.h"
+#include "variants/four_mode_ssr/blue_noise_texture.h"
 #include "variants/tracers/tracing_variant.h"
 
 /// The four-mode reflection pass of an engine: its documentation of 2026-01-14 is "the document". Parameters have its
@@ -15,6 +16,7 @@ private:
     const Tracers& chosen_tracers() const override { return tracers; }
     std::string slot() const { return mode.is("simple_linear") ? "linear_tracer" : "tracer"; }
     bool is_stochastic() const { return mode.is("stochastic") || mode.is("temporal"); }
+    Image noise_texture(PassGraph& graph);
 
     // clang-format off
     Choice mode{params, "mode", "hiz", {"simple_linear", "hiz", "stochastic", "temporal"},
@@ -32,6 +34,13 @@ private:
     Choice weights{params, "weights", "none", {"none", "ratio"},
         {"", "of the rays of a pixel in their mean. none: all alike; ratio: the density of the lobe of visible normals over that of "
          "the mixture which they were drawn from, divided by the sum", "none: the document, which names no weight; ratio: ssrlab"}};
+    Choice noise{params, "noise", "blue", {"blue", "white"},
+        {"", "how the random numbers of neighbours and frames belong together. blue: a texel of 64x64, from which the rays of a "
+         "pixel and its frames go on evenly; white: all are independent",
+         "blue: the document, which names the texture and not how it is used; the sequence is ssrlab's"}};
+    Param<float> sky_depth{params, "sky_depth", 1e-4f, {0.0f, 1.0f},
+        {"device depth", "distance from the far plane's up to which a pixel starts no ray; 0: all surfaces do",
+         "the document: sky pixels end early, of depths below 1e-4 where the far plane has 0"}};
 
     // Mode temporal.
     Param<float> temporal_blend{params, "temporal_blend", 0.9f, {0.0f, 0.98f}, {"", "share of the history where nothing moves", "the document"}};
@@ -50,6 +59,7 @@ private:
          "half as much", "ssrlab; the document blends its texture's channels"}};
     // clang-format on
     Tracers tracers;
+    std::weak_ptr<ImageStorage> uploaded_noise;
 };
 
 namespace {
@@ -60,6 +70,7 @@ nlohmann::json printed_marches() {
                                  {"fixed_stride.step", "uv"},
                                  {"fixed_stride.reject_towards_camera", true},
                                  {"fixed_stride.front_faces_only", false},
+                                 {"fixed_stride.refine", false},
                                  {"cells.max_steps", 64},
                                  {"cells.interval", false},
                                  {"cells.back_faces", "fade"},
@@ -87,7 +98,7 @@ Reflections FourModeSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
     const Image traced = graph.image("traced", Format::rgba16f);
     const bool is_linear = mode.is("simple_linear");
     const std::string shader = is_linear ? "four_mode_ssr/trace_linear.comp" : "four_mode_ssr/trace.comp";
-    tracers.run(graph, graph.compute(shader).write(traced), {slot()},
+    tracers.run(graph, graph.compute(shader).read(noise_texture(graph)).write(traced), {slot()},
                 tracers.images(graph, gbuffer.depth, {}, {slot()}), ray_probe, is_stochastic() ? num_rays : 1);
     if (!is_temporal) return {traced, traced, 3};
     const PassGraph::History blended = graph.history("blended", Format::rgba16f);
@@ -98,6 +109,17 @@ Reflections FourModeSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
         .write(blended.current)
         .run();
     return {blended.current, blended.current, 3};
+}
+
+/// Where no number is drawn from it, a texel that is never looked at: the shader names the image.
+Image FourModeSsr::noise_texture(PassGraph& graph) {
+    if (!noise.is("blue") || !depends_on_seed()) return graph.image_black_at_first("blue_noise", Format::rgba8, {1, 1});
+    const Image texture = graph.image_of("blue_noise", Format::rgba8, glm::uvec2(blue_noise_texture_width));
+    if (uploaded_noise.lock() != texture.storage) {
+        graph.upload_rgba8(texture, blue_noise_texture());
+        uploaded_noise = texture.storage;
+    }
+    return texture;
 }
 
 bool FourModeSsr::depends_on_seed() const { return is_stochastic() || tracers.needs(slot()).random; }
@@ -130,11 +152,14 @@ nlohmann::json corrections() {
     nlohmann::json parameters = {{"fixed_stride.step", "pixels"},
                                  {"fixed_stride.reject_towards_camera", false},
                                  {"fixed_stride.front_faces_only", true},
+                                 {"fixed_stride.refine", true},
                                  {"cells.interval", true},
                                  {"cells.back_faces", "reject"},
                                  {"cells.grazing_fade", 0},
                                  {"weights", "ratio"},
                                  {"brdf_bias", 1},
+                                 {"noise", "white"},
+                                 {"sky_depth", 0},
                                  {"history_place", "motion_vectors"},
                                  {"reject_other_surfaces", true},
                                  {"weigh_by_confidence", true},

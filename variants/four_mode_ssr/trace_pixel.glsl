@@ -4,11 +4,12 @@
 #include "common/halton.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D lit;
+uniform sampler2D lit, blue_noise;
 uniform writeonly image2D traced;
 
 const uint mode_hiz = 1u;             // parameter `mode`; those above draw at random
-const uint weights_ratio = 1u;      // parameter `weights`
+const uint weights_ratio = 1u;        // parameter `weights`
+const uint noise_white = 1u;          // parameter `noise`
 const float least_confidence = 1e-4;  // well above the resolution of half floats
 
 struct DrawnRay {
@@ -16,14 +17,33 @@ struct DrawnRay {
     float weight;    // 0: below the horizon, not to be traced
 };
 
-// One ray of the mixture ("GGX Importance Sampling"; brdfBias).
-DrawnRay draw_ray(vec3 o, float alpha, ivec2 pixel, uint k) {
-    uvec4 key = uvec4(pixel, camera.frame.x, camera.frame.y << 5 | k << 2);
-    vec2 u = random_point(key);
-    bool is_of_lobe = random_point(key + uvec4(0u, 0u, 0u, 1u)).x < brdf_bias;
+// Four numbers in [0, 1) for ray k of a pixel. Blue: the texel's, from where rays and frames go on by irrational steps: for
+// the direction those of Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences", then the golden ratio
+// and the root of 2. Another seed moves texels and numbers (Cranley and Patterson 1976). In units of 2^-32.
+vec4 random_numbers(ivec2 pixel, uint k) {
+    if (noise == noise_white) {
+        uvec4 key = uvec4(pixel, camera.frame.x, camera.frame.y << 5 | k << 2);
+        return vec4(random_point(key), random_point(key + uvec4(0u, 0u, 0u, 1u)).x,
+                    random_point(key + uvec4(0u, 0u, 0u, 2u)).x);
+    }
+    uvec2 texel = uvec2(pixel);
+    uvec4 rotation = uvec4(0u);
+    if (camera.frame.y != 0u) {
+        rotation = pcg4d(uvec4(camera.frame.y, 0u, 0u, 0u));
+        texel += pcg4d(uvec4(camera.frame.y, 1u, 0u, 0u)).xy;
+    }
+    uvec4 code = uvec4(texelFetch(blue_noise, ivec2(texel % uvec2(textureSize(blue_noise, 0))), 0) * 255.0 + 0.5);
+    const uvec4 step = uvec4(3242174889u, 2447445413u, 2654435769u, 1779033703u);
+    uvec4 number = (code << 24) + (1u << 23) + (camera.frame.x * num_rays + k) * step + rotation;
+    return vec4(number >> 8) * (1.0 / 16777216.0);
+}
+
+// One ray of the mixture ("GGX Importance Sampling"; brdfBias). u: in [0, 1).
+DrawnRay draw_ray(vec3 o, float alpha, vec3 u) {
+    bool is_of_lobe = u.z < brdf_bias;
     vec3 direction;
     if (is_of_lobe) {
-        direction = sample_lobe(lobe_of_normals, o, alpha, 0.0, u).direction;
+        direction = sample_lobe(lobe_of_normals, o, alpha, 0.0, u.xy).direction;
     } else {
         direction = vec3(sqrt(max(0.0, 1.0 - u.x * u.x)) * unit_circle(u.y), u.x);
     }
@@ -44,12 +64,12 @@ vec4 trace_pixel(ivec2 pixel) {
     vec4 sum = vec4(0.0);  // of weight * confidence: colour, 1
     float weight_sum = 0.0;
     for (uint k = 0u; k < (is_stochastic ? num_rays : 1u); ++k) {
+        vec4 random = random_numbers(pixel, k);
         DrawnRay drawn = DrawnRay(vec3(-o.xy, o.z), 1.0);
-        if (is_stochastic) drawn = draw_ray(o, alpha, pixel, k);
+        if (is_stochastic) drawn = draw_ray(o, alpha, random.xyz);
         if (!(drawn.weight > 0.0)) continue;
-        float random = random_point(uvec4(pixel, camera.frame.x, camera.frame.y << 5 | k << 2 | 2u)).x;
-        TraceEnd end = march(TraceRay(pixel, k, origin, view_from_local * drawn.direction, vs_geometric_normal, random,
-                                      !is_stochastic));
+        TraceEnd end = march(TraceRay(pixel, k, origin, view_from_local * drawn.direction, vs_geometric_normal,
+                                      random.w, !is_stochastic));
         weight_sum += drawn.weight;
         if (end.outcome == outcome_hit)
             sum += drawn.weight * end.confidence * vec4(texelFetch(lit, end.pixel, 0).rgb, 1.0);
@@ -67,7 +87,8 @@ void main() {
     if (!is_on_screen(pixel)) return;
     vec4 result = vec4(0.0);
     float fade = 0.0;
-    if (reflects(pixel, roughness_fade) && dot(view_direction(view_position(pixel)), view_normal(pixel)) < 0.0)
+    bool is_sky_pixel = is_sky(texelFetch(depth, pixel, 0).r, sky_depth);
+    if (!is_sky_pixel && reflects(pixel, roughness_fade) && dot(view_direction(view_position(pixel)), view_normal(pixel)) < 0.0)
         fade = fade_of_surface(pixel);
     if (fade > 0.0) result = trace_pixel(pixel) * vec4(1.0, 1.0, 1.0, fade);
     const float largest_half = 65504.0;
