@@ -17,9 +17,9 @@ struct DrawnRay {
     float weight;    // 0: below the horizon, not to be traced
 };
 
-// Four numbers in [0, 1) for ray k of a pixel. Blue: the texel's, from where rays and frames go on by irrational steps: for
-// the direction those of Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences", then the golden ratio
-// and the root of 2. Another seed moves texels and numbers (Cranley and Patterson 1976). In units of 2^-32.
+// Four numbers in [0, 1) for ray k of a pixel. Blue: the texel's, from where rays and frames go on by irrational steps:
+// for the direction those of Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences", then the golden
+// ratio and the root of 2. Another seed moves texels and numbers (Cranley and Patterson 1976). In units of 2^-32.
 vec4 random_numbers(ivec2 pixel, uint k) {
     if (noise == noise_white) {
         uvec4 key = uvec4(pixel, camera.frame.x, camera.frame.y << 5 | k << 2);
@@ -88,7 +88,8 @@ void main() {
     vec4 result = vec4(0.0);
     float fade = 0.0;
     bool is_sky_pixel = is_sky(texelFetch(depth, pixel, 0).r, sky_depth);
-    if (!is_sky_pixel && reflects(pixel, roughness_fade) && dot(view_direction(view_position(pixel)), view_normal(pixel)) < 0.0)
+    if (!is_sky_pixel && reflects(pixel, roughness_fade) &&
+        dot(view_direction(view_position(pixel)), view_normal(pixel)) < 0.0)
         fade = fade_of_surface(pixel);
     if (fade > 0.0) result = trace_pixel(pixel) * vec4(1.0, 1.0, 1.0, fade);
     const float largest_half = 65504.0;
