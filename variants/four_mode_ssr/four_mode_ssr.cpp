@@ -47,9 +47,11 @@ private:
     Param<float> motion_threshold{params, "motion_threshold", 0.01f, {0.001f, 0.1f},
         {"uv", "motion on the screen at which nothing is taken of the history, of which the share falls to it in proportion",
          "the document: the number; the linear fall is ssrlab's"}};
-    Choice history_place{params, "history_place", "camera", {"camera", "motion_vectors"},
-        {"", "where the surface was in the frame before. camera: by the previous camera, as if nothing but it moved",
-         "the document specifies motion vectors, but its algorithm uses the previous camera's matrix"}};
+    Choice history_place{params, "history_place", "camera", {"camera", "motion_vectors", "reflection"},
+        {"", "what is looked for in the frame before. camera: the surface, as if nothing but the camera moved; motion_vectors: the "
+         "surface; reflection: the mirror image of what the rays hit, by that one's motion, as if the surface were flat and stood "
+         "still. `motion_threshold` counts the way to it, the longest among the neighbours of the clamp",
+         "the document specifies motion vectors, but its algorithm uses the previous camera's matrix; reflection: ssrlab"}};
     Switch neighborhood_clamp{params, "neighborhood_clamp", true,
         {"", "clamps the history to the least and largest of the 3x3 neighbours, each channel and the confidence alone", "the document"}};
     Switch reject_other_surfaces{params, "reject_other_surfaces", false,
@@ -98,12 +100,16 @@ Reflections FourModeSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
     const Image traced = graph.image("traced", Format::rgba16f);
     const bool is_linear = mode.is("simple_linear");
     const std::string shader = is_linear ? "four_mode_ssr/trace_linear.comp" : "four_mode_ssr/trace.comp";
-    tracers.run(graph, graph.compute(shader).read(noise_texture(graph)).write(traced), {slot()},
+    const bool follows_reflections = is_temporal && history_place.is("reflection");
+    const Image way =
+        graph.image_of("reflection_way", Format::rg16f, follows_reflections ? graph.extent() : glm::uvec2(1));
+    tracers.run(graph, graph.compute(shader).read(noise_texture(graph)).write(traced).write(way), {slot()},
                 tracers.images(graph, gbuffer.depth, {}, {slot()}), ray_probe, is_stochastic() ? num_rays : 1);
     if (!is_temporal) return {traced, traced, 3};
     const PassGraph::History blended = graph.history("blended", Format::rgba16f);
     graph.compute("four_mode_ssr/blend.comp")
         .read(traced)
+        .read(way)
         .read_linear(blended.previous)
         .read(gbuffer.previous_depth)
         .write(blended.current)
@@ -132,6 +138,7 @@ TracingVariant::Needless FourModeSsr::find_needless(const SceneFacts& facts) {
     if (mode.is("temporal")) {
         needless.stages.push_back("four_mode_ssr/blend");
         if (history_place.is("motion_vectors")) needless.motion_readers = {"four_mode_ssr/blend"};
+        if (history_place.is("reflection")) needless.motion_readers = {"four_mode_ssr/trace"};
     }
     return needless;
 }
