@@ -49,8 +49,8 @@ private:
          "the document: the number; the linear fall is ssrlab's"}};
     Choice history_place{params, "history_place", "camera", {"camera", "motion_vectors", "reflection"},
         {"", "what is looked for in the frame before. camera: the surface, as if nothing but the camera moved; motion_vectors: the "
-         "surface; reflection: the mirror image of what the rays hit, by that one's motion, as if the surface were flat and stood "
-         "still. `motion_threshold` counts the way to it, the longest among the neighbours of the clamp",
+         "surface; reflection: the mirror image of what the rays hit, by that one's motion, as if the surface were flat, and the "
+         "surface where it moves itself by half a pixel or more. `motion_threshold` counts the way to it, the longest among the neighbours of the clamp",
          "the document specifies motion vectors, but its algorithm uses the previous camera's matrix; reflection: ssrlab"}};
     Switch neighborhood_clamp{params, "neighborhood_clamp", true,
         {"", "clamps the history to the least and largest of the 3x3 neighbours, each channel and the confidence alone", "the document"}};

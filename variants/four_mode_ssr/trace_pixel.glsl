@@ -94,6 +94,7 @@ vec4 trace_pixel(ivec2 pixel, out vec2 way) {
     vec3 o = -towards_surface * view_from_local;
     vec4 sum = vec4(0.0);  // of weight * confidence: colour, 1
     vec3 way_sum = vec3(0.0);  // of that times luminance: the way, 1
+    way = vec2(0.0);
     float weight_sum = 0.0;
     for (uint k = 0u; k < (is_stochastic ? num_rays : 1u); ++k) {
         vec4 random = random_numbers(pixel, k);
@@ -109,7 +110,11 @@ vec4 trace_pixel(ivec2 pixel, out vec2 way) {
         if (follows_reflections())
             way_sum += drawn.weight * end.confidence * luminance_bt709(color) * vec3(way_of_image(origin, n, end), 1.0);
     }
-    way = way_sum.z > 0.0 ? way_sum.xy / way_sum.z : way_of_surface(origin);
+    if (follows_reflections()) {
+        vec2 of_surface = way_of_surface(origin), by_vector = motion_at(pixel);
+        bool stands_still = length((by_vector - of_surface) * camera.extent.xy) < 0.5;
+        way = !stands_still ? by_vector : way_sum.z > 0.0 ? way_sum.xy / way_sum.z : of_surface;
+    }
     return sum.a > 0.0 ? vec4(sum.rgb / sum.a, sum.a / weight_sum) : vec4(0.0);
 }
 
