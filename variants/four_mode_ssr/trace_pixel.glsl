@@ -60,6 +60,12 @@ DrawnRay draw_ray(vec3 o, float alpha, vec3 u) {
     return DrawnRay(direction, lobe_density(lobe_of_visible_normals, o, direction, alpha) / density);
 }
 
+// uv now - uv before of the surface, by the previous camera.
+vec2 way_of_surface(vec3 origin) {
+    vec4 clip = camera.previous_clip_from_world * (camera.world_from_view * vec4(origin, 1.0));
+    return screen_from_view(origin).xy - (clip.xy / clip.w * 0.5 + 0.5);
+}
+
 // uv now - uv before (un-jittered) of the mirror image of what a ray hit: it lies behind the surface as far as the hit
 // lies before it, and moves as the hit does, mirrored. What moves is taken to keep its distance from the camera, which
 // motion vectors do not contain.
@@ -75,13 +81,8 @@ vec2 way_of_image(vec3 origin, vec3 vs_normal, TraceEnd end) {
     vec3 image_before = (camera.world_from_view * vec4(vs_image, 1.0)).xyz -
                         reflect(hit - hit_before, world_from_view * vs_normal);
     vec4 image_clip = camera.previous_clip_from_world * vec4(image_before, 1.0);
+    if (!(image_clip.w > 0.0)) return way_of_surface(origin);  // behind that camera
     return screen_from_view(vs_image).xy - (image_clip.xy / image_clip.w * 0.5 + 0.5);
-}
-
-// uv now - uv before of the surface, by the previous camera.
-vec2 way_of_surface(vec3 origin) {
-    vec4 clip = camera.previous_clip_from_world * (camera.world_from_view * vec4(origin, 1.0));
-    return screen_from_view(origin).xy - (clip.xy / clip.w * 0.5 + 0.5);
 }
 
 // way: of the history that belongs to it, if it follows reflections.
