@@ -35,6 +35,8 @@ TEST_F(FixedStride, RefinesLongStrides) {
         refined["fixed_stride.binary_search_steps"] = steps;
         const float position = trace(to_column(), refined).position.x, stride = 8 / std::exp2(float(steps));
         EXPECT_TRUE(position >= column - 1e-3f && position <= column + stride + 1e-3f) << steps << ": " << position;
+        refined["fixed_stride.refine"] = false;
+        EXPECT_EQ(trace(to_column(), refined).position.x, coarse.position.x) << steps;
     }
 }
 
@@ -80,6 +82,29 @@ TEST_F(FixedStride, ReachesAsFarAsItsSteps) {
         EXPECT_NEAR(end.distance, to_column_meters(reach), 1e-3);
     }
     EXPECT_TRUE(trace(to_column(), {{"fixed_stride.max_steps", 120}}).is_hit());
+}
+
+/// The document's qualities Low to Ultra with its cutoff of 100 m: near the camera the best reaches least far, far away
+/// the worst.
+TEST_F(FixedStride, ReachOfTheQualitiesTurnsRoundWithTheDistance) {
+    bench.show_wall(99);
+    const auto reach = [&](float meters, int steps, float stride) {
+        bench.set_pixel(start, meters, {1, 0, 0});
+        const BenchEnd end = trace(to_column(), {{"fixed_stride.max_steps", steps}, {"fixed_stride.stride", stride}});
+        EXPECT_EQ(end.outcome, outcome_unfinished);
+        return end.position.x - 20.5f;
+    };
+    struct Row {
+        float meters;
+        std::array<float, 4> pixels;
+    };
+    for (const Row& row :
+         {Row{1, {63.7f, 71.8f, 64, 48.5f}}, {20, {57.6f, 67.2f, 64, 57.6f}}, {67, {42.6f, 55.9f, 64, 80.2f}}}) {
+        const std::array<float, 4> found = {reach(row.meters, 32, 2), reach(row.meters, 48, 1.5f),
+                                            reach(row.meters, 64, 1), reach(row.meters, 96, 0.5f)};
+        for (size_t i = 0; i < found.size(); ++i)
+            EXPECT_NEAR(found[i], row.pixels[i], 0.1f) << row.meters << " m, " << i;
+    }
 }
 
 TEST_F(FixedStride, ReachesAsFarAsItsDistance) {

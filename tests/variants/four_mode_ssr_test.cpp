@@ -3,6 +3,7 @@
 #include "tests/variants/rough_floor.h"
 #include "tests/variants/variant_fixture.h"
 #include "variants/common/variant_entry.h"
+#include "variants/four_mode_ssr/blue_noise_texture.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -19,13 +20,19 @@ struct FourModeTest : VariantTest {
     PassGraph graph{device(), extent};
 
     /// Channels: radiance, confidence. `before`: the camera of the frame before, if there is one.
-    HostImage render(Variant& variant, const SyntheticScene& scene, unsigned frame = 0,
-                     const CameraPose* before = nullptr, std::optional<glm::vec2> motion = {}) {
+    /// `motion`: of the pixels that `moves`, in place of the scene's.
+    HostImage render(
+        Variant& variant, const SyntheticScene& scene, unsigned frame = 0, const CameraPose* before = nullptr,
+        std::optional<glm::vec2> motion = {},
+        const std::function<bool(const SyntheticHit&)>& moves = [](const SyntheticHit&) { return true; }) {
         const FrameView view{.extent = extent, .depth_direction = depth, .frame = frame};
         const CameraData camera = camera_data(pose, before, view);
         const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
         HostImage motions = motion_of(pose, camera, scene);
-        for (size_t i = 0; motion && i < motions.values.size(); ++i) motions.values[i] = (*motion)[int(i % 2)];
+        for (size_t i = 0; motion && i < motions.values.size(); ++i) {
+            const glm::vec2 place = glm::vec2(i / 2 % extent.x, i / 2 / extent.x) + 0.5f;
+            if (moves(scene(camera_ray(pose, extent, place)))) motions.values[i] = (*motion)[int(i % 2)];
+        }
         graph.upload(gbuffer.motion, motions);
         graph.begin_frame(camera, variant.params, gbuffer.images());
         return graph.download(variant.render(graph, gbuffer).radiance);
@@ -99,6 +106,107 @@ TEST_F(FourModeTest, PresetsAreThoseOfThePrintedTable) {
         EXPECT_NEAR(settings[name].is_string() ? 0.0 : settings[name].get<double>() - value.get<double>(), 0.0, 1e-6)
             << name;
     EXPECT_EQ(settings["mode"], "hiz");
+    EXPECT_EQ(settings["noise"], "blue");
+    EXPECT_EQ(settings["fixed_stride.refine"], false) << "the printed march takes no step back";
+    EXPECT_NEAR(settings["sky_depth"].get<double>(), 1e-4, 1e-10);
+}
+
+/// A mirror that leans back, from some 65 m to 99 m, below a ceiling: what lies beyond 91 m differs by less than 1e-4
+/// from the far plane.
+TEST_F(FourModeTest, PixelsNearTheFarPlaneStartNoRayAsPrinted) {
+    const SyntheticScene scene = [](const CameraRay& ray) -> SyntheticHit {
+        const glm::vec3 n = glm::normalize(glm::vec3(0, 20, 30));
+        if (ray.direction.y < 0)
+            return {.distance = glm::dot(n, glm::vec3(0, 0, -99)) / glm::dot(n, ray.direction),
+                    .normal = n,
+                    .roughness = 0,
+                    .metalness = 1,
+                    .specular = 1};
+        return {.distance = std::min(10 / ray.direction.y, -99 / ray.direction.z),
+                .normal = {0, -1, 0},
+                .lit = glm::vec3(1)};
+    };
+    for (const DepthDirection direction : {DepthDirection::standard, DepthDirection::reversed})
+        for (const char* mode : {"simple_linear", "hiz"}) {
+            depth = direction;
+            const Parameters parameters = {{"mode", mode}};
+            const HostImage all = render(parameters, scene, "corrected");
+            const HostImage near = render(changed(parameters, {{"sky_depth", 1e-4}}), scene, "corrected");
+            size_t kept = 0, left_out = 0;
+            for (unsigned y = 0; y < extent.y; ++y)
+                for (unsigned x = 0; x < extent.x; ++x) {
+                    const CameraRay ray = camera_ray(pose, extent, glm::vec2(x, y) + 0.5f);
+                    const float distance = -scene(ray).distance * ray.direction.z;
+                    const float from_far_plane = (1 / distance - 0.01f) / (10 - 0.01f);
+                    if (std::abs(from_far_plane - 1e-4f) < 1e-6f) continue;
+                    const bool is_near = from_far_plane > 1e-4f;
+                    ASSERT_EQ(near.pixel(x, y)[3], is_near ? all.pixel(x, y)[3] : 0.0f) << x << ", " << y;
+                    if (all.pixel(x, y)[3] > 0) ++(is_near ? kept : left_out);
+                }
+            EXPECT_GT(kept, 15u) << mode;
+            EXPECT_GT(left_out, 15u) << mode;
+        }
+}
+
+TEST_F(FourModeTest, TheTextureOfNoiseIsUniformAndBlueInEachChannel) {
+    const int width = blue_noise_texture_width;
+    const std::vector<uint8_t>& texels = blue_noise_texture();
+    ASSERT_EQ(texels.size(), size_t(4 * width * width));
+    for (int channel = 0; channel < 4; ++channel) {
+        std::vector<int> count(256);
+        for (int i = 0; i < width * width; ++i) ++count[texels[4 * i + channel]];
+        EXPECT_TRUE(std::ranges::all_of(count, [](int n) { return n == 16; })) << channel;
+        // Variance of means over 4x4 texels, and correlation with the other channels. Of white noise the former is a
+        // 16th of a texel's, with a standard error of 9 % (256 means); the latter is 0, with one of 1 / 64.
+        double of_means = 0;
+        for (int y = 0; y < width; y += 4)
+            for (int x = 0; x < width; x += 4) {
+                double mean = 0;
+                for (int i = 0; i < 16; ++i)
+                    mean += texels[4 * ((y + i / 4) * width + x + i % 4) + channel] / 16.0 - 127.5 / 16;
+                of_means += mean * mean / 256;
+            }
+        const double of_texels = (256.0 * 256 - 1) / 12;
+        EXPECT_LT(of_means, 0.25 * of_texels / 16) << channel;
+        for (int other = 0; other < channel; ++other) {
+            double correlation = 0;
+            for (int i = 0; i < width * width; ++i)
+                correlation += (texels[4 * i + channel] - 127.5) * (texels[4 * i + other] - 127.5);
+            EXPECT_LT(std::abs(correlation / (width * width) / of_texels), 5.0 / 64) << channel << ", " << other;
+        }
+    }
+}
+
+TEST_F(FourModeTest, BlueNoiseHasTheMeanOfWhiteNoiseAndComesCloserToItInTenFrames) {
+    const RoughFloor floor{.roughness = 0.35f, .pose = pose, .extent = extent};
+    const unsigned frames = 10, groups = 12;
+    double mean[2] = {}, variance[2] = {};  // of a pixel's mean over `frames` frames
+    for (const int is_blue : {0, 1}) {
+        const auto variant = make_variant(
+            "four_mode_ssr",
+            changed(RoughFloor::march(),
+                    {{"mode", "stochastic"}, {"noise", is_blue ? "blue" : "white"}, {"roughness_fade", 1}}));
+        std::vector<double> sums(floor.columns().size() * groups);
+        for (unsigned frame = 0; frame < frames * groups; ++frame) {
+            const HostImage image = render(*variant, floor.scene(), frame);
+            for (size_t i = 0; i < floor.columns().size(); ++i) {
+                const float* p = image.pixel(floor.columns()[i], floor.row());
+                sums[i * groups + frame / frames] += double(p[0]) * p[3] / frames;
+            }
+        }
+        for (size_t i = 0; i < floor.columns().size(); ++i) {
+            double of_pixel = 0;
+            for (unsigned g = 0; g < groups; ++g) of_pixel += sums[i * groups + g] / groups;
+            for (unsigned g = 0; g < groups; ++g)
+                variance[is_blue] += std::pow(sums[i * groups + g] - of_pixel, 2) / (groups - 1);
+            mean[is_blue] += of_pixel / double(floor.columns().size());
+        }
+        variance[is_blue] /= double(floor.columns().size());
+    }
+    // Five standard errors of the white mean, which is the noisier one. Variances of 99 degrees of freedom have a
+    // standard error of 14 %.
+    EXPECT_NEAR(mean[1], mean[0], 5 * std::sqrt(variance[0] / double(groups * floor.columns().size())));
+    EXPECT_LT(variance[1], 0.5 * variance[0]);
 }
 
 TEST_F(FourModeTest, BothMirrorModesFindTheWall) {
@@ -161,6 +269,7 @@ TEST_F(FourModeTest, AnyMixtureHasTheMeanOfTheLobeIfWeighed) {
                                                                                              {"num_rays", 8},
                                                                                              {"brdf_bias", bias},
                                                                                              {"weights", weights},
+                                                                                             {"noise", "white"},
                                                                                              {"roughness_fade", 1}}));
             const bool is_weighed = std::string(weights) == "ratio";
             const RoughFloor::Mean mean = floor.mean(
@@ -204,6 +313,44 @@ TEST_F(FourModeTest, MotionVectorsSayWhereTheHistoryIs) {
             const float* before = first.pixel(x - 4, y);
             if (before[3] != 1 || second.pixel(x, y)[3] < 0.9995f) continue;
             ASSERT_NEAR(second.pixel(x, y)[0], 0.9f * 0.375f * before[0], 2e-3f) << x << ", " << y;  // half floats
+            ++compared, changed_side += before[0] != first.pixel(x, y)[0];
+        }
+    EXPECT_GT(compared, 400u);
+    EXPECT_GT(changed_side, 20u);
+}
+
+TEST_F(FourModeTest, HistoryOfAReflectionMovesWithWhatIsReflected) {
+    // A wall moves by 4 of 64 pixels to the right above a floor that stands still: so does its image, by 0.0625 of the
+    // threshold of 0.1.
+    const auto variant = make_variant("four_mode_ssr",
+                                      without_fades({{"mode", "temporal"},
+                                                     {"history_place", "reflection"},
+                                                     {"neighborhood_clamp", false},
+                                                     {"num_rays", 1},
+                                                     {"brdf_bias", 1},
+                                                     {"reject_other_surfaces", false},
+                                                     {"motion_threshold", 0.1}}),
+                                      "corrected");
+    const auto striped = [](float left, float right) {
+        return [=](const CameraRay& ray) {
+            SyntheticHit hit = floor_before_white(ray);
+            hit.lit *= ray.direction.x < 0 ? left : right;
+            return hit;
+        };
+    };
+    const auto moves = [](const SyntheticHit& hit) { return hit.metalness == 0; };
+    const HostImage first = render(*variant, striped(1, 2), 0);
+    const HostImage second = render(*variant, striped(1, 1), 1, &pose, glm::vec2(4.0f / extent.x, 0), moves);
+    size_t compared = 0, changed_side = 0;
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 4; x < extent.x; ++x) {
+            const float* before = first.pixel(x - 4, y);
+            if (before[3] != 1 || second.pixel(x, y)[3] < 0.9995f) continue;
+            if (x < 5 || before[0] != first.pixel(x - 5, y)[0] || before[0] != first.pixel(x - 3, y)[0]) continue;
+            const float of_history = 0.9f * 0.375f;
+            ASSERT_NEAR(second.pixel(x, y)[0], 1 - of_history + of_history * before[0], 4e-3f)
+                << x << ", "
+                << y;  // half floats above 1, twice as coarse as those below, which others here compare by 2e-3
             ++compared, changed_side += before[0] != first.pixel(x, y)[0];
         }
     EXPECT_GT(compared, 400u);

@@ -47,6 +47,7 @@ nlohmann::json all_by(const TracerEntry& tracer, const VariantEntry& entry) {
     const std::unique_ptr<Variant> variant = entry.create();
     for (const Parameter& p : variant->params)
         if (std::ranges::count(p.choices, tracer.name)) parameters[p.name] = tracer.name;
+    parameters["fixed_stride.refine"] = true;  // steps of the four-mode pass as printed end too far behind the wall
     parameters["exact_layer.thickness_from"] = "parameter";  // the made-up G-buffer has one layer
     if (entry.name == "amd_sssr") parameters["denoise"] = false;
     if (entry.name == "frostbite_sssr") parameters["max_rays"] = parameters["min_rays"] = 4;  // probes have one

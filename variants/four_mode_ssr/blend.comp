@@ -3,10 +3,10 @@
 #include "common/motion.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D traced, previous_blended, previous_depth;
+uniform sampler2D traced, reflection_way, previous_blended, previous_depth;
 uniform writeonly image2D blended;
 
-const uint place_by_camera = 0u;  // parameter `history_place`
+const uint place_by_camera = 0u, place_of_reflection = 2u;  // parameter `history_place`
 
 // What is blended: colour and confidence, or their product and confidence.
 vec4 weighed(vec4 color) { return weigh_by_confidence ? vec4(color.rgb * color.a, color.a) : color; }
@@ -28,8 +28,19 @@ vec4 clamped_to_neighborhood(ivec2 pixel, vec4 history) {
     return clamp(history, low, high);
 }
 
+// What moves past leaves its history at neighbours that do not show it any more: the longest way among them counts.
+float longest_way(ivec2 pixel) {
+    float longest = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 at = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), ivec2(camera.extent.xy) - 1);
+        longest = max(longest, length(texelFetch(reflection_way, at, 0).xy));
+    }
+    return longest;
+}
+
 struct Before {
     vec2 uv;           // un-jittered screen of the frame before
+    float way;         // from there to here, as `motion_threshold` counts it
     float view_depth;  // distance from that camera's plane (m)
     bool is_in_front;
 };
@@ -39,8 +50,16 @@ Before surface_before(ivec2 pixel, float device_depth) {
     vec4 world = vec4(world_from_screen(uv, device_depth), 1.0);
     vec4 clip = camera.previous_clip_from_world * world;
     vec2 by_camera = clip.xy / clip.w * 0.5 + 0.5;
-    vec2 found = history_place == place_by_camera ? by_camera : uv - motion_at(pixel);
-    return Before(found, -(camera.previous_view_from_world * world).z, clip.w > 0.0);
+    vec2 found = by_camera;
+    float way = 0.0;
+    if (history_place == place_of_reflection) {
+        found = uv - texelFetch(reflection_way, pixel, 0).xy;
+        way = longest_way(pixel);
+    } else {
+        if (history_place != place_by_camera) found = uv - motion_at(pixel);
+        way = length(found - uv);
+    }
+    return Before(found, way, -(camera.previous_view_from_world * world).z, clip.w > 0.0);
 }
 
 bool shows_the_same(Before before) {
@@ -57,13 +76,12 @@ void main() {
     float device_depth = texelFetch(depth, pixel, 0).r;
     if (camera.frame.w == 1u && !is_background(device_depth)) {
         Before before = surface_before(pixel, device_depth);
-        vec2 now = screen_from_pixel(pixel) * camera.extent.zw;
         bool is_usable = before.is_in_front && all(greaterThanEqual(before.uv, vec2(0.0))) &&
                          all(lessThanEqual(before.uv, vec2(1.0))) && !(reject_other_surfaces && !shows_the_same(before));
         if (is_usable) {
             vec4 history = weighed(textureLod(previous_blended, before.uv - camera.jitter.zw * camera.extent.zw, 0.0));
             if (neighborhood_clamp) history = clamped_to_neighborhood(pixel, history);
-            float rejection = 1.0 - clamp(length(before.uv - now) / motion_threshold, 0.0, 1.0);
+            float rejection = 1.0 - clamp(before.way / motion_threshold, 0.0, 1.0);
             result = unweighed(mix(weighed(current), history, temporal_blend * rejection));
         }
     }

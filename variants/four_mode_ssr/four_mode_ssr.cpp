@@ -1,4 +1,5 @@
 #include "variants/common/variant_entry.h"
+#include "variants/four_mode_ssr/blue_noise_texture.h"
 #include "variants/tracers/tracing_variant.h"
 
 /// The four-mode reflection pass of an engine: its documentation of 2026-01-14 is "the document". Parameters have its
@@ -15,6 +16,7 @@ private:
     const Tracers& chosen_tracers() const override { return tracers; }
     std::string slot() const { return mode.is("simple_linear") ? "linear_tracer" : "tracer"; }
     bool is_stochastic() const { return mode.is("stochastic") || mode.is("temporal"); }
+    Image noise_texture(PassGraph& graph);
 
     // clang-format off
     Choice mode{params, "mode", "hiz", {"simple_linear", "hiz", "stochastic", "temporal"},
@@ -32,15 +34,24 @@ private:
     Choice weights{params, "weights", "none", {"none", "ratio"},
         {"", "of the rays of a pixel in their mean. none: all alike; ratio: the density of the lobe of visible normals over that of "
          "the mixture which they were drawn from, divided by the sum", "none: the document, which names no weight; ratio: ssrlab"}};
+    Choice noise{params, "noise", "blue", {"blue", "white"},
+        {"", "how the random numbers of neighbours and frames belong together. blue: a texel of 64x64, from which the rays of a "
+         "pixel and its frames go on evenly; white: all are independent",
+         "blue: the document, which names the texture and not how it is used; the sequence is ssrlab's"}};
+    Param<float> sky_depth{params, "sky_depth", 1e-4f, {0.0f, 1.0f},
+        {"device depth", "distance from the far plane's up to which a pixel starts no ray; 0: all surfaces do",
+         "the document: sky pixels end early, of depths below 1e-4 where the far plane has 0"}};
 
     // Mode temporal.
     Param<float> temporal_blend{params, "temporal_blend", 0.9f, {0.0f, 0.98f}, {"", "share of the history where nothing moves", "the document"}};
     Param<float> motion_threshold{params, "motion_threshold", 0.01f, {0.001f, 0.1f},
         {"uv", "motion on the screen at which nothing is taken of the history, of which the share falls to it in proportion",
          "the document: the number; the linear fall is ssrlab's"}};
-    Choice history_place{params, "history_place", "camera", {"camera", "motion_vectors"},
-        {"", "where the surface was in the frame before. camera: by the previous camera, as if nothing but it moved",
-         "the document specifies motion vectors, but its algorithm uses the previous camera's matrix"}};
+    Choice history_place{params, "history_place", "camera", {"camera", "motion_vectors", "reflection"},
+        {"", "what is looked for in the frame before. camera: the surface, as if nothing but the camera moved; motion_vectors: the "
+         "surface; reflection: the mirror image of what the rays hit, by that one's motion, as if the surface were flat, and the "
+         "surface where it moves itself by half a pixel or more. `motion_threshold` counts the way to it, the longest among the neighbours of the clamp",
+         "the document specifies motion vectors, but its algorithm uses the previous camera's matrix; reflection: ssrlab"}};
     Switch neighborhood_clamp{params, "neighborhood_clamp", true,
         {"", "clamps the history to the least and largest of the 3x3 neighbours, each channel and the confidence alone", "the document"}};
     Switch float_histories{params, "float_histories", false,
@@ -52,6 +63,7 @@ private:
          "half as much", "ssrlab; the document blends its texture's channels"}};
     // clang-format on
     Tracers tracers;
+    std::weak_ptr<ImageStorage> uploaded_noise;
 };
 
 namespace {
@@ -62,6 +74,7 @@ nlohmann::json printed_marches() {
                                  {"fixed_stride.step", "uv"},
                                  {"fixed_stride.reject_towards_camera", true},
                                  {"fixed_stride.front_faces_only", false},
+                                 {"fixed_stride.refine", false},
                                  {"cells.max_steps", 64},
                                  {"cells.interval", false},
                                  {"cells.back_faces", "fade"},
@@ -89,17 +102,32 @@ Reflections FourModeSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
     const Image traced = graph.image("traced", Format::rgba16f);
     const bool is_linear = mode.is("simple_linear");
     const std::string shader = is_linear ? "four_mode_ssr/trace_linear.comp" : "four_mode_ssr/trace.comp";
-    tracers.run(graph, graph.compute(shader).write(traced), {slot()},
+    const bool follows_reflections = is_temporal && history_place.is("reflection");
+    const Image way =
+        graph.image_of("reflection_way", Format::rg16f, follows_reflections ? graph.extent() : glm::uvec2(1));
+    tracers.run(graph, graph.compute(shader).read(noise_texture(graph)).write(traced).write(way), {slot()},
                 tracers.images(graph, gbuffer.depth, {}, {slot()}), ray_probe, is_stochastic() ? num_rays : 1);
     if (!is_temporal) return {traced, traced, 3};
     const PassGraph::History blended = graph.history("blended", float_histories ? Format::rgba32f : Format::rgba16f);
     graph.compute("four_mode_ssr/blend.comp")
         .read(traced)
+        .read(way)
         .read_linear(blended.previous)
         .read(gbuffer.previous_depth)
         .write(blended.current)
         .run();
     return {blended.current, blended.current, 3};
+}
+
+/// Where no number is drawn from it, a texel that is never looked at: the shader names the image.
+Image FourModeSsr::noise_texture(PassGraph& graph) {
+    if (!noise.is("blue") || !depends_on_seed()) return graph.image_black_at_first("blue_noise", Format::rgba8, {1, 1});
+    const Image texture = graph.image_of("blue_noise", Format::rgba8, glm::uvec2(blue_noise_texture_width));
+    if (uploaded_noise.lock() != texture.storage) {
+        graph.upload_rgba8(texture, blue_noise_texture());
+        uploaded_noise = texture.storage;
+    }
+    return texture;
 }
 
 bool FourModeSsr::depends_on_seed() const { return is_stochastic() || tracers.needs(slot()).random; }
@@ -112,6 +140,7 @@ TracingVariant::Needless FourModeSsr::find_needless(const SceneFacts& facts) {
     if (mode.is("temporal")) {
         needless.stages.push_back("four_mode_ssr/blend");
         if (history_place.is("motion_vectors")) needless.motion_readers = {"four_mode_ssr/blend"};
+        if (history_place.is("reflection")) needless.motion_readers = {"four_mode_ssr/trace"};
     }
     return needless;
 }
@@ -132,11 +161,14 @@ nlohmann::json corrections() {
     nlohmann::json parameters = {{"fixed_stride.step", "pixels"},
                                  {"fixed_stride.reject_towards_camera", false},
                                  {"fixed_stride.front_faces_only", true},
+                                 {"fixed_stride.refine", true},
                                  {"cells.interval", true},
                                  {"cells.back_faces", "reject"},
                                  {"cells.grazing_fade", 0},
                                  {"weights", "ratio"},
                                  {"brdf_bias", 1},
+                                 {"noise", "white"},
+                                 {"sky_depth", 0},
                                  {"history_place", "motion_vectors"},
                                  {"reject_other_surfaces", true},
                                  {"weigh_by_confidence", true},

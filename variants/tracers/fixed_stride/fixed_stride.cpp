@@ -25,9 +25,11 @@ struct FixedStride final : Tracer {
         {"steps", "before a ray is given up: it reaches fixed_stride.max_steps * fixed_stride.stride pixels. The "
          "document's qualities Low to Ultra reach 64, 72, 64 and 48",
          "the document: 32, 48, 64 and 96; the default crosses any screen"}};
+    Switch refine{params, "fixed_stride.refine", true,
+        {"", "halves the step on which a ray falls behind a surface, to find the place, at which thickness then counts. "
+         "Otherwise hits are where steps end", "ssrlab; the document's march has no refinement"}};
     Param<unsigned> binary_search_steps{params, "fixed_stride.binary_search_steps", 8, {0, 16},
-        {"", "times that the step is halved on which a ray falls behind a surface, to find the place, at which "
-         "thickness then counts; 0: hits are where the step ends",
+        {"", "times that `fixed_stride.refine` halves the step",
          "the document: 4 to 12, 8 by default, of which its march as printed makes no use"}};
     Choice step{params, "fixed_stride.step", "pixels", {"pixels", "uv"},
         {"", "of what the direction of steps is made. uv: of the ray's direction in texture coordinates, normalised, "
