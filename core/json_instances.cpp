@@ -1,3 +1,0 @@
-#include "core/precompiled.h"
-
-SSRLAB_JSON_INSTANCES()
