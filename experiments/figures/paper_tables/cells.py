@@ -25,7 +25,7 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "at_cost": (tradeoff.ACROSS, ("ratio", "low", "high")),  # answers of `ssrlab tradeoff`, over scenes, and ...
     "changes": (tradeoff.CHANGES, ("value", "low", "high")),  # ... what a change buys: see _change_rows()
 }
-NOT_SHARES = ("fetches", "fetches: median", "fetches: 90 %", "fetches: most", "distance_error")  # all other quantities of hits.csv lie from 0 to 1, and so do their intervals
+NOT_SHARES = ("fetches", "fetches: median", "fetches: 90 %", "fetches: most", "distance_error")  # of hits.csv; all its other quantities are
 NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
 GROUPS = {  # what rows, columns and means are by, beside the columns of a file
     "group": lambda results, row: results.point_group(row.get("variant"), row.get("point")),
@@ -165,7 +165,8 @@ def _cell(selection, row, name):
     if table.of == "time_effects" and row["verdict"]:
         columns = SOURCES["effects"][1]  # of totals, which have verdicts: the interval that agrees with it
     value, low, high = (_number(row, c) for c in columns)
-    if table.of in SHARES and row["quantity"] not in NOT_SHARES:
+    is_share = table.of in SHARES and row["quantity"] not in NOT_SHARES
+    if is_share:
         low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
     seeds = _number(row, "seeds")
     shares = [selection.disturbed.get(key) for key in (_timed(row), _timed(row, "against_"))]
@@ -181,6 +182,7 @@ def _cell(selection, row, name):
         mean_of=int(row["scenes"]) if table.of == "at_cost" else None,
         clock=_clock(selection, row) if row.get("clock") else None,
         disturbed_share=largest(shares),
+        is_share=is_share,
     )
 
 

@@ -77,7 +77,7 @@ def _arithmetic_mean(parts, assets):
         _over_scenes(result, [(parts[i], assets[i]) for i in filled], statistics.mean_over_scenes)
         if result.low is not None:
             result.low = max(result.low, 0.0)
-            if result.most <= 1:  # a share
+            if all(c.is_share for c in cells):
                 result.high = min(result.high, 1.0)
     return result
 

@@ -97,8 +97,7 @@ void JudgedHits::add(unsigned seed, const RecordedRays& recorded, const std::vec
             if (!mask.inside.empty() && !mask.inside[pixel]) continue;
             const double share = hit_share(ray);
             ++sums.rays;
-            sums.fetches += ray.fetches;
-            sums.fetches_of_rays.push_back(float(ray.fetches));
+            ++sums.rays_by_fetches[ray.fetches];
             add_verdicts(sums.verdicts, ray, truth[i]);
             if (verdict_of_miss(truth[i]) == RayVerdict::avoidable_miss)
                 sums.missed_by_outcome[std::min(ray.outcome, outcome_count - 1)] += 1.0 - share;
@@ -108,12 +107,20 @@ void JudgedHits::add(unsigned seed, const RecordedRays& recorded, const std::vec
     }
 }
 
-std::optional<double> JudgedHits::quantile(std::vector<float> values, double share_below) {
-    if (values.empty()) return {};
-    const size_t rank = std::min(size_t(share_below * double(values.size())), values.size() - 1);
-    const auto found = values.begin() + std::ptrdiff_t(rank);
-    std::ranges::nth_element(values, found);
-    return double(*found);
+std::optional<double> JudgedHits::median_distance_error(const Count& count) {
+    if (count.distance_errors.empty()) return {};
+    std::vector<float> errors = count.distance_errors;
+    const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
+    std::ranges::nth_element(errors, middle);
+    return double(*middle);
+}
+
+std::optional<double> JudgedHits::fetches_quantile(const Count& count, double share_below) {
+    const double rank = std::min(std::floor(share_below * count.rays), count.rays - 1);
+    double below = 0;
+    for (const auto& [fetches, rays] : count.rays_by_fetches)
+        if ((below += double(rays)) > rank) return double(fetches);
+    return {};
 }
 
 std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
@@ -155,17 +162,19 @@ std::vector<HitRow> JudgedHits::rows(const HitRow& shared) const {
             if (std::ranges::any_of(seeds, [&](const Count& c) { return c.rays > 0 && share(c) > 0; }))
                 add(std::string("miss: ") + outcome_names[outcome], share);
         }
-        add(
-            "distance_error", [](const Count& c) { return quantile(c.distance_errors, 0.5); },
-            [](const Count& c) { return double(c.distance_errors.size()); });
+        add("distance_error", median_distance_error, [](const Count& c) { return double(c.distance_errors.size()); });
         const RaysOf all_rays = [](const Count& c) { return c.rays; };
-        add(
-            "fetches", [](const Count& c) { return c.fetches / c.rays; }, all_rays);
+        const ValueOf mean_fetches = [](const Count& c) {
+            double sum = 0;
+            for (const auto& [fetches, rays] : c.rays_by_fetches) sum += double(fetches) * double(rays);
+            return sum / c.rays;
+        };
+        add("fetches", mean_fetches, all_rays);
         for (const auto& [name, share_below] :
              {std::pair("median", 0.5), std::pair("90 %", 0.9), std::pair("most", 1.0)})
             add(
-                std::string("fetches: ") + name,
-                [&](const Count& c) { return quantile(c.fetches_of_rays, share_below); }, all_rays);
+                std::string("fetches: ") + name, [&](const Count& c) { return fetches_quantile(c, share_below); },
+                all_rays);
     }
     return rows;
 }

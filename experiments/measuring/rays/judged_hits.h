@@ -5,6 +5,7 @@
 #include "metrics/masks.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,11 +45,11 @@ public:
 
 private:
     struct Count {
-        double rays = 0, fetches = 0;
+        double rays = 0;
         VerdictSums verdicts{};
         std::vector<double> missed_by_outcome;
-        std::vector<float> distance_errors;  ///< relative, of rays that were right
-        std::vector<float> fetches_of_rays;
+        std::vector<float> distance_errors;          ///< relative, of rays that were right
+        std::map<unsigned, size_t> rays_by_fetches;  ///< a large shot has millions of rays, of some hundred counts
     };
     struct Key {
         std::string stage, mask;
@@ -58,8 +59,9 @@ private:
     std::vector<unsigned> seeds_;
 
     Count& count(const Key& key, unsigned seed);
-    /// One of `values` that at least that share of them does not exceed; none of none.
-    static std::optional<double> quantile(std::vector<float> values, double share_below);
+    static std::optional<double> median_distance_error(const Count& count);  ///< none without right rays
+    /// The number of fetches that at least that share of the rays does not exceed; none without rays.
+    static std::optional<double> fetches_quantile(const Count& count, double share_below);
 };
 
 /// The verdict of each pixel's first ray in one colour each (RGB), black where none was traced: right green, wrong
