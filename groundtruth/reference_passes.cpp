@@ -1,5 +1,6 @@
 #include "groundtruth/reference_passes.h"
 
+#include "core/elapsed.h"
 #include "groundtruth/flush_denormals.h"
 
 #include <tbb/parallel_for.h>
@@ -46,10 +47,6 @@ struct PassCounts {
     std::atomic<bool> pause = false, is_late = false;
     std::mutex looks_at_clock;
 };
-
-double seconds_since(RenderClock::Instant instant) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - instant).count();
-}
 
 void report(const PassCounts& counts, const RenderClock& clock, const Reference& reference) {
     const double rays = reference.rays + double(counts.rays) - clock.rays_before;

@@ -1,10 +1,10 @@
 #include "experiments/run/run.h"
 
+#include "core/elapsed.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
-#include "experiments/measuring/times/timed_rounds.h"
 #include "experiments/run/shots/shot_cells.h"
 #include "experiments/run/study_results.h"
 #include "experiments/store/finished_run.h"

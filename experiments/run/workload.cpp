@@ -1,5 +1,7 @@
 #include "experiments/run/workload.h"
 
+#include "core/elapsed.h"
+
 #include <algorithm>
 
 void Workload::plan(const std::string& family, const std::string& kind, double units, double guess) {
@@ -12,13 +14,9 @@ void Workload::start(const std::string& family, const std::string& kind, double 
     start_ = std::chrono::steady_clock::now();
 }
 
-double Workload::seconds_since_start() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
 void Workload::finish() {
     Kind& kind = families_[family_][current_];
-    kind.done += units_, kind.seconds += seconds_since_start();
+    kind.done += units_, kind.seconds += seconds_since(start_);
     family_.clear();
 }
 
@@ -49,7 +47,7 @@ double Workload::share_done() const {
             double units_left = kind.planned - kind.done;
             spent += kind.seconds;
             if (name == family_ && kind_name == current_) {
-                const double elapsed = seconds_since_start();
+                const double elapsed = seconds_since(start_);
                 spent += elapsed;
                 units_left -= units_;
                 // Once some of it is done its own pace tells more than that of others.

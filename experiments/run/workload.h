@@ -36,7 +36,6 @@ private:
         void add(const Kind& kind);
         double value() const { return guessed > 0 ? measured / guessed : 1; }
     };
-    double seconds_since_start() const;
 
     std::map<std::string, std::map<std::string, Kind>> families_;
     std::string family_, current_;

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/cpu_times.h"
 
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -13,10 +12,6 @@
 /// often as the ranks that median_interval() takes of 15: 99.2 % of independent rounds, 95 % where each tells half of
 /// the next.
 inline constexpr unsigned least_rounds = 8;
-
-inline double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// /proc/stat counts by sampling, so foreign load is told of rounds that last at least this long together (s).
 inline constexpr double load_window = 1.0;

@@ -2,6 +2,7 @@
 // of which are about TimedCopy. Which rounds count is in timed_rounds.h.
 #include "experiments/measuring/times/timing.h"
 
+#include "core/elapsed.h"
 #include "core/gpu/device.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/measuring/times/clock_proofs.h"

@@ -1,5 +1,6 @@
 #include "experiments/run/plan/estimate.h"
 
+#include "core/elapsed.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/measuring/times/timed_rounds.h"
 #include "experiments/run/plan/growth.h"
@@ -30,7 +31,7 @@ constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_fact
 double seconds_of(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return seconds_since(start);
 }
 
 double pixels_of(glm::uvec2 extent) { return double(extent.x) * double(extent.y); }
