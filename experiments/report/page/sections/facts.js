@@ -21,20 +21,21 @@ function showHead() {
     if (manifest.is_complete === false) showProgress(manifest.cells ?? {}, new Date(manifest.written?.at));
 }
 
-/// A study writes its page again and again while it runs: whoever only looks sees it fill.
+/// A study writes its page again and again while it runs: whoever only looks sees it fill. Long studies write seldom,
+/// so an old page looks for the next one seldom, too; whether the study still runs it cannot know.
 function showProgress({done, planned}, written) {
-    const pause = 15, given_up = 300;  // seconds
-    const age = () => (Date.now() - written) / 1000;
-    const isRunning = age() < given_up;
-    at("warnings").before(h("p", {id: "progress", class: "warning"},
-                            `Not finished: ${done ?? "?"} of ${planned ?? "?"} cells were done at ${
-                                Number.isNaN(+written) ? "a time not recorded" : written.toLocaleTimeString()}. ` +
-                                (isRunning ? "This page reloads by itself until the study is done." :
-                                             "The command that started the study continues it.")));
-    if (!isRunning) return;
+    const second = 1000, day = 86400 * second, age = () => Date.now() - written;
+    const when = Number.isNaN(+written) ? "a time not recorded" : written.toLocaleTimeString();
+    at("warnings").before(
+        h("p", {id: "progress", class: "warning"}, `Not finished: ${done ?? "?"} of ${planned ?? "?"} cells were done at ${
+            when}. While the study runs this page reloads by itself; one that was stopped is continued by its command.`));
     let used = 0;
     for (const act of ["pointerdown", "keydown", "wheel"]) addEventListener(act, () => used = Date.now());
-    setInterval(() => Date.now() - used > 2 * pause * 1000 && age() < given_up && reloadInPlace(), pause * 1000);
+    const look = () => {
+        if (Date.now() - used > 30 * second) return reloadInPlace();
+        setTimeout(look, 15 * second);
+    };
+    if (age() < day) setTimeout(look, Math.min(Math.max(age() / 4, 15 * second), 600 * second));
 }
 
 /// The browser scrolls before the sections are drawn, and would end elsewhere.
