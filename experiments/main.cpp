@@ -158,7 +158,9 @@ int parse_and_run(int argc, char** argv) {
                              "Keep all images beside the page, in report_images/, even if they are small");
     report_command_.callback([&] { report_command(report_folder, links_images); });
 
-    hand_on(*app.add_subcommand("figures", "Draw the figures of a paper (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
+    hand_on(*app.add_subcommand(
+                "figures",
+                "Draw the figures of a paper (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
             figures_command, status);
 
     DiffOptions diff;

@@ -29,8 +29,6 @@ Number number_of(const Row& r) {
     return {r.shot, r.frame, r.variant, r.point, r.target, r.metric, r.mask};
 }
 
-using PointOfShot = std::array<std::string, 3>;  // shot, variant, point
-
 /// One study's numbers by what they are of.
 struct ComparedFolder {
     explicit ComparedFolder(const StudyTables& tables)

@@ -38,6 +38,8 @@ struct NumberChange {
     }
 };
 
+using PointOfShot = std::array<std::string, 3>;  ///< shot, variant, point
+
 /// A shot whose times are of another machine in each study.
 struct MovedShot {
     std::string shot, before, after;
@@ -45,8 +47,8 @@ struct MovedShot {
 
 struct StudyDiff {
     std::vector<NumberChange> errors, times;
-    std::vector<MovedShot> moved;                                     ///< their times are not compared
-    std::vector<std::array<std::string, 3>> only_before, only_after;  ///< shot, variant, point that one study has
+    std::vector<MovedShot> moved;                      ///< their times are not compared
+    std::vector<PointOfShot> only_before, only_after;  ///< that one study has
 };
 
 /// Compares the errors that represent their shots, and the medians of all stages' times.

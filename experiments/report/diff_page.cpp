@@ -16,8 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-using PointOfShot = std::array<std::string, 3>;  // shot, variant, point
-
 /// The entries of a manifest for result images, by the point that they are of, and for references (variant and point
 /// "").
 std::map<PointOfShot, std::vector<const json*>> images_of(const json& manifest) {

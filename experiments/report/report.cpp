@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "experiments/evaluation/results_schema.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/report/answers.h"
 #include "experiments/report/report_data.h"
@@ -167,10 +168,12 @@ std::string filled_template(const std::string& text, const json& values,
 /// What the folder holds of the study's data, for programs other than browsers.
 json data_files(const std::filesystem::path& folder) {
     json files = json::array();
-    for (const char* file :
-         {"results.csv", "summary.csv", "over_scenes.csv", "splits.csv", "effects.csv", "hits.csv", "costs.csv",
-          "times.csv", "time_summary.csv", "time_effects.csv", "parameters.csv", "stability.csv", "manifest.json"})
+    const auto add = [&](const std::string& file) {
         if (std::filesystem::exists(folder / file)) files.push_back(file);
+    };
+    const json schema = results_schema({});
+    for (const json& table : schema["resources"]) add(table["path"]);
+    for (const char* file : {"stability.csv", "manifest.json", "schema.json"}) add(file);
     return files;
 }
 
