@@ -1,6 +1,7 @@
 #include "tests/variants/blue_noise_fixture.h"
 #include "tests/variants/blue_noise_spectrum.h"
 #include "variants/common/blue_noise_generator.h"
+#include "variants/four_mode_ssr/blue_noise_texture.h"
 
 #include <cmath>
 #include <complex>
@@ -285,3 +286,32 @@ TEST_F(BlueNoiseSeeds, AreUniformInEveryTexel) {
 }
 
 }  // namespace
+
+TEST(BlueNoiseTexture, IsUniformAndBlueInEachChannel) {
+    const int width = blue_noise_texture_width;
+    const std::vector<uint8_t>& texels = blue_noise_texture();
+    ASSERT_EQ(texels.size(), size_t(4 * width * width));
+    for (int channel = 0; channel < 4; ++channel) {
+        std::vector<int> count(256);
+        for (int i = 0; i < width * width; ++i) ++count[texels[4 * i + channel]];
+        EXPECT_TRUE(std::ranges::all_of(count, [](int n) { return n == 16; })) << channel;
+        // Variance of means over 4x4 texels, and correlation with the other channels. Of white noise the former is a
+        // 16th of a texel's, with a standard error of 9 % (256 means); the latter is 0, with one of 1 / 64.
+        double of_means = 0;
+        for (int y = 0; y < width; y += 4)
+            for (int x = 0; x < width; x += 4) {
+                double mean = 0;
+                for (int i = 0; i < 16; ++i)
+                    mean += texels[4 * ((y + i / 4) * width + x + i % 4) + channel] / 16.0 - 127.5 / 16;
+                of_means += mean * mean / 256;
+            }
+        const double of_texels = (256.0 * 256 - 1) / 12;
+        EXPECT_LT(of_means, 0.25 * of_texels / 16) << channel;  // eight standard errors below white noise
+        for (int other = 0; other < channel; ++other) {
+            double correlation = 0;
+            for (int i = 0; i < width * width; ++i)
+                correlation += (texels[4 * i + channel] - 127.5) * (texels[4 * i + other] - 127.5);
+            EXPECT_LT(std::abs(correlation / (width * width) / of_texels), 5.0 / 64) << channel << ", " << other;
+        }
+    }
+}

@@ -24,7 +24,7 @@ TEST_F(FixedStride, MeetsTheColumn) {
 /// Half a stride of eight late on average without refinement; thickness counts where the ray falls behind.
 TEST_F(FixedStride, RefinesLongStrides) {
     const nlohmann::json plain = {
-        {"fixed_stride.stride", 8.0}, {"fixed_stride.stride_z_cutoff", 0.0}, {"fixed_stride.binary_search_steps", 0}};
+        {"fixed_stride.stride", 8.0}, {"fixed_stride.stride_z_cutoff", 0.0}, {"fixed_stride.refine", false}};
     bench.set_column(column + 1, 5, to_left);
     for (unsigned x = column + 2; x < column + 20; ++x) bench.set_column(x, 5, to_left);
     const BenchEnd coarse = trace(to_column(), plain);
@@ -32,7 +32,7 @@ TEST_F(FixedStride, RefinesLongStrides) {
     EXPECT_NEAR(coarse.position.x, 20.5f + 15 * 8, 1e-3);  // the first multiple of 8 from 119.5 on
     for (unsigned steps : {1u, 3u, 8u}) {
         nlohmann::json refined = plain;
-        refined["fixed_stride.binary_search_steps"] = steps;
+        refined.update({{"fixed_stride.binary_search_steps", steps}, {"fixed_stride.refine", true}});
         const float position = trace(to_column(), refined).position.x, stride = 8 / std::exp2(float(steps));
         EXPECT_TRUE(position >= column - 1e-3f && position <= column + stride + 1e-3f) << steps << ": " << position;
         refined["fixed_stride.refine"] = false;
@@ -44,7 +44,7 @@ TEST_F(FixedStride, RefinesLongStrides) {
 TEST_F(FixedStride, ShortensStridesInTheDistance) {
     const auto fetches = [&](float cutoff) {
         return trace(to_column(), {{"fixed_stride.stride", 8.0},
-                                   {"fixed_stride.binary_search_steps", 0},
+                                   {"fixed_stride.refine", false},
                                    {"fixed_stride.max_distance", 3.0},
                                    {"fixed_stride.stride_z_cutoff", cutoff}})
             .fetches;
@@ -58,7 +58,7 @@ TEST_F(FixedStride, ShortensStridesInTheDistance) {
 TEST_F(FixedStride, BeginsSoonerAtRandom) {
     const nlohmann::json parameters = {{"fixed_stride.stride", 8.0},
                                        {"fixed_stride.stride_z_cutoff", 0.0},
-                                       {"fixed_stride.binary_search_steps", 0},
+                                       {"fixed_stride.refine", false},
                                        {"fixed_stride.jitter", 0.5}};
     for (unsigned x = column; x < column + 20; ++x) bench.set_column(x, 5, to_left);
     BenchRay ray = to_column();

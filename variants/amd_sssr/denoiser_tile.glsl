@@ -2,13 +2,13 @@
 #ifndef AMD_SSSR_DENOISER_TILE_GLSL
 #define AMD_SSSR_DENOISER_TILE_GLSL
 #include "amd_sssr/lists.glsl"
+#include "common/half.glsl"
 #include "common/luminance.glsl"
 #include "core/shaders/view.glsl"
 
 buffer tile_list { uint listed_tile[]; };
 
 const int reach = 4;  // pixels around the tile that its filters see
-const float largest_half = 65504.0;
 
 // With fresh_neighborhood averages of tiles that were not listed are the first of these two numbers, and no other is: the
 // largest that all channels of r11g11b10f hold, and the next one.

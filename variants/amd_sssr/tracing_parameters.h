@@ -29,7 +29,7 @@ struct AmdTracingParameters {
     Choice jitter{params, "jitter", "normal", {"normal", "ray"},
         {"", "what is drawn at random. normal: one of the normals that the viewer sees, about which the view is mirrored; ray: a "
          "direction about the mirror's, of the lobe that a view along the normal has", "AMD's slides show both; SSSR 1.5: normal"}};
-    Choice noise = noise_parameter(params);
+    Choice noise = noise_parameter(params, "blue: AMD's slides");
     Choice misses{params, "misses", "fallback", {"weight", "fallback"},
         {"", "what a ray without a hit contributes, and the share that a hit's confidence leaves. weight: only less "
          "confidence, which here takes what the composite fills in for it, the pixel's own fallback, through the denoiser; "

@@ -49,13 +49,13 @@ inline Switch independent_noise_shifts_parameter(ParameterSet& params) {
          "ssrlab; Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"});
 }
 
-/// Whether a technique's random numbers are blue over the image plane.
-inline Choice noise_parameter(ParameterSet& params) {
+/// Whether a technique's random numbers are blue over the image plane. `source`: of the parameter.
+inline Choice noise_parameter(ParameterSet& params, std::string_view source) {
     return Choice(params, "noise", "blue", {"blue", "white"},
                   {"",
                    "how the random numbers of neighbours and frames belong together. blue: those of neighbours differ "
                    "much, and a pixel's own move evenly; white: all are independent",
-                   "blue: AMD's slides and DiligentFX's document, which shows both"});
+                   source});
 }
 
 /// The committed table: 128x128 pairs of codes v in 0..255, as v / 255 in two channels. See blue_noise_table.md.

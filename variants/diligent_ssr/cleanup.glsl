@@ -2,7 +2,7 @@
 #ifndef DILIGENT_SSR_CLEANUP_GLSL
 #define DILIGENT_SSR_CLEANUP_GLSL
 #include "common/image_space.glsl"
-#include "diligent_ssr/half.glsl"
+#include "common/half.glsl"
 
 uniform sampler2D depth, normal, roughness, accumulated_radiance, accumulated_variance;
 

@@ -2,7 +2,7 @@
 #include "tracer"
 #include "common/inward_rays.glsl"
 #include "core/shaders/gbuffer/environment.glsl"
-#include "diligent_ssr/half.glsl"
+#include "common/half.glsl"
 #include "common/halton.h"
 #include "common/motion.glsl"
 #include "diligent_ssr/ray.glsl"

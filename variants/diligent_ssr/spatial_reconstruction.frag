@@ -1,5 +1,5 @@
 // Second pass of DiligentFX's denoising, after the rays: each pixel reuses the rays of eight neighbours.
-#include "diligent_ssr/half.glsl"
+#include "common/half.glsl"
 #include "common/luminance.glsl"
 #include "diligent_ssr/neighbor_rays.glsl"
 #include "diligent_ssr/reuse.glsl"

@@ -40,7 +40,7 @@ struct DiligentTracingParameters {
          "disk, so that other random numbers give them; normals: of the distribution of all normals, many of which the "
          "viewer does not see; of the latter two ggx_importance_sample_bias cuts the rim of the disk and the widest angles, and "
          "bias_towards_mirror changes nothing", "DiligentFX: caps; its document names the disk (Heitz 2018) and what came before it"}};
-    Choice noise = noise_parameter(params);
+    Choice noise = noise_parameter(params, "blue: DiligentFX's document, which shows both");
 
     // Corrections.
     Switch bias_towards_mirror{params, "bias_towards_mirror", false,

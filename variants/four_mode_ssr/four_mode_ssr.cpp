@@ -1,3 +1,4 @@
+#include "variants/common/blue_noise.h"
 #include "variants/common/variant_entry.h"
 #include "variants/four_mode_ssr/blue_noise_texture.h"
 #include "variants/tracers/tracing_variant.h"
@@ -34,10 +35,7 @@ private:
     Choice weights{params, "weights", "none", {"none", "ratio"},
         {"", "of the rays of a pixel in their mean. none: all alike; ratio: the density of the lobe of visible normals over that of "
          "the mixture which they were drawn from, divided by the sum", "none: the document, which names no weight; ratio: ssrlab"}};
-    Choice noise{params, "noise", "blue", {"blue", "white"},
-        {"", "how the random numbers of neighbours and frames belong together. blue: a texel of 64x64, from which the rays of a "
-         "pixel and its frames go on evenly; white: all are independent",
-         "blue: the document, which names the texture and not how it is used; the sequence is ssrlab's"}};
+    Choice noise = noise_parameter(params, "blue: the document, which names a texture of 64x64 and not how it is used; the sequence is ssrlab's");
     Param<float> sky_depth{params, "sky_depth", 1e-4f, {0.0f, 1.0f},
         {"device depth", "distance from the far plane's up to which a pixel starts no ray; 0: all surfaces do",
          "the document: sky pixels end early, of depths below 1e-4 where the far plane has 0"}};

@@ -1,6 +1,7 @@
 // A pixel's rays, their colours and the fades of the composite that do not depend on them. Whoever includes this says
 // how rays march.
 #include "common/ggx_lobe.h"
+#include "common/half.glsl"
 #include "common/halton.h"
 #include "common/luminance.glsl"
 #include "common/motion.glsl"
@@ -135,7 +136,6 @@ void main() {
         dot(view_direction(view_position(pixel)), view_normal(pixel)) < 0.0)
         fade = fade_of_surface(pixel);
     if (fade > 0.0) result = trace_pixel(pixel, way) * vec4(1.0, 1.0, 1.0, fade);
-    const float largest_half = 65504.0;
     if (follows_reflections()) imageStore(reflection_way, pixel, vec4(way, 0.0, 0.0));
     imageStore(traced, pixel, result.a < least_confidence ? vec4(0.0) : min(result, vec4(largest_half)));
 }

@@ -1,4 +1,5 @@
 // Blends what each pixel reflects with what was reflected there in the frame before.
+#include "common/half.glsl"
 #include "frostbite_sssr/history.glsl"
 #include "frostbite_sssr/surface.glsl"
 
@@ -55,7 +56,6 @@ void main() {
         color = weighed_color(pixel);
         if (temporal_filter) color = blended(pixel, color);
     }
-    const float largest_half = 65504.0;
     imageStore(accumulated, pixel, float_histories ? color : min(color, largest_half));
     imageStore(reflections, pixel, without_factors(pixel, color));
 }

@@ -28,7 +28,7 @@ struct FixedStride final : Tracer {
     Switch refine{params, "fixed_stride.refine", true,
         {"", "halves the step on which a ray falls behind a surface, to find the place, at which thickness then counts. "
          "Otherwise hits are where steps end", "ssrlab; the document's march has no refinement"}};
-    Param<unsigned> binary_search_steps{params, "fixed_stride.binary_search_steps", 8, {0, 16},
+    Param<unsigned> binary_search_steps{params, "fixed_stride.binary_search_steps", 8, {1, 16},
         {"", "times that `fixed_stride.refine` halves the step",
          "the document: 4 to 12, 8 by default, of which its march as printed makes no use"}};
     Choice step{params, "fixed_stride.step", "pixels", {"pixels", "uv"},

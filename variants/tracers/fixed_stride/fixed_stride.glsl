@@ -90,7 +90,7 @@ TraceEnd fixed_stride_trace(TraceRay ray) {
         if (t >= line.end) return missed_on_line(line, line.end < t_border);
         FixedStrideSample found = fixed_stride_sample(line, t);
         // Thickness counts where the ray fell behind: a ray that runs steeply into depth is far behind a step later.
-        if (fixed_stride_refine && found.is_behind && !was_behind && fixed_stride_binary_search_steps > 0u) {
+        if (fixed_stride_refine && found.is_behind && !was_behind) {
             float t_refined = fixed_stride_refined(line, t_before, t);
             FixedStrideSample refined = fixed_stride_sample(line, t_refined);
             if (fixed_stride_is_thin(depth_at(line, t_refined), refined.surface))

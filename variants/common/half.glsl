@@ -1,7 +1,7 @@
 // Numbers for targets of 16 bits. What a device stores of one above the largest half is up to it: that half, as on the
 // device that the original was recorded on; infinity; or, as SwiftShader, not a number, which then spreads by the filters.
-#ifndef DILIGENT_SSR_HALF_GLSL
-#define DILIGENT_SSR_HALF_GLSL
+#ifndef COMMON_HALF_GLSL
+#define COMMON_HALF_GLSL
 
 const float largest_half = 65504.0;
 
