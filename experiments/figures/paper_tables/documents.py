@@ -3,7 +3,7 @@ summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "
 named rows and columns in that order (all, where a key is left out).
 
 Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots() and
-over_scenes() of kept tables (Numbers), number(value) of three digits, fixed(value, places), min, max, sum, len, zip and abs."""
+over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
 
 import functools
 import json
@@ -65,6 +65,11 @@ class Numbers:
         """The same with its interval, as text."""
         return with_interval(self._one(study, table, row, column))
 
+    def ratios(self, study, table, row, base):
+        """One row over another, in each column where both have a value."""
+        of = {c.column: c.value for c in self._found(study, table, base, None)}
+        return [c.value / of[c.column] for c in self._found(study, table, row, None) if c.column in of]
+
     def most(self, study, table, row, column):
         """The largest of the shots that a mean is over."""
         return self._one(study, table, row, column).most
@@ -97,7 +102,8 @@ class Numbers:
 
     def text(self, expression):
         names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "over_scenes": self.over_scenes}
-        names |= {"number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
+        names |= {"ratios": self.ratios, "number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
+        names["span"] = lambda values, places=2: f"{min(values):.{places}f} to {max(values):.{places}f}"
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}
         try:
             return str(eval(expression, {"__builtins__": {}} | names))  # of our own documents

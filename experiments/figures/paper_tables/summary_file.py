@@ -11,7 +11,7 @@ from paper_tables.cell import Cell
 
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (configs/comparison.json) takes
 MOST_NAMED = 8  # shots below a table that does not show all of the study's; the summary's head names any number
-COLUMNS = [f.name for f in fields(Cell)]
+COLUMNS = [f.name for f in fields(Cell) if f.name != "is_share"]  # which only means ask for, before they are kept
 ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks")  # a table; see cells_of()
 LATER = ("has_adjusted_intervals", "sample", "assets")  # of a table, too; summaries of before have none
 MARK = "# "
