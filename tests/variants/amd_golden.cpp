@@ -3,16 +3,18 @@
 #include "core/error.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cstring>
 #include <map>
+#include <span>
 
 AmdParameters::AmdParameters() = default;
 
 HostGBuffer amd_golden_gbuffer(const std::string& set) {
     const nlohmann::json meta = golden_meta(set);
     const glm::vec2 from_now_to_before(-1.0f);
-    HostGBuffer gbuffer = golden_gbuffer(read_golden(set + "/gbuffer.exr"), golden_camera(meta, meta["camera"], 0),
-                                         from_now_to_before);
+    HostGBuffer gbuffer =
+        golden_gbuffer(read_golden(set + "/gbuffer.exr"), golden_camera(meta, meta["camera"], 0), from_now_to_before);
     const std::vector<float> constant = meta["env"]["color_encoding"];
     for (size_t i = 0; i < gbuffer.fallback.pixel_count(); ++i)
         gbuffer.fallback.set_rgb(i, {constant[0], constant[1], constant[2]});
@@ -56,6 +58,16 @@ struct TracedFrame {
 
     void classify() { work = amd_classify(graph, gbuffer, histories, confidence); }
 
+    /// Puts the listed rays into the order in which one thread lists them, tile after tile. Several threads interleave
+    /// tiles, so that rays of others share a subgroup.
+    void sort_rays_by_tile() {
+        std::vector<uint32_t> rays = words(graph, work.ray_list, work.ray_list.size / 4);
+        const auto tile_of = [](uint32_t ray) { return std::pair((ray >> 15 & 0x3fff) / 8, (ray & 0x7fff) / 8); };
+        std::stable_sort(rays.begin(), rays.begin() + words(graph, work.counters, 1)[0],
+                         [&](uint32_t a, uint32_t b) { return tile_of(a) < tile_of(b); });
+        graph.upload(work.ray_list, std::as_bytes(std::span(rays)));
+    }
+
     /// `counters`: where those of rays and tiles are, before or after the arguments are prepared.
     AmdTraced result(unsigned rays, unsigned tiles) {
         const std::vector<uint32_t> counters = words(graph, work.counters, 4);
@@ -84,6 +96,7 @@ AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nloh
     const Image numbers = frame.graph.image_of("blue_noise", Format::rg32f, noise.extent);
     frame.graph.upload(numbers, noise);
     frame.classify();
+    frame.sort_rays_by_tile();
     amd_prepare_arguments(frame.graph, frame.work);
     amd_intersect(frame.graph, frame.gbuffer, frame.images, numbers, frame.work, frame.histories,
                   frame.parameters.tracing, probe);

@@ -34,6 +34,8 @@ struct AmdTraced {
 /// nullptr for the first frame.
 AmdTraced amd_classify_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
                              const HostImage* variance = nullptr);
+/// The rays are intersected in the order in which one thread lists them, so that those which are given up with the rest
+/// of their subgroup are the same in each run.
 AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
                           const HostImage& noise, RayProbe* probe = nullptr);
 

@@ -10,11 +10,6 @@ struct Agreement {
     size_t rays = 0, same_pixel = 0, same_confidence = 0, same_length = 0;
 };
 
-/// Means over all pixels that got a ray's result.
-struct Rates {
-    double pixels = 0, hits = 0, confidence = 0;
-};
-
 struct AmdIntersectionOf : VariantTest, testing::WithParamInterface<std::string> {
     const HostGBuffer gbuffer = amd_golden_gbuffer(GetParam()), hit_gbuffer = amd_golden_hit_gbuffer(GetParam());
 
@@ -90,31 +85,26 @@ TEST_P(AmdIntersectionOf, BlendsTheOriginalsColours) {
     }
 }
 
-/// AMD's defaults give up thinly occupied subgroups, which depends on the order of the ray list: between runs of the
-/// original on several threads up to 2.4 % of its pixels changed between hit and miss, as many one way as the other.
-/// Rates of the whole image must then differ by chance alone: by the scatter of the changed pixels, of which those of
-/// one subgroup, as many as its occupancy allows, are given up together.
-TEST_P(AmdIntersectionOf, HasTheOriginalsRatesWithItsDefaults) {
+/// AMD's defaults give up rays whose subgroup has few left, mirrors not counted. Which rays share a subgroup depends on
+/// the size of subgroups and on the order of the ray list, between whose orders up to 2.4 % of the original's pixels
+/// change between hit and miss: here both are those of the recorded frame, of one thread. 5 of 102 419 pixels and 3 of
+/// 121 599 differ, by rounding; had mirrors counted, 108 and 131 would.
+TEST_P(AmdIntersectionOf, GivesUpTheRaysThatTheOriginalDoes) {
     if (!has_all_golden_kinds()) GTEST_SKIP() << "no recorded frame with the original's defaults";
+    if (device().info().name.find("256 bits") == std::string::npos)
+        GTEST_SKIP() << "recorded on lavapipe with subgroups of 8; this is " << device().info().name;
     const AmdTraced traced = trace(hit_gbuffer, "pdef");
     const nlohmann::json recorded = golden_meta(GetParam())["parameter_sets"]["pdef"];
     EXPECT_EQ(traced.rays.size(), recorded["rays_traced"]);
     const LayeredImage golden = read_golden(file("hit", "pdef"));
-    Rates ours, theirs;
-    double changed = 0, squares = 0;
+    size_t pixels = 0, changed = 0;
     for (size_t i = 0; i < traced.radiance.pixel_count(); ++i) {
         if (golden_layer(golden, "mask").values[i] == 0) continue;
-        const float found = traced.radiance.values[4 * i + 2], expected = golden_layer(golden, "conf").values[i];
-        ours = {ours.pixels + 1, ours.hits + (found > 0), ours.confidence + found};
-        theirs = {theirs.pixels + 1, theirs.hits + (expected > 0), theirs.confidence + expected};
-        changed += (found > 0) != (expected > 0);
-        squares += (found - expected) * (found - expected);
+        ++pixels;
+        changed += (traced.radiance.values[4 * i + 2] > 0) != (golden_layer(golden, "conf").values[i] > 0);
     }
-    EXPECT_EQ(ours.pixels, recorded["pixels_covered"]);
-    EXPECT_LT(changed, 0.05 * ours.pixels);                       // twice the original's between its own runs
-    constexpr double given_up_together = 4, standard_errors = 4;  // a false alarm in 16000 for each rate
-    EXPECT_NEAR(ours.hits, theirs.hits, standard_errors * std::sqrt(given_up_together * changed));
-    EXPECT_NEAR(ours.confidence, theirs.confidence, standard_errors * std::sqrt(given_up_together * squares));
+    EXPECT_EQ(pixels, recorded["pixels_covered"]);
+    EXPECT_LE(changed, 20u);
 }
 
 INSTANTIATE_TEST_SUITE_P(golden_amd_intersection, AmdIntersectionOf, testing::ValuesIn(amd_tracer_sets()),

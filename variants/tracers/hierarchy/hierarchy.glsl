@@ -52,7 +52,7 @@ HierarchyRay hierarchy_screen_ray(vec3 image_origin, vec3 vs_origin, vec3 vs_dir
     return HierarchyRay(image_origin, direction, inverse);
 }
 
-// True for all rays of a subgroup when few of them are left.
+// True for all rays of a subgroup that get here when they are few.
 bool hierarchy_gives_up() {
 #ifdef COMPUTE_SHADER
     return hierarchy_min_traversal_occupancy > 0u &&
@@ -76,7 +76,7 @@ HierarchyEnd hierarchy_walk(HierarchyRay ray, int finest, bool is_mirror) {
     for (uint step = 0u; step < hierarchy_max_traversal_intersections && walk.level >= finest && !has_given_up; ++step) {
         if (hierarchy_stop_outside_screen && is_outside(walk.position.xy)) return HierarchyEnd(walk.position, true);
         float surface = hierarchy_surface_depth(ivec2(walk.resolution * walk.position.xy), walk.level);
-        has_given_up = hierarchy_gives_up() && !is_mirror;
+        has_given_up = !is_mirror && hierarchy_gives_up();
         hierarchy_walk_on(walk, surface, coarsest);
     }
     return HierarchyEnd(walk.position, walk.level >= finest);
