@@ -3,6 +3,8 @@
 #include "core/shared/brdf.h"
 #include "core/split_sum.h"
 
+#include <utility>
+
 namespace {
 
 /// Unit, world space, from the camera through the pixel's sample: pixel.glsl.
@@ -19,9 +21,10 @@ glm::vec3 pixel_direction(const CameraData& camera, unsigned x, unsigned y) {
 Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
     const Composite result{graph_.image("specular", Format::rgba32f), graph_.image("image", Format::rgba32f)};
     auto pass = graph_.compute("gbuffer/composite.comp");
-    for (const Image& image : {g.depth, g.normal, g.base_color, g.emission, g.lit, g.fallback, split_sum_.on(graph_)})
+    for (const Image& image : {g.depth, g.normal, g.base_color, g.emission, g.fallback, split_sum_.on(graph_)})
         pass.read(image);
-    pass.read(reflections.radiance.as("radiance"))
+    pass.read((g.lit_without_specular.storage ? g.lit_without_specular : g.lit).as("lit"))
+        .read(reflections.radiance.as("radiance"))
         .read(reflections.confidence.as("confidence"))
         .set("confidence_channel", reflections.confidence_channel)
         .set("adds_fresnel", unsigned(formula_ == CompositeFormula::additive_fresnel))
@@ -29,6 +32,14 @@ Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
         .write(result.specular)
         .run();
     return result;
+}
+
+void Compositor::add_environment(GBuffer& gbuffer) {
+    const Image none = graph_.image("no_confidence", Format::r8);
+    graph_.clear(none, glm::vec4(0));
+    const Image with = render(gbuffer, {gbuffer.fallback, none}).image;
+    graph_.times();
+    gbuffer.lit_without_specular = std::exchange(gbuffer.lit, with.as("lit")).as("lit_without_specular");
 }
 
 HostImage specular_reflectance(const HostGBuffer& g) {

@@ -13,7 +13,7 @@ enum class CompositeFormula {
 /// What a technique's result makes of the image.
 struct Composite {
     Image specular;  ///< rgba32f: by the formula; 0 in the background
-    Image image;     ///< rgba32f: lit + specular
+    Image image;     ///< rgba32f: lit, without reflections of its own, + specular
 };
 
 /// The one compositor for all variants (design: the factorisation of Karis 2013, with the split-sum integral of our
@@ -26,6 +26,11 @@ public:
 
     /// A pass of the graph's current frame.
     Composite render(const GBuffer& gbuffer, const Reflections& reflections);
+
+    /// Adds to `lit` the environment's specular reflection, (F0 A + F90 B) fallback, as engines have it in the image
+    /// that SSR reads: what rays hit then shows its environment. Composites go on to use `lit` as it was. Passes of the
+    /// graph's current frame, waited for.
+    void add_environment(GBuffer& gbuffer);
 
 private:
     PassGraph& graph_;

@@ -16,19 +16,21 @@ struct GBuffer {
     Image motion;            ///< rg32f: uv_now - uv_before, of camera and object, without jitter
     Image material_id;       ///< r32ui: index of the material + 1; 0: background
     Image previous_depth, previous_normal;  ///< of the frame before; in the first frame this frame's own
-    Image lit;               ///< rgba32f: emission and diffusely reflected radiance towards the camera; environment where nothing was hit
+    Image lit;               ///< rgba32f: emission and diffusely reflected radiance towards the camera; environment where nothing was hit. With reflections: Compositor::add_environment()
     Image fallback;          ///< rgba32f: the environment prefiltered over each pixel's specular lobe, for composite and variants
 
     // The next layers of depth, without storage unless Variant::needs_depth_layers(); float32 for every depth format.
     Image second_depth;  ///< r32f: device depth of the next surface along each pixel's ray; of the far plane where there is none
     Image back_depth;    ///< r32f: the same if that is the back of a surface, where what is visible ends; `depth` if it is a front, or there is none: then what is visible counts as a sheet
 
+    Image lit_without_specular;  ///< where `lit` holds specular reflections, too: the same without them, to which composites add theirs; else without storage
+
     const EnvironmentImages* environment = nullptr;  ///< for bind_environment(); none with a G-buffer from files
 
     std::vector<Image> images() const {
         std::vector<Image> all = {depth, geometric_normal, normal, base_color, emission, motion, material_id, previous_depth, previous_normal, lit, fallback};
-        for (const Image& layer : {second_depth, back_depth})
-            if (layer.storage) all.push_back(layer);
+        for (const Image& optional : {second_depth, back_depth, lit_without_specular})
+            if (optional.storage) all.push_back(optional);
         return all;
     }
 };

@@ -25,6 +25,7 @@ struct HostGBuffer {
     HostImage previous_normal;           ///< 4
     HostImage lit, fallback;             ///< 4; of zero extent where absent
     HostImage second_depth, back_depth;  ///< 1; of zero extent where absent; no file holds them
+    HostImage lit_without_specular;      ///< 4; the same
 
     glm::uvec2 extent() const { return depth.extent; }
 };

@@ -31,6 +31,7 @@ HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& g, const CameraDat
                      .fallback = graph.download(g.fallback)};
     if (g.second_depth.storage) host.second_depth = graph.download(g.second_depth);
     if (g.back_depth.storage) host.back_depth = graph.download(g.back_depth);
+    if (g.lit_without_specular.storage) host.lit_without_specular = graph.download(g.lit_without_specular);
     return host;
 }
 
@@ -52,5 +53,7 @@ GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& g) {
     if (!g.second_depth.values.empty())
         gbuffer.second_depth = uploaded(graph, "second_depth", Format::r32f, g.second_depth);
     if (!g.back_depth.values.empty()) gbuffer.back_depth = uploaded(graph, "back_depth", Format::r32f, g.back_depth);
+    if (!g.lit_without_specular.values.empty())
+        gbuffer.lit_without_specular = uploaded(graph, "lit_without_specular", Format::rgba32f, g.lit_without_specular);
     return gbuffer;
 }

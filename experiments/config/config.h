@@ -29,10 +29,11 @@ struct ShotConfig {
         reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
 
     bool direct_lit = false;  ///< SSR reads rasterised direct light in place of the path-traced lit colour
+    bool lit_has_environment = false;  ///< that image also holds the environment's specular reflections
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     unsigned normal_bits = 0;  ///< RasterizerOptions::normal_bits
-    std::string name_suffix;   ///< of these four, those that are not the study's own: ".d16.reversed"
+    std::string name_suffix;   ///< of these five, those that are not the study's own: ".d16.reversed"
 
     std::string label, group;  ///< how tables and figures show it, and what it belongs to; "": its name, nothing
 

@@ -36,6 +36,14 @@ void for_each_choice(Use use) {
         "light without shadows, for large scans; the report says so",
         {{"path_traced", false}, {"direct", true}},
         &ShotConfig::direct_lit};
+    static const Words<bool> specular = {"lit_specular",
+                                         "what that image holds of specular light: `none`, so that what is reflected "
+                                         "shows no reflections, a metal only its "
+                                         "emission; or `environment`, as engines have it: the prefiltered "
+                                         "environment's, times F0 A + F90 B. What techniques find "
+                                         "replaces it in the composite",
+                                         {{"none", false}, {"environment", true}},
+                                         &ShotConfig::lit_has_environment};
     static const Words<DepthFormat> formats = {
         "depth_format",
         "of the depth buffer",
@@ -52,7 +60,7 @@ void for_each_choice(Use use) {
         "and `octahedral_8` (Cigolle et al. 2014). The truth has its own",
         {{"float", 0}, {"octahedral_16", 16}, {"octahedral_8", 8}},
         &ShotConfig::normal_bits};
-    use(lit), use(formats), use(directions), use(normals);
+    use(lit), use(specular), use(formats), use(directions), use(normals);
 }
 
 Values extents() {

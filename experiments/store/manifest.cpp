@@ -123,6 +123,8 @@ nlohmann::json study_entry(const Config& config) {
     if (std::ranges::any_of(config.shots, &ShotConfig::direct_lit))
         warnings.push_back(
             "SSR read rasterised direct light, not the truth's lit colour: part of its error is that light's");
+    if (std::ranges::any_of(config.shots, &ShotConfig::lit_has_environment))
+        warnings.push_back("the lit image that SSR read held the environment's specular reflections, as engines' do");
     if (config.composite == CompositeFormula::additive_fresnel)
         warnings.push_back(
             "reflections were added to an image that holds the environment's already, as an engine's document prints "

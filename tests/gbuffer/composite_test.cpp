@@ -127,6 +127,34 @@ TEST(composite, added_reflections_leave_the_environment_in_place) {
     EXPECT_GT(brighter, 1000u);
 }
 
+TEST(composite, the_environment_in_lit_is_seen_by_rays_but_not_composited_twice) {
+    const Scene scene = varied_scene();
+    const glm::uvec2 extent(50, 40);
+    Rasterizer rasterizer(test_device(), scene, {.extent = extent});
+    PassGraph& graph = rasterizer.graph();
+    Compositor compositor(graph);
+    const GBuffer without = rasterizer.render(scene.camera("main"), view_of(extent));
+    rasterizer.light_directly(without);
+    const HostGBuffer g = download_gbuffer(graph, without, rasterizer.camera(), DepthFormat::d32f);
+    GBuffer with = without;
+    compositor.add_environment(with);
+
+    const HostImage lit = graph.download(with.lit), reflectance = specular_reflectance(g);
+    size_t brighter = 0;
+    for (size_t i = 0; i < lit.pixel_count(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const float added = is_background(g, i) ? 0.0f : reflectance.rgb(i)[c] * g.fallback.rgb(i)[c];
+            ASSERT_NEAR(lit.rgb(i)[c], g.lit.rgb(i)[c] + added, 1e-4f) << "float32 sums, as above";
+            brighter += added > 0.01f;
+        }
+    EXPECT_GT(brighter, 1000u);
+
+    const auto image = [&](const GBuffer& gbuffer) {
+        return graph.download(compositor.render(gbuffer, {gbuffer.normal, gbuffer.normal, 3}).image);
+    };
+    EXPECT_EQ(differing_bits(image(with), image(without)), 0u);
+}
+
 TEST(composite, reflectance_is_the_split_sum_of_the_brdf) {
     // One floor seen at every angle: F0 A + F90 B from direct quadrature at the pixel's cosine.
     Scene scene = varied_scene();

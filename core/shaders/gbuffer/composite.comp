@@ -1,5 +1,4 @@
-// specular: by one of the formulas of core/gbuffer/composite.h; image = lit + specular. The same as composite() in
-// core/gbuffer/composite.cpp.
+// specular: by one of the formulas of core/gbuffer/composite.h; image = lit + specular.
 #include "core/shaders/gbuffer/pixel.glsl"
 #include "core/shaders/gbuffer/split_sum.glsl"
 #include "core/shared/brdf.h"

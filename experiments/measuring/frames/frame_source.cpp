@@ -1,6 +1,7 @@
 #include "experiments/measuring/frames/frame_source.h"
 
 #include "core/error.h"
+#include "core/gbuffer/composite.h"
 #include "core/gbuffer/environment_images.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "variants/registry.h"
@@ -23,19 +24,21 @@ public:
                        .normal_bits = shot.config.normal_bits,
                        .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
                        .is_still = shot.facts.is_still(),
-                       .keep_all = keep_all}) {}
+                       .keep_all = keep_all}),
+          compositor_(rasterizer_.graph()) {}
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
-        const GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,
-                                                                  .depth_direction = shot_.config.depth_direction,
-                                                                  .frame = step.frame,
-                                                                  .seed = seed,
-                                                                  .index = step.index,
-                                                                  .previous_frame = step.previous_frame});
+        GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,
+                                                            .depth_direction = shot_.config.depth_direction,
+                                                            .frame = step.frame,
+                                                            .seed = seed,
+                                                            .index = step.index,
+                                                            .previous_frame = step.previous_frame});
         if (shot_.config.direct_lit)
             rasterizer_.light_directly(gbuffer);
         else
             rasterizer_.upload_lit(gbuffer, lit);
+        if (shot_.config.lit_has_environment) compositor_.add_environment(gbuffer);
         return gbuffer;
     }
     const CameraData& camera() const override { return rasterizer_.camera(); }
@@ -44,12 +47,17 @@ public:
 private:
     const Shot& shot_;
     Rasterizer rasterizer_;
+    Compositor compositor_;
 };
 
 class CaptureSource final : public FrameSource {
 public:
     CaptureSource(Device& device, Capture& capture, const Shot& shot, bool reads_own_lit)
-        : capture_(capture), reads_own_lit_(reads_own_lit), graph_(device, shot.config.extent) {
+        : capture_(capture),
+          reads_own_lit_(reads_own_lit),
+          lit_has_environment_(shot.config.lit_has_environment),
+          graph_(device, shot.config.extent),
+          compositor_(graph_) {
         if (capture.environment()) environment_.emplace(graph_, *capture.environment(), false);
     }
 
@@ -66,7 +74,9 @@ public:
         }
         camera_ = host.camera;
         camera_.frame.x = step.index, camera_.frame.y = seed;
+        graph_.begin_frame(camera_, no_params_, {});
         GBuffer gbuffer = upload_gbuffer(graph_, host);
+        if (lit_has_environment_) compositor_.add_environment(gbuffer);
         if (environment_) gbuffer.environment = &*environment_;
         return gbuffer;
     }
@@ -75,9 +85,11 @@ public:
 
 private:
     Capture& capture_;
-    bool reads_own_lit_;
+    bool reads_own_lit_, lit_has_environment_;
     CameraData camera_{};
     PassGraph graph_;
+    Compositor compositor_;
+    ParameterSet no_params_;
     std::optional<EnvironmentImages> environment_;
 };
 
@@ -108,7 +120,7 @@ bool FrameStore::keeps_all() const {
 }
 
 FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit) {
-    constexpr size_t bytes_per_pixel = 140;  // of the formats in gbuffer.h, with both depth layers
+    constexpr size_t bytes_per_pixel = 156;  // of the formats in gbuffer.h, with all that is optional
     const auto key = std::pair(step.frame, step.previous_frame);
     auto found = stored_.find(key);
     if (found == stored_.end() || !found->second) {

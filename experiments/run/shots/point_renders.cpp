@@ -146,9 +146,18 @@ private:
     CompositedImages rendered_with(Renderer& r, const FrameStep& step, FrameStore::Frame frame, const HostImage& lit) {
         HostImage rgba(lit.extent, 4);
         for (size_t i = 0; i < lit.pixel_count(); ++i) rgba.set_rgb(i, lit.rgb(i));
+        const auto replace = [&](Image& image) {
+            const std::string name = image.name;
+            image = r.graph->image(name + "_of_half", Format::rgba32f).as(name);
+            r.graph->upload(image, rgba);
+        };
+        if (Image& without = frame.gbuffer.lit_without_specular; without.storage) {
+            const HostImage with = r.graph->download(frame.gbuffer.lit), mean = r.graph->download(without);
+            replace(without);
+            for (size_t i = 0; i < rgba.values.size(); ++i) rgba.values[i] += with.values[i] - mean.values[i];
+        }
+        replace(frame.gbuffer.lit);
         rays_.plug_in_scene(*r.probe, step, frame.camera);
-        frame.gbuffer.lit = r.graph->image("lit_of_half", Format::rgba32f).as("lit");
-        r.graph->upload(frame.gbuffer.lit, rgba);
         const unsigned seed = point_.variant.seeds.front();
         const Reflections reflections = r.render(frame.camera, seed, frame.gbuffer);
         report_step();

@@ -141,7 +141,8 @@ TEST_F(StudyTest, StoredFramesAreThoseThatAreRendered) {
                                  .frames = {3, 5, 6},
                                  .warm_up = 2,
                                  .repeat = 2,
-                                 .direct_lit = true},
+                                 .direct_lit = true,
+                                 .lit_has_environment = true},
                                 {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     const std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
     FrameStore keeps(*source, DepthFormat::d32f, size_t(1) << 30), forgets(*source, DepthFormat::d32f, 0);
@@ -159,9 +160,11 @@ TEST_F(StudyTest, StoredFramesAreThoseThatAreRendered) {
             EXPECT_EQ(host[0].camera.previous_clip_from_world, host[1].camera.previous_clip_from_world);
             for (const auto image :
                  {&HostGBuffer::depth, &HostGBuffer::normal, &HostGBuffer::motion, &HostGBuffer::previous_depth,
-                  &HostGBuffer::previous_normal, &HostGBuffer::lit, &HostGBuffer::fallback, &HostGBuffer::material_id})
+                  &HostGBuffer::previous_normal, &HostGBuffer::lit, &HostGBuffer::fallback, &HostGBuffer::material_id,
+                  &HostGBuffer::lit_without_specular})
                 EXPECT_EQ((host[0].*image).values, (host[1].*image).values)
                     << "round " << round << ", step " << step.index;
+            EXPECT_NE(host[0].lit.values, host[0].lit_without_specular.values);
         }
     EXPECT_TRUE(keeps.non_finite().empty());
 }
