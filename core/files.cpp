@@ -9,14 +9,20 @@
 #include <cstring>
 #include <fstream>
 
+void create_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail_machine("cannot create the folder ", folder.string(), ": ", error.message());
+}
+
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path&)>& write) {
     static std::atomic<unsigned> counter = 0;
     std::error_code error;
-    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
-    if (error) fail_machine("cannot create the folder ", file.parent_path().string(), ": ", error.message());
+    if (file.has_parent_path()) create_folder(file.parent_path());
     std::filesystem::path temporary = file;
     temporary += ".partial-" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+    std::filesystem::remove(temporary, error);  // of a killed process, or a link that waits there
     try {
         write(temporary);
     } catch (...) {

@@ -5,9 +5,13 @@
 #include <string>
 #include <string_view>
 
+/// Makes the folder and those above it. Fails with MachineError where it cannot.
+void create_folder(const std::filesystem::path& folder);
+
 /// Calls `write` with a temporary name beside `file`, then renames it to `file`; removes the temporary if `write`
 /// throws. Makes the folders above it. Fails with MachineError where these, or the new name, cannot be made.
-void write_atomically(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
+void write_atomically(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path&)>& write);
 
 /// Atomic text file. Fails with MachineError where the disk is full or the folder cannot be written.
 void write_text(const std::filesystem::path& file, std::string_view text);
@@ -26,10 +30,8 @@ public:
     void add(std::string_view text);  ///< its length, too: "ab" and "c" differ from "a" and "bc"
     /// Adds the bytes of a plain value without padding, or of a vector of such.
     template <class T>
-        requires std::is_arithmetic_v<T>
-    void add(T value) {
-        add(std::as_bytes(std::span(&value, 1)));
-    }
+    requires std::is_arithmetic_v<T>
+    void add(T value) { add(std::as_bytes(std::span(&value, 1))); }
     std::string hex() const;
 
 private:

@@ -8,6 +8,7 @@
 #include "core/json.h"
 #include "core/near_miss.h"
 #include "core/parameters.h"
+#include "core/path_inside.h"
 #include "core/scene/scene_file.h"
 
 #include <algorithm>
@@ -148,8 +149,8 @@ void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffe
 }
 
 LoadedGBuffer load_gbuffer(const std::filesystem::path& folder) {
-    const CameraFile camera = read_camera(folder / "camera.json");
-    const std::filesystem::path file = folder / "gbuffer.exr";
+    const CameraFile camera = read_camera(path_inside(folder, "camera.json"));
+    const std::filesystem::path file = path_inside(folder, "gbuffer.exr");
     const LayeredImage layers = read_exr(file);
     LoadedGBuffer result;
     result.gbuffer.camera = camera.camera;
@@ -185,7 +186,7 @@ void save_environment(const std::filesystem::path& folder, const Environment& en
 }
 
 std::optional<Environment> load_environment(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "environment.json";
+    const std::filesystem::path file = path_inside(folder, "environment.json");
     std::error_code error;
     if (!std::filesystem::exists(file, error)) return {};
     const nlohmann::json json = read_json(file);

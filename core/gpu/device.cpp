@@ -139,6 +139,34 @@ auto translated(const Action& action) {
 
 }  // namespace
 
+std::vector<std::string> missing_features(const vk::PhysicalDeviceFeatures& v10,
+                                          const vk::PhysicalDeviceVulkan13Features& v13,
+                                          const std::vector<vk::ExtensionProperties>& extensions) {
+    const bool has_push_descriptors = std::ranges::any_of(extensions, [](const vk::ExtensionProperties& e) {
+        return std::strcmp(e.extensionName, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) == 0;
+    });
+    struct Needed {
+        bool is_there;
+        const char *name, *why;
+    };
+    std::vector<std::string> missing;
+    for (const Needed& needed : std::initializer_list<Needed>{
+             {bool(v13.robustImageAccess), "robustImageAccess", "reads beyond an image must give zeros"},
+             {bool(v10.robustBufferAccess), "robustBufferAccess", "reads beyond a buffer must stay in it"},
+             {bool(v13.synchronization2), "synchronization2", "passes wait for each other by it"},
+             {bool(v13.dynamicRendering), "dynamicRendering", "passes draw by it"},
+             {bool(v13.maintenance4), "maintenance4", "shaders have the sizes of their work groups by it"},
+             {bool(v10.independentBlend), "independentBlend", "targets of one pass are blended differently"},
+             {bool(v10.fragmentStoresAndAtomics), "fragmentStoresAndAtomics", "fragment shaders write images"},
+             {bool(v10.shaderStorageImageExtendedFormats), "shaderStorageImageExtendedFormats",
+              "shaders write images of one and two channels"},
+             {bool(v10.shaderStorageImageWriteWithoutFormat), "shaderStorageImageWriteWithoutFormat",
+              "shaders write images of any format"},
+             {has_push_descriptors, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME, "passes name their images by it"}})
+        if (!needed.is_there) missing.push_back(std::string(needed.name) + ": " + needed.why);
+    return missing;
+}
+
 bool validation_requested() {
     const char* value = std::getenv("SSRLAB_VALIDATE");
     return value && std::string(value) == "1";
@@ -189,6 +217,17 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         d.queue_family = uint32_t(family - families.begin());
         d.timestamp_bits = family->timestampValidBits;
 
+        const auto has = d.gpu.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
+        const std::vector<std::string> missing =
+            missing_features(has.get<vk::PhysicalDeviceFeatures2>().features,
+                             has.get<vk::PhysicalDeviceVulkan13Features>(), d.gpu.enumerateDeviceExtensionProperties());
+        if (!missing.empty()) {
+            std::string list;
+            for (const std::string& feature : missing) list += (list.empty() ? "" : "; ") + feature;
+            fail_machine("the Vulkan device '", d.info.name, "' lacks ", list,
+                         ". Choose another with --device (`ssrlab list devices` names them), or a newer driver");
+        }
+
         const float priority = 1;
         const vk::DeviceQueueCreateInfo queue{
             .queueFamilyIndex = d.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
@@ -196,8 +235,8 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         // Reads beyond an image give zeros, as the Direct3D originals of several techniques expect.
         vk::PhysicalDeviceVulkan13Features v13{
             .robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
-        d.has_doubles = d.gpu.getFeatures().shaderFloat64;
-        d.has_statistics = d.gpu.getFeatures().pipelineStatisticsQuery;
+        d.has_doubles = has.get<vk::PhysicalDeviceFeatures2>().features.shaderFloat64;
+        d.has_statistics = has.get<vk::PhysicalDeviceFeatures2>().features.pipelineStatisticsQuery;
         const vk::PhysicalDeviceFeatures v10{.robustBufferAccess = true,
                                              .independentBlend = true,
                                              .pipelineStatisticsQuery = d.has_statistics,

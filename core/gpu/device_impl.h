@@ -11,6 +11,11 @@
 vk::Format vulkan_format(Format format);
 vk::ImageAspectFlags aspect_of(Format format);
 
+/// What techniques or this layer cannot do without and a device lacks, each by its name in Vulkan and what it is for.
+std::vector<std::string> missing_features(const vk::PhysicalDeviceFeatures& v10,
+                                          const vk::PhysicalDeviceVulkan13Features& v13,
+                                          const std::vector<vk::ExtensionProperties>& extensions);
+
 /// What the debug callback fills; its address must not change.
 struct ValidationLog {
     std::mutex mutex;

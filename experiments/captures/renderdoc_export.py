@@ -15,9 +15,11 @@ from pathlib import Path
 import numpy as np
 import renderdoc as rd
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from capture_files import CHANNELS, CaptureError, write_environment, write_frame  # noqa: E402
 from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
+from ssrlab.results import ResultsError, path_inside  # noqa: E402
 
 KINDS = {"Float": "float", "UNorm": "unorm", "UNormSRGB": "srgb", "SNorm": "snorm", "UInt": "uint", "Depth": "depth"}
 LAYOUTS = {"R10G10B10A2": "r10g10b10a2", "R11G11B10": "r11g11b10", "D24S8": "d24s8", "D32S8": "d32s8"}
@@ -140,7 +142,7 @@ def read_mapping(file):
     if unknown:
         raise CaptureError(f"{file}: unknown keys {unknown}")
     if isinstance(mapping["camera"], str):
-        mapping["camera"] = json.loads((Path(file).parent / mapping["camera"]).read_text())
+        mapping["camera"] = json.loads(Path(path_inside(str(Path(file).parent), mapping["camera"], f"{file}: 'camera'")).read_text())
     return mapping
 
 
@@ -179,5 +181,5 @@ def main():
 if __name__ == "__main__":
     try:
         main()
-    except CaptureError as e:
+    except (CaptureError, ResultsError) as e:
         sys.exit(f"error: {e}")

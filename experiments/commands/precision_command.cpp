@@ -1,5 +1,6 @@
 // ssrlab stability --precision: the error of half floats and floats.
 #include "core/error.h"
+#include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
 #include "experiments/run/progress.h"
@@ -68,7 +69,7 @@ int precision_command(const StabilityOptions& options, const CommonOptions& comm
     if (!options.figure.empty() || options.has_all_stages)
         fail("--figure and --all-stages do not apply to --precision");
     Device device(common.device);
-    std::filesystem::create_directories(options.out);
+    create_folder(options.out);
     const std::filesystem::path csv = options.out / "stability_precision.csv";
     Progress progress(1.0);
     const auto done = [&](const std::vector<PrecisionRow>& rows, double share) {

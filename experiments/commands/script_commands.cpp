@@ -1,6 +1,7 @@
 // The commands that are Python scripts: figures, tables, tradeoff, tune.
 #include "core/error.h"
 #include "core/files.h"
+#include "core/path_inside.h"
 #include "experiments/commands/child_process.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
@@ -57,8 +58,8 @@ int tradeoff_command(const TradeoffOptions& options) {
                                                 .baseline = options.baseline,
                                                 .costs = costs,
                                                 .left_out = options.left_out});
-    const std::filesystem::path out = options.out.empty() ? options.results / "tradeoff" : options.out;
-    std::filesystem::create_directories(out);
+    const std::filesystem::path out = options.out.empty() ? path_inside(options.results, "tradeoff") : options.out;
+    create_folder(out);
     write_rows(out / "pairs.csv", found.pairs);
     write_rows(out / "front.csv", found.front);
     write_rows(out / "across.csv", found.across);
@@ -107,7 +108,7 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
                         {"points", points},
                         {"parameters", config_schema(config.variants.front().variant)["properties"]},
                         {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
-    std::filesystem::create_directories(out);
+    create_folder(out);
     write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
     std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",
                                           this_program().string()};

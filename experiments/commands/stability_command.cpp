@@ -1,5 +1,6 @@
 // ssrlab stability: techniques under extreme inputs.
 #include "core/error.h"
+#include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
@@ -70,8 +71,9 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
                                        .variants = options.variants};
     const StabilityFolders folders{.search_path = scene_search_path(common.scene_path),
                                    .cache = common.cache.empty() ? default_cache_folder() : common.cache};
-    std::filesystem::create_directories(options.out);
-    write_rows(options.out / "stability_cases.csv", read_stability_cases(selection.table));
+    const std::vector<StabilityCase> cases = read_stability_cases(selection.table);
+    create_folder(options.out);
+    write_rows(options.out / "stability_cases.csv", cases);
     Progress progress(1.0);
     const auto write = [&](const std::vector<StabilityRow>& rows) {
         write_rows(options.out / "stability.csv", rows);

@@ -1,6 +1,7 @@
 #include "experiments/config/capture_folder.h"
 
 #include "core/error.h"
+#include "core/path_inside.h"
 
 #include <charconv>
 #include <string_view>
@@ -23,7 +24,7 @@ std::map<unsigned, fs::path> frame_folders(const fs::path& folder) {
         const auto [end, failure] = std::from_chars(first, last, number);
         if (failure != std::errc() || end != last)
             fail(entry.path().string(), ": a frame's folder is called ", frame_prefix, "<number>");
-        if (!folders.emplace(number, entry.path()).second)
+        if (!folders.emplace(number, path_inside(folder, name)).second)
             fail(entry.path().string(), ": frame ", number, " is there twice, as ", folders[number].string(), ", too");
     }
     if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
@@ -35,7 +36,7 @@ std::map<unsigned, fs::path> frame_folders(const fs::path& folder) {
 
 std::map<unsigned, fs::path> capture_frames(const fs::path& folder) {
     std::error_code error;
-    const bool is_single = fs::exists(folder / "gbuffer.exr", error);
+    const bool is_single = fs::exists(path_inside(folder, "gbuffer.exr"), error);
     std::map<unsigned, fs::path> folders = frame_folders(folder);
     if (is_single && !folders.empty())
         fail(folder.string(), " holds both a gbuffer.exr and folders ", frame_prefix,

@@ -14,7 +14,7 @@ std::string label_of(const nlohmann::json& values) {
 }
 
 std::string point_name(const std::string& preset, const nlohmann::json& swept) {
-    constexpr size_t longest_whole = 80, longest_cut = 48, hash_digits = 6;
+    constexpr size_t longest_whole = 80, longest_cut = 58, hash_digits = 16;  // 64 bits: a study has 100,000 points
     std::string name = preset;
     if (!swept.empty()) name += (preset.empty() ? "" : " ") + label_of(swept);
     if (name.empty()) return "default";

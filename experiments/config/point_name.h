@@ -6,7 +6,7 @@
 std::string label_of(const nlohmann::json& values);
 
 /// A point's name in results: the preset and the values that a design gave it, or "default". A name of more than 80
-/// characters keeps only the words that fit into 48 and ends in # and a hash of all: parameters.csv has every value.
+/// characters keeps only the words that fit into 58 and ends in # and a hash of all: parameters.csv has every value.
 std::string point_name(const std::string& preset, const nlohmann::json& swept);
 
 /// `text` with what stands in braces replaced by the member of `values` that is named so: "{dda.stride} px" is "4 px",

@@ -127,7 +127,9 @@ std::vector<EffectRow> effects_of_rows(const SeedsOfPoint& point, const SeedsOfP
         return {row};
     }
     const Jackknifed error = jackknifed_mean(errors), base_error = jackknifed_mean(base_errors);
-    const bool has_noise = point.noise && baseline.noise, are_positive = error.value > 0 && base_error.value > 0;
+    const bool has_noise = point.noise && baseline.noise && point.noise->sums.size() == baseline.noise->sums.size() &&
+                           point.noise->growth.size() == baseline.noise->growth.size(),
+               are_positive = error.value > 0 && base_error.value > 0;
     SharedScatter shared;
     if (has_noise && are_positive && !point.noise->growth.empty()) {
         const auto scatter = extrapolated_scatter(point.noise->growth, baseline.noise->growth);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/path_inside.h"
 #include "experiments/evaluation/over_scenes.h"
 #include "experiments/evaluation/pairs.h"
 #include "experiments/evaluation/standings.h"
@@ -77,9 +78,9 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
 
 void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest) {
     const std::string writer = writer_of(manifest);
-    require_table<MetricSummary>(folder / "summary.csv", writer);
-    require_table<TimeSummary>(folder / "time_summary.csv", writer);
-    require_table<OverScenesRow>(folder / "over_scenes.csv", writer);
-    require_table<EffectRow>(folder / "effects.csv", writer);
-    require_table<TimeEffectRow>(folder / "time_effects.csv", writer);
+    require_table<MetricSummary>(path_inside(folder, "summary.csv"), writer);
+    require_table<TimeSummary>(path_inside(folder, "time_summary.csv"), writer);
+    require_table<OverScenesRow>(path_inside(folder, "over_scenes.csv"), writer);
+    require_table<EffectRow>(path_inside(folder, "effects.csv"), writer);
+    require_table<TimeEffectRow>(path_inside(folder, "time_effects.csv"), writer);
 }

@@ -1,26 +1,23 @@
 #include "experiments/evaluation/study_tables.h"
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/json.h"
+#include "core/path_inside.h"
 #include "experiments/evaluation/evaluation.h"
 
 StudyTables read_study_tables(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "manifest.json";
-    if (!std::filesystem::exists(file))
+    const auto file = [&](const char* name) { return path_inside(folder, name); };
+    if (!std::filesystem::exists(file("manifest.json")))
         fail(folder.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
     StudyTables tables;
-    try {
-        tables.manifest = nlohmann::json::parse(read_text(file));
-    } catch (const nlohmann::json::exception& e) {
-        fail(file.string(), " is no valid JSON: ", e.what());
-    }
+    tables.manifest = read_json(file("manifest.json"));
     require_evaluation(folder, tables.manifest);
-    tables.errors = read_rows<MetricSummary>(folder / "summary.csv");
-    tables.seeds = read_rows<ResultRow>(folder / "results.csv");
-    tables.times = read_rows<TimeSummary>(folder / "time_summary.csv");
-    tables.rounds = read_rows<TimeRow>(folder / "times.csv");
-    tables.effects = read_rows<EffectRow>(folder / "effects.csv");
-    tables.time_effects = read_rows<TimeEffectRow>(folder / "time_effects.csv");
-    if (std::filesystem::exists(folder / "costs.csv")) tables.costs = read_rows<CostRow>(folder / "costs.csv");
+    tables.errors = read_rows<MetricSummary>(file("summary.csv"));
+    tables.seeds = read_rows<ResultRow>(file("results.csv"));
+    tables.times = read_rows<TimeSummary>(file("time_summary.csv"));
+    tables.rounds = read_rows<TimeRow>(file("times.csv"));
+    tables.effects = read_rows<EffectRow>(file("effects.csv"));
+    tables.time_effects = read_rows<TimeEffectRow>(file("time_effects.csv"));
+    if (std::filesystem::exists(file("costs.csv"))) tables.costs = read_rows<CostRow>(file("costs.csv"));
     return tables;
 }

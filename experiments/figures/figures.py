@@ -45,7 +45,7 @@ from paper_figures import (
     temporal,
 )
 from paper_figures.crop_choice import read_crops
-from ssrlab.results import Results, ResultsError, exit_code
+from ssrlab.results import Results, ResultsError, exit_code, path_inside
 
 # Kind of figure to what draws it: of one shot at a time, or of all that are asked for.
 SHOT_FIGURES = {"stage_times": stages.draw_times, "stage_costs": stages.draw_costs, "crops": crops.draw, "motion": motion.draw}
@@ -145,7 +145,7 @@ def main():
         chosen.crops = collected
     if results.errors:
         results.errors_of(**texts)  # a mistake in what is asked for is said before anything is written
-    out = arguments.out or os.path.join(arguments.results, "figures")
+    out = arguments.out or path_inside(arguments.results, "figures")
     os.makedirs(out, exist_ok=True)
     print(f"{make(results, requests, look, out)} files in {out}")
 

@@ -12,7 +12,7 @@ import sys
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
 
-from ssrlab.results import Results, ResultsError, exit_code  # noqa: E402
+from ssrlab.results import Results, ResultsError, exit_code, path_inside, write_text  # noqa: E402
 from paper_tables import documents, formats, latex, summary_file  # noqa: E402
 from paper_tables.cells import Table, cells_of  # noqa: E402
 from paper_tables.markdown import markdown  # noqa: E402
@@ -34,13 +34,8 @@ def parse_arguments():
     return arguments
 
 
-def write(file, text):
-    with open(file, "w", encoding="utf-8") as stream:
-        stream.write(text)
-
-
 def default_folder(results):
-    return os.path.join(results, "tables")
+    return path_inside(results, "tables")
 
 
 def remove_others(out, names):
@@ -48,7 +43,7 @@ def remove_others(out, names):
     for file in os.listdir(out):
         name, kind = os.path.splitext(file)
         if kind in (".md", ".tex", ".csv") and name not in names:
-            os.remove(os.path.join(out, file))
+            os.remove(path_inside(out, file))
 
 
 def make(folder, out, summary_folder):
@@ -63,19 +58,22 @@ def make(folder, out, summary_folder):
         raise ResultsError(f"{folder} cannot be kept: {why_not}")
     origin = summary_file.origin(results.manifest)
     tables, every = [], []
-    os.makedirs(out, exist_ok=True)
-    for entry in entries:
+    manifest = os.path.join(folder, "manifest.json")
+    stems = [path_inside(out, entry["name"], f"{manifest}: config: tables: 'name'") for entry in entries]
+    if summary_folder:
+        summary = path_inside(summary_folder, results.manifest["study"]["name"] + ".csv", f"{manifest}: study: 'name'")
+    for entry, stem in zip(entries, stems):
         table, cells = cells_of(results, Table(entry))
         made_from = summary_file.made_from(origin, table, cells)
-        write(os.path.join(out, table["name"] + ".md"), markdown(table, cells, made_from))
-        write(os.path.join(out, table["name"] + ".tex"), latex.latex(table, cells, made_from))
-        write(os.path.join(out, table["name"] + ".csv"), formats.comma_separated(cells))
+        write_text(stem + ".md", markdown(table, cells, made_from))
+        write_text(stem + ".tex", latex.latex(table, cells, made_from))
+        write_text(stem + ".csv", formats.comma_separated(cells))
         tables.append(table)
         every += cells
     if out == default_folder(folder):
         remove_others(out, {table["name"] for table in tables})
     if summary_folder:
-        summary_file.write(os.path.join(summary_folder, results.manifest["study"]["name"] + ".csv"), origin, tables, every)
+        summary_file.write(summary, origin, tables, every)
     return len(entries)
 
 

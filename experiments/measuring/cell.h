@@ -141,6 +141,9 @@ struct Cell {
     std::string name;           ///< as CellStore knows it
 };
 
-/// Fails with nlohmann::json::exception if a member is missing or of another type.
 void to_json(nlohmann::json& json, const Cell& cell);
+/// Of what read_cell() has checked.
 void from_json(const nlohmann::json& json, Cell& cell);
+/// What to_json() made. Fails with Error, which names the member, where that has another type or length, is missing, or
+/// is not a cell's. `where`: file and place, for the message.
+Cell read_cell(const nlohmann::json& json, const std::string& where);

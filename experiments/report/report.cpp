@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/path_inside.h"
 #include "experiments/evaluation/results_schema.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/report/answers.h"
@@ -169,7 +170,7 @@ std::string filled_template(const std::string& text, const json& values,
 json data_files(const std::filesystem::path& folder) {
     json files = json::array();
     const auto add = [&](const std::string& file) {
-        if (std::filesystem::exists(folder / file)) files.push_back(file);
+        if (std::filesystem::exists(path_inside(folder, file))) files.push_back(file);
     };
     const json schema = results_schema({});
     for (const json& table : schema["resources"]) add(table["path"]);
@@ -191,7 +192,8 @@ std::string page_text(const std::string& title, const json& data, json values) {
 }
 
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
-    if (!std::filesystem::exists(folder / "manifest.json")) {
+    const std::filesystem::path file = path_inside(folder, "manifest.json");
+    if (!std::filesystem::exists(file)) {
         if (const StabilityTables stability = read_stability_tables(folder); !stability.rows.empty()) {
             // No study: the page has this one section.
             json data = report_data({.stability = stability}, {});
@@ -210,8 +212,8 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
                  " was stopped before its first results; the same `ssrlab run` continues it");
         fail(folder.string(), " holds no results (manifest.json is missing); `ssrlab run` makes some");
     }
-    const json manifest = read_json(folder / "manifest.json");
-    if (!manifest.is_object()) fail((folder / "manifest.json").string(), " must be a JSON object");
+    const json manifest = read_json(file);
+    if (!manifest.is_object()) fail(file.string(), " must be a JSON object");
     const ReportTables tables = read_report_tables(folder, manifest);
 
     const PointSet singles = single_changes(manifest);

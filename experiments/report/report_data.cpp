@@ -1,6 +1,7 @@
 #include "experiments/report/report_data.h"
 
 #include "core/gpu/pass_cost.h"
+#include "core/path_inside.h"
 #include "experiments/evaluation/evaluation.h"
 #include "experiments/store/manifest.h"
 
@@ -105,21 +106,22 @@ json stability_data(const StabilityTables& tables, Texts& code) {
 
 ReportTables read_report_tables(const std::filesystem::path& folder, const json& manifest) {
     require_evaluation(folder, manifest);
-    ReportTables tables{.errors = read_rows<MetricSummary>(folder / "summary.csv"),
+    const auto file = [&](const char* name) { return path_inside(folder, name); };
+    ReportTables tables{.errors = read_rows<MetricSummary>(file("summary.csv")),
                         .splits = {},
                         .hits = {},
                         .costs = {},
                         .effects = {},
                         .time_effects = {},
-                        .times = read_rows<TimeSummary>(folder / "time_summary.csv"),
-                        .over_scenes = read_rows<OverScenesRow>(folder / "over_scenes.csv"),
+                        .times = read_rows<TimeSummary>(file("time_summary.csv")),
+                        .over_scenes = read_rows<OverScenesRow>(file("over_scenes.csv")),
                         .stability = read_stability_tables(folder)};
-    const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
-    if (has("splits.csv")) tables.splits = read_rows<SplitRow>(folder / "splits.csv");
-    if (has("hits.csv")) tables.hits = read_rows<HitRow>(folder / "hits.csv");
-    if (has("costs.csv")) tables.costs = read_rows<CostRow>(folder / "costs.csv");
-    if (has("effects.csv")) tables.effects = read_rows<EffectRow>(folder / "effects.csv");
-    if (has("time_effects.csv")) tables.time_effects = read_rows<TimeEffectRow>(folder / "time_effects.csv");
+    const auto has = [&](const char* name) { return std::filesystem::exists(file(name)); };
+    if (has("splits.csv")) tables.splits = read_rows<SplitRow>(file("splits.csv"));
+    if (has("hits.csv")) tables.hits = read_rows<HitRow>(file("hits.csv"));
+    if (has("costs.csv")) tables.costs = read_rows<CostRow>(file("costs.csv"));
+    if (has("effects.csv")) tables.effects = read_rows<EffectRow>(file("effects.csv"));
+    if (has("time_effects.csv")) tables.time_effects = read_rows<TimeEffectRow>(file("time_effects.csv"));
     return tables;
 }
 

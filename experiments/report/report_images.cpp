@@ -4,6 +4,7 @@
 #include "core/exr.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/path_inside.h"
 
 #include <half.h>
 #include <zlib.h>
@@ -91,10 +92,11 @@ int16_t ordered(uint16_t bits) { return int16_t(bits < 0x8000 ? bits : 0x7fff - 
 /// Takes images, and keeps them for the page until they are too many for it.
 class ImageSink {
 public:
-    ImageSink(fs::path folder, size_t budget) : folder_(std::move(folder)), budget_(budget) {}
+    ImageSink(fs::path folder, size_t budget)
+        : folder_(std::move(folder)), manifest_((folder_ / "manifest.json").string()), budget_(budget) {}
 
     void add(const Entry& entry, ReportImages& report) {
-        const HostImage rgb = read_exr_rgb(folder_ / entry.exr);
+        const HostImage rgb = read_exr_rgb(path_inside(folder_, entry.exr, manifest_ + ": images: 'exr'"));
         check_extent(entry, rgb.extent);
         json description = {{"shot", entry.shot},        {"frame", entry.frame},  {"variant", entry.variant},
                             {"point", entry.point},      {"kind", entry.kind},    {"target", entry.target},
@@ -119,6 +121,7 @@ public:
 
 private:
     fs::path folder_;
+    std::string manifest_;
     size_t budget_, size_ = 0;
     bool is_linked_ = false;
     std::vector<std::string> files_;  ///< of all images so far, whether they are written or not
@@ -157,7 +160,7 @@ private:
     }
 
     void write(const std::string& file, const std::string& text) const {
-        write_text(folder_ / file, "registerImage(" + json(file).dump() + ",\"" + text + "\");\n");
+        write_text(path_inside(folder_, file), "registerImage(" + json(file).dump() + ",\"" + text + "\");\n");
     }
 };
 
@@ -177,7 +180,7 @@ void remove_scripts(const fs::path& folder) {
 }  // namespace
 
 ReportImages report_images(const fs::path& folder, const json& manifest, size_t budget) {
-    remove_scripts(folder / report_image_folder);
+    remove_scripts(path_inside(folder, report_image_folder));
     ReportImages report;
     ImageSink sink(folder, budget);
     for (const Entry& entry : first_seeds(read_entries(folder, manifest))) sink.add(entry, report);

@@ -1,8 +1,10 @@
 #include "core/error.h"
+#include "core/files.h"
 #include "experiments/measuring/times/timing.h"
 #include "experiments/run/run.h"
 #include "experiments/run/study_results.h"
 #include "experiments/store/folder_owner.h"
+#include "experiments/store/result_images.h"
 
 #include <algorithm>
 
@@ -21,7 +23,7 @@ std::optional<FoundCell> find_cell(const PlannedCell& planned, const std::vector
                                    const std::function<void(const std::string&)>& say) {
     std::optional<FoundCell> best;
     for (const fs::path& folder : folders)
-        if (std::optional<Cell> cell = CellStore(folder, say).load(planned.name)) {
+        if (std::optional<Cell> cell = CellStore(folder, say).load_strictly(planned.name)) {
             if (best && best->cell.truth != cell->truth)
                 fail("the truth of ", planned.shot, " is not the same pixels in ", best->folder.string(), " and ",
                      folder.string(), " (cell ", planned.name, ", ", planned.what,
@@ -33,10 +35,10 @@ std::optional<FoundCell> find_cell(const PlannedCell& planned, const std::vector
     return best;
 }
 
-/// Puts a file of another folder into this one, as a link where the file system can.
+/// Puts a file of another folder into this one, as a hard link where the file system can.
 void take_over(const fs::path& from, const fs::path& to) {
     std::error_code error;
-    fs::create_directories(to.parent_path());
+    create_folder(to.parent_path());
     fs::remove(to, error);
     fs::create_hard_link(from, to, error);
     if (!error) return;
@@ -51,10 +53,10 @@ void take_over(const FoundCell& found, const fs::path& out) {
     for (const nlohmann::json& image : found.cell.images)
         for (const char* kind : {"exr", "png"}) {
             const std::string file = image.at(kind);
-            take_over(found.folder / file, out / file);
+            take_over(image_path(found.folder, file), image_path(out, file));
         }
-    const fs::path file = fs::path("cells") / (found.cell.name + ".json");
-    take_over(found.folder / file, out / file);
+    const auto nowhere = [](const std::string&) {};
+    take_over(CellStore(found.folder, nowhere).file(found.cell.name), CellStore(out, nowhere).file(found.cell.name));
 }
 
 }  // namespace

@@ -73,7 +73,12 @@ int add_mask(Scene& scene) {
 /// the one across are there}.
 void add_quad(Scene& scene, JsonObject quad) {
     const nlohmann::json& json = quad.any("corners");
-    if (!json.is_array() || json.size() < 3 || json.size() > 4) fail(quad.where(), ": 'corners' must be 3 or 4 points");
+    const auto is_point = [](const nlohmann::json& point) {
+        return point.is_array() && point.size() == 3 &&
+               std::ranges::all_of(point, [](const auto& v) { return v.is_number(); });
+    };
+    if (!json.is_array() || json.size() < 3 || json.size() > 4 || !std::ranges::all_of(json, is_point))
+        fail(quad.at("corners"), ": 'corners' must be 3 or 4 points of three numbers, not ", shown(json));
     std::vector<glm::vec3> corners;
     for (const nlohmann::json& corner : json) {
         const auto point = corner.get<std::array<float, 3>>();
@@ -116,7 +121,7 @@ Shot changed_shot(const CaseScene& wanted, const std::vector<std::filesystem::pa
     SceneCamera& camera = shot.camera;
     if (!wanted.quads.is_null()) {
         const nlohmann::json list = {{"quads", wanted.quads}};
-        for (JsonObject& quad : JsonObject(list, "a case").objects("quads")) add_quad(scene, std::move(quad));
+        for (JsonObject& quad : JsonObject(list, wanted.where).objects("quads")) add_quad(scene, std::move(quad));
     }
     if (wanted.roughness) {
         const nlohmann::json entry = {{"material", ".*"}, {"roughness", *wanted.roughness}};
@@ -124,7 +129,7 @@ Shot changed_shot(const CaseScene& wanted, const std::vector<std::filesystem::pa
         apply_override(object, scene);
     }
     if (wanted.radiance != 1.0f) brighten(scene, wanted.radiance);
-    if (!wanted.view.is_null()) camera = read_camera(JsonObject(wanted.view, "a case's 'view'"), scene);
+    if (!wanted.view.is_null()) camera = read_camera(JsonObject(wanted.view, wanted.where + ": view"), scene);
     if (camera.far == 0.0f) camera.far = 1000.0f;
     if (wanted.near) camera.near = *wanted.near;
     if (wanted.far) camera.far = *wanted.far;

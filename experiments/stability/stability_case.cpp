@@ -25,8 +25,9 @@ glm::uvec2 read_size(JsonObject& object, const std::string& key, glm::uvec2 fall
 std::vector<unsigned> read_poses(JsonObject& object) {
     if (!object.has("poses")) return std::vector<unsigned>(size_t(object.integer("frames", 1, 100000, 3)), 0u);
     const nlohmann::json& poses = object.any("poses");
-    const bool is_list = poses.is_array() && !poses.empty() &&
-                         std::ranges::all_of(poses, [](const auto& pose) { return pose.is_number_unsigned(); });
+    const bool is_list = poses.is_array() && !poses.empty() && std::ranges::all_of(poses, [](const auto& pose) {
+                             return pose.is_number_unsigned() && pose <= std::numeric_limits<unsigned>::max();
+                         });
     if (!is_list) fail(object.where(), ": 'poses' must be an array of frame numbers, not ", shown(poses));
     return poses.get<std::vector<unsigned>>();
 }
@@ -55,6 +56,7 @@ CaseScene read_scene(JsonObject& object) {
     scene.radiance = object.number("radiance", 0.0f, 1e12f, 1.0f);
     if (object.has("view")) scene.view = object.any("view");
     if (object.has("quads")) scene.quads = object.any("quads");
+    scene.where = object.where();
     return scene;
 }
 
@@ -84,12 +86,15 @@ InputFault read_fault(JsonObject object) {
     const char* key = object.has("times") ? "times" : "value";
     fault.is_factor = object.has("times");
     const nlohmann::json& value = object.any(key);
-    if (value.is_array())
-        for (const nlohmann::json& channel : value) fault.value.push_back(read_value(channel, object.where()));
-    else
-        fault.value = {read_value(value, object.where())};
+    for (const nlohmann::json& channel : value.is_array() ? value : nlohmann::json::array({value}))
+        fault.value.push_back(read_value(channel, object.at(key)));
+    if (fault.value.empty() || fault.value.size() > 4)
+        fail(object.at(key), ": '", key, "' must be one value, or one for each of up to 4 channels, not ",
+             shown(value));
     fault.where = object.choice("where", {"pixel", "all", "every_other"}, "pixel");
     if (object.has("at")) fault.at = read_pair(object, "at");
+    if (!(fault.at.x >= 0 && fault.at.x <= 1 && fault.at.y >= 0 && fault.at.y <= 1))
+        fail(object.at("at"), ": 'at' must be in [0, 1], not ", shown(object.any("at")));
     if (object.has("step")) fault.step = unsigned(object.integer("step", 0, 100000));
     object.finish();
     return fault;
@@ -130,7 +135,7 @@ StabilityCase read_case(const nlohmann::json& json, const std::string& where) {
     nlohmann::json benign = nlohmann::json::object();
     for (const auto& [key, value] : json.items())
         if (stays_in_benign(key)) benign[key] = value;
-    if (object.has("benign")) benign.merge_patch(object.any("benign"));
+    if (object.has("benign")) object.object("benign"), benign.merge_patch(object.any("benign"));
     object.finish();
     result.benign_key = benign.dump();
     JsonObject benign_object(benign, where + ": 'benign'");
@@ -140,32 +145,35 @@ StabilityCase read_case(const nlohmann::json& json, const std::string& where) {
 }
 
 /// A value of `each` as the case's name has it.
-std::string label_of_value(const std::string& key, const nlohmann::json& value) {
-    if (value.is_object() && value.contains("name")) return value["name"].get<std::string>();
+std::string label_of_value(const std::string& key, const nlohmann::json& value, const std::string& where) {
+    if (value.is_object() && value.contains("name")) return JsonObject(value, where).text("name");
     if (key != "faults") return label_of({{key, value}});
+    const nlohmann::json faults = {{key, value}};
     std::string label;
-    for (const nlohmann::json& fault : value) {
-        const nlohmann::json& number = fault.at(fault.contains("times") ? "times" : "value");
-        label += (label.empty() ? "" : ", ") + fault.at("image").get<std::string>() + " " +
-                 (number.is_string() ? number.get<std::string>() : number.dump()) +
-                 (fault.contains("at") ? " at " + fault["at"].dump() : "");
-    }
+    for (JsonObject& fault : JsonObject(faults, where).objects(key))
+        label += (label.empty() ? "" : ", ") + fault.text("image") + " " +
+                 plain_text(fault.any(fault.has("times") ? "times" : "value")) +
+                 (fault.has("at") ? " at " + fault.any("at").dump() : "");
     return label;
 }
 
 /// Every combination of the values of `each`.
-std::vector<nlohmann::json> expanded(nlohmann::json json) {
-    if (!json.contains("each")) return {json};
+std::vector<nlohmann::json> expanded(nlohmann::json json, const std::string& where) {
+    JsonObject object(json, where);
+    if (!object.has("each")) return {json};
+    object.object("each");  // which it must be
     const nlohmann::json each = json["each"];
-    json.erase("each");
-    std::vector<std::pair<nlohmann::json, std::string>> cases = {{json, json.value("case", std::string())}};
+    std::vector<std::pair<nlohmann::json, std::string>> cases = {{json, object.text("case")}};
+    cases.front().first.erase("each");
     for (const auto& [key, values] : each.items()) {
+        if (!values.is_array() || values.empty())
+            fail(where, ": each: '", key, "' must be an array of one value or more, not ", shown(values));
         std::vector<std::pair<nlohmann::json, std::string>> more;
         for (const auto& [base, name] : cases)
             for (const nlohmann::json& value : values) {
                 nlohmann::json next = base;
                 next[key] = value;
-                more.emplace_back(next, name + " " + label_of_value(key, value));
+                more.emplace_back(next, name + " " + label_of_value(key, value, where + ": each"));
             }
         cases = std::move(more);
     }
@@ -202,9 +210,10 @@ std::vector<StabilityCase> read_stability_cases(const std::filesystem::path& fil
     object.finish();
     if (!entries.is_array()) fail(file.string(), ": 'cases' must be an array");
     std::vector<StabilityCase> cases;
-    for (size_t i = 0; i < entries.size(); ++i)
-        for (const nlohmann::json& entry : expanded(entries[i]))
-            cases.push_back(read_case(entry, file.string() + ": cases[" + std::to_string(i) + "]"));
+    for (size_t i = 0; i < entries.size(); ++i) {
+        const std::string where = file.string() + ": cases[" + std::to_string(i) + "]";
+        for (const nlohmann::json& entry : expanded(entries[i], where)) cases.push_back(read_case(entry, where));
+    }
     return cases;
 }
 

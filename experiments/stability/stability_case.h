@@ -16,6 +16,7 @@ struct CaseScene {
     float radiance = 1.0f;           ///< factor of all that shines
     nlohmann::json view;             ///< an entry of a scene.json's `cameras`, in place of `camera`; null: none
     nlohmann::json quads;            ///< surfaces that are added; null: none
+    std::string where;               ///< file and place, for messages
 };
 
 /// What faults may change, by name, and what of a sound pixel is finite.

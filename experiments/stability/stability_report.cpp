@@ -1,6 +1,7 @@
 #include "experiments/stability/stability_report.h"
 
 #include "core/error.h"
+#include "core/path_inside.h"
 
 #include <cstdio>
 #include <map>
@@ -38,15 +39,16 @@ std::string explained(const StageFailure& failure, std::string KnownFailure::*pa
 }  // namespace
 
 StabilityTables read_stability_tables(const std::filesystem::path& folder) {
-    if (!std::filesystem::exists(folder / "stability.csv")) return {};
-    StabilityTables tables{.rows = read_rows<StabilityRow>(folder / "stability.csv"),
-                           .cases = read_rows<StabilityCase>(folder / "stability_cases.csv"),
-                           .stages = read_rows<StageRow>(folder / "stability_stages.csv")};
+    const auto file = [&](const char* name) { return path_inside(folder, name); };
+    if (!std::filesystem::exists(file("stability.csv"))) return {};
+    StabilityTables tables{.rows = read_rows<StabilityRow>(file("stability.csv")),
+                           .cases = read_rows<StabilityCase>(file("stability_cases.csv")),
+                           .stages = read_rows<StageRow>(file("stability_stages.csv"))};
     std::set<std::string> known;
     for (const StabilityCase& what : tables.cases) known.insert(what.name);
     const auto check = [&](const auto& row) {
         if (!known.contains(row.case_name))
-            fail((folder / "stability_cases.csv").string(), ": lacks the case '", row.case_name, "'");
+            fail(file("stability_cases.csv").string(), ": lacks the case '", row.case_name, "'");
     };
     std::ranges::for_each(tables.rows, check), std::ranges::for_each(tables.stages, check);
     return tables;

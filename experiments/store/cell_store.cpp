@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/path_inside.h"
 #include "experiments/store/result_images.h"
 
 #include <fcntl.h>
@@ -22,42 +23,69 @@ std::string content_hash(const nlohmann::json& cell) {
     return hash.hex();
 }
 
-/// A sentence if the file is not what the cell's image entry says.
-std::string damage(const std::filesystem::path& results, const nlohmann::json& image, const char* kind) {
-    const std::string name = image.at(kind), hash = file_hash(results / name);
-    if (hash.empty()) return "its image " + name + " is missing";
-    return hash == image.at(kind + std::string("_hash")) ? "" : "its image " + name + " is not the one that it made";
-}
-
 }  // namespace
 
-std::optional<Cell> CellStore::read(const std::string& name) const {
+std::filesystem::path CellStore::file(const std::string& name) const {
+    return path_inside(results_, "cells/" + name + ".json");
+}
+
+std::optional<Cell> CellStore::parse(const std::string& name) const {
     std::error_code error;
-    if (!std::filesystem::exists(file(name), error)) return {};
+    const std::filesystem::path file = this->file(name);
+    if (!std::filesystem::exists(file, error)) return {};
+    nlohmann::json json;
     try {
-        const nlohmann::json json = read_json(file(name));
-        if (json.at("name") == name && json.at("content") == content_hash(json.at("cell"))) {
-            Cell cell = json.at("cell").get<Cell>();
-            cell.name = name;
-            return cell;
-        }
+        json = read_json(file);
     } catch (const MachineError&) {
         throw;
-    } catch (const std::exception&) {  // as good as none
+    } catch (const Error&) {  // as good as none
     }
-    notice_("note: " + file(name).string() + " is damaged, or of another version; it is not used");
-    return {};
+    const bool is_whole = json.is_object() && json.contains("cell") && json.value("name", nlohmann::json()) == name &&
+                          json.value("content", nlohmann::json()) == content_hash(json["cell"]);
+    if (!is_whole) {
+        notice_("note: " + file.string() + " is damaged, or of another version; it is not used");
+        return {};
+    }
+    Cell cell = read_cell(json["cell"], file.string() + ": cell");
+    cell.name = name;
+    return cell;
+}
+
+std::optional<Cell> CellStore::noting_mistakes(const std::function<std::optional<Cell>()>& read) const {
+    try {
+        return read();
+    } catch (const MachineError&) {
+        throw;
+    } catch (const Error& mistake) {
+        notice_("note: " + std::string(mistake.what()) + "; the cell is not used");
+        return {};
+    }
+}
+
+std::optional<Cell> CellStore::read(const std::string& name) const {
+    file(name);  // whose own mistakes nothing makes good
+    return noting_mistakes([&] { return parse(name); });
 }
 
 std::optional<Cell> CellStore::load(const std::string& name) const {
-    std::optional<Cell> cell = read(name);
+    file(name);
+    return noting_mistakes([&] { return load_strictly(name); });
+}
+
+std::optional<Cell> CellStore::load_strictly(const std::string& name) const {
+    std::optional<Cell> cell = parse(name);
     if (!cell) return {};
-    for (const nlohmann::json& image : cell->images)
-        for (const char* kind : {"exr", "png"})
-            if (const std::string why = damage(results_, image, kind); !why.empty()) {
-                notice_("note: " + file(name).string() + " is done again: " + why);
-                return {};
-            }
+    const std::string file = this->file(name).string();
+    for (size_t i = 0; i < cell->images.size(); ++i)
+        for (const std::string kind : {"exr", "png"}) {
+            const nlohmann::json& image = cell->images[i];
+            const std::string shown = image[kind], place = ": cell: images[" + std::to_string(i) + "]: " + kind,
+                              hash = file_hash(image_path(results_, shown, file + place));
+            if (hash == image[kind + "_hash"]) continue;
+            notice_("note: " + file + " is done again: its image " + shown +
+                    (hash.empty() ? " is missing" : " is not the one that it made"));
+            return {};
+        }
     return cell;
 }
 
@@ -70,7 +98,7 @@ void CellStore::save(const std::string& name, const Cell& cell) const {
 std::vector<std::string> CellStore::names() const {
     std::vector<std::string> names;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(results_ / "cells", error)) {
+    for (const auto& entry : std::filesystem::directory_iterator(path_inside(results_, "cells"), error)) {
         const std::string stem = entry.path().stem().string();
         if (entry.path().extension() == ".json" && entry.is_regular_file(error) && !entry.is_symlink(error) &&
             read(stem))
@@ -87,9 +115,8 @@ CellStore::Claim::~Claim() {
 }
 
 std::unique_ptr<CellStore::Claim> CellStore::claim(const std::string& name, bool waits) const {
-    const std::filesystem::path file = results_ / "cells" / (name + ".claim");
-    std::error_code error;
-    std::filesystem::create_directories(file.parent_path(), error);
+    const std::filesystem::path file = path_inside(results_, "cells/" + name + ".claim");
+    create_folder(file.parent_path());
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor < 0)
         fail_machine("cannot write into the folder ", file.parent_path().string(), ": ", std::strerror(errno));

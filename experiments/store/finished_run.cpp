@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/path_inside.h"
 
 namespace fs = std::filesystem;
 
@@ -28,20 +29,22 @@ void keep_finished_run(const fs::path& results, const std::string& key, const st
          entry.increment(error)) {
         const fs::path& file = entry->path();
         std::error_code gone;
-        if (entry->is_regular_file(gone) && file.extension() != ".claim" && file != results / record_name)
+        if (entry->is_regular_file(gone) && file.extension() != ".claim" && file.filename() != record_name)
             files[file.lexically_relative(results).string()] = stamp_of(file);
     }
     if (error) return;
-    write_text(results / record_name, nlohmann::json{{"key", key}, {"said", said}, {"files", files}}.dump() + "\n");
+    write_text(path_inside(results, record_name),
+               nlohmann::json{{"key", key}, {"said", said}, {"files", files}}.dump() + "\n");
 }
 
 std::optional<std::vector<std::string>> find_finished_run(const fs::path& results, const std::string& key) {
     try {
-        if (std::error_code error; !fs::exists(results / record_name, error)) return {};
-        const nlohmann::json record = read_json(results / record_name);
+        const fs::path file_of_record = path_inside(results, record_name);
+        if (std::error_code error; !fs::exists(file_of_record, error)) return {};
+        const nlohmann::json record = read_json(file_of_record);
         if (record.at("key") != key) return {};
         for (const auto& [file, stamp] : record.at("files").items())
-            if (stamp.is_null() || stamp_of(results / file) != stamp) return {};
+            if (stamp.is_null() || stamp_of(path_inside(results, file)) != stamp) return {};
         return record.at("said").get<std::vector<std::string>>();
     } catch (const MachineError&) {
         throw;

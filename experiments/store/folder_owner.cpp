@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/path_inside.h"
 
 #include <unistd.h>
 #include <optional>
@@ -23,13 +24,15 @@ json study_record(json config, bool keep_all) {
 /// Whose the folder is; nothing if it is nobody's.
 std::optional<json> read_owner(const fs::path& folder) {
     std::error_code error;
-    if (fs::exists(folder / "study.json", error)) {
-        const json record = read_json(folder / "study.json");
-        if (record.is_object()) return study_record(record.value("config", json()), record.value("keep_all", false));
+    const fs::path of_study = path_inside(folder, "study.json"), of_results = path_inside(folder, "manifest.json");
+    if (fs::exists(of_study, error)) {
+        const json record = read_json(of_study);
+        if (record.is_object())
+            return study_record(record.value("config", json()), record.value("keep_all", json()) == true);
         return study_record({}, false);
     }
-    if (!fs::exists(folder / "manifest.json", error)) return {};
-    const json manifest = read_json(folder / "manifest.json");
+    if (!fs::exists(of_results, error)) return {};
+    const json manifest = read_json(of_results);
     return study_record(manifest.is_object() ? manifest.value("config", json()) : json(), false);
 }
 

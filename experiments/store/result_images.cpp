@@ -1,7 +1,9 @@
 #include "experiments/store/result_images.h"
 
+#include "core/error.h"
 #include "core/exr.h"
 #include "core/files.h"
+#include "core/path_inside.h"
 #include "core/png.h"
 #include "experiments/store/file_name.h"
 #include "metrics/color_map.h"
@@ -26,13 +28,12 @@ struct KeptImage {
 /// Writes it; its entry names both files with the hashes of their bytes.
 nlohmann::json save(const std::filesystem::path& out, const std::string& folder, const KeptImage& image) {
     const std::string stem = "images/" + file_name(folder) + "/" + image.name;
-    write_exr(out / (stem + ".exr"), image.rgb, image.type);
-    write_png(out / (stem + ".png"), image.picture.values.empty() ? image.rgb : image.picture, image.exposure_ev);
+    const std::filesystem::path exr = image_path(out, stem + ".exr"), png = image_path(out, stem + ".png");
+    write_exr(exr, image.rgb, image.type);
+    write_png(png, image.picture.values.empty() ? image.rgb : image.picture, image.exposure_ev);
     nlohmann::json entry = image.entry;
-    for (const std::string kind : {"exr", "png"}) {
-        entry[kind] = stem + "." + kind;
-        entry[kind + "_hash"] = file_hash(out / (stem + "." + kind));
-    }
+    entry["exr"] = stem + ".exr", entry["exr_hash"] = file_hash(exr);
+    entry["png"] = stem + ".png", entry["png_hash"] = file_hash(png);
     return entry;
 }
 
@@ -80,6 +81,15 @@ nlohmann::json entry_of(const ResultRow& row, const std::string& kind, const std
 }
 
 }  // namespace
+
+std::filesystem::path image_path(const std::filesystem::path& results, const std::string& name,
+                                 const std::string& where) {
+    const std::filesystem::path path = path_inside(results, name, where), inside = name;
+    if (*inside.begin() != "images" || std::ranges::distance(inside) < 2)
+        fail(where, where.empty() ? "'" : ": '", name, "' is not in images/, where ", results.string(),
+             " has all of its images");
+    return path;
+}
 
 std::string file_hash(const std::filesystem::path& file) {
     std::error_code error;

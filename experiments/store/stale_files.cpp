@@ -1,5 +1,8 @@
 #include "experiments/store/stale_files.h"
 
+#include "core/error.h"
+#include "experiments/store/result_images.h"
+
 #include <algorithm>
 
 namespace fs = std::filesystem;
@@ -8,14 +11,14 @@ namespace {
 
 using nlohmann::json;
 
-/// Adds the files that entries of `images` name, as far as they can be images of a results folder.
-void add_files(std::set<std::string>& files, const json& images) {
+/// Adds the files that entries of `images` name, as far as they can be images of the folder.
+void add_files(std::set<std::string>& files, const json& images, const fs::path& results) {
     if (!images.is_array()) return;
     const auto add = [&](const json& name) {
-        if (!name.is_string()) return;
-        const fs::path file = fs::path(name.get<std::string>()).lexically_normal();
-        const bool is_inside = file.is_relative() && *file.begin() == "images" && std::ranges::distance(file) > 1;
-        if (is_inside && std::ranges::count(file, fs::path("..")) == 0) files.insert(file.string());
+        if (name.is_string()) try {
+                files.insert(image_path(results, name).lexically_relative(results).lexically_normal().string());
+            } catch (const Error&) {  // no image of this folder
+            }
     };
     for (const json& image : images) {
         add(image);
@@ -34,17 +37,18 @@ StaleFiles find_stale_files(const fs::path& results, const CellStore& cells, con
     for (const std::string& name : cells.names()) {
         if (used.contains(name)) continue;
         stale.cells.push_back(name);
-        if (const auto cell = cells.read(name)) add_files(known, cell->images);  // unless another process removed it
+        if (const auto cell = cells.read(name))
+            add_files(known, cell->images, results);  // unless another process removed it
     }
     if (before.is_object()) {
-        add_files(known, before.value("images", json::array()));
+        add_files(known, before.value("images", json::array()), results);
         if (before.contains("stale") && before["stale"].is_object())
-            add_files(known, before["stale"].value("images", json::array()));
+            add_files(known, before["stale"].value("images", json::array()), results);
     }
-    add_files(current, manifest.at("images"));
+    add_files(current, manifest.at("images"), results);
     for (const std::string& file : known) {
         std::error_code error;
-        if (!current.contains(file) && fs::symlink_status(results / file, error).type() == fs::file_type::regular)
+        if (!current.contains(file) && fs::is_regular_file(image_path(results, file), error))
             stale.images.push_back(file);
     }
     return stale;
@@ -54,7 +58,8 @@ void remove_stale_files(const fs::path& results, const CellStore& cells, const S
     std::error_code error;
     for (const std::string& name : stale.cells) fs::remove(cells.file(name), error);
     for (const std::string& file : stale.images) {
-        fs::remove(results / file, error);
-        fs::remove((results / file).parent_path(), error);  // fails where something is left
+        const fs::path path = image_path(results, file);
+        fs::remove(path, error);
+        fs::remove(path.parent_path(), error);  // fails where something is left
     }
 }

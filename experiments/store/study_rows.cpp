@@ -1,5 +1,7 @@
 #include "experiments/store/study_rows.h"
 
+#include "core/path_inside.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -46,9 +48,9 @@ void write_tables(const std::filesystem::path& folder, const StudyRows& rows) {
     write_rows(folder / "times.csv", rows.times);
     const auto write_if_any = [&](const char* file, const auto& some) {
         if (some.empty())
-            std::filesystem::remove(folder / file);  // of an earlier version of the study
+            std::filesystem::remove(path_inside(folder, file));  // of an earlier version of the study
         else
-            write_rows(folder / file, some);
+            write_rows(path_inside(folder, file), some);
     };
     write_if_any("hits.csv", rows.hits), write_if_any("costs.csv", rows.costs);
 }

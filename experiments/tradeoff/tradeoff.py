@@ -18,7 +18,7 @@ except ImportError as missing:
 from analysis import rows
 from analysis.answers import Answers
 from analysis.points import Study
-from ssrlab.results import exit_code
+from ssrlab.results import exit_code, write_text
 
 SHOT = ("shot", "scene", "machine", "variant", "label")
 FILES = {
@@ -35,8 +35,7 @@ def main():
     analysis = rows.Analysis(study, sorted(study.asked["factors"], reverse=True))
     for name, columns in FILES.items():
         rows.write(out, name, columns, getattr(analysis, name.removesuffix(".csv")))
-    with open(os.path.join(out, "answers.md"), "w", encoding="utf-8") as stream:
-        stream.write(Answers(analysis).text())
+    write_text(os.path.join(out, "answers.md"), Answers(analysis).text())
     print(os.path.join(out, "answers.md"))
 
 

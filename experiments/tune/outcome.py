@@ -9,7 +9,7 @@ from paper_figures import style
 from paper_figures.numbers import with_interval
 from paper_figures.placed_labels import place_labels
 from ssrlab import statistics
-from ssrlab.results import Measured
+from ssrlab.results import Measured, path_inside, whole_file, write_text
 
 FASTER = 1.1  # a point that is this much faster than the baseline is worth a name though it errs more
 
@@ -47,7 +47,7 @@ class Outcome:
 
     def write_csv(self):
         axes = [axis.name for axis in self.tuning.space.axes]
-        with open(self.file("tune.csv"), "w", newline="", encoding="utf-8") as stream:
+        with whole_file(self.file("tune.csv")) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
             writer.writerow(["point", "batch", "stopped", "shots", "runs", "ratio", "low", "high", "time", *axes])
             for point in self.points.values():
@@ -57,7 +57,7 @@ class Outcome:
                 writer.writerow(row + [math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
 
     def file(self, name):
-        return os.path.join(self.tuning.out, name)
+        return path_inside(self.tuning.out, name)
 
     def changes(self, point):
         """The parameters that differ from the technique's defaults."""
@@ -109,9 +109,7 @@ class Outcome:
                 text += f"; {with_interval(judged[0])}" + (f" in {with_interval(judged[2])}" if judged[2] else "") + f" on {judged[1]} others"
             preset = {"variant": self.tuning.start_entry["variant"], "name": f"best_{min(budgets):g}x", "description": text}
             presets.append(preset | {"parameters": self.changes(point)})
-        with open(self.file("presets.json"), "w", encoding="utf-8") as stream:
-            json.dump({"presets": presets}, stream, indent=2)
-            stream.write("\n")
+        write_text(self.file("presets.json"), json.dumps({"presets": presets}, indent=2) + "\n")
 
     def time_word(self):
         return "time" if self.studies.has_clock else self.studies.cost
@@ -146,8 +144,7 @@ class Outcome:
             differs = ", ".join(f"{k} = {json.dumps(v)}" for k, v in point.values.items() if tuning.space.start[k] != v)
             lines.append(f"| {math.exp(self.race.log_time(point)):.3f} | {with_interval(ratio_of(self.race.error(point)))} | {point.name} | {differs} |")
         lines += self.unseen_lines()
-        with open(self.file("tuned.md"), "w", encoding="utf-8") as stream:
-            stream.write("\n".join(lines) + "\n")
+        write_text(self.file("tuned.md"), "\n".join(lines) + "\n")
 
     def cells(self, name):
         point, judged = self.points[name], self.unseen(name)

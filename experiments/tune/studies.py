@@ -6,7 +6,7 @@ import os
 import subprocess
 import time
 
-from ssrlab.results import Results, ResultsError
+from ssrlab.results import Results, ResultsError, path_inside, write_text
 from race import NORMAL
 
 NOT_OF_STUDIES = ("tune", "tables", "variants", "shots", "seeds", "timing", "costs", "$schema")
@@ -54,7 +54,7 @@ class Studies:
         self.has_clock = self.cost == "milliseconds"
         self.out, self.command, self.baseline = out, command, baseline
         self.references = {}  # shot to the hashes of its references: errors are paired against the same pixels alone
-        self.minutes_file = os.path.join(out, "minutes.json")
+        self.minutes_file = path_inside(out, "minutes.json")
         self.minutes = {}  # study to what its run took
         self.counts_of_baseline = {}  # shot to what was counted
 
@@ -68,21 +68,19 @@ class Studies:
 
     def run(self, name, variants, shots, seeds, is_timed=True):
         """Runs a study and reads it; `name`: its folder within that of the search."""
-        folder = os.path.join(self.out, name)
-        os.makedirs(os.path.dirname(folder), exist_ok=True)
+        folder, config, log_file = (path_inside(self.out, name + end) for end in ("", ".json", ".log"))
         study = self.common | {"variants": variants, "shots": shots, "seeds": seeds}
         timing = self.timing if name == "judged" else self.search_timing
         study["timing"] = timing if is_timed and self.has_clock else {"frames": 0}
         study["costs"] = is_timed and not self.has_clock
-        with open(folder + ".json", "w", encoding="utf-8") as stream:  # beside the folder: study.json in it is ssrlab's own
-            json.dump(study, stream, indent=1)
+        write_text(config, json.dumps(study, indent=1))  # beside the folder: study.json in it is ssrlab's own
         begin = time.monotonic()
-        with open(folder + ".log", "a", encoding="utf-8") as log:
-            command = [self.command[0], "run", folder + ".json", "--out", folder, *self.command[1:]]
+        with open(log_file, "a", encoding="utf-8") as log:
+            command = [self.command[0], "run", config, "--out", folder, *self.command[1:]]
             code = subprocess.run(command, stdout=log, stderr=log).returncode
         self._keep_minutes(name, (time.monotonic() - begin) / 60)
         if code != 0:
-            raise StudyFailed(code, folder + ".log")
+            raise StudyFailed(code, log_file)
         results = Results(folder)
         self._check_references(results)
         return results
@@ -94,9 +92,7 @@ class Studies:
             with open(self.minutes_file, encoding="utf-8") as stream:
                 kept = json.load(stream)
         self.minutes[name] = kept.setdefault(name, minutes)
-        with open(self.minutes_file + ".new", "w", encoding="utf-8") as stream:
-            json.dump(kept, stream, indent=1)
-        os.replace(self.minutes_file + ".new", self.minutes_file)
+        write_text(self.minutes_file, json.dumps(kept, indent=1))
 
     def minutes_so_far(self):
         return sum(self.minutes.values())

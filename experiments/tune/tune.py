@@ -21,7 +21,7 @@ try:
 except ImportError as missing:
     sys.exit(f"error: {missing}: install python3-optuna")
 from outcome import Outcome  # noqa: E402  (found by the path above)
-from ssrlab.results import ResultsError  # noqa: E402
+from ssrlab.results import ResultsError, exit_code  # noqa: E402
 from race import Point, Race  # noqa: E402
 from space import Proposals, Space  # noqa: E402
 from studies import Studies, StudyFailed  # noqa: E402
@@ -211,23 +211,23 @@ class Tuning:
         )
 
 
+def search(arguments):
+    try:
+        with open(arguments.asked, encoding="utf-8") as stream:
+            asked = json.load(stream)
+        Tuning(asked, arguments.out, arguments.command).run()
+    except StudyFailed as failed:
+        print(f"error: {failed}", file=sys.stderr)
+        return failed.code
+
+
 def main():
     parser = argparse.ArgumentParser(description="Search a technique's parameters for the front of error against time.")
     parser.add_argument("asked", help="what `ssrlab tune` read of the config")
     parser.add_argument("--out", required=True, help="folder of the studies and of the results")
     parser.add_argument("command", nargs="+", help="ssrlab, and options of `ssrlab run`")
     arguments = parser.parse_args()
-    try:
-        with open(arguments.asked, encoding="utf-8") as stream:
-            asked = json.load(stream)
-        Tuning(asked, arguments.out, arguments.command).run()
-    except ResultsError as mistake:
-        print(f"error: {mistake}", file=sys.stderr)
-        return 2
-    except StudyFailed as failed:
-        print(f"error: {failed}", file=sys.stderr)
-        return failed.code
-    return 0
+    return exit_code(lambda: search(arguments), "the search")
 
 
 if __name__ == "__main__":

@@ -45,6 +45,20 @@ TEST(Device, DescribesItself) {
     EXPECT_GT(info.memory_mib, 0.0);
 }
 
+TEST(Device, NamesEachFeatureThatItLacks) {
+    Device device;
+    const vk::raii::PhysicalDevice& gpu = device.impl().gpu;
+    const auto has = gpu.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
+    vk::PhysicalDeviceFeatures v10 = has.get<vk::PhysicalDeviceFeatures2>().features;
+    vk::PhysicalDeviceVulkan13Features v13 = has.get<vk::PhysicalDeviceVulkan13Features>();
+    EXPECT_TRUE(missing_features(v10, v13, gpu.enumerateDeviceExtensionProperties()).empty());
+    v10.independentBlend = false, v13.robustImageAccess = false;
+    const std::vector<std::string> missing = missing_features(v10, v13, {});
+    ASSERT_EQ(missing.size(), 3u);
+    for (const char* name : {"independentBlend: ", "robustImageAccess: ", "VK_KHR_push_descriptor: "})
+        EXPECT_TRUE(contains(missing, name)) << name;
+}
+
 TEST(Device, PicksTheOnlyOneByItself) {
     if (list_devices().size() > 1) GTEST_SKIP() << "several devices";
     EXPECT_EQ(Device().info().name, list_devices().front().name);

@@ -1,6 +1,5 @@
 """A shot in motion as an animated GIF: the truth beside techniques, frame by frame."""
 
-import os
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -8,7 +7,7 @@ from PIL import Image
 
 from paper_figures import style
 from paper_figures.crops import REFERENCE, auto_exposure, best_of_each, display
-from ssrlab.results import ResultsError
+from ssrlab.results import ResultsError, path_inside, whole_file
 
 MOST_POINTS = 5  # beside the truth: two rows of three
 COLUMNS = 3
@@ -25,15 +24,14 @@ class Animation:
         self.frames, self.caption = frames, caption
 
     def save(self, folder, name):
-        """Writes name.gif, to a temporary name and renamed. All frames share 256 colours, median cut's, improved by k-means, between
+        """Writes name.gif. All frames share 256 colours, median cut's, improved by k-means, between
         which errors are diffused (Floyd and Steinberg 1976)."""
-        file = os.path.join(folder, style.file_name(name) + ".gif")
-        temporary = f"{file}.partial-{os.getpid()}"
+        file = path_inside(folder, style.file_name(name) + ".gif")
         every = np.concatenate(self.frames)[:, :: max(1, len(self.frames) // 2)].copy()  # of the columns: k-means takes seconds
         palette = Image.fromarray(every).quantize(256, method=Image.Quantize.MEDIANCUT, kmeans=1)
         pictures = [Image.fromarray(f).quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG) for f in self.frames]
         times = [FRAME_MS] * (len(pictures) - 1) + [LAST_MS]
-        try:
+        with whole_file(file) as temporary:
             pictures[0].save(
                 temporary,
                 format="GIF",
@@ -43,10 +41,6 @@ class Animation:
                 loop=0,
                 comment=self.caption.encode(),
             )
-            os.replace(temporary, file)
-        finally:
-            if os.path.exists(temporary):
-                os.remove(temporary)
         return [file]
 
 

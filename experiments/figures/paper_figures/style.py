@@ -1,7 +1,6 @@
 """The look that all figures share, and how they are saved."""
 
 import hashlib
-import os
 import re
 import textwrap
 
@@ -13,6 +12,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 import numpy as np
 
 from paper_figures.texts import wrapped
+from ssrlab.results import path_inside, whole_file
 
 CENTIMETRE = 1 / 2.54
 WIDTHS = {"column": 8.5, "page": 17.6, "slide": 25.0}  # cm
@@ -253,7 +253,7 @@ def file_name(text, longest=150):
 
 
 def save(figure, folder, name, formats=FORMATS):
-    """Writes name.pdf, .svg and .png, each to a temporary name and renamed."""
+    """Writes name.pdf, .svg and .png."""
     name = file_name(name)
     metadata = {
         "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": "ssrlab"},
@@ -262,14 +262,9 @@ def save(figure, folder, name, formats=FORMATS):
     }
     files = []
     for kind in formats:
-        file = os.path.join(folder, f"{name}.{kind}")
-        temporary = f"{file}.partial-{os.getpid()}"
-        try:
+        file = path_inside(folder, f"{name}.{kind}")
+        with whole_file(file) as temporary:
             figure.savefig(temporary, format=kind, metadata=metadata[kind])
-            os.replace(temporary, file)
-        finally:
-            if os.path.exists(temporary):
-                os.remove(temporary)
         files.append(file)
     plt.close(figure)
     return files

@@ -12,7 +12,7 @@ import os
 import re
 
 from ssrlab import statistics
-from ssrlab.results import ResultsError
+from ssrlab.results import ResultsError, path_inside
 from paper_tables import summary_file
 from paper_tables.markdown import markdown, number, with_interval
 
@@ -27,7 +27,7 @@ class Numbers:
 
     def __init__(self, summaries, file):
         self.file = file
-        self._read = functools.cache(lambda study: summary_file.read(os.path.join(summaries, study + ".csv")))
+        self._read = functools.cache(lambda study: summary_file.read(path_inside(summaries, study + ".csv")))
 
     def _table(self, study, table):
         """(what is said of it, its cells that have a value)"""
@@ -142,7 +142,7 @@ def filled(text, summaries, file):
     """The text with each table, and each number in prose, made anew. Fails on one that no summary holds."""
 
     def made(block):
-        path = os.path.join(summaries, block["study"] + ".csv")
+        path = path_inside(summaries, block["study"] + ".csv", file)
         origin, tables = summary_file.read(path)
         if block["name"] not in tables:
             raise ResultsError(f"{file}: {path} has no table '{block['name']}'; it has: {', '.join(tables)}")

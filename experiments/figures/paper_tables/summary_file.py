@@ -3,10 +3,9 @@
 import csv
 import io
 import json
-import os
 from dataclasses import fields
 
-from ssrlab.results import ResultsError, commits_of
+from ssrlab.results import ResultsError, commits_of, write_text
 from paper_tables.cell import Cell
 
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (configs/comparison.json) takes
@@ -72,10 +71,7 @@ def write(file, origin_of_all, tables, cells):
         raise ResultsError(
             f"{file}: the tables take {len(text.encode())} bytes, but at most {MOST_BYTES} may be kept: narrow them by 'where'"
         )
-    os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
-    with open(file + ".tmp", "w", encoding="utf-8") as stream:
-        stream.write(text)
-    os.replace(file + ".tmp", file)
+    write_text(file, text)
 
 
 def _cell(row):

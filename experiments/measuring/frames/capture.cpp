@@ -5,6 +5,7 @@
 #include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_checks.h"
 #include "core/gbuffer/pixel_position.h"
+#include "core/path_inside.h"
 #include "experiments/config/capture_folder.h"
 #include "groundtruth/reference_file.h"
 
@@ -188,7 +189,7 @@ Shot capture_shot(const ShotConfig& config, const Capture& capture) {
     }
     Shot shot{.config = config, .scene = {}, .camera = {.name = "gbuffer"}, .facts = {}, .steps = timeline(config)};
     shot.scene.name = capture_name(config.gbuffer);
-    const CameraFile camera = read_camera(capture.folder_of(config.frames.front()) / "camera.json");
+    const CameraFile camera = read_camera(path_inside(capture.folder_of(config.frames.front()), "camera.json"));
     shot.config.extent = glm::uvec2(camera.camera.extent);
     shot.camera.exposure_ev = camera.exposure_ev;
     ContentHash hash;
@@ -197,8 +198,8 @@ Shot capture_shot(const ShotConfig& config, const Capture& capture) {
         if (fs::exists(file, error)) hash.add(read_text(file));
     };
     for (const unsigned frame : config.frames)
-        for (const char* file : {"gbuffer.exr", "camera.json"}) add(capture.folder_of(frame) / file);
-    for (const char* file : {"environment.json", "environment.exr"}) add(config.gbuffer / file);
+        for (const char* file : {"gbuffer.exr", "camera.json"}) add(path_inside(capture.folder_of(frame), file));
+    for (const char* file : {"environment.json", "environment.exr"}) add(path_inside(config.gbuffer, file));
     shot.scene.content_hash = hash.hex();
     return shot;
 }

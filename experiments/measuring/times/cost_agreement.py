@@ -18,6 +18,7 @@ EXPERIMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
 sys.path[:0] = [os.path.join(EXPERIMENTS, "figures"), os.path.join(EXPERIMENTS, "python")]
 
 from paper_tables.agreement import kendall_tau  # noqa: E402
+from ssrlab.results import ResultsError, path_inside  # noqa: E402
 
 FACTOR = 1.5  # of times that are clearly apart
 COSTS = {
@@ -32,9 +33,9 @@ COSTS = {
 
 def rows_of(folder, name):
     try:
-        with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
+        with open(path_inside(folder, name), newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
-    except OSError as error:
+    except (OSError, ResultsError) as error:
         sys.exit(f"error: {error}")
 
 

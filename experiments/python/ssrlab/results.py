@@ -1,5 +1,6 @@
 """A results folder as figures, tables and other evaluations need it."""
 
+import contextlib
 import copy
 import csv
 import json
@@ -12,7 +13,7 @@ from ssrlab.exr import ExrError, read_exr_rgb
 
 
 def read_manifest(folder):
-    file = os.path.join(folder, "manifest.json")
+    file = path_inside(folder, "manifest.json")
     try:
         with open(file, encoding="utf-8") as text:
             manifest = json.load(text)
@@ -27,6 +28,41 @@ def read_manifest(folder):
 
 class ResultsError(Exception):
     """A mistake in the results folder or in what was asked of it: one sentence."""
+
+
+def path_inside(folder, name, where=""):
+    """The path of what a file, or a folder that may come from a stranger, calls `name`, by the rule of core/path_inside.h: ResultsError where
+    it would lead out of `folder`, or a symbolic link is on the way. `where`: file and key that have the name, for the message."""
+    where = where and where + ": "
+    if not isinstance(name, str) or not name or name.startswith("/") or "\0" in name or ".." in name.split("/"):
+        raise ResultsError(f"{where}{json.dumps(name)[:200]} is no path below {folder}: such a name is relative and has no '..'")
+    path = folder
+    for part in name.split("/"):
+        path = os.path.join(path, part)
+        if os.path.islink(path):
+            raise ResultsError(f"{where}{path} is a symbolic link, which may lead out of {folder} and is not followed; put what it points to in its place, or remove it")
+    return path
+
+
+@contextlib.contextmanager
+def whole_file(file):
+    """A name beside `file` to write to, which takes its place once the block has ended well: whole or not at all, and never through a link.
+    Makes the folders above it."""
+    os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
+    temporary = f"{file}.partial-{os.getpid()}"
+    try:
+        if os.path.lexists(temporary):  # of a killed run, or a link
+            os.remove(temporary)
+        yield temporary
+        os.replace(temporary, file)
+    finally:
+        if os.path.lexists(temporary):
+            os.remove(temporary)
+
+
+def write_text(file, text):
+    with whole_file(file) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
+        stream.write(text)
 
 
 def exit_code(work, what):
@@ -131,7 +167,7 @@ class Results:
 
     def unit_of(self, parameter):
         """Of a parameter, as schema.json says; "" without one."""
-        file = os.path.join(self.folder, "schema.json")
+        file = path_inside(self.folder, "schema.json")
         if not os.path.exists(file):
             return ""
         with open(file, encoding="utf-8") as text:
@@ -185,7 +221,7 @@ class Results:
         return view
 
     def read_csv(self, name, is_optional=False):
-        file = os.path.join(self.folder, name)
+        file = path_inside(self.folder, name)
         if is_optional and not os.path.exists(file):
             return []
         try:
@@ -226,7 +262,7 @@ class Results:
         try:
             return float(text) if text else None
         except ValueError as e:
-            raise ResultsError(f"{os.path.join(self.folder, name)}: '{column}' = \"{text}\" is not a number") from e
+            raise ResultsError(f"{path_inside(self.folder, name)}: '{column}' = \"{text}\" is not a number") from e
 
     def direction_of(self, metric):
         """ "lower", "higher", "near_zero" or "near_one": which values of a metric are good."""
@@ -341,6 +377,8 @@ class Results:
             first.setdefault((entry["variant"], entry.get("point") or ""), entry["exr"])
         order = {(i["variant"], i.get("point") or ""): n for n, i in reversed(list(enumerate(entries)))}
         try:
-            return {key: read_exr_rgb(os.path.join(self.folder, first[key])) for key in sorted(first, key=order.get)}
+            manifest = os.path.join(self.folder, "manifest.json")
+            files = {key: path_inside(self.folder, first[key], f"{manifest}: images: 'exr'") for key in sorted(first, key=order.get)}
+            return {key: read_exr_rgb(file) for key, file in files.items()}
         except ExrError as e:
             raise ResultsError(str(e)) from e

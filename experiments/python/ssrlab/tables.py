@@ -5,7 +5,7 @@ import os
 
 import pandas
 
-from ssrlab.results import ResultsError, read_manifest
+from ssrlab.results import ResultsError, path_inside, read_manifest
 
 PANDAS_TYPES = {"integer": "Int64", "number": "float64", "boolean": "boolean", "string": "string"}
 
@@ -21,7 +21,7 @@ class Tables:
     def __init__(self, folder):
         self.folder = folder
         self.manifest = read_manifest(folder)
-        file = os.path.join(folder, "schema.json")
+        file = path_inside(folder, "schema.json")
         try:
             with open(file, encoding="utf-8") as text:
                 self._fields = {r["name"]: r["schema"]["fields"] for r in json.load(text)["resources"]}
@@ -33,7 +33,7 @@ class Tables:
         return [name for name in self._fields if name in self]
 
     def __contains__(self, name):
-        return name in self._fields and os.path.exists(os.path.join(self.folder, name + ".csv"))
+        return name in self._fields and os.path.exists(path_inside(self.folder, name + ".csv"))
 
     def __getitem__(self, name):
         if name not in self:
@@ -42,7 +42,7 @@ class Tables:
             types = {f["name"]: PANDAS_TYPES[f["type"]] for f in self._fields[name]}
             booleans = [c for c, t in types.items() if t == "boolean"]
             own = types | dict.fromkeys(booleans, "Int64")  # which files write as 1 and 0
-            self._read[name] = pandas.read_csv(os.path.join(self.folder, name + ".csv"), dtype=own).astype(dict.fromkeys(booleans, "boolean"))
+            self._read[name] = pandas.read_csv(path_inside(self.folder, name + ".csv"), dtype=own).astype(dict.fromkeys(booleans, "boolean"))
         return self._read[name]
 
     def units(self, name):

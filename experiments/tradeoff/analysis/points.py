@@ -2,10 +2,9 @@
 
 import csv
 import json
-import os
 from dataclasses import dataclass, field
 
-from ssrlab.results import Results, commits_of, representative_rows
+from ssrlab.results import Results, commits_of, path_inside, representative_rows
 
 TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
 JUDGED = ("front", "dominated", "undecided")  # front.csv's verdicts of points that are compared by error and cost
@@ -60,7 +59,7 @@ class Shot:
 
 def read_rows(folder, name):
     """A table that ssrlab wrote for these answers: texts as they are, numbers as numbers, None where there is none."""
-    with open(os.path.join(folder, name), newline="", encoding="utf-8") as stream:
+    with open(path_inside(folder, name), newline="", encoding="utf-8") as stream:
         return [{c: v if c in TEXTS else _number(v) for c, v in row.items()} for row in csv.DictReader(stream)]
 
 
@@ -73,7 +72,7 @@ class Study:
 
     def __init__(self, folder):
         """`folder`: where `ssrlab tradeoff` wrote what was asked (asked.json) and what it decided."""
-        with open(os.path.join(folder, "asked.json"), encoding="utf-8") as stream:
+        with open(path_inside(folder, "asked.json"), encoding="utf-8") as stream:
             self.asked = json.load(stream)
         self.results = Results(self.asked["results"])
         self.commits = commits_of(self.results.manifest)

@@ -1,50 +1,8 @@
 // What `ssrlab` says to mistakes and faults: one sentence, exit code 2 or 3, nothing half-written.
 #include "core/exr.h"
-#include "core/files.h"
-
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-
-namespace fs = std::filesystem;
+#include "tests/experiments/commands/command_line_fixture.h"
 
 namespace {
-
-struct Outcome {
-    int code;
-    std::string text;
-};
-
-struct CommandLine : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_command_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-
-    void SetUp() override {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
-    Outcome ssrlab(const std::string& arguments, const std::string& before = "") {
-        const std::string command = "cd '" + folder.string() + "'; " + before + " SSRLAB_CACHE='" + folder.string() +
-                                    "/cache' '" SSRLAB_PROGRAM "' " + arguments + " 2>&1";
-        FILE* pipe = popen(command.c_str(), "r");
-        std::string text;
-        char buffer[512];
-        while (std::fgets(buffer, sizeof buffer, pipe)) text += buffer;
-        return {WEXITSTATUS(pclose(pipe)), text};
-    }
-    void expect_mistake(const std::string& arguments, const std::string& says) {
-        const Outcome o = ssrlab(arguments);
-        EXPECT_EQ(o.code, 2) << o.text;
-        EXPECT_NE(o.text.find(says), std::string::npos) << arguments << "\n" << o.text;
-        EXPECT_EQ(std::count(o.text.begin(), o.text.end(), '\n'), 1) << "one sentence, not: " << o.text;
-    }
-    void config(const std::string& text) { write_text(folder / "study.json", text); }
-};
 
 const std::string good_shot = R"("shots": [{"scene": "sky_only", "resolution": [8, 8]}])";
 

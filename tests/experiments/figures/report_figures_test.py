@@ -197,6 +197,23 @@ def test_mistakes(folder, temporary):
     check(not os.path.exists(os.path.join(temporary, "none")), "a failed run left a folder")
 
 
+def test_folder_of_a_stranger(folder, temporary):
+    """Neither a link nor the name of an image leads out of it. The folder is not used again."""
+    outside = os.path.join(temporary, "outside")
+    os.mkdir(outside)
+    os.symlink(outside, os.path.join(folder, "figures"))
+    result = subprocess.run([sys.executable, "-B", script, folder], capture_output=True, text=True)
+    check(result.returncode == 2 and "figures is a symbolic link" in result.stderr and not os.listdir(outside), f"a link: {result.stderr}")
+    results = Results(folder)
+    for entry in results.manifest["images"]:
+        entry["exr"] = "../outside/a.exr"
+    try:
+        results.images_of(SHOT, "image")
+        check(False, "an image of another folder was read")
+    except ResultsError as e:
+        check("manifest.json: images: 'exr': " in str(e), e)
+
+
 with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     folder = os.path.join(temporary, "results")
     subprocess.run([program, folder], check=True)
@@ -206,3 +223,4 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     test_chosen_figures(folder, temporary)
     test_chosen_crops(folder, temporary)
     test_mistakes(folder, temporary)
+    test_folder_of_a_stranger(folder, temporary)

@@ -369,6 +369,38 @@ def test_tables_that_nobody_asks_for(temporary):
     check("old.md" in os.listdir(named), "a folder that was named lost a file")
 
 
+def test_folders_of_strangers(temporary):
+    """Neither names in a manifest nor links lead out of the folder."""
+    outside, folder = os.path.join(temporary, "outside"), os.path.join(temporary, "outside", "strange")
+    for file in ("victim.md", "victim.tex", "victim.csv"):
+        write(os.path.join(outside, file), "mine")
+
+    def refused(says, *arguments):
+        result = tables(folder, *arguments)
+        check(result.returncode == 2 and says in result.stderr and result.stderr.count("\n") == 1, f"{says}: {result.returncode} {result.stderr}")
+        check(all(read(os.path.join(outside, f"victim.{kind}")) == "mine" for kind in ("md", "tex", "csv")), f"{says}: a file outside was overwritten")
+
+    for name in ("../../victim", os.path.join(outside, "victim")):
+        write_results(folder, [TABLES[1] | {"name": name}])
+        refused("manifest.json: config: tables: 'name': ")
+    write_results(folder)
+    made_up = manifest(TABLES)
+    made_up["study"]["name"] = "../../../victim"
+    write(os.path.join(folder, "manifest.json"), json.dumps(made_up))
+    refused("manifest.json: study: 'name': ", "--keep", "--root", os.path.join(outside, "tree"))
+    write_results(folder)
+    os.symlink(outside, os.path.join(folder, "tables"))
+    refused("tables is a symbolic link")
+    os.remove(os.path.join(folder, "tables"))
+    write(os.path.join(folder, "tables", "notes.txt"), "")
+    for table in TABLES:
+        os.symlink(os.path.join(outside, "victim.md"), os.path.join(folder, "tables", table["name"] + ".md"))
+    check(tables(folder).returncode == 0 and read(os.path.join(outside, "victim.md")) == "mine", "written through a link")
+    os.rename(os.path.join(folder, "effects.csv"), os.path.join(outside, "effects.csv"))
+    os.symlink(os.path.join(outside, "effects.csv"), os.path.join(folder, "effects.csv"))
+    refused("effects.csv is a symbolic link")
+
+
 def test_refusals(folder):
     for changed, why in (
         ({"over": None}, "rows of effects.csv fall on one cell"),
@@ -461,6 +493,7 @@ def main():
         test_means_over_what_differs(folder)
         test_refusals(folder)
         test_tables_that_nobody_asks_for(temporary)
+        test_folders_of_strangers(temporary)
         test_documents(temporary)
         test_kept_numbers(temporary)
 

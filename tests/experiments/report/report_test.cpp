@@ -9,6 +9,7 @@
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
 #include "experiments/tables/csv.h"
+#include "tests/error_message.h"
 #include "tests/experiments/report/report_fixture.h"
 
 #include <gtest/gtest.h>
@@ -207,6 +208,36 @@ TEST_F(Report, PutsImagesBesideThePageThatAreTooManyForIt) {
     for (const auto& file : std::filesystem::recursive_directory_iterator(folder / report_image_folder))
         left += file.path().filename() == "mine.txt" ? 1 : 100;
     EXPECT_EQ(left, 1u) << "scripts of an earlier report go, other files stay";
+}
+
+TEST_F(Report, ReachesNothingOutsideItsFolder) {
+    const std::filesystem::path outside = folder.string() + "_outside";
+    write_text(outside / "a.js", "the user's own");
+    auto manifest = read_json(folder / "manifest.json");
+    std::filesystem::copy(folder / manifest["images"][0]["exr"].get<std::string>(), outside / "a.exr");
+    const auto refused = [&](const std::string& exr) {
+        manifest["images"][0]["exr"] = exr;
+        const std::string said = error_message([&] { report_images(folder, manifest, 0); });
+        EXPECT_NE(said.find("manifest.json: images: 'exr': "), std::string::npos) << exr << ": " << said;
+    };
+    std::filesystem::create_directory_symlink(outside, folder / "images/x");
+    for (const std::string& exr :
+         {"../" + outside.filename().string() + "/a.exr", "images/../../" + outside.filename().string() + "/a.exr",
+          (outside / "a.exr").string(), std::string("images/x/a.exr")})
+        refused(exr);
+    manifest = read_json(folder / "manifest.json");
+    std::filesystem::remove_all(folder / report_image_folder);
+    std::filesystem::create_directory_symlink(outside, folder / report_image_folder);
+    for (const size_t budget : {size_t(0), size_t(100'000'000)})
+        EXPECT_NE(error_message([&] { report_images(folder, manifest, budget); }).find("is a symbolic link"),
+                  std::string::npos);
+    EXPECT_EQ(read_text(outside / "a.js"), "the user's own");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(outside), {}), 2);
+    std::filesystem::remove(folder / report_image_folder);
+    std::filesystem::remove(folder / "summary.csv");
+    std::filesystem::create_symlink(outside / "a.js", folder / "summary.csv");
+    EXPECT_NE(message().find("summary.csv is a symbolic link"), std::string::npos);
+    std::filesystem::remove_all(outside);
 }
 
 TEST_F(Report, ShowsTheFirstSeedOfEachFrame) {

@@ -2,7 +2,9 @@
 #include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/config/all_points.h"
+#include "experiments/stability/changed_shot.h"
 #include "experiments/stability/stability_report.h"
+#include "tests/error_message.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>
@@ -55,6 +57,39 @@ TEST_F(StabilityTest, UnknownKeysAndNamesAreErrors) {
     EXPECT_THROW(run(R"({"case": "a", "nearr": 1, )" + small + R"("frames": 1})", {"none"}), Error);
     EXPECT_THROW(run(R"({"case": "a", )" + small + R"("faults": [{"image": "lid", "value": 1}]})", {"none"}), Error);
     EXPECT_THROW(run(R"({"case": "a", )" + small + R"("frames": 1})", {"amd_ssr"}), Error);
+}
+
+TEST_F(StabilityTest, WrongTypesInTablesAreNamed) {
+    const auto said = [&](const std::string& more) {
+        write_text(table, R"({"cases": [{"case": "a", )" + small + more + "}]}");
+        return error_message([&] {
+            for (const StabilityCase& found : read_stability_cases(table)) changed_shot(found.scene, {scenes});
+        });
+    };
+    EXPECT_EQ(said(R"("frames": 1)"), "no error");
+    for (const auto& [more, key] : std::vector<std::pair<std::string, std::string>>{
+             {R"("faults": [{"image": "lit", "value": []}])", "faults[0]: 'value' must be one value"},
+             {R"("faults": [{"image": "lit", "times": [1, 2, 3, 4, 5]}])", "faults[0]: 'times' must be one value"},
+             {R"("faults": [{"image": "lit", "value": 1, "at": "nan"}])", "faults[0]: 'at' must be in [0, 1]"},
+             {R"("each": 3)", "each must be a JSON object"},
+             {R"("each": {"near": 3})", "each: 'near' must be an array"},
+             {R"("each": {"near": []})", "each: 'near' must be an array"},
+             {R"("each": {"faults": [3]})", "each: 'faults' must be an array"},
+             {R"("each": {"faults": [[3]]})", "each: faults[0] must be a JSON object"},
+             {R"("each": {"faults": [[{"value": 1}]]})", "each: faults[0] lacks the key 'image'"},
+             {R"("each": {"faults": [[{"image": "lit"}]]})", "each: faults[0] lacks the key 'value'"},
+             {R"("each": {"view": [{"name": 3}]})", "'name' must be a text"},
+             {R"("benign": [])", "benign must be a JSON object"},
+             {R"("poses": [4294967296])", "'poses' must be an array of frame numbers"},
+             {R"("quads": [{"corners": [1, 2, 3]}])", "quads[0]: 'corners' must be 3 or 4 points"},
+             {R"("view": 3)", "view must be a JSON object"}}) {
+        const std::string sentence = said(more);
+        EXPECT_NE(sentence.find("cases.json: cases[0]"), std::string::npos) << more << ": " << sentence;
+        EXPECT_NE(sentence.find(key), std::string::npos) << more << ": " << sentence;
+    }
+    write_text(table, R"({"cases": [{"case": 3, "each": {"near": [1]}, )" + small + R"("frames": 1}]})");
+    EXPECT_NE(error_message([&] { read_stability_cases(table); }).find("cases[0]: 'case' must be a text"),
+              std::string::npos);
 }
 
 /// Poses that look alike and the benign form of a case share one, which the next run finds.

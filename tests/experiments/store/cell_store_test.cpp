@@ -22,7 +22,7 @@ struct CellStoreTest : testing::Test {
     void TearDown() override { fs::remove_all(folder); }
 
     nlohmann::json image(const std::string& stem) {
-        nlohmann::json entry;
+        nlohmann::json entry = {{"shot", "s"}, {"frame", 0}, {"variant", "v"}, {"kind", "result"}, {"target", "image"}};
         for (const std::string kind : {"exr", "png"}) {
             const std::string name = "images/s/" + stem + "." + kind;
             write_text(folder / name, stem + kind);
@@ -36,6 +36,11 @@ struct CellStoreTest : testing::Test {
         cell.rows.push_back({.shot = "s", .metric = "psnr", .value = {}, .low = -0.0, .high = 0.1 + 0.2, .pixels = 7});
         cell.times.push_back({.stage = "x", .milliseconds = 1e-300, .foreign_load = 1.0 / 3, .is_disturbed = true});
         cell.images.push_back(image("a"));
+        cell.provenance = nlohmann::json::parse(R"({
+            "what": "", "started": "", "finished": "",
+            "ssrlab": {"version": "", "commit": "", "dirty": false, "code": "", "compiler": "", "build": "", "estimators": 1},
+            "device": {"name": "", "driver": "", "api": "", "type": "", "memory_mib": 1.5},
+            "host": {"name": "", "cpu": "", "cores": 1, "memory_gib": 1.5, "kernel": ""}})");
         return cell;
     }
 };

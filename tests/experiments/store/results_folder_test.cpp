@@ -216,7 +216,7 @@ TEST_F(StudyTest, SweepsOfManyParametersFitIntoFileNames) {
             "independent_noise_shifts": [true], "hierarchy.clip_ray_to_near_plane": [true]}}]})");
     const Config study = read_config(folder / "study.json");
     ASSERT_EQ(study.variants.size(), 1u);
-    EXPECT_LE(study.variants.front().point.size(), 48u);
+    EXPECT_LE(study.variants.front().point.size(), 58u);
     const nlohmann::json manifest = read_json(run(study, "a") / "manifest.json");
     for (const auto& image : manifest["images"])
         EXPECT_TRUE(fs::exists(folder / "a" / image["png"].get<std::string>())) << image["png"];

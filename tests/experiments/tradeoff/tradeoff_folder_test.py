@@ -208,6 +208,14 @@ class Folder(unittest.TestCase):
         self.assertEqual({r["cost_low"] for r in read(out, "front.csv") if r["label"] == "w"}, {"600"})
         self.assertIn("has no 'bytes'", run(self.folder, "--cost", "bytes")[1])
 
+    def test_a_link_leads_nowhere(self):
+        with tempfile.TemporaryDirectory() as strange, tempfile.TemporaryDirectory() as outside:
+            write_study(strange)
+            os.symlink(outside, os.path.join(strange, "tradeoff"))
+            code, said = run(strange)
+            self.assertEqual((code, os.listdir(outside)), (2, []), said)
+            self.assertIn("tradeoff is a symbolic link", said)
+
     def test_mistakes(self):
         for options, said in ((["--baseline", "x"], "no point x"), (["--metric", "flip"], "no errors of specular flip"), (["--leave-out", "sun"], "'sun'")):
             code, found = run(self.folder, *options)

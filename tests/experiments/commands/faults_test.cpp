@@ -1,0 +1,108 @@
+// Disks that are full, folders that cannot be written, processes that are killed: what is said, and that nothing is
+// lost.
+#include "core/exr.h"
+#include "tests/experiments/commands/command_line_fixture.h"
+
+#include <unistd.h>
+#include <cstdlib>
+#include <map>
+#include <random>
+
+namespace {
+
+struct Faults : CommandLine {
+    void SetUp() override {
+        CommandLine::SetUp();
+        config(R"({"shots": [{"scene": ["sky_only", "fence"], "resolution": [16, 9]}], "reference": {"samples": 16},
+               "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2,
+               "tables": [{"name": "errors", "caption": "c", "of": "results", "rows": "variant", "columns": "shot",
+                           "where": {"metric": "mse", "target": "specular", "mask": "reflective"}}]})");
+    }
+    void expect_fault(const std::string& arguments, const std::string& before = "") {
+        const Outcome o = ssrlab(arguments, before);
+        EXPECT_EQ(o.code, 3) << arguments << ": " << o.text;
+        const size_t at = o.text.find("error: cannot ");
+        EXPECT_NE(at, std::string::npos) << arguments << ": " << o.text;
+        EXPECT_EQ(o.text.find("error: ", at + 1), std::string::npos) << "one sentence, not: " << o.text;
+        EXPECT_EQ(o.text.find("Traceback"), std::string::npos) << o.text;
+    }
+    /// Content by name of the files of a results folder.
+    std::map<std::string, std::string> contents(const std::string& out) {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : fs::recursive_directory_iterator(folder / out))
+            if (entry.is_regular_file()) files[entry.path().lexically_relative(folder / out)] = read_text(entry.path());
+        return files;
+    }
+};
+
+const std::string full_disk = "trap '' XFSZ; ulimit -f 0; export MESA_SHADER_CACHE_DISABLE=true;";
+
+}  // namespace
+
+TEST_F(Faults, WhatCannotBeWrittenIsNamed) {
+    ASSERT_EQ(ssrlab("run study.json --out o").code, 0);
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    write_text(folder / "tune.json", R"({"shots": [{"scene": "fence", "resolution": [16, 9]}], "timing": {"frames": 15},
+        "variants": [{"variant": "mcguire_dda"}], "tune": {"axes": {"dda.stride": [1, 2]}}})");
+    // No user can make a folder there.
+    for (const char* command :
+         {"run study.json --out /proc/x", "merge study.json o --out /proc/x", "plan study.json --json /proc/x/y",
+          "tables o --out /proc/x", "figures o --out /proc/x", "diff o o --csv /proc/x/y", "diff o o --page /proc/x/y",
+          "gbuffer fence --size 8 8 --out /proc/x", "reference fence --size 8 8 --samples 16 --out /proc/x/y.exr",
+          "compare a.exr a.exr --map /proc/x/y.exr", "stability --cases nan --out /proc/x",
+          "stability --precision --out /proc/x", "tune tune.json --out /proc/x"})
+        expect_fault(command);
+}
+
+TEST_F(Faults, AFullDiskLosesNothing) {
+    ASSERT_EQ(ssrlab("run study.json --out o").code, 0);
+    const std::map<std::string, std::string> before = contents("o");
+    const auto whole = [&](const std::string& after) {
+        for (const auto& [name, content] : contents("o")) {
+            EXPECT_TRUE(before.contains(name)) << after << " left " << name;
+            if (before.contains(name)) EXPECT_EQ(content, before.at(name)) << after << " changed " << name;
+        }
+    };
+    for (const char* command : {"report o", "report o --link-images", "merge study.json o --out o", "tables o",
+                                "figures o", "run study.json --out o --prune", "diff o o --page p.html"}) {
+        expect_fault(command, full_disk);
+        whole(command);
+    }
+    expect_fault("run study.json --out other", full_disk);
+    ASSERT_EQ(ssrlab("run study.json --out other").code, 0);
+    EXPECT_EQ(contents("other")["results.csv"], before.at("results.csv"));
+}
+
+TEST_F(Faults, AFolderThatIsOnlyReadIsNamed) {
+    std::string reader;  // root may write anywhere
+    if (geteuid() == 0) reader = "setpriv --reuid=65534 --regid=65534 --clear-groups env";
+    if (std::system((reader + " '" SSRLAB_PROGRAM "' --help > /dev/null 2>&1").c_str()) != 0)
+        GTEST_SKIP() << "another user cannot run ssrlab here";
+    ASSERT_EQ(ssrlab("run study.json --out o").code, 0);
+    ASSERT_EQ(std::system(("chmod -R a-w '" + folder.string() + "/o'").c_str()), 0);
+    const std::map<std::string, std::string> before = contents("o");
+    for (const char* command : {"report o", "tables o", "merge study.json o --out o", "run study.json --out o --prune"})
+        expect_fault(command, reader);
+    EXPECT_EQ(contents("o"), before);
+    std::system(("chmod -R u+w '" + folder.string() + "/o'").c_str());
+}
+
+/// SSRLAB_KILLS: how many of them, for a longer test.
+TEST_F(Faults, KillsAtAnyMomentLoseNothing) {
+    ASSERT_EQ(ssrlab("run study.json --out alone").code, 0);
+    const char* asked = std::getenv("SSRLAB_KILLS");
+    const unsigned seed = std::random_device()();
+    std::mt19937 random(seed);
+    SCOPED_TRACE("moments by the seed " + std::to_string(seed));
+    for (int kills = asked ? std::atoi(asked) : 5; kills > 0; --kills) {
+        const double moment = std::uniform_real_distribution(0.05, 0.9)(random);
+        ssrlab("run study.json --out killed --report-after 0 & sleep " + std::to_string(moment) +
+               "; kill -KILL $! 2>/dev/null; wait $!; true");
+    }
+    const Outcome last = ssrlab("run study.json --out killed");
+    EXPECT_EQ(last.code, 0) << last.text;
+    EXPECT_EQ(last.text.find("damaged"), std::string::npos) << last.text;
+    auto killed = contents("killed"), alone = contents("alone");
+    for (const char* table : {"results.csv", "splits.csv", "effects.csv", "summary.csv", "parameters.csv"})
+        EXPECT_EQ(killed[table], alone[table]) << table;
+}
