@@ -8,7 +8,7 @@ from PIL import Image
 
 from paper_figures import style
 from paper_figures.crops import REFERENCE, auto_exposure, best_of_each, display
-from ssrlab.results import ResultsError
+from ssrlab.mistakes import ResultsError
 
 MOST_POINTS = 5  # beside the truth: two rows of three
 COLUMNS = 3

@@ -42,6 +42,7 @@ def apply(font="sans", width=None):
         {
             "font.family": FONTS[font],
             "mathtext.fontset": MATHS[font],
+            "text.parse_math": False,  # names from files are no formulas
             "font.size": size,
             "axes.titlesize": size,
             "axes.labelsize": size,

@@ -7,7 +7,6 @@ For each cost, over the shots: Kendall's rank correlation with the median times 
 of points of a shot whose times differ by a factor of 1.5 or more, the share that the cost puts in the order of their times.
 """
 import argparse
-import csv
 import itertools
 import os
 import statistics
@@ -18,6 +17,8 @@ EXPERIMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
 sys.path[:0] = [os.path.join(EXPERIMENTS, "figures"), os.path.join(EXPERIMENTS, "python")]
 
 from paper_tables.agreement import kendall_tau  # noqa: E402
+from ssrlab.csv_files import needed_number, read_rows, whole  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code  # noqa: E402
 
 FACTOR = 1.5  # of times that are clearly apart
 COSTS = {
@@ -31,11 +32,7 @@ COSTS = {
 
 
 def rows_of(folder, name):
-    try:
-        with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
-    except OSError as error:
-        sys.exit(f"error: {error}")
+    return read_rows(os.path.join(folder, name))[1]
 
 
 def medians(folder):
@@ -44,7 +41,7 @@ def medians(folder):
     for row in rows_of(folder, "times.csv"):
         if row["variant"] not in ("", "none"):
             key = (row["variant"], row["point"], row["stage"])
-            times.setdefault(row["shot"], {}).setdefault(key, []).append(float(row["milliseconds"]))
+            times.setdefault(row["shot"], {}).setdefault(key, []).append(needed_number(row, "milliseconds"))
     return {shot: {key: statistics.median(all_of) for key, all_of in own.items()} for shot, own in times.items()}
 
 
@@ -53,7 +50,7 @@ def counts(folder):
     costs = {}
     for row in rows_of(folder, "costs.csv"):
         key = (row["variant"], row["point"], row["stage"])
-        costs.setdefault(row["shot"], {}).setdefault(key, {})[row["quantity"]] = int(row["value"])
+        costs.setdefault(row["shot"], {}).setdefault(key, {})[row["quantity"]] = whole(row, "value") or 0
     return costs
 
 
@@ -87,7 +84,7 @@ def main():
     arguments = parser.parse_args()
     times, costs = medians(arguments.results), counts(arguments.costs or arguments.results)
     if not set(times) & set(costs):
-        sys.exit("error: no shot has both times and costs")
+        raise ResultsError("no shot has both times and costs")
     print("| cost | totals | stages | clearly apart, in order |\n|---|---|---|---|")
     for name, quantities in COSTS.items():
         of_totals, of_stages, pairs, right = agreement(times, costs, quantities)
@@ -95,4 +92,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(exit_code(main, "the table"))
