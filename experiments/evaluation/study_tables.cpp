@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "experiments/evaluation/evaluation.h"
 
 StudyTables read_study_tables(const std::filesystem::path& folder) {
@@ -9,11 +10,7 @@ StudyTables read_study_tables(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(file))
         fail(folder.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
     StudyTables tables;
-    try {
-        tables.manifest = nlohmann::json::parse(read_text(file));
-    } catch (const nlohmann::json::exception& e) {
-        fail(file.string(), " is no valid JSON: ", e.what());
-    }
+    tables.manifest = parse_json(read_text(file), file.string());
     require_evaluation(folder, tables.manifest);
     tables.errors = read_rows<MetricSummary>(folder / "summary.csv");
     tables.seeds = read_rows<ResultRow>(folder / "results.csv");

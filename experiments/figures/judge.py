@@ -94,13 +94,14 @@ def make_sheets(arguments):
 
 
 def enter(arguments):
-    key = {row["pair"]: row for row in read_rows(os.path.join(arguments.out, "key.csv"))[1]}
+    file = os.path.join(arguments.out, "key.csv")
+    key = {row["pair"]: row for row in read_rows(file)[1]}
     named = {"left": "first", "right": "second", "neither": "neither"}
     lines = [] if os.path.exists(JUDGEMENTS) else [COLUMNS]
     for answer in read_rows(arguments.answers)[1]:
-        for column, known in (("pair", key), ("nearer", named)):
+        for column, known, where in (("pair", key, f"the pairs of {file}"), ("nearer", named, ", ".join(named))):
             if answer[column] not in known:
-                raise ResultsError(f"{answer.file}:{answer.line}: '{column}' must be one of {', '.join(known)}, not {answer[column]}")
+                raise ResultsError(f"{answer.file}:{answer.line}: '{column}' = \"{answer[column]}\" is none of {where}")
         lines.append([key[answer["pair"]][c] for c in PAIR] + [named[answer["nearer"]], arguments.judge])
     with open(JUDGEMENTS, "a", newline="", encoding="utf-8") as out:
         write_lines(out, lines)

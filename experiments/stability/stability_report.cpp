@@ -1,6 +1,7 @@
 #include "experiments/stability/stability_report.h"
 
 #include "core/error.h"
+#include "core/shown_text.h"
 
 #include <cstdio>
 #include <map>
@@ -138,7 +139,7 @@ std::string failures_text(const std::vector<StageFailure>& failures) {
     for (const StageFailure& f : failures)
         if (f.is_source())
             text += "\n" + f.variant + ": " + joined(f.points) + "\n  " + f.place + ", in " +
-                    counted(f.cases.size(), "case") + ": " + joined(f.cases) +
+                    counted(f.cases.size(), "case") + ": " + shown_text(joined(f.cases)) +
                     "\n  fails by: " + explained(f, &KnownFailure::operation, "; or ") +
                     "\n  fixed by: " + explained(f, &KnownFailure::fix, "; ") + "\n";
     return text.empty() ? text : "Where values that are not finite arise, and what spreads them:\n" + text;

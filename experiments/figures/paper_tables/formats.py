@@ -29,12 +29,12 @@ def lesser(cell):
 
 
 def has_range(cell):
-    return cell.least is not None and cell.least != cell.most
+    return None not in (cell.least, cell.most) and cell.least != cell.most
 
 
 def is_part(table, cell):
     """A mean over fewer than the table has, since the others have no value."""
-    return cell.mean_of is not None and cell.mean_of < table["over_count"]
+    return None not in (cell.mean_of, table["over_count"]) and cell.mean_of < table["over_count"]
 
 
 def reasons(cell):

@@ -52,7 +52,7 @@ def comment(text):
 def label_name(name):
     """What \\label and \\ref take: other letters become '-', and a hash distinguishes names."""
     safe = re.sub(r"[^A-Za-z0-9:._-]", "-", name)
-    return safe if safe == name else f"{safe}-{zlib.crc32(name.encode()):08x}"
+    return safe if safe == name else f"{safe}-{zlib.crc32(name.encode(errors='surrogatepass')):08x}"
 
 
 def _name(row):

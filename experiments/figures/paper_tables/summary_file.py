@@ -47,6 +47,8 @@ def why_not_kept(manifest):
 def origin(manifest):
     """Where the numbers come from. Fails where cells were made by programs whose estimators differ."""
     makers = manifest["provenance"]
+    if not makers:
+        raise ResultsError("manifest.json: 'provenance' is empty, and so no program is known that made its cells; run the study again")
     programs = [m["ssrlab"] for m in makers]
     estimators = sorted({p["estimators"] for p in programs})
     if len(estimators) > 1:

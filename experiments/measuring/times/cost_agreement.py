@@ -58,13 +58,11 @@ def agreement(times, costs, quantities):
     """[tau of totals by shot], [tau of stages by shot], pairs that are clearly apart, how many of them are in order."""
     of_totals, of_stages, pairs, right = [], [], 0, 0
     for shot in sorted(set(times) & set(costs)):
-        both = {
-            key: (ms, sum(costs[shot][key][q] for q in quantities)) for key, ms in times[shot].items() if key in costs[shot]
-        }
+        both = {key: (ms, sum(costs[shot][key].get(q, 0) for q in quantities)) for key, ms in times[shot].items() if key in costs[shot]}
         totals = [pair for key, pair in both.items() if key[2] == "total"]
         stages = [pair for key, pair in both.items() if key[2] != "total"]
-        of_totals.append(kendall_tau(*zip(*totals)))
-        of_stages.append(kendall_tau(*zip(*stages)))
+        of_totals.append(kendall_tau([ms for ms, _ in totals], [cost for _, cost in totals]))
+        of_stages.append(kendall_tau([ms for ms, _ in stages], [cost for _, cost in stages]))
         for (ms, cost), (other_ms, other_cost) in itertools.combinations(totals, 2):
             if max(ms, other_ms) >= FACTOR * min(ms, other_ms):
                 pairs += 1

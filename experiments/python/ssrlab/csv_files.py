@@ -20,9 +20,15 @@ def guarded(value):
     return "'" + value if is_formula else value
 
 
+def _field(value):
+    text = "" if value is None else str(guarded(value))
+    return '"' + text.replace('"', '""') + '"' if re.search('[,"\r\n]', text) else text  # Python's own writer leaves a \r bare
+
+
 def write_lines(stream, lines):
     """`lines`: of fields each; None is an empty one."""
-    csv.writer(stream, lineterminator="\n").writerows([guarded(v) for v in line] for line in lines)
+    for line in lines:
+        stream.write(",".join(map(_field, line)) + "\n")
 
 
 class Row(dict):

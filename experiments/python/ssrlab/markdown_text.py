@@ -6,7 +6,7 @@ import re
 from ssrlab.mistakes import shown
 
 # Emphasis between letters is none by '_', and a bracket is a link's only before what leads somewhere: such stay as they are, to be legible.
-MARKUP = re.compile(r"[|`*~$]|(?<!\w)_|_(?!\w)|\](?=[(\[:])|\[(?=\^)|\\(?=[!-/:-@[-`{-~]|$)", re.ASCII)
+MARKUP = re.compile(r"[|`*~$]|(?<![^\W_])_|_(?![^\W_])|\](?=[(\[:])|\[(?=\^)|\\(?=[!-/:-@[-`{-~]|$)", re.ASCII)
 CODE = re.compile(r"(?<![\\`])`[^`]+`(?!`)")
 BLOCK = re.compile(r"(\d+(?=[.)](?:\s|$))|)([.)]|(?<!\d)[#+\->=:])")  # what begins a heading, a list or a quotation
 

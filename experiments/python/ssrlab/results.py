@@ -29,7 +29,7 @@ _CLOCK = {
     "aa_floors?": {"*": float},
 }
 _MAKER = {
-    "ssrlab": {"commit": _TEXT, "dirty?": bool, "code?": _TEXT, "estimators?": int},
+    "ssrlab": {"commit": _TEXT, "dirty?": bool, "code?": str, "estimators?": int},
     **{"device?": {"name": str}, "finished?": str},
 }
 _LISTED = (str, [str])

@@ -44,8 +44,11 @@ class Tables:
             file = os.path.join(self.folder, name + ".csv")
             try:
                 table = pandas.read_csv(file, dtype=own, keep_default_na=False, na_values=[""]).astype(dict.fromkeys(booleans, "boolean"))
-            except (ValueError, OSError, pandas.errors.ParserError) as e:
+            except (ValueError, TypeError, OSError, pandas.errors.ParserError) as e:
                 raise ResultsError(f"cannot read {file} as schema.json describes it: {e}") from e
+            lacking = [c for c in types if c not in table]
+            if lacking:
+                raise ResultsError(f"{file} has no column '{lacking[0]}', which schema.json names; `ssrlab merge` makes both anew")
             texts = [c for c in table if types.get(c) == "string"]
             table[texts] = table[texts].replace(csv_files.GUARDED, r"\1", regex=True)
             self._read[name] = table.rename(columns=lambda c: re.sub(csv_files.GUARDED, r"\1", c))
