@@ -1,6 +1,8 @@
 // The command line. Over 400 lines: the options of all commands, so that one place says what each takes.
 #include "core/error.h"
+#include "core/gpu/shader_error.h"
 #include "core/near_miss.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/store/host_info.h"
 #include "metrics/tone_map.h"
@@ -422,16 +424,19 @@ int main(int argc, char** argv) {
     try {
         return parse_and_run(argc, argv);
     } catch (const MachineError& e) {
-        std::fprintf(stderr, "error: %s\n", e.what());
+        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
         return 3;
-    } catch (const Error& e) {
+    } catch (const ShaderError& e) {
         std::fprintf(stderr, "error: %s\n", e.what());
+        return 2;
+    } catch (const Error& e) {
+        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
         return 2;
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "error: not enough memory\n");
         return 3;
     } catch (const std::exception& e) {
-        std::fprintf(stderr, "error: %s\n", e.what());
+        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
         return 3;
     }
 }

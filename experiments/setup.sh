@@ -11,9 +11,10 @@ build_packages=(
     python3-scipy  # distributions and intervals of `ssrlab tradeoff` and `ssrlab tune`
     python3-optuna  # the optimiser of `ssrlab tune`: several objectives, mixed and conditional parameters
 )
-# What only the tests need: the validation layer, a browser for the report, Snakemake for studies in parallel, and pandas for the
-# example that reads results.
-test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake python3-pandas python3-jsonschema)
+# What only the tests need: the validation layer, a browser for the report, Snakemake for studies in parallel, pandas for the example that
+# reads results, and readers of Markdown and LaTeX (40 MB to fetch), which say what names in tables do there.
+test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake python3-pandas python3-jsonschema
+               python3-markdown-it texlive-latex-base)
 # What only tests/exporters.sh needs: Blender; RenderDoc, its Python module, and the header of its in-application API.
 exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)
 # What only tests/experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.

@@ -5,6 +5,7 @@
 #include "core/exr.h"
 #include "core/near_miss.h"
 #include "core/png.h"
+#include "core/shown_text.h"
 #include "metrics/color_map.h"
 
 #include <algorithm>
@@ -147,7 +148,7 @@ Comparison compare(const CompareOptions& options) {
 }
 
 void print(const Comparison& comparison, std::ostream& out, std::ostream& warnings) {
-    for (const std::string& warning : comparison.warnings) warnings << "warning: " << warning << '\n';
+    for (const std::string& warning : comparison.warnings) warnings << "warning: " << shown_text(warning) << '\n';
     for (const CompareResult& result : comparison.results)
         out << result.metric->name << ' ' << shortest_digits(result.value) << '\n';
 }

@@ -1,5 +1,5 @@
 """Names become paths in one way: no source joins a folder with a name that it does not spell out but by path_inside() (core/path_inside.h,
-experiments/python/ssrlab/results.py), so that no file of a stranger leads out of its folder.
+experiments/python/ssrlab/text_files.py), so that no file of a stranger leads out of its folder.
 
 A join is `folder / name` in C++ and in Python, os.path.join(folder, name), or a text made of a folder, "/" and a name, where the name is no
 literal. ALLOWED lists those whose names are not a stranger's; one that is no longer there is a mistake, too."""
@@ -44,7 +44,7 @@ ALLOWED = {
     ("experiments/figures/judge.py", "os.path.join(arguments.out, f'pair_{number}.png')"): PROGRAM,
     ("experiments/figures/paper_tables/documents.py", "os.path.join(folder, name)"): LISTED,
     ("experiments/figures/paper_tables/documents.py", "os.path.join(summaries, name)"): LISTED,
-    ("experiments/python/ssrlab/results.py", "os.path.join(path, part)"): "the one way",
+    ("experiments/python/ssrlab/text_files.py", "os.path.join(path, part)"): "the one way",
     ("experiments/tune/studies.py", "os.path.join(folder, shot[k])"): REQUEST,
     ("experiments/tune/tune.py", "os.path.join(HERE, os.pardir, room)"): PROGRAM,
     ("scenes/generate.py", "folder / make.__name__"): PROGRAM,

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/double_shader.h"
+#include "core/gpu/shader_error.h"
 #include "core/parameters.h"
 
 #include <SPIRV/GlslangToSpv.h>
@@ -241,10 +242,12 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         }
         if (!shader.parse(GetDefaultResources(), webgl2 ? 300 : 460, webgl2 ? EEsProfile : ECoreProfile, !webgl2, false,
                           rules))
-            fail("cannot compile ", is_vertex ? vertex_file : file, ":\n", with_file_names(shader.getInfoLog(), files));
+            throw ShaderError("cannot compile " + (is_vertex ? vertex_file : file) + ":\n" +
+                              with_file_names(shader.getInfoLog(), files));
         program.addShader(&shader);
         if (!program.link(rules) || (!webgl2 && !program.mapIO()))
-            fail("cannot link ", is_vertex ? vertex_file : file, ":\n", with_file_names(program.getInfoLog(), files));
+            throw ShaderError("cannot link " + (is_vertex ? vertex_file : file) + ":\n" +
+                              with_file_names(program.getInfoLog(), files));
         if (webgl2) return {};
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO |
                                 EShReflectionSeparateBuffers);

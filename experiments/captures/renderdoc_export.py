@@ -19,7 +19,8 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from capture_files import CHANNELS, CaptureError, write_environment, write_frame  # noqa: E402
 from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
-from ssrlab.results import ResultsError, path_inside  # noqa: E402
+from ssrlab.mistakes import ResultsError  # noqa: E402
+from ssrlab.text_files import path_inside  # noqa: E402
 
 KINDS = {"Float": "float", "UNorm": "unorm", "UNormSRGB": "srgb", "SNorm": "snorm", "UInt": "uint", "Depth": "depth"}
 LAYOUTS = {"R10G10B10A2": "r10g10b10a2", "R11G11B10": "r11g11b10", "D24S8": "d24s8", "D32S8": "d32s8"}

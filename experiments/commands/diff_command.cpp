@@ -1,5 +1,6 @@
 // ssrlab diff: which numbers changed from one results folder to another.
 #include "core/error.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/evaluation/study_diff.h"
 #include "experiments/report/diff_page.h"
@@ -21,7 +22,7 @@ void print_techniques(const std::vector<NumberChange>& errors) {
     for (const char* verdict : verdicts) std::cout << std::setw(int(std::string(verdict).size()) + 3) << verdict;
     std::cout << '\n';
     for (const auto& [technique, own] : by_technique) {
-        std::cout << std::left << std::setw(32) << technique << std::right << std::setw(8) << own.size();
+        std::cout << std::left << std::setw(32) << shown_text(technique) << std::right << std::setw(8) << own.size();
         for (const char* verdict : verdicts)
             std::cout << std::setw(int(std::string(verdict).size()) + 3) << count_of(own, verdict);
         std::cout << '\n';
@@ -36,9 +37,10 @@ void print_changes(const std::vector<NumberChange>& all, bool shows_all) {
     const size_t count = shows_all ? changed.size() : std::min(changed.size(), most_named);
     for (size_t i = 0; i < count; ++i) {
         const NumberChange& c = *changed[i];
-        std::cout << "  " << c.shot << (c.frame.empty() ? "" : " frame " + c.frame) << ": " << c.variant << ' '
-                  << c.point << ": " << c.metric;
-        if (!c.target.empty()) std::cout << " of " << c.target << ", " << c.mask << " pixels";
+        std::string what =
+            c.shot + (c.frame.empty() ? "" : " frame " + c.frame) + ": " + c.variant + " " + c.point + ": " + c.metric;
+        if (!c.target.empty()) what += " of " + c.target + ", " + c.mask + " pixels";
+        std::cout << "  " << shown_text(what);
         std::cout << ": " << std::setprecision(4) << *c.before << " -> " << *c.after << " (x" << *c.after / *c.before
                   << ", " << c.how << ")\n";
     }
@@ -49,14 +51,14 @@ void print_alone(const std::filesystem::path& folder, const std::vector<std::arr
     if (points.empty()) return;
     const auto& [shot, variant, point] = points.front();
     std::cout << "\nIn " << folder.string() << " alone, and not compared: " << points.size() << " points of shots, as "
-              << shot << ' ' << variant << ' ' << point << '\n';
+              << shown_text(shot + " " + variant + " " + point) << '\n';
 }
 
 void print_times(const StudyDiff& diff, const DiffOptions& options) {
     if (!diff.moved.empty()) {
         std::cout << "\nTimes of " << diff.moved.size() << " shots are of different machines and are not compared:\n";
         for (const MovedShot& m : diff.moved)
-            std::cout << "  " << m.shot << ": " << m.before << " / " << m.after << '\n';
+            std::cout << "  " << shown_text(m.shot + ": " + m.before + " / " + m.after) << '\n';
     }
     if (diff.times.empty()) return;
     const size_t changed = count_of(diff.times, change::changed);
@@ -64,7 +66,8 @@ void print_times(const StudyDiff& diff, const DiffOptions& options) {
     std::map<std::string, size_t> why;
     for (const NumberChange& c : diff.times)
         if (c.verdict == change::not_judged) ++why[c.how];
-    for (const auto& [reason, count] : why) std::cout << "; " << count << " are not compared (" << reason << ")";
+    for (const auto& [reason, count] : why)
+        std::cout << "; " << count << " are not compared (" << shown_text(reason) << ")";
     std::cout << (changed > 0 ? ":\n" : ".\n");
     print_changes(diff.times, options.shows_all);
 }

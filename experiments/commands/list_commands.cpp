@@ -3,6 +3,7 @@
 #include "core/gpu/device.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config_schema.h"
 #include "metrics/metric.h"
@@ -86,8 +87,8 @@ void list_scenes_with_tests(const std::vector<std::filesystem::path>& search_pat
     for (const std::string& name : names) {
         const std::filesystem::path folder = folder_of_scene(name, search_path);
         const std::string about = about_scene(folder), cameras = cameras_of_scene(folder), indent(width + 2, ' ');
-        std::cout << name << (about.empty() ? "" : indent.substr(name.size()) + about) << '\n';
-        if (!cameras.empty()) std::cout << indent << "Cameras: " << cameras << '\n';
+        std::cout << shown_text(name) << (about.empty() ? "" : indent.substr(name.size()) + shown_text(about)) << '\n';
+        if (!cameras.empty()) std::cout << indent << "Cameras: " << shown_text(cameras) << '\n';
     }
 }
 

@@ -2,6 +2,7 @@
 #include "core/files.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/all_points.h"
 #include "experiments/run/needs.h"
@@ -77,12 +78,12 @@ void print(const std::vector<MeasuredSaving>& savings, const std::vector<SavedTi
 int needs_command(const NeedsOptions& options, const CommonOptions& common) {
     const Shot shot = shot_of(options, common);
     const std::vector<VariantConfig> points = all_points(options.variants);
-    std::printf("%s, camera %s\n\n", shot.scene.name.c_str(), shot.camera.name.c_str());
+    std::printf("%s, camera %s\n\n", shown_text(shot.scene.name).c_str(), shown_text(shot.camera.name).c_str());
     for (const SceneFact& fact : list_facts(shot.scene, shot.facts))
         std::printf("  %-22s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
     std::printf("\nSkipped, as it cannot change a pixel here:\n");
     print_left_out(left_out_of(shot, points));
-    for (const std::string& warning : shot.scene.warnings) std::printf("warning: %s\n", warning.c_str());
+    for (const std::string& warning : shot.scene.warnings) std::printf("warning: %s\n", shown_text(warning).c_str());
     if (!options.is_measured) return 0;
 
     Device device(common.device);

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/run/plan/estimate.h"
 #include "experiments/run/progress.h"
@@ -58,7 +59,7 @@ void print_kinds(const std::vector<PlannedWork>& work) {
 void print_list(const std::vector<PlannedWork>& work) {
     for (const auto& [cell, is_done, estimate] : work)
         std::printf("%s  %-10s %s  %s\n", cell->name.c_str(), name_of(cell->kind).c_str(), is_done ? "done " : "to do",
-                    cell->what.c_str());
+                    shown_text(cell->what).c_str());
 }
 
 /// A design that would take the rest of the year, or fill the memory of this machine, if it is to run `here`.
@@ -96,7 +97,8 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
                                .cells = options.cells};
     Device device(settings.device);
     const StudyPlan plan = plan_study(config, device.info(), settings.search_path, settings.keep_all);
-    const CellStore store(settings.out, [](const std::string& note) { std::fprintf(stderr, "%s\n", note.c_str()); });
+    const CellStore store(settings.out,
+                          [](const std::string& note) { std::fprintf(stderr, "%s\n", shown_text(note).c_str()); });
     std::vector<PlannedWork> work;
     for (const PlannedShot& shot : plan.shots)
         for (const PlannedCell& cell : shot.cells)

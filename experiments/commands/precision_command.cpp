@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/run/progress.h"
 #include "experiments/stability/precision/precision.h"
@@ -51,10 +52,11 @@ void print_table(const std::vector<PrecisionRow>& rows) {
                 "differing");
     for (const std::string& line : order) {
         const Worst& w = table[line];
-        std::printf("%s%10.1e %-10s%10.1e%10.1e", line.c_str(), w.share, w.case_name.c_str(), w.p999, w.differing);
+        std::printf("%s%10.1e %-10s%10.1e%10.1e", line.c_str(), w.share, shown_text(w.case_name).c_str(), w.p999,
+                    w.differing);
         if (w.share > negligible_share) std::printf("  counts");
         if (w.non_finite) std::printf("  %zu pixels not finite", w.non_finite);
-        std::printf("%s%s\n", w.refusal.empty() ? "" : "  refused: ", w.refusal.c_str());
+        std::printf("%s%s\n", w.refusal.empty() ? "" : "  refused: ", shown_text(w.refusal).c_str());
     }
     std::printf(
         "\nshare: squared change of the picture over the method's squared error; it counts above %g\n"

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
 #include "experiments/run/progress.h"
@@ -91,7 +92,8 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
     write(rows);
     print_verdicts(rows);
     const StabilityTables tables = read_stability_tables(options.out);
-    std::printf("\n%s\n%s\n", failures_text(stage_failures(tables)).c_str(), stability_lead(tables).c_str());
+    std::printf("\n%s\n%s\n", failures_text(stage_failures(tables)).c_str(),
+                shown_text(stability_lead(tables)).c_str());
     write_report(options.out);
     std::printf("\nReport: %s\n", (options.out / "report.html").string().c_str());
     if (options.figure.empty()) return 0;

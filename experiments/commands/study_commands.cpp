@@ -4,6 +4,7 @@
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/shot.h"
 #include "experiments/evaluation/table_columns.h"
@@ -66,7 +67,8 @@ void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& 
                             .extent = {options.shot.size[0], options.shot.size[1]},
                             .frames = {first}};
     const Shot shot = load_shot(config, scene_search_path(common.scene_path));
-    for (const std::string& warning : shot.scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    for (const std::string& warning : shot.scene.warnings)
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
     const DepthFormat format = options.depth_format == "d16"   ? DepthFormat::d16
                                : options.depth_format == "d24" ? DepthFormat::d24
                                                                : DepthFormat::d32f;
@@ -98,8 +100,8 @@ void capture_command(const CaptureCommandOptions& options) {
     const ShotConfig config{.frames = capture.frames(), .gbuffer = options.folder};
     const Shot shot = capture_shot(config, capture);
     const CaptureContents contents = inspect_capture(shot, capture);
-    std::printf("%s: %zu frame%s of %ux%u, %s lit colour, %s\n", shot.scene.name.c_str(), config.frames.size(),
-                config.frames.size() == 1 ? "" : "s", shot.config.extent.x, shot.config.extent.y,
+    std::printf("%s: %zu frame%s of %ux%u, %s lit colour, %s\n", shown_text(shot.scene.name).c_str(),
+                config.frames.size(), config.frames.size() == 1 ? "" : "s", shot.config.extent.x, shot.config.extent.y,
                 contents.has_lit ? "with a" : "without a",
                 capture.environment() ? "with an environment" : "without an environment");
     const unsigned last = config.frames.back();
@@ -108,5 +110,5 @@ void capture_command(const CaptureCommandOptions& options) {
     for (const SceneFact& fact : list_facts(
              pixel_facts(capture.played(last, has_before ? std::optional(last - 1) : std::optional<unsigned>()))))
         std::printf("  %-18s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
-    for (const std::string& note : contents.notes) std::printf("note: %s\n", note.c_str());
+    for (const std::string& note : contents.notes) std::printf("note: %s\n", shown_text(note).c_str());
 }

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/scene/load_scene.h"
+#include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/shot.h"
 #include "experiments/run/progress.h"
@@ -73,7 +74,8 @@ void print_ladder(const LadderSummary& ladder) {
 
 void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common) {
     const Shot shot = load_single_shot(options.shot, common);
-    for (const std::string& warning : shot.scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    for (const std::string& warning : shot.scene.warnings)
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
     const ShotFrame frame = shot_frame(shot, options.shot.frame);
 
     Progress progress(1.0);
@@ -101,7 +103,7 @@ void reference_command(const ReferenceCommandOptions& options, const CommonOptio
         std::printf("%.1f %% of the pixels reached the target\n", 100 * reference.reached_share);
     if (options.settings.ladder) print_ladder(summarize_ladder(reference));
     for (const std::string& warning : audit_reference(reference).warnings)
-        std::printf("warning: %s\n", warning.c_str());
+        std::printf("warning: %s\n", shown_text(warning).c_str());
     if (reference.non_finite_samples)
         std::printf("warning: %llu samples were not finite and count as zero\n",
                     (unsigned long long)reference.non_finite_samples);
@@ -118,7 +120,7 @@ void compare_images_command(const CompareCommandOptions& options) {
                  .settings = {.exposure_ev = options.exposure_ev, .tone_map = tone_map_named(options.tone_map)},
                  .fail_on_non_finite = options.fail_on_non_finite});
     if (options.as_json)
-        std::cout << to_json(result).dump(2) << '\n';
+        std::cout << to_json(result).dump(2, ' ', /*ensure_ascii=*/true) << '\n';
     else
         print(result, std::cout, std::cerr);
 }

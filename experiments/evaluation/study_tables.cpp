@@ -1,6 +1,7 @@
 #include "experiments/evaluation/study_tables.h"
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/json.h"
 #include "core/path_inside.h"
 #include "experiments/evaluation/evaluation.h"
@@ -10,7 +11,7 @@ StudyTables read_study_tables(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(file("manifest.json")))
         fail(folder.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
     StudyTables tables;
-    tables.manifest = read_json(file("manifest.json"));
+    tables.manifest = parse_json(read_text(file("manifest.json")), file("manifest.json").string());
     require_evaluation(folder, tables.manifest);
     tables.errors = read_rows<MetricSummary>(file("summary.csv"));
     tables.seeds = read_rows<ResultRow>(file("results.csv"));

@@ -9,6 +9,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
 
 import ssrlab  # noqa: E402  (before what it finds)
+from ssrlab.mistakes import ResultsError, exit_code  # noqa: E402
 
 
 def best_within(folder, milliseconds):
@@ -22,6 +23,12 @@ def best_within(folder, milliseconds):
     return best.join(parameters.dropna(axis="columns", how="all"), on=["variant", "point"])
 
 
-if __name__ == "__main__":
+def main():
+    if len(sys.argv) < 2:
+        raise ResultsError("name a results folder: read_results.py DIR [MILLISECONDS]")
     found = best_within(sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 else float("inf"))
     print(found.to_string(index=False, columns=["shot", "variant", "point", "value", "low", "high", "standing", "median_ms"]))
+
+
+if __name__ == "__main__":
+    sys.exit(exit_code(main, "the table"))

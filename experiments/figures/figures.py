@@ -19,11 +19,13 @@ os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into i
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
 
+from ssrlab.mistakes import ResultsError, exit_code, stop  # noqa: E402
+
 try:
     import matplotlib
     import numpy  # noqa: F401  (named here so that a missing one is explained below)
 except ImportError as missing:
-    sys.exit(f"error: {missing}: install python3-matplotlib and python3-numpy")
+    stop(f"{missing}: install python3-matplotlib and python3-numpy")
 
 from paper_figures import (
     bias_variance,
@@ -45,7 +47,8 @@ from paper_figures import (
     temporal,
 )
 from paper_figures.crop_choice import read_crops
-from ssrlab.results import Results, ResultsError, exit_code, path_inside
+from ssrlab.results import Results
+from ssrlab.text_files import path_inside
 
 # Kind of figure to what draws it: of one shot at a time, or of all that are asked for.
 SHOT_FIGURES = {"stage_times": stages.draw_times, "stage_costs": stages.draw_costs, "crops": crops.draw, "motion": motion.draw}
@@ -128,7 +131,7 @@ def main():
     matplotlib.use("Agg")
     results = Results(arguments.results)
     file = arguments.choice
-    content = request.read_json(file) if file else {}
+    content = request.read_choice(file) if file else {}
     texts = {key: getattr(arguments, key) or content.get(key) for key in request.TEXTS}
     texts = {
         "target": texts["target"] or "specular",

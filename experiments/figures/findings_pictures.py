@@ -24,7 +24,7 @@ from paper_figures.summary_picture import GREY, Mark, Panel, Picture, draw, show
 from paper_tables import shot_names, summary_file  # noqa: E402
 from paper_tables.cell import Cell  # noqa: E402
 from paper_tables.documents import Numbers  # noqa: E402
-from ssrlab.results import exit_code  # noqa: E402
+from ssrlab.mistakes import exit_code  # noqa: E402
 
 EXPERIMENTS = Path(__file__).resolve().parent.parent
 SUMMARIES = EXPERIMENTS / "summaries"

@@ -9,23 +9,25 @@ Half of the pairs are drawn from all, half from those that two of the metrics or
 often each metric agrees (a table "of": "eye").
 """
 import argparse
-import csv
 import itertools
 import os
 import random
 import sys
 
 sys.dont_write_bytecode = True
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+
+from ssrlab.csv_files import number, read_rows, write_lines  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, stop  # noqa: E402
+
 try:
     import numpy as np
     from PIL import Image
 except ImportError as missing:
-    sys.exit(f"error: {missing}: install python3-numpy and python3-pil, and run this with Debian's python3")
-
-sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+    stop(f"{missing}: install python3-numpy and python3-pil, and run this with Debian's python3")
 
 from paper_figures.crops import REFERENCE, display  # noqa: E402
-from ssrlab.results import Results, ResultsError  # noqa: E402
+from ssrlab.results import Results  # noqa: E402
 from paper_tables.agreement import JUDGEMENTS  # noqa: E402
 
 METRICS = ("mse", "relmse", "flip")
@@ -41,7 +43,7 @@ def values_of(results):
     for row in results.errors:
         if row["target"] == "specular" and row["mask"] == "reflective" and row["metric"] in METRICS and row["value"]:
             points = found.setdefault(row["shot"], {})
-            points.setdefault((row["variant"], row["point"]), {})[row["metric"]] = results.shortfall(row["metric"], float(row["value"]))
+            points.setdefault((row["variant"], row["point"]), {})[row["metric"]] = results.shortfall(row["metric"], number(row, "value"))
     return found
 
 
@@ -85,24 +87,24 @@ def make_sheets(arguments):
     results = Results(arguments.results)
     os.makedirs(arguments.out, exist_ok=True)
     with open(os.path.join(arguments.out, "key.csv"), "w", newline="", encoding="utf-8") as stream:
-        key = csv.writer(stream, lineterminator="\n")
-        key.writerow(("pair",) + PAIR)
+        write_lines(stream, [("pair",) + PAIR])
         for number, (shot, left, right) in enumerate(draw_pairs(results, arguments.pairs, random.Random(arguments.seed)), 1):
             Image.fromarray(sheet(results, shot, left, right)).save(os.path.join(arguments.out, f"pair_{number}.png"))
-            key.writerow((number, shot, *left, *right))
+            write_lines(stream, [(number, shot, *left, *right)])
 
 
 def enter(arguments):
-    with open(os.path.join(arguments.out, "key.csv"), newline="", encoding="utf-8") as stream:
-        key = {row["pair"]: row for row in csv.DictReader(stream)}
+    file = os.path.join(arguments.out, "key.csv")
+    key = {row["pair"]: row for row in read_rows(file)[1]}
     named = {"left": "first", "right": "second", "neither": "neither"}
-    is_new = not os.path.exists(JUDGEMENTS)
-    with open(arguments.answers, newline="", encoding="utf-8") as stream, open(JUDGEMENTS, "a", newline="", encoding="utf-8") as out:
-        judgements = csv.writer(out, lineterminator="\n")
-        if is_new:
-            judgements.writerow(COLUMNS)
-        for answer in csv.DictReader(stream):
-            judgements.writerow([key[answer["pair"]][c] for c in PAIR] + [named[answer["nearer"]], arguments.judge])
+    lines = [] if os.path.exists(JUDGEMENTS) else [COLUMNS]
+    for answer in read_rows(arguments.answers)[1]:
+        for column, known, where in (("pair", key, f"the pairs of {file}"), ("nearer", named, ", ".join(named))):
+            if answer[column] not in known:
+                raise ResultsError(f"{answer.file}:{answer.line}: '{column}' = \"{answer[column]}\" is none of {where}")
+        lines.append([key[answer["pair"]][c] for c in PAIR] + [named[answer["nearer"]], arguments.judge])
+    with open(JUDGEMENTS, "a", newline="", encoding="utf-8") as out:
+        write_lines(out, lines)
 
 
 def main():
@@ -116,11 +118,8 @@ def main():
     entering.add_argument("out"), entering.add_argument("answers"), entering.add_argument("--judge", required=True)
     entering.set_defaults(run=enter)
     arguments = parser.parse_args()
-    try:
-        arguments.run(arguments)
-    except (ResultsError, OSError, KeyError) as mistake:
-        sys.exit(f"error: {mistake}")
+    arguments.run(arguments)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(exit_code(main, "the sheets or judgements"))

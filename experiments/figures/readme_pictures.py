@@ -33,8 +33,9 @@ sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "python"))
 
 from paper_figures import crops, style  # noqa: E402
 from paper_figures.crop_choice import read_crops  # noqa: E402
-from paper_figures.request import Request, read_json  # noqa: E402
-from ssrlab.results import Results, exit_code, label  # noqa: E402
+from paper_figures.request import Request, read_choice  # noqa: E402
+from ssrlab.mistakes import exit_code  # noqa: E402
+from ssrlab.results import Results, label  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
@@ -149,7 +150,7 @@ def draw_report(folder):
 def draw_findings(folder):
     """A picture per shot of findings/figures.json, named after its scene."""
     results, chosen = Results(folder), FINDINGS / "figures.json"
-    collected = read_crops(str(chosen), read_json(str(chosen)), results)
+    collected = read_crops(str(chosen), read_choice(str(chosen)), results)
     options = Request("crops", "crops", "specular", "mse", "reflective", crops=collected)
     for shot in collected:
         save(crops.draw(results, shot, options), FINDINGS / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced=False)

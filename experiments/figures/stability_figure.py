@@ -4,21 +4,23 @@ usage: stability_figure.py --out=FIGURE.pdf STABILITY.csv
 """
 
 import argparse
-import csv
 import os
 import sys
 
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into its files
 
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+
+from ssrlab.csv_files import read_rows  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, stop  # noqa: E402
+
 try:
     import matplotlib
 except ImportError as missing:
-    sys.exit(f"error: {missing}: install python3-matplotlib")
+    stop(f"{missing}: install python3-matplotlib")
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
+import matplotlib.pyplot as plt  # noqa: E402
 
 from paper_figures import style  # noqa: E402
 
@@ -86,13 +88,12 @@ def main():
     arguments = parser.parse_args()
     if not arguments.out.endswith((".pdf", ".png", ".svg")):
         parser.error(f"--out: '{arguments.out}' must end with .pdf, .png or .svg")
-    with open(arguments.csv, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = read_rows(arguments.csv)[1]
     if not rows:
-        sys.exit(f"error: {arguments.csv} has no rows")
+        raise ResultsError(f"{arguments.csv} has no rows")
     style.apply()
     draw(rows, arguments.out)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(exit_code(main, "the figure"))

@@ -12,7 +12,9 @@ import sys
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
 
-from ssrlab.results import Results, ResultsError, exit_code, path_inside, write_text  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, shown  # noqa: E402
+from ssrlab.results import Results  # noqa: E402
+from ssrlab.text_files import path_inside, write_text  # noqa: E402
 from paper_tables import documents, formats, latex, summary_file  # noqa: E402
 from paper_tables.cells import Table, cells_of  # noqa: E402
 from paper_tables.markdown import markdown  # noqa: E402
@@ -49,7 +51,7 @@ def remove_others(out, names):
 def make(folder, out, summary_folder):
     """Writes a study's tables; returns how many. `summary_folder`: where the summary is kept, too; may be None."""
     results = Results(folder)
-    config = results.manifest["config"]
+    config = results.manifest["config"] or {}
     entries = config.get("tables", [])
     if not entries:
         raise ResultsError(f"{folder}: its study asks for no tables; add \"tables\" to its config (experiments/README.md)")
@@ -83,7 +85,7 @@ def main():
     if arguments.check is not None:
         found = documents.mistakes(arguments.root, summaries, arguments.check)
         for sentence in found:
-            print(f"error: {sentence}", file=sys.stderr)
+            print(f"error: {shown(sentence)}", file=sys.stderr)
         return 2 if found else 0
     if arguments.results:
         out = arguments.out or default_folder(arguments.results)

@@ -1,5 +1,7 @@
 #include "experiments/run/progress.h"
 
+#include "core/shown_text.h"
+
 #include <unistd.h>
 #include <algorithm>
 #include <cmath>
@@ -66,7 +68,7 @@ void Progress::update(double done_work, const std::string& what) {
     if (estimate_.takes_longer()) left += ", rising: this takes longer than what came before";
     char head[64];
     std::snprintf(head, sizeof head, "[%3.0f %%, %s", 100.0 * estimate_.share(), format_duration(elapsed).c_str());
-    const std::string line = head + left + "] " + what;
+    const std::string line = head + left + "] " + shown_text(what);
     if (!is_terminal_) {
         std::fprintf(stderr, "%s\n", line.c_str());
         return;
@@ -78,6 +80,6 @@ void Progress::update(double done_work, const std::string& what) {
 
 void Progress::say(const std::string& line) {
     clear();
-    std::printf("%s\n", line.c_str());
+    std::printf("%s\n", shown_text(line).c_str());
     std::fflush(stdout);
 }

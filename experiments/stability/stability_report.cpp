@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/path_inside.h"
+#include "core/shown_text.h"
 
 #include <cstdio>
 #include <map>
@@ -140,7 +141,7 @@ std::string failures_text(const std::vector<StageFailure>& failures) {
     for (const StageFailure& f : failures)
         if (f.is_source())
             text += "\n" + f.variant + ": " + joined(f.points) + "\n  " + f.place + ", in " +
-                    counted(f.cases.size(), "case") + ": " + joined(f.cases) +
+                    counted(f.cases.size(), "case") + ": " + shown_text(joined(f.cases)) +
                     "\n  fails by: " + explained(f, &KnownFailure::operation, "; or ") +
                     "\n  fixed by: " + explained(f, &KnownFailure::fix, "; ") + "\n";
     return text.empty() ? text : "Where values that are not finite arise, and what spreads them:\n" + text;

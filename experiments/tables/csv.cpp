@@ -8,6 +8,23 @@
 #include <charconv>
 #include <cmath>
 
+namespace {
+
+/// Whether a spreadsheet would take a text for a formula, or would once an apostrophe before it is gone.
+bool is_formula(std::string_view text) {
+    const size_t at = text.find_first_not_of('\'');
+    return at != std::string_view::npos && std::string_view("=+-@\t\r").find(text[at]) != std::string_view::npos;
+}
+
+bool is_number(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+}  // namespace
+
 CsvReader::CsvReader(std::filesystem::path file) : file_(std::move(file)), content_(read_text(file_)) {
     if (!read_record()) fail(file_.string(), " is empty: its first line must name the columns");
     for (size_t i = 0; i < fields_.size(); ++i)
@@ -25,6 +42,13 @@ bool CsvReader::next() {
 
 bool CsvReader::read_record() {
     if (at_ == content_.size()) return false;
+    read_fields();
+    for (std::string& field : fields_)
+        if (field.starts_with('\'') && is_formula(field)) field.erase(0, 1);  // as csv_field() wrote it
+    return true;
+}
+
+void CsvReader::read_fields() {
     record_line_ = line_;
     fields_.assign(1, "");
     bool is_quoted = false;
@@ -45,13 +69,12 @@ bool CsvReader::read_record() {
             fields_.emplace_back();
         } else if (c == '\n') {
             ++at_;
-            return true;
+            return;
         } else if (c != '\r') {
             fields_.back() += c;
         }
     }
     if (is_quoted) fail(file_.string(), ":", record_line_, ": a quoted field is not closed");
-    return true;  // the last line has no line feed
 }
 
 void CsvReader::fail_at(const std::string& column, const char* allowed) const {
@@ -98,8 +121,9 @@ std::string csv_field(size_t value) { return std::to_string(value); }
 std::string csv_field(bool value) { return value ? "1" : "0"; }
 
 std::string csv_field(const std::string& value) {
-    if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
+    const std::string text = is_formula(value) && !is_number(value) ? "'" + value : value;
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string quoted = "\"";
-    for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
     return quoted + "\"";
 }

@@ -22,6 +22,7 @@ public:
 
 private:
     bool read_record();
+    void read_fields();
     [[noreturn]] void fail_at(const std::string& column, const char* allowed) const;
 
     std::filesystem::path file_;
@@ -38,6 +39,8 @@ std::string csv_field(const std::optional<double>& value);  ///< empty if there 
 std::string csv_field(unsigned value);
 std::string csv_field(size_t value);
 std::string csv_field(bool value);  ///< 1 or 0
+/// A text that a spreadsheet would take for a formula is written behind an apostrophe, which CsvReader takes away
+/// again.
 std::string csv_field(const std::string& value);
 
 template <class... Values>

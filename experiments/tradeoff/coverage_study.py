@@ -10,12 +10,14 @@ what holds over scenes; a trial draws some with replacement. Prints the tables o
 import argparse
 import math
 import subprocess
+import sys
 import tempfile
 
 import numpy as np
 
 from analysis import curves, fits, points, uncertainty
 from ssrlab import statistics
+from ssrlab.mistakes import exit_code
 
 ROUNDS = 15
 PLACES = (0.25, 0.5, 0.75)  # along the true front, logarithmic
@@ -223,4 +225,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(exit_code(main, "the tables"))

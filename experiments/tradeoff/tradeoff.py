@@ -9,16 +9,19 @@ Needs Debian's python3-numpy and python3-scipy.
 import os
 import sys
 
+import analysis  # noqa: F401  (which finds what scripts share)
+from ssrlab.mistakes import exit_code, stop
+
 try:
     import numpy  # noqa: F401  (named here so that a missing one is explained below)
     import scipy  # noqa: F401
 except ImportError as missing:
-    sys.exit(f"error: {missing}: install python3-numpy and python3-scipy")
+    stop(f"{missing}: install python3-numpy and python3-scipy")
 
-from analysis import rows
-from analysis.answers import Answers
-from analysis.points import Study
-from ssrlab.results import exit_code, write_text
+from analysis import rows  # noqa: E402
+from analysis.answers import Answers  # noqa: E402
+from analysis.points import Study  # noqa: E402
+from ssrlab.text_files import path_inside, write_text  # noqa: E402
 
 SHOT = ("shot", "scene", "machine", "variant", "label")
 FILES = {
@@ -32,10 +35,10 @@ FILES = {
 def main():
     out = os.path.dirname(sys.argv[1])
     study = Study(out)
-    analysis = rows.Analysis(study, sorted(study.asked["factors"], reverse=True))
+    found = rows.Analysis(study, sorted(study.asked["factors"], reverse=True))
     for name, columns in FILES.items():
-        rows.write(out, name, columns, getattr(analysis, name.removesuffix(".csv")))
-    write_text(os.path.join(out, "answers.md"), Answers(analysis).text())
+        rows.write(out, name, columns, getattr(found, name.removesuffix(".csv")))
+    write_text(path_inside(out, "answers.md"), Answers(found).text())
     print(os.path.join(out, "answers.md"))
 
 

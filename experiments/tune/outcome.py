@@ -1,6 +1,5 @@
 """The files of a search in its folder: tune.csv, presets.json, tuned.md, and the figure search.pdf, .svg and .png."""
 
-import csv
 import json
 import math
 import os
@@ -9,7 +8,11 @@ from paper_figures import style
 from paper_figures.numbers import with_interval
 from paper_figures.placed_labels import place_labels
 from ssrlab import statistics
-from ssrlab.results import Measured, path_inside, whole_file, write_text
+from ssrlab.csv_files import write_lines
+from ssrlab.markdown_text import markdown_code, markdown_text
+from ssrlab.mistakes import say
+from ssrlab.results import Measured
+from ssrlab.text_files import path_inside, whole_file, write_text
 
 FASTER = 1.1  # a point that is this much faster than the baseline is worth a name though it errs more
 
@@ -37,7 +40,7 @@ class Outcome:
         self.write_page()
         self.draw()
         complete = sum(not p.stopped for p in self.tuning.tried)
-        print(
+        say(
             f"{len(self.tuning.tried)} points tried, {complete} of them in full: {self.tuning.runs()} runs in place of "
             f"{self.tuning.runs_of_a_point() * len(self.points)}; {os.path.join(self.tuning.out, 'tuned.md')}"
         )
@@ -48,13 +51,13 @@ class Outcome:
     def write_csv(self):
         axes = [axis.name for axis in self.tuning.space.axes]
         with whole_file(self.file("tune.csv")) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
-            writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow(["point", "batch", "stopped", "shots", "runs", "ratio", "low", "high", "time", *axes])
+            lines = [["point", "batch", "stopped", "shots", "runs", "ratio", "low", "high", "time", *axes]]
             for point in self.points.values():
                 error = ratio_of(self.race.error(point))
                 row = [point.name, point.batch, point.stopped, len(point.shots()), point.runs(), error.value, error.low, error.high]
                 values = [point.values.get(name, "") if point.values else point.parameters[name] for name in axes]
-                writer.writerow(row + [math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
+                lines.append(row + [math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
+            write_lines(stream, lines)
 
     def file(self, name):
         return path_inside(self.tuning.out, name)
@@ -89,7 +92,7 @@ class Outcome:
         ]
         for shot in self.results.manifest["shots"]:
             rows = {r["metric"]: r for r in chosen if r["shot"] == shot["shot"]}
-            yield shot, {m: self.results.measured(rows[m], ("ratio", "low", "high"), "effects.csv") if m in rows else None for m in self.studies.metrics}
+            yield shot, {m: self.results.measured(rows[m], ("ratio", "low", "high")) if m in rows else None for m in self.studies.metrics}
 
     def write_presets(self):
         """As the table of techniques reads them (variants/registry.h). What was found among the config's own points has a name already, and
@@ -120,8 +123,8 @@ class Outcome:
         lines = [
             f"# Tuned: {tuning.start_entry['variant']}",
             "",
-            f"Error: {error}, as a multiple of that of `{tuning.baseline}`, geometric mean over scenes; {self.time_word()}: likewise "
-            f"(that of `{tuning.baseline}`: {tuning.baseline_cost:.4g} {self.unit}; on the scenes of the search without an interval). In brackets 95 % intervals: of the scenes of the search by "
+            f"Error: {error}, as a multiple of that of {markdown_code(tuning.baseline)}, geometric mean over scenes; {self.time_word()}: likewise "
+            f"(that of {markdown_code(tuning.baseline)}: {tuning.baseline_cost:.4g} {self.unit}; on the scenes of the search without an interval). In brackets 95 % intervals: of the scenes of the search by "
             "the seeds and the reference's noise, for these scenes as they are; of unseen ones by how they differ among each other, none below "
             "4 scenes.",
             "",
@@ -136,13 +139,13 @@ class Outcome:
         ]
         for budget in tuning.budgets:
             name = next((n for n, budgets in self.found.items() if budget in budgets), None)
-            lines.append(f"| {budget:g}x | " + (" | ".join(self.cells(name)) if name else "no point is so fast | | | |") + " |")
+            lines.append(f"| {budget:g}x | " + (" | ".join(map(markdown_text, self.cells(name))) if name else "no point is so fast | | | |") + " |")
         lines += ["", "## Beside", "", f"| point | error, searched | {self.time_word()} | error, unseen | {self.time_word()}, unseen |", "|---|---|---|---|---|"]
-        lines += [f"| {' | '.join(self.cells(name))} |" for name in tuning.names]
-        lines += ["", "## The front", "", f"| {self.time_word()} | error | point | differs from `{tuning.start}` in |", "|---|---|---|---|"]
+        lines += [f"| {' | '.join(map(markdown_text, self.cells(name)))} |" for name in tuning.names]
+        lines += ["", "## The front", "", f"| {self.time_word()} | error | point | differs from {markdown_text(tuning.start)} in |", "|---|---|---|---|"]
         for point in self.race.front():
             differs = ", ".join(f"{k} = {json.dumps(v)}" for k, v in point.values.items() if tuning.space.start[k] != v)
-            lines.append(f"| {math.exp(self.race.log_time(point)):.3f} | {with_interval(ratio_of(self.race.error(point)))} | {point.name} | {differs} |")
+            lines.append(f"| {math.exp(self.race.log_time(point)):.3f} | {with_interval(ratio_of(self.race.error(point)))} | {markdown_text(point.name)} | {markdown_text(differs)} |")
         lines += self.unseen_lines()
         write_text(self.file("tuned.md"), "\n".join(lines) + "\n")
 
@@ -157,12 +160,12 @@ class Outcome:
         if self.results is None:
             return ["", 'No scenes were named to judge on (`"judge"`).']
         names = [n for n in dict.fromkeys([*self.tuning.names, *self.found]) if n != self.tuning.baseline]
-        lines = ["", "## Unseen scenes", "", f"| shot | metric | {' | '.join(names)} |", "|---|---|" + "---|" * len(names)]
+        lines = ["", "## Unseen scenes", "", f"| shot | metric | {' | '.join(map(markdown_text, names))} |", "|---|---|" + "---|" * len(names)]
         of_points = {name: dict((shot["shot"], rows) for shot, rows in self.unseen_rows(name)) for name in names}
         for shot in (s["shot"] for s in self.results.manifest["shots"]):
             for metric in self.studies.metrics:
                 found = [of_points[name][shot][metric] for name in names]
-                lines.append(f"| {self.results.shot_label(shot)} | {metric} | {' | '.join(with_interval(m) if m else '' for m in found)} |")
+                lines.append(f"| {markdown_text(self.results.shot_label(shot))} | {metric} | {' | '.join(with_interval(m) if m else '' for m in found)} |")
         return lines
 
     def draw(self):

@@ -3,7 +3,7 @@
 import warnings
 
 import optuna
-from ssrlab.results import ResultsError
+from ssrlab.mistakes import ResultsError
 
 DIGITS = 4  # of a number that was sampled: names of points and presets stay legible
 

@@ -6,7 +6,11 @@ import os
 import subprocess
 import time
 
-from ssrlab.results import Results, ResultsError, path_inside, write_text
+from ssrlab.csv_files import needed_number, number, whole
+from ssrlab.json_files import read_json
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import Results
+from ssrlab.text_files import path_inside, write_text
 from race import NORMAL
 
 NOT_OF_STUDIES = ("tune", "tables", "variants", "shots", "seeds", "timing", "costs", "$schema")
@@ -16,10 +20,18 @@ class StudyFailed(Exception):
     """`ssrlab run` ended with an exit code other than 0."""
 
     def __init__(self, code, log):
-        with open(log, encoding="utf-8") as stream:
-            said = stream.read().splitlines()[-3:]
-        super().__init__("\n".join([f"a study failed; {log} ends with", *said]))
+        with open(log, encoding="utf-8", errors="surrogateescape") as stream:
+            self.said = stream.read().splitlines()[-3:]
+        super().__init__(f"a study failed; {log} ends with")
         self.code = code
+
+
+def _positive(row, column):
+    """Of what is compared by ratios."""
+    value = needed_number(row, column)
+    if value <= 0:
+        raise ResultsError(f"{row.file}:{row.line}: '{column}' = \"{row[column]}\" is not above 0")
+    return value
 
 
 def single_shots(entries):
@@ -89,8 +101,7 @@ class Studies:
         """What a study took is kept where it was run first: one that is run again is only read."""
         kept = {}
         if os.path.exists(self.minutes_file):
-            with open(self.minutes_file, encoding="utf-8") as stream:
-                kept = json.load(stream)
+            kept = read_json(self.minutes_file, {"*": float})
         self.minutes[name] = kept.setdefault(name, minutes)
         write_text(self.minutes_file, json.dumps(kept, indent=1))
 
@@ -114,7 +125,7 @@ class Studies:
             wanted = ", ".join(f"{self.target} {m} {self.mask}" for m in self.metrics)
             raise ResultsError(f"{results.folder}: results.csv has nothing of '{entry['point']}': does the study measure {wanted}?")
         for row in rows:
-            point.errors.setdefault((row["shot"], row["metric"]), {})[int(row["seed"])] = self._error(row)
+            point.errors.setdefault((row["shot"], row["metric"]), {})[whole(row, "seed")] = self._error(row)
         for shot, (ratio, _) in self.times_of(results, entry["point"]).items():
             point.times[shot] = ratio
 
@@ -127,10 +138,8 @@ class Studies:
 
     @staticmethod
     def _error(row):
-        if not row["value"]:
-            raise ResultsError(f"results.csv: {row['metric']} of '{row['point']}' in {row['shot']} has no value")
-        noise = (float(row["high"]) - float(row["low"])) / 2 / NORMAL if row["low"] and row["high"] else 0.0
-        return float(row["value"]), noise
+        low, high = number(row, "low"), number(row, "high")
+        return needed_number(row, "value"), 0.0 if None in (low, high) else (high - low) / 2 / NORMAL
 
     def times_of(self, results, point):
         """Shot to (time over the baseline's, the baseline's) of what a study timed, or counted."""
@@ -141,18 +150,18 @@ class Studies:
     def _clock_ratios(results, point, base):
         """Of the same frames, since machines change their speed."""
         total = [r for r in results.times if r["variant"] and r["point"] == base and r["stage"] == "total"]
-        own = {r["shot"]: float(r["median_ms"]) for r in total}
+        own = {r["shot"]: _positive(r, "median_ms") for r in total}
         if point == base:
             return {shot: (1.0, ms) for shot, ms in own.items()}
         rows = results.read_csv("time_effects.csv", is_optional=True)
         chosen = [r for r in rows if r["point"] == point and r["against"] == "baseline" and r["stage"] == "total"]
-        return {r["shot"]: (float(r["ratio"]), own[r["shot"]]) for r in chosen}
+        return {r["shot"]: (_positive(r, "ratio"), own[r["shot"]]) for r in chosen if r["shot"] in own}
 
     def _counted_ratios(self, results, point, base):
         """Counts of the baseline hold wherever they were taken; a point that does nothing counts as doing 1."""
         counts = {}
         for row in results.read_csv("costs.csv", is_optional=True):
             if row["stage"] == "total" and row["quantity"] == self.cost:
-                counts.setdefault(row["point"], {})[row["shot"]] = max(float(row["value"]), 1.0)
+                counts.setdefault(row["point"], {})[row["shot"]] = max(needed_number(row, "value"), 1.0)
         self.counts_of_baseline.update(counts.get(base, {}))
-        return {shot: (value / self.counts_of_baseline[shot], self.counts_of_baseline[shot]) for shot, value in counts.get(point, {}).items()}
+        return {shot: (value / self.counts_of_baseline[shot], self.counts_of_baseline[shot]) for shot, value in counts.get(point, {}).items() if shot in self.counts_of_baseline}

@@ -16,12 +16,14 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, *(os.path.join(HERE, os.pardir, room) for room in ("python", "figures"))]
+from ssrlab.json_files import read_json  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, say, shown, stop  # noqa: E402
+
 try:
     import optuna  # noqa: F401
 except ImportError as missing:
-    sys.exit(f"error: {missing}: install python3-optuna")
+    stop(f"{missing}: install python3-optuna")
 from outcome import Outcome  # noqa: E402  (found by the path above)
-from ssrlab.results import ResultsError, exit_code  # noqa: E402
 from race import Point, Race  # noqa: E402
 from space import Proposals, Space  # noqa: E402
 from studies import Studies, StudyFailed  # noqa: E402
@@ -66,7 +68,7 @@ class Tuning:
         seeds = self.studies.seeds
         self.few, self.rest = seeds[: max(2, len(seeds) // 2)], seeds[max(2, len(seeds) // 2) :]
         entries = [self.given_entry(i) for i in range(len(self.given))]
-        print(f"start: {', '.join(self.names)} in {len(self.studies.shots)} shots, which need references", flush=True)
+        say(f"start: {', '.join(self.names)} in {len(self.studies.shots)} shots, which need references")
         results = self.studies.run("search/start", entries, self.studies.shots, seeds)
         self.points = {name: Point(name, {}) for name in self.names}
         for name in [self.baseline, *self.names]:
@@ -204,10 +206,9 @@ class Tuning:
         best = self.best_within(max(self.budgets))
         least = f"; least error x{math.exp(self.race.mean_log(best)):.3f} in x{math.exp(self.race.log_time(best)):.2f}" if best else ""
         stopped = sum(bool(p.stopped) for p in fresh)
-        print(
+        say(
             f"batch {number}: {len(fresh)} new points, {stopped} stopped early; {runs} of {self.most_runs} runs, "
-            f"{minutes:.1f} min, about {left:.0f} min left{least}",
-            flush=True,
+            f"{minutes:.1f} min, about {left:.0f} min left{least}"
         )
 
 
@@ -227,8 +228,13 @@ def main():
     parser.add_argument("--out", required=True, help="folder of the studies and of the results")
     parser.add_argument("command", nargs="+", help="ssrlab, and options of `ssrlab run`")
     arguments = parser.parse_args()
-    return exit_code(lambda: search(arguments), "the search")
+    try:
+        Tuning(read_json(arguments.asked), arguments.out, arguments.command).run()
+    except StudyFailed as failed:
+        for line in [f"error: {failed}", *failed.said]:
+            print(shown(line), file=sys.stderr)
+        return failed.code if failed.code in (2, 3) else 3
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(exit_code(main, "the search"))

@@ -19,7 +19,7 @@ def draw(results, chosen):
         return None
     points = list(dict.fromkeys((s["variant"], s["point"]) for s in rows))
     parts = {
-        name: [results.measured(s, (name, f"{name}_low", f"{name}_high"), "splits.csv") for s in rows] for name in NAMES
+        name: [results.measured(s, (name, f"{name}_low", f"{name}_high")) for s in rows] for name in NAMES
     }
     limits = _limits([m for part in parts.values() for m in part])
     figure, panels = style.panels(len(shots), chosen, height=2.2 + 0.8 * len(points), sharex=True, sharey=True)

@@ -7,7 +7,9 @@ from paper_figures import style, sweeps
 from paper_figures.error_time import TIME_AXIS
 from paper_figures.fetches import power_of
 from paper_figures.placed_labels import place_labels
-from ssrlab.results import Measured, ResultsError, frame_number, is_over_frames
+from ssrlab.csv_files import whole
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import Measured, frame_number, is_over_frames
 
 LEAST_POINTS = 3  # that a slope with an interval needs
 
@@ -62,16 +64,16 @@ def _over_seeds(results, chosen, errors, shot):
     lines = {}
     for s in results.splits:
         key = (s["variant"], s["point"])
-        if (s["shot"], s["target"], s["mask"]) != (shot, chosen.target, chosen.mask) or key in results.hidden or int(s["seeds"]) < 2:
+        if (s["shot"], s["target"], s["mask"]) != (shot, chosen.target, chosen.mask) or key in results.hidden or (whole(s, "seeds") or 0) < 2:
             continue
-        bias, variance = (results.measured(s, (q, f"{q}_low", f"{q}_high"), "splits.csv") for q in ("bias_squared", "variance"))
+        bias, variance = (results.measured(s, (q, f"{q}_low", f"{q}_high")) for q in ("bias_squared", "variance"))
 
         def end(n, side):
             parts = [getattr(bias, side), getattr(variance, side)]
             return None if None in parts else max(parts[0], 0.0) + parts[1] / n
 
         lines[results.point_label(*key)] = [
-            (n, Measured(bias.value + variance.value / n, end(n, "low"), end(n, "high"))) for n in range(1, int(s["seeds"]) + 1)
+            (n, Measured(bias.value + variance.value / n, end(n, "low"), end(n, "high"))) for n in range(1, whole(s, "seeds") + 1)
         ]
     return lines
 

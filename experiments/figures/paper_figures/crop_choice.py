@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass
 
 from paper_figures.request import refuse_unknown
-from ssrlab.results import ResultsError
+from ssrlab.mistakes import ResultsError
 
 TONE_CURVES = ("none", "reinhard", "aces")
 AUTO = "auto"

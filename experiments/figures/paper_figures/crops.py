@@ -8,7 +8,9 @@ from matplotlib.patches import Rectangle
 
 from paper_figures import numbers, style
 from paper_figures.crop_choice import AUTO, TONE_CURVES as CURVE_NAMES, Crop, check_box, is_box, is_exposure
-from ssrlab.results import BEST, TIED, ResultsError, label
+from ssrlab.csv_files import number
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import BEST, TIED, label
 
 REFERENCE = ("reference", "")
 MOST_POINTS = 6  # of those that nobody chose
@@ -241,7 +243,7 @@ def _below(results, shot, target, chosen, errors, look, crops):
     noise = _reference_noise(results, shot)
     if noise and noise[1] > NOISY:
         text += f" The truth is noisy: standard error of a pixel {_percent(noise[0])} (median), {_percent(noise[1])} (95th percentile)."
-    floors = [float(r["floor"]) for r in results.errors if r.get("floor") and (r["shot"], r["target"], r["metric"], r["mask"]) == (shot, chosen.target, chosen.metric, chosen.mask)]
+    floors = [number(r, "floor") for r in results.errors if r.get("floor") and (r["shot"], r["target"], r["metric"], r["mask"]) == (shot, chosen.target, chosen.metric, chosen.mask)]
     least = min((e.value for e in errors.values() if e is not None and e.value > 0), default=None)
     if floors and least and max(floors) > NOISY * least:
         text += f" Two halves of the truth differ by {chosen.metric} {style.number(max(floors))}, {_percent(max(floors) / least)} of the least error shown."

@@ -109,7 +109,7 @@ def _draw_shot(results, axes, rows, keys):
     axes.set_xscale("log")
     axes.grid(axis="y", visible=False)
     for e in rows:
-        ratio = results.measured(e, ("ratio", "low_holm", "high_holm"), "effects.csv")
+        ratio = results.measured(e, ("ratio", "low_holm", "high_holm"))
         if ratio is None:
             continue
         row = keys.index((e["variant"], e["point"]))
@@ -138,7 +138,7 @@ def _is_near(ratio):
 
 def _limit(axes, results, rows):
     """One scale for all panels. An interval of few seeds may reach far beyond all ratios: it is cut."""
-    measured = [results.measured(e, ("ratio", "low_holm", "high_holm"), "effects.csv") for e in rows]
+    measured = [results.measured(e, ("ratio", "low_holm", "high_holm")) for e in rows]
     measured = [m for m in measured if m is not None and _is_near(m)]
     ratios = [1.0] + [m.value for m in measured]
     low, high = min(ratios) / CUT, max(ratios) * CUT

@@ -6,6 +6,7 @@ import math
 import numpy
 
 from paper_figures import style
+from ssrlab.csv_files import needed_number
 
 LEAST_RESOLUTIONS = 3
 
@@ -19,7 +20,7 @@ def series(results):
             continue
         scene, height = heights[row["shot"]]
         points = found.setdefault(scene, {}).setdefault((row["variant"], row["point"]), {})
-        points.setdefault(height, []).append((float(row["rays"]), float(row["value"])))
+        points.setdefault(height, []).append((needed_number(row, "rays"), needed_number(row, "value")))
     return {
         scene: {
             key: sorted((h, sum(n * v for n, v in passes) / sum(n for n, _ in passes)) for h, passes in heights_of.items())

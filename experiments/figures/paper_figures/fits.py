@@ -9,7 +9,9 @@ from paper_figures import numbers, style, sweeps, tradeoff
 from paper_figures.error_time import TIME_AXIS, draw_mark
 from paper_figures.ladder import LOOKS, RUNGS, rungs_of
 from paper_figures.placed_labels import place_labels
-from ssrlab.results import Measured, ResultsError
+from ssrlab.csv_files import needed_number
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import Measured
 
 FARTHEST = 10  # a rung below the least of the points by more than this factor is named, not drawn: it would flatten them
 FITTED = "fitted"  # `status` of a law; others say why there is none, or no exponent
@@ -55,11 +57,11 @@ def _axes(results, chosen, errors):
                 f"{run} again, with --metric, --target and --mask where they are not the study's `primary`"
             )
         points = {
-            key: tuple(results.measured(judged[key], (q, f"{q}_low", f"{q}_high"), tradeoff.FRONT) for q in ("cost", "error"))
+            key: tuple(results.measured(judged[key], (q, f"{q}_low", f"{q}_high")) for q in ("cost", "error"))
             for key in keys
         }
-        law = (float(row["a"]), float(row["b"])) if row["status"] == FITTED else None
-        floor = results.measured(row, ("floor", "floor_low", "floor_high"), tradeoff.FITS)
+        law = (needed_number(row, "a"), needed_number(row, "b")) if row["status"] == FITTED else None
+        floor = results.measured(row, ("floor", "floor_low", "floor_high"))
         found.append(Axis(row["shot"], row["variant"], row["parameter"], row["fixed"], row["status"], row["unit"], floor, law, points))
     return found
 

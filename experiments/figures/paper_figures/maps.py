@@ -8,7 +8,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.patches import Rectangle
 
 from paper_figures import style, sweeps
-from ssrlab.results import ResultsError
+from ssrlab.mistakes import ResultsError
 
 MOST_NUMBERS = 9  # columns of a panel whose cells have room for their number
 PALETTE = "cividis"  # falls evenly in lightness: the same with all kinds of colour vision, and in grey print

@@ -7,7 +7,8 @@ from PIL import Image
 
 from paper_figures import style
 from paper_figures.crops import REFERENCE, auto_exposure, best_of_each, display
-from ssrlab.results import ResultsError, path_inside, whole_file
+from ssrlab.mistakes import ResultsError
+from ssrlab.text_files import path_inside, whole_file
 
 MOST_POINTS = 5  # beside the truth: two rows of three
 COLUMNS = 3

@@ -8,7 +8,9 @@ from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
 from paper_figures import style
-from ssrlab.results import ResultsError, label
+from ssrlab.json_files import read_json
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import label
 
 TEXTS = ("target", "metric", "mask")
 EVERY = {"kind", "name", "shots", "points", "labels", "width", "height", *TEXTS}
@@ -65,25 +67,14 @@ class Look:
     formats: tuple = style.FORMATS
 
 
-def read_json(file):
-    try:
-        with open(file, encoding="utf-8") as text:
-            content = json.loads(without_comments(text.read()))
-    except OSError as e:
-        raise ResultsError(f"cannot read {file}: {e.strerror}") from e
-    except ValueError as e:
-        raise ResultsError(f"{file} is not valid JSON: {e}") from e
-    if not isinstance(content, dict) or not {"crops", "figures"} & set(content):
+def read_choice(file):
+    content = read_json(file, has_comments=True)
+    if not {"crops", "figures"} & set(content):
         raise ResultsError(f"{file} must be an object with an array 'figures' or 'crops'")
     for key in ("crops", "figures"):
         if not isinstance(content.get(key, []), list):
             raise ResultsError(f"{file}: '{key}' must be an array")
     return content
-
-
-def without_comments(text):
-    """JSON with // comments, as configs have them, without; lines stay where they are."""
-    return re.sub(r'("(?:\\.|[^"\\])*")|//[^\n]*', lambda m: m.group(1) or "", text)
 
 
 def near(key, known):

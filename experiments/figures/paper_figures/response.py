@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 
 from paper_figures import style, sweeps
 from paper_figures.lines import draw_lines
-from ssrlab.results import ResultsError
+from ssrlab.mistakes import ResultsError
 
 SHOWN = ("error", "time")
 MOST_LINES = 14  # that marks and colours distinguish

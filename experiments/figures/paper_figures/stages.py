@@ -7,7 +7,7 @@ from matplotlib.transforms import blended_transform_factory
 
 from paper_figures import numbers, style
 from paper_figures.request import near
-from ssrlab.results import ResultsError
+from ssrlab.mistakes import ResultsError
 
 MOST_STAGES = 7  # of a technique, named and coloured; the least others are added up, unless there is but one
 REST = "others"

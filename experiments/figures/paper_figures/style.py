@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 import numpy as np
 
 from paper_figures.texts import wrapped
-from ssrlab.results import path_inside, whole_file
+from ssrlab.text_files import path_inside, whole_file
 
 CENTIMETRE = 1 / 2.54
 WIDTHS = {"column": 8.5, "page": 17.6, "slide": 25.0}  # cm
@@ -42,6 +42,7 @@ def apply(font="sans", width=None):
         {
             "font.family": FONTS[font],
             "mathtext.fontset": MATHS[font],
+            "text.parse_math": False,  # names from files are no formulas
             "font.size": size,
             "axes.titlesize": size,
             "axes.labelsize": size,

@@ -4,7 +4,7 @@ import json
 
 from paper_figures import style
 from paper_figures.request import near
-from ssrlab.results import ResultsError
+from ssrlab.mistakes import ResultsError
 
 
 def _listed(value):

@@ -1,11 +1,11 @@
 """How far metrics agree with each other, and with people who looked: rows for tables, as a study's files would hold them."""
 
-import csv
 import itertools
 import math
 import os
 
-from ssrlab.results import ResultsError
+from ssrlab.csv_files import number, read_rows
+from ssrlab.mistakes import ResultsError
 
 # Pairs of images, without names and in an order drawn anew, of which somebody said which is nearer to the truth
 # (experiments/figures/judge.py).
@@ -18,7 +18,7 @@ def _by_shot(results, rows):
     found = {}
     for row in rows:
         if row["value"]:
-            found.setdefault(row["shot"], {}).setdefault(row["metric"], {})[(row["variant"], row["point"])] = results.shortfall(row["metric"], float(row["value"]))
+            found.setdefault(row["shot"], {}).setdefault(row["metric"], {})[(row["variant"], row["point"])] = results.shortfall(row["metric"], number(row, "value"))
     return found
 
 
@@ -44,8 +44,7 @@ def agreement_rows(results, rows):
 
 
 def read_judgements(file=JUDGEMENTS):
-    with open(file, newline="", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
+    return read_rows(file)[1]
 
 
 def _decided(judgements):

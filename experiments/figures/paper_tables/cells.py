@@ -6,7 +6,9 @@ import json
 import math
 
 from paper_figures import tradeoff
-from ssrlab.results import BEST, TIED, ResultsError, representative_rows
+from ssrlab.csv_files import number, whole
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import BEST, TIED, representative_rows
 from paper_tables import agreement, limits
 from paper_tables.cell import EXACT, Cell
 from paper_tables.means import ASSETS, SAMPLED, SHARES, largest, mean
@@ -31,14 +33,6 @@ GROUPS = {  # what rows, columns and means are by, beside the columns of a file
     "group": lambda results, row: results.point_group(row.get("variant"), row.get("point")),
     "shot_group": lambda results, row: results.shot_group(row.get("shot")),
 }
-
-
-def _number(row, column):
-    text = row.get(column) or ""
-    try:
-        return float(text) if text else None
-    except ValueError as e:
-        raise ResultsError(f"'{column}' = \"{text}\" is not a number") from e
 
 
 def _change_rows(rows):
@@ -67,6 +61,8 @@ class Table:
     """One entry of "tables", which ssrlab checked when it read the config."""
 
     def __init__(self, entry):
+        if entry["of"] not in SOURCES:
+            raise ResultsError(f"table '{entry['name']}': 'of' must be one of {', '.join(SOURCES)}, not {entry['of']}")
         self.name, self.caption, self.of = entry["name"], entry["caption"], entry["of"]
         self.where = {k: v if isinstance(v, list) else [v] for k, v in entry.get("where", {}).items()}
         self.rows, self.columns = (v if isinstance(v, list) else [v] for v in (entry["rows"], entry["columns"]))
@@ -105,7 +101,7 @@ class Selection:
             self.rows = list(agreement.eye_rows(results, self.rows, agreement.read_judgements()))
         if not self.rows:
             raise ResultsError(f"table '{table.name}': {SOURCES[table.of][0]} has no row where {json.dumps(table.where)}")
-        self.disturbed = {_timed(r): _number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
+        self.disturbed = {_timed(r): number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
 
     def entry(self, row, key):
         """What a row has under a key: a column of the file, the group of its point or shot, else a parameter of its point."""
@@ -150,25 +146,18 @@ def _timed(row, against=""):
     return tuple(row.get(key) for key in ("shot", against + "variant", against + "point", "stage"))
 
 
-def _count(row):
-    value = _number(row, "value")
-    if value is None or not value.is_integer():
-        raise ResultsError(f"costs.csv: 'value' = \"{row['value']}\" is not a whole number")
-    return int(value)
-
-
 def _cell(selection, row, name):
     table = selection.table
     if table.of == "costs":
-        return Cell(table.name, *name, _count(row), interval=EXACT)
+        return Cell(table.name, *name, whole(row, "value"), interval=EXACT)
     columns = SOURCES[table.of][1] or ("value", "low", "high")
     if table.of == "time_effects" and row["verdict"]:
         columns = SOURCES["effects"][1]  # of totals, which have verdicts: the interval that agrees with it
-    value, low, high = (_number(row, c) for c in columns)
+    value, low, high = (number(row, c) for c in columns)
     is_share = table.of in SHARES and row["quantity"] not in NOT_SHARES
     if is_share:
         low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
-    seeds = _number(row, "seeds")
+    seeds = whole(row, "seeds") if "seeds" in row else None
     shares = [selection.disturbed.get(key) for key in (_timed(row), _timed(row, "against_"))]
     return Cell(
         table.name,
@@ -177,9 +166,9 @@ def _cell(selection, row, name):
         low,
         high,
         is_significant=row.get("verdict") in ("less", "more"),
-        seeds=seeds and int(seeds),
+        seeds=seeds,
         interval=row.get("interval") or None,
-        mean_of=int(row["scenes"]) if table.of == "at_cost" else None,
+        mean_of=whole(row, "scenes") if table.of == "at_cost" else None,
         clock=_clock(selection, row) if row.get("clock") else None,
         disturbed_share=largest(shares),
         is_share=is_share,

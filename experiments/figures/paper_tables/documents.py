@@ -6,13 +6,14 @@ Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!
 over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
 
 import functools
-import json
 import math
 import os
 import re
 
 from ssrlab import statistics
-from ssrlab.results import ResultsError, path_inside
+from ssrlab.json_files import parse_json
+from ssrlab.mistakes import ResultsError
+from ssrlab.text_files import path_inside, read_text
 from paper_tables import summary_file
 from paper_tables.markdown import markdown, number, with_interval
 
@@ -119,10 +120,7 @@ def markdown_files(root):
 
 
 def _excerpt(table, cells, text, where):
-    try:
-        wanted = json.loads(text)
-    except ValueError as e:
-        raise ResultsError(f"{where}: {text} is not JSON: {e}") from e
+    wanted = parse_json(text, where, {"rows?": [str], "columns?": [str], "caption?": str})
     unknown = sorted(set(wanted) - {"rows", "columns", "caption"})
     if unknown:
         raise ResultsError(f"{where}: unknown key '{unknown[0]}' of an excerpt; known are rows, columns, caption")
@@ -159,8 +157,7 @@ def rewrite(root, summaries):
     """Fills the tables of all documents; returns the files that changed."""
     changed = []
     for file in markdown_files(root):
-        with open(file, encoding="utf-8") as stream:
-            text = stream.read()
+        text = read_text(file)
         new = filled(text, summaries, file)
         if new != text:
             with open(file, "w", encoding="utf-8") as stream:
@@ -174,8 +171,7 @@ def mistakes(root, summaries, estimators):
     summaries that no document shows."""
     found, shown = [], set()
     for file in markdown_files(root):
-        with open(file, encoding="utf-8") as stream:
-            text = stream.read()
+        text = read_text(file)
         shown.update(block["study"] for block in BLOCK.finditer(text))
         if filled(text, summaries, file) != text:
             found.append(f"{file}: its tables or numbers differ from {summaries}; `ssrlab tables --fill` makes them anew")

@@ -1,9 +1,9 @@
 """What the cells of a table say in full, for LaTeX, and the table as CSV."""
 
-import csv
 import io
 
 from paper_figures import numbers
+from ssrlab.csv_files import write_lines
 from ssrlab.results import BEST, TIED
 from paper_tables.cell import BOTH
 from paper_tables.means import ASSETS, SAMPLED
@@ -29,12 +29,12 @@ def lesser(cell):
 
 
 def has_range(cell):
-    return cell.least is not None and cell.least != cell.most
+    return None not in (cell.least, cell.most) and cell.least != cell.most
 
 
 def is_part(table, cell):
     """A mean over fewer than the table has, since the others have no value."""
-    return cell.mean_of is not None and cell.mean_of < table["over_count"]
+    return None not in (cell.mean_of, table["over_count"]) and cell.mean_of < table["over_count"]
 
 
 def reasons(cell):
@@ -136,10 +136,8 @@ def comma_separated(cells):
     """The grid with a column for each value, low and high, and for its standing where the table marks the best."""
     rows, columns, at = grid(cells)
     parts = ["value", "low", "high", *(["standing"] if any(c.standing for c in cells) else [])]
+    lines = [[""] + [c if part == "value" else f"{c} {part}" for c in columns for part in parts]]
+    lines += [[row] + [getattr(at.get((row, c)), part, None) for c in columns for part in parts] for row in rows]
     out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([""] + [c if part == "value" else f"{c} {part}" for c in columns for part in parts])
-    for row in rows:
-        found = [getattr(at.get((row, c)), part, None) for c in columns for part in parts]
-        writer.writerow([row] + ["" if n is None else n for n in found])
+    write_lines(out, lines)
     return out.getvalue()

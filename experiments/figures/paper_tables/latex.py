@@ -1,7 +1,9 @@
 """A table as LaTeX, with the packages booktabs and graphicx."""
 
 import re
+import zlib
 
+from ssrlab.mistakes import shown
 from ssrlab.results import TIED
 from paper_figures.texts import wrapped
 from paper_tables.formats import DISTURBED, NO_VALUE, cell_text, grid, is_bold, notes
@@ -10,6 +12,7 @@ ESCAPES = str.maketrans(
     {c: "\\" + c for c in "_%&#${}"} | {"\N{SUPERSCRIPT TWO}": r"\textsuperscript{2}"}
     | {"\\": r"\textbackslash{}", "^": r"\^{}", "~": r"\textasciitilde{}", "|": r"\textbar{}", "<": r"\textless{}", ">": r"\textgreater{}"}
     | {"\N{DAGGER}": r"\dag{}", "\N{DOUBLE DAGGER}": r"\ddag{}", "\N{PILCROW SIGN}": r"\P{}", DISTURBED: r"\S{}", NO_VALUE: "--", "\N{NO-BREAK SPACE}": "~"}
+    | {"\0": "{}"}
 )
 # Widths in pt: of letters in 10 pt Computer Modern, about, the gap between columns, and what there is room for.
 LETTER, SMALL_LETTER, GAP = 4.9, 3.9, 8
@@ -35,7 +38,21 @@ def head_of(column, keys):
 
 
 def escaped(text):
-    return re.sub(r'"([^"]*)"', r"``\1''", text.translate(ESCAPES))
+    """Letter by letter, but for quotation marks and code in backticks; hyphens make no dash."""
+    letters = re.sub("-(?=-)", "-\0", shown(text)).translate(ESCAPES)
+    letters = re.sub("`([^`]*)`", r"\\texttt{\1}", letters).replace("`", r"\textasciigrave{}")
+    return re.sub(r'"([^"]*)"', r"``\1''", letters)
+
+
+def comment(text):
+    """In one line, which ends it."""
+    return f"% {shown(text)}"
+
+
+def label_name(name):
+    """What \\label and \\ref take: other letters become '-', and a hash distinguishes names."""
+    safe = re.sub(r"[^A-Za-z0-9:._-]", "-", name)
+    return safe if safe == name else f"{safe}-{zlib.crc32(name.encode(errors='surrogatepass')):08x}"
 
 
 def _name(row):
@@ -108,7 +125,7 @@ def latex(table, cells, made_from):
     def page(rows, number, count):
         is_last = number == count
         caption = escaped(table["caption"]) + (f" ({number} of {count})" if count > 1 else "")
-        label = [f"\\label{{tab:{table['name']}}}"] if number == 1 else []
+        label = [f"\\label{{tab:{label_name(table['name'])}}}"] if number == 1 else []
         return [
             f"\\begin{{{environment}}}",
             f"\\centering\\setlength{{\\tabcolsep}}{{{GAP / 2:g}pt}}",
@@ -127,5 +144,5 @@ def latex(table, cells, made_from):
         ]
 
     pages = _rows_of_pages(rows, is_stacked)
-    head = [f"% {made_from}", "% Needs the packages booktabs and graphicx."]
+    head = [comment(made_from), "% Needs the packages booktabs and graphicx."]
     return "\n".join([*head, *(line for i, part in enumerate(pages, 1) for line in page(part, i, len(pages))), ""])

@@ -8,6 +8,8 @@ import re
 from paper_figures import numbers
 from paper_tables import formats, shot_names
 from paper_tables.formats import NO_VALUE
+from ssrlab.markdown_text import markdown_prose, markdown_text
+from ssrlab.mistakes import shown
 from ssrlab.results import TIED
 
 MOST_ROWS, MOST_COLUMNS = 8, 5  # of a table that a reader surveys at a glance; a larger one is folded
@@ -149,7 +151,7 @@ def _shown_names(table, names):
 
 def _summary(text):
     """A caption within HTML."""
-    return re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(text, quote=False))
+    return re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(shown(text), quote=False))
 
 
 def markdown(table, cells, made_from):
@@ -163,21 +165,20 @@ def markdown(table, cells, made_from):
             return ""
         text, words = _value(cell)
         words += [f"{cell.mean_of} of {table['over_count']}"] if cell.value is not None and formats.is_part(table, cell) else []
-        words += [cell.clock] if cell.clock and len(table["clocks"]) > 1 else []
+        words += [markdown_text(cell.clock)] if cell.clock and len(table["clocks"]) > 1 else []
         text += marks.of(cell) + (f" ({'; '.join(words)})" if words else "")
         style = "**" if formats.is_bold(cell) else "*" if cell.standing == TIED else ""
         return f"{style}{text}{style}"
 
-    heads = [(names[c] + "".join(marks.heads[c])).replace("|", "\\|") for c in columns]
+    heads = [markdown_text(names[c]) + "".join(marks.heads[c]) for c in columns]
     lines = ["| | " + " | ".join(heads) + " |", "|---" * (len(columns) + 1) + "|"]
     for row in rows:
-        name = names[row].replace("|", "\\|")
-        lines.append(f"| {name} | " + " | ".join(shown(row, c) for c in columns) + " |")
+        lines.append(f"| {markdown_text(names[row])} | " + " | ".join(shown(row, c) for c in columns) + " |")
     for shot, short in shot_names.short_names(shots or table["shots"]).items():
         made_from = made_from.replace(shot, short)
     explained = formats.sentence([*_interval_note(table, cells), *marks.notes(), *formats.other_notes(table, cells)])
-    below = " ".join(part for part in (COMMIT.sub(r"\1", made_from), shot_names.about(shots), explained) if part)
+    below = markdown_prose(" ".join(part for part in (COMMIT.sub(r"\1", made_from), shot_names.about(shots), explained) if part))
     if len(rows) <= MOST_ROWS and len(columns) <= MOST_COLUMNS:
-        return "\n".join([table["caption"], "", *lines, "", below, ""])
+        return "\n".join([markdown_prose(table["caption"]), "", *lines, "", below, ""])
     counted = f"{len(rows)} row{'s' * (len(rows) > 1)}, {len(columns)} column{'s' * (len(columns) > 1)}"
     return "\n".join(["<details>", f"<summary>{_summary(table['caption'])}; {counted}</summary>", "", *lines, "", below, "", "</details>", ""])

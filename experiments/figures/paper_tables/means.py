@@ -52,7 +52,7 @@ def _geometric_mean(parts, assets):
         return result
     result.value = math.exp(sum(math.log(c.value) for c in cells) / len(cells))
     result.least, result.most = least, most
-    if all(c.low and c.low > 0 and c.high for c in cells):
+    if all(c.low and c.high and min(c.low, c.high) > 0 for c in cells):
         half = math.sqrt(sum((math.log(c.high / c.low) / 2) ** 2 for c in cells)) / len(cells)
         result.low, result.high = result.value * math.exp(-half), result.value * math.exp(half)
     if assets and not result.is_count():

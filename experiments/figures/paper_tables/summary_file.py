@@ -1,11 +1,15 @@
 """The summary of a study that is committed: the cells of its tables as tidy CSV, and what they were made with."""
 
-import csv
 import io
 import json
+import re
 from dataclasses import fields
 
-from ssrlab.results import ResultsError, commits_of, write_text
+from ssrlab.csv_files import number, parse_rows, whole, write_lines
+from ssrlab.json_files import parse_json
+from ssrlab.mistakes import ResultsError
+from ssrlab.text_files import read_text, write_text
+from ssrlab.results import commits_of
 from paper_tables.cell import Cell
 
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (configs/comparison.json) takes
@@ -14,6 +18,13 @@ COLUMNS = [f.name for f in fields(Cell) if f.name != "is_share"]  # which only m
 ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks")  # a table; see cells_of()
 LATER = ("has_adjusted_intervals", "sample", "assets")  # of a table, too; summaries of before have none
 MARK = "# "
+# Shapes of its head, as require() of json_files.py has them.
+_ANY = (str, bool, float, list, dict, None)
+_ORIGIN = {"study": str, "title": str, "commit": str, "device": str, "shots": int, "estimators": int, "is_complete": bool}
+_ABOUT = {
+    **{"name": str, "caption": str, "shots": [str], "resolutions": [str], "over": (str, None), "over_count": (int, None), "clocks": [str]},
+    **{"has_adjusted_intervals?": bool, "sample?": (str, None), "assets?": ({"*": str}, None)},
+}
 
 
 def _about(table):
@@ -35,6 +46,8 @@ def why_not_kept(manifest):
 def origin(manifest):
     """Where the numbers come from. Fails where cells were made by programs whose estimators differ."""
     makers = manifest["provenance"]
+    if not makers:
+        raise ResultsError("manifest.json: 'provenance' is empty, and so no program is known that made its cells; run the study again")
     programs = [m["ssrlab"] for m in makers]
     estimators = sorted({p["estimators"] for p in programs})
     if len(estimators) > 1:
@@ -59,13 +72,8 @@ def write(file, origin_of_all, tables, cells):
         out.write(f"{MARK}{key}: {json.dumps(value)}\n")
     for table in tables:
         out.write(f"{MARK}table: {json.dumps(_about(table))}\n")
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for cell in cells:
-        values = [getattr(cell, c) for c in COLUMNS]
-        writer.writerow(
-            ["" if v is None else int(v) if isinstance(v, bool) else f"{v:.6g}" if isinstance(v, float) else v for v in values]
-        )
+    of_cells = ([getattr(cell, c) for c in COLUMNS] for cell in cells)
+    write_lines(out, [COLUMNS, *([int(v) if isinstance(v, bool) else f"{v:.6g}" if isinstance(v, float) else v for v in values] for values in of_cells)])
     text = out.getvalue()
     if len(text.encode()) > MOST_BYTES:
         raise ResultsError(
@@ -75,39 +83,35 @@ def write(file, origin_of_all, tables, cells):
 
 
 def _cell(row):
-    def number(name):
-        return float(row[name]) if row[name] else None
-
     return Cell(
         row["table"],
         row["row"],
         row["column"],
-        *(number(n) for n in ("value", "low", "high", "least", "most")),
+        *(number(row, n) for n in ("value", "low", "high", "least", "most")),
         is_significant=row["is_significant"] == "1",
-        seeds=int(row["seeds"]) if row["seeds"] else None,
+        seeds=whole(row, "seeds"),
         interval=row["interval"] or None,
-        mean_of=int(row["mean_of"]) if row["mean_of"] else None,
+        mean_of=whole(row, "mean_of"),
         clock=row["clock"] or None,
-        disturbed_share=number("disturbed_share"),
+        disturbed_share=number(row, "disturbed_share"),
         standing=row.get("standing") or None,
     )
 
 
 def read(file):
     """(origin, {table's name: (what is said of it, its cells)})."""
-    try:
-        with open(file, encoding="utf-8", newline="") as stream:
-            lines = stream.read().splitlines(keepends=True)
-    except OSError as e:
-        raise ResultsError(f"cannot read {file}: {e.strerror}") from e
-    head = [line[len(MARK) :].rstrip("\n").split(": ", 1) for line in lines if line.startswith(MARK)]
-    try:
-        tables = {t["name"]: (_about(t), []) for t in (json.loads(value) for key, value in head if key == "table")}
-        for row in csv.DictReader(line for line in lines if not line.startswith(MARK)):
-            tables[row["table"]][1].append(_cell(row))
-        return {key: json.loads(value) for key, value in head if key != "table"}, tables
-    except (KeyError, ValueError) as e:
-        raise ResultsError(f"{file} is not a summary that `ssrlab tables` wrote: {e}") from e
+    text = read_text(file)
+    head = re.match(f"(?:{MARK}[^\n]*\n)*", text).group().splitlines()
+    entries = []
+    for number_of_line, line in enumerate(head, 1):
+        key, _, value = line[len(MARK) :].partition(": ")
+        entries.append((key, parse_json(value, f"{file}:{number_of_line}", _ABOUT if key == "table" else _ORIGIN.get(key, _ANY))))
+    tables = {t["name"]: (_about(t), []) for key, t in entries if key == "table"}
+    for row in parse_rows(text.split("\n", len(head))[-1], file, first_line=1 + len(head))[1]:
+        if row["table"] not in tables:
+            raise ResultsError(f"{file}:{row.line}: a cell of the table '{row['table']}', of which its head says nothing")
+        tables[row["table"]][1].append(_cell(row))
+    return {key: value for key, value in entries if key != "table"}, tables
 
 
 def made_from(origin_of_all, table, cells):

@@ -7,7 +7,6 @@ For each cost, over the shots: Kendall's rank correlation with the median times 
 of points of a shot whose times differ by a factor of 1.5 or more, the share that the cost puts in the order of their times.
 """
 import argparse
-import csv
 import itertools
 import os
 import statistics
@@ -18,7 +17,9 @@ EXPERIMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
 sys.path[:0] = [os.path.join(EXPERIMENTS, "figures"), os.path.join(EXPERIMENTS, "python")]
 
 from paper_tables.agreement import kendall_tau  # noqa: E402
-from ssrlab.results import ResultsError, path_inside  # noqa: E402
+from ssrlab.csv_files import needed_number, read_rows, whole  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code  # noqa: E402
+from ssrlab.text_files import path_inside  # noqa: E402
 
 FACTOR = 1.5  # of times that are clearly apart
 COSTS = {
@@ -32,11 +33,7 @@ COSTS = {
 
 
 def rows_of(folder, name):
-    try:
-        with open(path_inside(folder, name), newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
-    except (OSError, ResultsError) as error:
-        sys.exit(f"error: {error}")
+    return read_rows(path_inside(folder, name))[1]
 
 
 def medians(folder):
@@ -45,7 +42,7 @@ def medians(folder):
     for row in rows_of(folder, "times.csv"):
         if row["variant"] not in ("", "none"):
             key = (row["variant"], row["point"], row["stage"])
-            times.setdefault(row["shot"], {}).setdefault(key, []).append(float(row["milliseconds"]))
+            times.setdefault(row["shot"], {}).setdefault(key, []).append(needed_number(row, "milliseconds"))
     return {shot: {key: statistics.median(all_of) for key, all_of in own.items()} for shot, own in times.items()}
 
 
@@ -54,7 +51,7 @@ def counts(folder):
     costs = {}
     for row in rows_of(folder, "costs.csv"):
         key = (row["variant"], row["point"], row["stage"])
-        costs.setdefault(row["shot"], {}).setdefault(key, {})[row["quantity"]] = int(row["value"])
+        costs.setdefault(row["shot"], {}).setdefault(key, {})[row["quantity"]] = whole(row, "value") or 0
     return costs
 
 
@@ -62,13 +59,11 @@ def agreement(times, costs, quantities):
     """[tau of totals by shot], [tau of stages by shot], pairs that are clearly apart, how many of them are in order."""
     of_totals, of_stages, pairs, right = [], [], 0, 0
     for shot in sorted(set(times) & set(costs)):
-        both = {
-            key: (ms, sum(costs[shot][key][q] for q in quantities)) for key, ms in times[shot].items() if key in costs[shot]
-        }
+        both = {key: (ms, sum(costs[shot][key].get(q, 0) for q in quantities)) for key, ms in times[shot].items() if key in costs[shot]}
         totals = [pair for key, pair in both.items() if key[2] == "total"]
         stages = [pair for key, pair in both.items() if key[2] != "total"]
-        of_totals.append(kendall_tau(*zip(*totals)))
-        of_stages.append(kendall_tau(*zip(*stages)))
+        of_totals.append(kendall_tau([ms for ms, _ in totals], [cost for _, cost in totals]))
+        of_stages.append(kendall_tau([ms for ms, _ in stages], [cost for _, cost in stages]))
         for (ms, cost), (other_ms, other_cost) in itertools.combinations(totals, 2):
             if max(ms, other_ms) >= FACTOR * min(ms, other_ms):
                 pairs += 1
@@ -88,7 +83,7 @@ def main():
     arguments = parser.parse_args()
     times, costs = medians(arguments.results), counts(arguments.costs or arguments.results)
     if not set(times) & set(costs):
-        sys.exit("error: no shot has both times and costs")
+        raise ResultsError("no shot has both times and costs")
     print("| cost | totals | stages | clearly apart, in order |\n|---|---|---|---|")
     for name, quantities in COSTS.items():
         of_totals, of_stages, pairs, right = agreement(times, costs, quantities)
@@ -96,4 +91,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(exit_code(main, "the table"))

@@ -1,85 +1,69 @@
 """A results folder as figures, tables and other evaluations need it."""
 
-import contextlib
 import copy
-import csv
-import json
 import os
 import re
-import sys
 from dataclasses import dataclass
 
+from ssrlab.csv_files import needed_number, number, read_rows, whole
 from ssrlab.exr import ExrError, read_exr_rgb
+from ssrlab.json_files import read_json
+from ssrlab.mistakes import ResultsError
+from ssrlab.text_files import path_inside
+
+# manifest.json as far as scripts read it, as require() of json_files.py has shapes (experiments/RESULTS.md has all).
+_NUMBER, _TEXT = (float, None), (str, None)
+_RUNG = {"rung": str, "target": str, "metric": str, "mask": str, "value?": _NUMBER, "low?": _NUMBER, "high?": _NUMBER}
+_SHOT = {
+    **{"shot": str, "scene?": str, "asset?": _TEXT, "label?": _TEXT, "group?": _TEXT, "width?": int, "height?": int, "frame?": int, "frames?": ([int], None)},
+    **{"warm_up?": (int, None), "change?": (int, None), "exposure_ev?": _NUMBER, "truth_ladder?": [_RUNG], "references?": [{"hash": (str, int)}]},
+    "reference?": ({"samples_median?": _NUMBER, "relative_error?": ({"median?": _NUMBER, "p95?": _NUMBER}, None)}, None),
+}
+_VARIANT = {
+    **{"variant": str, "point": str, "label?": _TEXT, "group?": _TEXT, "parameters?": dict, "uses_scene_data?": bool},
+    "single_change?": {"parameter": str, "value": (bool, float, str)},
+}
+_IMAGE = {"shot?": _TEXT, "target?": _TEXT, "kind?": _TEXT, "variant": str, "point?": _TEXT, "frame?": (int, None), "seed?": (int, None), "exr?": _TEXT}
+_CLOCK = {
+    "proofs?": [{"verdict": str, "shots?": [str]}],
+    "load?": [{"shot": str, "host?": {"name?": _TEXT}}],
+    "aa_floors?": {"*": float},
+}
+_MAKER = {
+    "ssrlab": {"commit": _TEXT, "dirty?": bool, "code?": str, "estimators?": int},
+    **{"device?": {"name": str}, "finished?": str},
+}
+_LISTED = (str, [str])
+_VALUES = (str, bool, float, [(str, bool, float)])
+TABLE = {  # an entry of the config's "tables"
+    **{"name": str, "caption": str, "of": str, "where?": {"*": _VALUES}, "rows": _LISTED, "columns": _LISTED},
+    **{"over?": _TEXT, "sort?": _TEXT, "best?": (str, None), "labels?": {"*": str}},
+}
+MANIFEST = {
+    **{"shots?": [_SHOT], "variants?": [_VARIANT], "images?": [_IMAGE], "clock?": _CLOCK, "provenance?": [_MAKER], "title?": str, "is_complete?": bool},
+    **{"study?": {"name": str, "config": str}, "metrics?": {"*": {"better": str}}, "config?": ({"tables?": [TABLE]}, None)},
+    **{"primary?": {"metric": str, "mask": str, "target": str}, "written?": {"ssrlab?": {"commit?": _TEXT}}},
+}
+_SCHEMA = {"resources": [{"name": str, "schema": {"fields": [{"name": str, "type": str, "unit?": str, "description?": str}]}}]}
 
 
 def read_manifest(folder):
     file = path_inside(folder, "manifest.json")
-    try:
-        with open(file, encoding="utf-8") as text:
-            manifest = json.load(text)
-    except OSError as e:
-        raise ResultsError(f"cannot read {file}: {e.strerror}; is it a folder that `ssrlab run` filled?") from e
-    except ValueError as e:
-        raise ResultsError(f"{file} is not valid JSON: {e}") from e
-    if not isinstance(manifest, dict):
-        raise ResultsError(f"{file} must be a JSON object")
-    return manifest
+    if not os.path.exists(file):
+        raise ResultsError(f"{folder} is no results folder: it has no manifest.json; `ssrlab run` makes one")
+    return read_json(file, MANIFEST)
 
 
-class ResultsError(Exception):
-    """A mistake in the results folder or in what was asked of it: one sentence."""
-
-
-def path_inside(folder, name, where=""):
-    """The path of what a file, or a folder that may come from a stranger, calls `name`, by the rule of core/path_inside.h: ResultsError where
-    it would lead out of `folder`, or a symbolic link is on the way. `where`: file and key that have the name, for the message."""
-    where = where and where + ": "
-    if not isinstance(name, str) or not name or name.startswith("/") or "\0" in name or ".." in name.split("/"):
-        raise ResultsError(f"{where}{json.dumps(name)[:200]} is no path below {folder}: such a name is relative and has no '..'")
-    path = folder
-    for part in name.split("/"):
-        path = os.path.join(path, part)
-        if os.path.islink(path):
-            raise ResultsError(f"{where}{path} is a symbolic link, which may lead out of {folder} and is not followed; put what it points to in its place, or remove it")
-    return path
-
-
-@contextlib.contextmanager
-def whole_file(file):
-    """A name beside `file` to write to, which takes its place once the block has ended well: whole or not at all, and never through a link.
-    Makes the folders above it."""
-    os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
-    temporary = f"{file}.partial-{os.getpid()}"
-    try:
-        if os.path.lexists(temporary):  # of a killed run, or a link
-            os.remove(temporary)
-        yield temporary
-        os.replace(temporary, file)
-    finally:
-        if os.path.lexists(temporary):
-            os.remove(temporary)
-
-
-def write_text(file, text):
-    with whole_file(file) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
-        stream.write(text)
-
-
-def exit_code(work, what):
-    """Of a script: what `work()` returns, else 0; 2 for a mistake in what was asked of it, 3 where `what` cannot be written, both of which
-    are said."""
-    try:
-        return work() or 0
-    except ResultsError as mistake:
-        print(f"error: {mistake}", file=sys.stderr)
-        return 2
-    except OSError as fault:
-        print(f"error: cannot write {what}: {fault}", file=sys.stderr)
-        return 3
+def read_schema(folder):
+    """{table: its fields} of schema.json; {} without one."""
+    file = path_inside(folder, "schema.json")
+    return {r["name"]: r["schema"]["fields"] for r in read_json(file, _SCHEMA)["resources"]} if os.path.exists(file) else {}
 
 
 ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
 BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
+# Which values of a metric are good, to how far a value is from the best one.
+DIRECTIONS = {"lower": lambda v: v, "higher": lambda v: -v, "near_zero": abs, "near_one": lambda v: abs(v - 1)}
 EVALUATED = {"summary.csv": ("represents_shot", "standing", "dominated"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
 
 
@@ -113,12 +97,9 @@ def is_over_frames(row):
     return row["frame"] == ""
 
 
-def frame_number(row, file="summary.csv"):
+def frame_number(row):
     """Of a row of one frame."""
-    try:
-        return int(row["frame"])
-    except ValueError as e:
-        raise ResultsError(f"{file}: 'frame' = \"{row['frame']}\" is neither a number nor empty") from e
+    return whole(row, "frame")
 
 
 def representative_rows(rows):
@@ -167,12 +148,7 @@ class Results:
 
     def unit_of(self, parameter):
         """Of a parameter, as schema.json says; "" without one."""
-        file = path_inside(self.folder, "schema.json")
-        if not os.path.exists(file):
-            return ""
-        with open(file, encoding="utf-8") as text:
-            fields = (field for table in json.load(text)["resources"] if table["name"] == "parameters" for field in table["schema"]["fields"])
-            return next((field.get("unit", "") for field in fields if field["name"] == parameter), "")
+        return next((field.get("unit", "") for field in read_schema(self.folder).get("parameters", []) if field["name"] == parameter), "")
 
     def point_group(self, variant, point):
         """What a point is counted with: its group's display name, else its variant's."""
@@ -224,13 +200,8 @@ class Results:
         file = path_inside(self.folder, name)
         if is_optional and not os.path.exists(file):
             return []
-        try:
-            with open(file, newline="", encoding="utf-8") as text:
-                reader = csv.DictReader(text)
-                rows = list(reader)
-        except OSError as e:
-            raise ResultsError(f"cannot read {file}: {e.strerror}") from e
-        lacking = [c for c in EVALUATED.get(name, ()) if c not in (reader.fieldnames or ())]
+        columns, rows = read_rows(file)
+        lacking = [c for c in EVALUATED.get(name, ()) if c not in columns]
         if lacking:
             writer = self.manifest.get("written", {}).get("ssrlab", {}).get("commit") or "another version"
             raise ResultsError(
@@ -252,29 +223,22 @@ class Results:
         every = dict.fromkeys((r["variant"], r["point"]) for r in self.errors)
         return [key for key in every if key not in self.hidden]
 
-    def measured(self, row, columns=("value", "low", "high"), name="summary.csv"):
-        """None where the row has no value."""
-        numbers = [self._number(row, c, name) for c in columns]
-        return None if numbers[0] is None else Measured(*numbers, row.get("interval") == ONE_SEED)
-
-    def _number(self, row, column, name):
-        text = row.get(column)
-        try:
-            return float(text) if text else None
-        except ValueError as e:
-            raise ResultsError(f"{path_inside(self.folder, name)}: '{column}' = \"{text}\" is not a number") from e
+    def measured(self, row, columns=("value", "low", "high")):
+        """None where the row has no value; no interval where it has one end alone."""
+        value, low, high = (number(row, c) for c in columns)
+        ends = (low, high) if None not in (low, high) else (None, None)
+        return None if value is None else Measured(value, *ends, row.get("interval") == ONE_SEED)
 
     def direction_of(self, metric):
         """ "lower", "higher", "near_zero" or "near_one": which values of a metric are good."""
         metrics = self.manifest.get("metrics", {})
-        if metric not in metrics:
+        if metric not in metrics or metrics[metric]["better"] not in DIRECTIONS:
             raise ResultsError(f"{os.path.join(self.folder, 'manifest.json')} does not say which values of {metric} are good: another version of ssrlab wrote it; run the study again")
         return metrics[metric]["better"]
 
     def shortfall(self, metric, value):
         """How far a value is from the best one: less is better, whatever the metric's direction."""
-        better = self.direction_of(metric)
-        return {"lower": value, "higher": -value, "near_zero": abs(value), "near_one": abs(value - 1)}[better]
+        return DIRECTIONS[self.direction_of(metric)](value)
 
     def error_rows(self, shot, target, metric, mask):
         """(variant, point) to its row of summary.csv."""
@@ -325,8 +289,7 @@ class Results:
         stages = {}
         for r in self.times:
             if r["shot"] == shot and r["variant"]:
-                values = (self._number(r, c, "time_summary.csv") for c in ("median_ms", "low_ms", "high_ms"))
-                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*values)
+                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*(needed_number(r, c) for c in ("median_ms", "low_ms", "high_ms")))
         return stages
 
     def costs_of(self, shot, quantity):
@@ -334,12 +297,12 @@ class Results:
         stages = {}
         for r in self.costs:
             if r["shot"] == shot and r["quantity"] == quantity:
-                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(self._number(r, "value", "costs.csv"), None, None)
+                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(needed_number(r, "value"), None, None)
         return stages
 
     def warnings_of_times(self, shots):
         """What must be known before the times of these shots are believed: sentences without a dot."""
-        shares = [self._number(r, "disturbed_share", "time_summary.csv") or 0.0 for r in self.times if r["shot"] in shots and r["variant"]]
+        shares = [number(r, "disturbed_share") or 0.0 for r in self.times if r["shot"] in shots and r["variant"]]
         proofs = self.manifest.get("clock", {}).get("proofs", [])
         proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof.get("shots", [])}
         found = [f"other programs disturbed up to {100 * max(shares):.0f} % of the timed frames"] if max(shares, default=0.0) > 0 else []

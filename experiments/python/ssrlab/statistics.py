@@ -6,7 +6,8 @@ import json
 import math
 import os
 import subprocess
-import sys
+
+from ssrlab.mistakes import Fault
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BUILT = os.path.join(HERE, "../../../build/release/ssrlab")
@@ -16,7 +17,7 @@ def program():
     """That which started the script, else the one that was built beside it."""
     found = os.environ.get("SSRLAB_PROGRAM") or BUILT
     if not os.path.exists(found):
-        sys.exit(f"error: {os.path.normpath(found)} is missing: build ssrlab, or name the program in SSRLAB_PROGRAM")
+        raise Fault(f"{os.path.normpath(found)} is missing: build ssrlab, or name the program in SSRLAB_PROGRAM")
     return found
 
 
@@ -27,11 +28,14 @@ def _answering():
 
 def _ask(question, values, **options):
     process = _answering()
-    process.stdin.write(json.dumps({"ask": question, "values": values} | options) + "\n")
-    process.stdin.flush()
-    answer = json.loads(process.stdout.readline() or '{"error": "it ended"}')
+    try:
+        process.stdin.write(json.dumps({"ask": question, "values": values} | options) + "\n")
+        process.stdin.flush()
+        answer = json.loads(process.stdout.readline())
+    except (OSError, ValueError) as e:
+        raise Fault(f"{program()} statistics ended, or is another program than this script's; build ssrlab anew") from e
     if isinstance(answer, dict):
-        raise ValueError(f"{program()} statistics, {question}: {answer['error']}")
+        raise ValueError(f"{question}: {answer['error']}")
     return answer
 
 

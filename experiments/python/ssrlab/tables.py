@@ -1,11 +1,14 @@
 """The tables of a results folder as pandas DataFrames, with the types, units and meanings of its schema.json."""
 
-import json
 import os
+import re
 
 import pandas
 
-from ssrlab.results import ResultsError, path_inside, read_manifest
+from ssrlab import csv_files
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import read_manifest, read_schema
+from ssrlab.text_files import path_inside
 
 PANDAS_TYPES = {"integer": "Int64", "number": "float64", "boolean": "boolean", "string": "string"}
 
@@ -21,12 +24,9 @@ class Tables:
     def __init__(self, folder):
         self.folder = folder
         self.manifest = read_manifest(folder)
-        file = path_inside(folder, "schema.json")
-        try:
-            with open(file, encoding="utf-8") as text:
-                self._fields = {r["name"]: r["schema"]["fields"] for r in json.load(text)["resources"]}
-        except OSError as e:
-            raise ResultsError(f"cannot read {file}: {e.strerror}; `ssrlab run` or `ssrlab merge` writes it") from e
+        self._fields = read_schema(folder)
+        if not self._fields:
+            raise ResultsError(f"{folder} has no schema.json; `ssrlab run` or `ssrlab merge` writes it")
         self._read = {}
 
     def names(self):
@@ -39,10 +39,20 @@ class Tables:
         if name not in self:
             raise ResultsError(f"{self.folder} has no table '{name}'; it has {', '.join(self.names())}")
         if name not in self._read:
-            types = {f["name"]: PANDAS_TYPES[f["type"]] for f in self._fields[name]}
+            types = {f["name"]: PANDAS_TYPES.get(f["type"], "string") for f in self._fields[name]}
             booleans = [c for c, t in types.items() if t == "boolean"]
             own = types | dict.fromkeys(booleans, "Int64")  # which files write as 1 and 0
-            self._read[name] = pandas.read_csv(path_inside(self.folder, name + ".csv"), dtype=own).astype(dict.fromkeys(booleans, "boolean"))
+            file = path_inside(self.folder, name + ".csv")
+            try:
+                table = pandas.read_csv(file, dtype=own, keep_default_na=False, na_values=[""]).astype(dict.fromkeys(booleans, "boolean"))
+            except (ValueError, TypeError, OSError, pandas.errors.ParserError) as e:
+                raise ResultsError(f"cannot read {file} as schema.json describes it: {e}") from e
+            lacking = [c for c in types if c not in table]
+            if lacking:
+                raise ResultsError(f"{file} has no column '{lacking[0]}', which schema.json names; `ssrlab merge` makes both anew")
+            texts = [c for c in table if types.get(c) == "string"]
+            table[texts] = table[texts].replace(csv_files.GUARDED, r"\1", regex=True)
+            self._read[name] = table.rename(columns=lambda c: re.sub(csv_files.GUARDED, r"\1", c))
         return self._read[name]
 
     def units(self, name):

@@ -155,9 +155,13 @@ async function copyText(text) {
     area.remove();
 }
 
+/// A text of a table as spreadsheets take it: what begins like a formula and is more than a number, a percentage or an interval stands behind
+/// an apostrophe, as in ssrlab's own files (experiments/tables/csv.h).
+const inCells = text => /^'*[=+\-@]/.test(text) && !/^[+-][\d.,e\s%[\]+-]*$/.test(text) ? `'${text}` : text;
+
 /// Buttons that copy a table as it is shown, for a spreadsheet, and save it under the name that `name` gives.
 function tableButtons(whole, name, said = null) {
-    const text = c => c.textContent.replace(/\s+/g, " ").trim();
+    const text = c => inCells(c.textContent.replace(/\s+/g, " ").trim());
     const quoted = c => /[",]/.test(text(c)) ? `"${text(c).replaceAll("\"", "\"\"")}"` : text(c);
     const lines = (of, separator) => [...whole.rows].map(row => [...row.cells].map(of).join(separator) + "\n").join("");
     const copy = async event => {

@@ -1,6 +1,7 @@
 """answers.md: what the rows say, as sentences and tables."""
 
 from analysis.rows import RUNGS
+from ssrlab.markdown_text import markdown_code, markdown_text
 from ssrlab.results import BEHIND
 
 MOST_LISTED = 4
@@ -30,16 +31,18 @@ def listed(names):
 
 
 def table(head, rows):
+    """`head`: in Markdown; `rows`: of texts as they are."""
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return lines + ["| " + " | ".join(str(c).replace("|", "\\|") for c in row) + " |" for row in rows] + [""]
+    return lines + ["| " + " | ".join(markdown_text(c) for c in row) + " |" for row in rows] + [""]
 
 
 class Answers:
     def __init__(self, analysis):
         self.analysis, self.study = analysis, analysis.study
-        self.unit = self.study.unit
+        self.unit = markdown_text(self.study.unit)
         self.shot_labels = {s.name: s.label for s in self.study.shots}
-        self.base = self.study.label_of(self.study.baseline)
+        self.base_label = self.study.label_of(self.study.baseline)
+        self.base = markdown_text(self.base_label)
 
     def text(self):
         parts = [self._head(), self._at_costs(), self._whole(), self._shots(), self._floors(), self._stages()]
@@ -48,11 +51,11 @@ class Answers:
     def _head(self):
         study, manifest = self.study, self.study.results.manifest
         title = manifest.get("title") or manifest.get("study", {}).get("name", "")
-        lines = [f"# {title}: error against {'time' if self.unit == 'ms' else self.unit}", ""]
+        lines = [f"# {markdown_text(title)}: error against {'time' if self.unit == 'ms' else self.unit}", ""]
         if commits := study.commits:
-            lines += [f"`ssrlab run {manifest['study']['config']}`, commit {commits}; then `ssrlab tradeoff`.", ""]
+            lines += [f"{markdown_code('ssrlab run ' + manifest['study']['config'])}, commit {markdown_text(commits)}; then `ssrlab tradeoff`.", ""]
         lines.append(
-            f"Error: {study.metric} of `{study.target}` over `{study.mask}` pixels, {len(study.shots)} shots of "
+            f"Error: {markdown_text(study.metric)} of {markdown_code(study.target)} over {markdown_code(study.mask)} pixels, {len(study.shots)} shots of "
             f"{len({s.scene for s in study.shots})} scenes; multiples are of the error of {self.base}. In brackets 95 % intervals."
         )
         machines = self.analysis.machines()
@@ -60,16 +63,16 @@ class Answers:
             lines.append("Nothing was timed: errors alone are compared." if self.unit == "ms" else f"Nothing has {self.unit}.")
         elif self.unit == "ms":
             lines.append(
-                f"Times are medians of the sum of a technique's own stages. Taken on {'; '.join(machines)}."
+                f"Times are medians of the sum of a technique's own stages. Taken on {'; '.join(map(markdown_text, machines))}."
                 + (" **Times of different machines or sizes are never compared below.**" if len(machines) > 1 else "")
             )
             lines += self._doubts()
         else:
-            lines.append(f"`{self.unit}`: counted over a technique's own stages, without scatter; times may order techniques otherwise.")
+            lines.append(f"{markdown_code(self.study.unit)}: counted over a technique's own stages, without scatter; times may order techniques otherwise.")
         without = [s.label for s in study.shots if s.divisor is None]
         if without:
             lines.append(
-                f"Multiples leave out {', '.join(without)}: the error of {self.base} is not known, or too small to divide by."
+                f"Multiples leave out {', '.join(map(markdown_text, without))}: the error of {self.base} is not known, or too small to divide by."
             )
         if not manifest.get("is_complete", True):
             lines.append("**The study is not complete: shots are missing.**")
@@ -94,7 +97,7 @@ class Answers:
     def _at_costs(self):
         lines = []
         for machine in self.analysis.machines():
-            lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"On {machine}, over scenes.", ""]
+            lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"On {markdown_text(machine)}, over scenes.", ""]
             lines += table((self.unit, "least error", f"error / {self.base}", "not distinguishable from it"), [self._short(machine, c) for c in self.analysis.costs])
             for cost in self.analysis.costs:
                 lines += self._at_cost(machine, cost)
@@ -106,7 +109,7 @@ class Answers:
     def _short(self, machine, cost):
         rows = self._rows_at(machine, cost)
         first = next((r for r in rows if r["rank"] == 1), None)
-        if first is None or first["label"] == self.base:
+        if first is None or first["label"] == self.base_label:
             return number(cost), "none that fits in all scenes", "", ""
         near = [r["label"] for r in rows if r["rank"] and r is not first and r["standing"] != BEHIND]
         return number(cost), first["label"], measured(first["ratio"], first["low"], first["high"]), ", ".join(near)
@@ -123,12 +126,12 @@ class Answers:
         if partly:
             lines.append(
                 "Not ranked, since they do not fit everywhere: "
-                + "; ".join(f"{r['label']} ({r['scenes']} of {of_scenes} scenes, there {measured(r['ratio'], r['low'], r['high'])} of {self.base}'s error)" for r in partly)
+                + "; ".join(f"{markdown_text(r['label'])} ({r['scenes']} of {of_scenes} scenes, there {measured(r['ratio'], r['low'], r['high'])} of {self.base}'s error)" for r in partly)
                 + "."
             )
         absent = {v for c in self.analysis.curves.values() for v in c} - {r["variant"] for r in rows}
         if absent:
-            lines.append(f"In no scene fit {listed(sorted(absent))}.")
+            lines.append(f"In no scene fit {markdown_text(listed(sorted(absent)))}.")
         fits = [f"{r['scenes_that_fit']} of {of_scenes}" for r in rows]
         return [*lines, "", *self._ranking("technique", rows, "surely fits in scenes", fits)]
 
@@ -151,18 +154,18 @@ class Answers:
         return table(head, cells)
 
     def _first_sentence(self, first, rows, of_scenes):
-        if first is None or (first["ratio"] == 1 and first["label"] == self.base):
+        if first is None or (first["ratio"] == 1 and first["label"] == self.base_label):
             return f"No technique fits in all {of_scenes} scenes" + (f" with less error than {self.base}." if first else ".")
         others = [r for r in rows if r["rank"] and r is not first]
         beaten = [r for r in others if r["standing"] == BEHIND]
         near = [r for r in others if r not in beaten]
-        text = f"**{first['label']}** has the least error, {measured(first['ratio'], first['low'], first['high'])} of that of {self.base} (geometric mean, {first['scenes']} scenes)"
+        text = f"**{markdown_text(first['label'])}** has the least error, {measured(first['ratio'], first['low'], first['high'])} of that of {self.base} (geometric mean, {first['scenes']} scenes)"
         if not others:
             return text + "; nothing else fits in all of them."
         if near:
-            text += f"; over these scenes it is not distinguishable from {listed(r['label'] for r in near)}"
+            text += f"; over these scenes it is not distinguishable from {markdown_text(listed(r['label'] for r in near))}"
         if beaten:
-            text += f"; it errs less than {listed(r['label'] for r in beaten)} (Holm's test at 0.05)"
+            text += f"; it errs less than {markdown_text(listed(r['label'] for r in beaten))} (Holm's test at 0.05)"
         if first["low"] is None:
             text += f"; {first['scenes']} scenes are too few for an interval"
         return text + "."
@@ -181,19 +184,19 @@ class Answers:
         for shot in self.study.shots:
             if not self.analysis.curves[shot.name]:
                 continue
-            lines += [f"### {shot.label}", "", self._front_sentence(shot), ""]
+            lines += [f"### {markdown_text(shot.label)}", "", self._front_sentence(shot), ""]
             lines += self._costs_table(shot) + self._errors_table(shot)
         return lines
 
     def _front_sentence(self, shot):
         rows = sorted((r for r in self.study.front if r["shot"] == shot.name and r["cost"] is not None), key=lambda r: r["cost"])
-        at = lambda r: f"{r['label']} ({measured(r['cost'], r['cost_low'], r['cost_high'])} {self.unit}, {measured(r['error'], r['error_low'], r['error_high'])})"  # noqa: E731
+        at = lambda r: f"{markdown_text(r['label'])} ({measured(r['cost'], r['cost_low'], r['cost_high'])} {self.unit}, {measured(r['error'], r['error_low'], r['error_high'])})"  # noqa: E731
         sure = [r for r in rows if r["verdict"] == "front"]
         maybe = [r for r in rows if r["verdict"] == "undecided"]
         beaten = [r for r in rows if r["verdict"] == "dominated"]
         text = f"Certainly on the front: {', '.join(at(r) for r in sure)}. " if sure else "No point is certainly on the front. "
         if maybe:
-            text += f"Undecided: {', '.join(r['label'] for r in maybe)}. "
+            text += f"Undecided: {', '.join(markdown_text(r['label']) for r in maybe)}. "
         return text + f"{len(beaten)} points are dominated." if beaten else text.strip()
 
     def _costs_table(self, shot):
@@ -270,7 +273,7 @@ class Answers:
             floors = [r for r in of_axis if r["floor_low"]]
             above = [r for r in floors if (r.get("floor_over_rung_low") or 0) > 1]
             lines.append(
-                f"- {axis}: a floor is significantly above 0 in {len(floors)} of {len(of_axis)} shots" + (f", and above `{above[0]['rung']}` in {len(above)}" if above else "") + "."
+                f"- {markdown_text(axis)}: a floor is significantly above 0 in {len(floors)} of {len(of_axis)} shots" + (f", and above {markdown_code(above[0]['rung'])} in {len(above)}" if above else "") + "."
             )
         lines.append("")
         cells = []
@@ -296,7 +299,7 @@ class Answers:
             pooled = [r for r in own if not r["shot"] and r["error_low"] is not None]
             changes = {self._change_key(r) for r in pooled}
             single = [r for r in own if r["shot"] and self._change_key(r) not in changes]
-            lines += [f"On {machine}{', over scenes: geometric mean of the ratios of errors, mean of the costs' if pooled else ''}:", ""]
+            lines += [f"On {markdown_text(machine)}{', over scenes: geometric mean of the ratios of errors, mean of the costs' if pooled else ''}:", ""]
             lines += self._stage_table("scenes", pooled)
             if single:
                 lines += ["In each shot, since three scenes or fewer are too few for an interval:", ""] + self._stage_table("shot", single)

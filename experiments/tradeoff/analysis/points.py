@@ -1,15 +1,23 @@
 """The points of a study, each with its error and its cost in every shot, as ssrlab judged them (experiments/evaluation/tradeoff.h)."""
 
-import csv
-import json
 from dataclasses import dataclass, field
 
-from ssrlab.results import Results, commits_of, path_inside, representative_rows
+from ssrlab import csv_files
+from ssrlab.csv_files import needed_number, number, whole
+from ssrlab.json_files import read_json
+from ssrlab.results import Results, commits_of, representative_rows
+from ssrlab.text_files import path_inside
 
 TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
 JUDGED = ("front", "dominated", "undecided")  # front.csv's verdicts of points that are compared by error and cost
 NEVER_RANKED = ("uses scene data", "not ranked")
 TEXTS = ("shot", "scene", "machine", "variant", "point", "label", "unit", "verdict", "dominated_by", "undecided_with", "baseline", "standing", "against_variant", "against_point", "change")
+
+
+ASKED = {  # asked.json
+    **{"results": str, "out": str, "baseline": [str], "times": [float], "factors": [float], "target": str, "metric": str, "mask": str, "cost": str},
+    **{"divisors": {"*": (float, None)}, "chosen": [{"shot": str, "variant": str, "cost": float, "point": str, "chosen_on": str, "fits": str}]},
+}
 
 
 @dataclass
@@ -59,12 +67,11 @@ class Shot:
 
 def read_rows(folder, name):
     """A table that ssrlab wrote for these answers: texts as they are, numbers as numbers, None where there is none."""
-    with open(path_inside(folder, name), newline="", encoding="utf-8") as stream:
-        return [{c: v if c in TEXTS else _number(v) for c, v in row.items()} for row in csv.DictReader(stream)]
+    return [row | {c: _number(row, c) for c in row if c not in TEXTS} for row in csv_files.read_rows(path_inside(folder, name))[1]]
 
 
-def _number(text):
-    return None if not text else int(text) if text.isdigit() else float(text)
+def _number(row, column):
+    return whole(row, column) if row[column].isdigit() else number(row, column)
 
 
 class Study:
@@ -72,8 +79,7 @@ class Study:
 
     def __init__(self, folder):
         """`folder`: where `ssrlab tradeoff` wrote what was asked (asked.json) and what it decided."""
-        with open(path_inside(folder, "asked.json"), encoding="utf-8") as stream:
-            self.asked = json.load(stream)
+        self.asked = read_json(path_inside(folder, "asked.json"), ASKED)
         self.results = Results(self.asked["results"])
         self.commits = commits_of(self.results.manifest)
         self.target, self.metric, self.mask = (self.asked[k] for k in ("target", "metric", "mask"))
@@ -99,7 +105,7 @@ class Study:
         seeds = {}
         for row in representative_rows(self.results.read_csv("results.csv", is_optional=True)):
             if self.is_error(row) and row["value"]:
-                seeds.setdefault((row["shot"], row["variant"], row["point"]), {})[row["seed"]] = float(row["value"])
+                seeds.setdefault((row["shot"], row["variant"], row["point"]), {})[row["seed"]] = needed_number(row, "value")
         shots = {}
         for row in self.front:
             shot = shots.setdefault(row["shot"], self._shot(row["shot"], row["scene"], row["machine"]))
@@ -131,8 +137,8 @@ class Study:
         for row in self.results.read_csv("times.csv", is_optional=True):
             point = points.get((row["shot"], row["variant"], row["point"]))
             if point and row["stage"] == TOTAL:  # several seeds may have been timed: each of their frames is a round of its own
-                point.rounds[(int(row["seed"] or 0), int(row["frame"]))] = float(row["milliseconds"])
+                point.rounds[(whole(row, "seed") or 0, whole(row, "frame"))] = needed_number(row, "milliseconds")
         for row in self.results.times:
             point = points.get((row["shot"], row["variant"], row["point"]))
             if point and row["stage"] == TOTAL:
-                point.disturbed_share = float(row["disturbed_share"])
+                point.disturbed_share = number(row, "disturbed_share") or 0.0

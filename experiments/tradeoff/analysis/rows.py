@@ -1,19 +1,17 @@
 """The rows of the CSV files (README.md) that are made from curves between points and from fits."""
 
-import csv
 import zlib
 
 from analysis import curves, fits, uncertainty
-from ssrlab.results import path_inside, whole_file
+from ssrlab.csv_files import write_lines
+from ssrlab.text_files import path_inside, whole_file
 
 RUNGS = ("on_screen", "camera_radiance")  # the first that the study has
 
 
 def write(folder, name, columns, rows):
     with whole_file(path_inside(folder, name)) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(["" if r.get(c) is None else _text(r[c]) for c in columns] for r in rows)
+        write_lines(stream, [columns, *([_text(r.get(c)) for c in columns] for r in rows)])
 
 
 def _text(value):

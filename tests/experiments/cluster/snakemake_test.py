@@ -1,4 +1,5 @@
-"""A study through Snakemake on local cores, one of whose jobs is killed between two cells, has the tables of one process.
+"""A study through Snakemake on local cores, one of whose jobs is killed between two cells, has the tables of one process. Its name and that
+of its folder look like commands of a shell, and stay names.
 
 usage: snakemake_test.py SSRLAB SNAKEFILE
 As SSRLAB of that Snakefile it is called by itself, to kill the first job that has several cells: see run_and_kill().
@@ -13,6 +14,10 @@ import subprocess
 import sys
 import tempfile
 import time
+import types
+
+import snakemake.utils
+import yaml
 
 STUDY = {
     "shots": [{"scene": ["mirror_pillars", "fence"], "resolution": [48, 27]}],
@@ -25,6 +30,8 @@ STUDY = {
     "seeds": 2,
     "timing": {"frames": 0},
 }
+FORGED = "forged"  # the file that the names of study and folder would make, were they run
+COMMAND = f"$(touch {FORGED}) `touch {FORGED}`; touch {FORGED}"
 TABLES = ("results.csv", "splits.csv", "effects.csv", "summary.csv")
 
 
@@ -63,7 +70,7 @@ def run_and_kill(program, arguments):
 
 
 def main(ssrlab, snakefile, folder):
-    study, alone, jobs = (os.path.join(folder, name) for name in ("study.json", "alone", "jobs"))
+    study, alone, jobs = (os.path.join(folder, name) for name in (f"it's {COMMAND}.json", "alone", f"jobs {COMMAND}"))
     with open(study, "w", encoding="utf-8") as stream:
         json.dump(STUDY, stream)
     subprocess.run([ssrlab, "run", study, "--out", alone, "--cache", folder + "/cache"], check=True, capture_output=True)
@@ -86,6 +93,17 @@ def main(ssrlab, snakefile, folder):
     for table in TABLES:
         check(read(os.path.join(alone, table)) == read(os.path.join(jobs, table)), f"{table} differs")
     check(len(read(os.path.join(jobs, "results.csv"))) > 1000, "the tables are empty")
+    check_submission(os.path.join(os.path.dirname(snakefile), "profiles", "slurm", "config.yaml"), os.path.join(jobs, "cluster", "times.log"), folder)
+    check(not os.path.exists(os.path.join(folder, FORGED)), "the name of a study was run as a command")
+
+
+def check_submission(profile, log, folder):
+    """What the shell makes of the Slurm profile's sbatch."""
+    with open(profile, encoding="utf-8") as stream:
+        command = yaml.safe_load(stream)["cluster"]
+    made = snakemake.utils.format(command, rule="times", wildcards="1_shot", threads=1, resources=types.SimpleNamespace(mem_mb=1, runtime=1, slurm=""), log=[log])
+    said = subprocess.run(["sh", "-c", made.replace("sbatch", "printf '%s\\n'", 1)], cwd=folder, capture_output=True, text=True, check=True).stdout
+    check(f"--output={log}.%j" in said.splitlines(), f"sbatch gets: {said}")
 
 
 if __name__ == "__main__":

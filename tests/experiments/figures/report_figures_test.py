@@ -22,7 +22,8 @@ from paper_figures import crops  # noqa: E402
 from paper_figures.crop_choice import read_crops  # noqa: E402
 from ssrlab.exr import ExrError, read_exr_rgb  # noqa: E402
 from paper_figures.request import read_colors, read_requests  # noqa: E402
-from ssrlab.results import Results, ResultsError  # noqa: E402
+from ssrlab.mistakes import ResultsError  # noqa: E402
+from ssrlab.results import Results  # noqa: E402
 from report_crops import FIGURES_JSON, SHOT  # noqa: E402
 
 program, script = sys.argv[1:]

@@ -17,7 +17,8 @@ from figures import SHOT_FIGURES, STUDY_FIGURES
 from matplotlib.text import Text
 from paper_figures import effects, error_time, fetches, motion, style
 from PIL import Image
-from ssrlab.results import Measured, Results, ResultsError, is_over_frames
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import Measured, Results, is_over_frames
 
 
 def numbers(rows, column):

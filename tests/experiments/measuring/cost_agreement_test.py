@@ -43,7 +43,7 @@ class CostAgreement(unittest.TestCase):
 
     def test_without_a_common_shot(self):
         done = self.run_on("shot,variant,point,stage,quantity,value\nthird,v,a,total,fetches,1\n")
-        self.assertEqual((done.returncode, done.stderr), (1, "error: no shot has both times and costs\n"))
+        self.assertEqual((done.returncode, done.stderr), (2, "error: no shot has both times and costs\n"))
 
 
 if __name__ == "__main__":

@@ -17,7 +17,8 @@ TRADEOFF, SSRLAB = sys.argv.pop(1), sys.argv.pop(1)
 sys.path[:0] = [TRADEOFF, os.path.join(TRADEOFF, "../figures"), os.path.join(TRADEOFF, "../python")]
 
 from tradeoff import FILES  # noqa: E402  (before what it finds)
-from ssrlab.results import Results, ResultsError  # noqa: E402
+from ssrlab.mistakes import ResultsError  # noqa: E402
+from ssrlab.results import Results  # noqa: E402
 from paper_tables.cells import Table, cells_of  # noqa: E402
 
 FRAMES = 15

@@ -1,0 +1,67 @@
+"""What scripts say to their user: mistakes and faults as one sentence each, and names from files so that a terminal only shows them."""
+
+import os
+import re
+import sys
+import traceback
+
+# What a terminal obeys or shows elsewhere than it stands: control characters, marks that turn the direction of writing, separators of
+# lines; and halves of surrogates, in which Python keeps bytes that are no UTF-8. As core/shown_text.cpp has them.
+OBEYED = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
+NAMED = {"\n": r"\n", "\r": r"\r", "\t": r"\t"}
+
+
+class ResultsError(Exception):
+    """A mistake in files that were read or in what was asked: one sentence."""
+
+
+class Fault(Exception):
+    """A fault of the machine: one sentence that says what to do."""
+
+
+def _escaped(match):
+    letter = match.group()
+    code = ord(letter)
+    if 0xDC80 <= code <= 0xDCFF:
+        return f"\\x{code - 0xDC00:02x}"  # a byte, as os.fsdecode() keeps it
+    return NAMED.get(letter) or (f"\\x{code:02x}" if code < 0x80 else f"\\u{code:04x}")
+
+
+def shown(text):
+    """A text that may come from a file of somebody else, in one line that a terminal does not obey."""
+    return OBEYED.sub(_escaped, str(text))
+
+
+def say(text):
+    """Prints a line that may hold names from files."""
+    print(shown(text), flush=True)
+
+
+def stop(text):
+    """Ends the script at a fault of the machine."""
+    print(f"error: {shown(text)}", file=sys.stderr)
+    sys.exit(3)
+
+
+def exit_code(work, what):
+    """Of a script: what `work()` returns, else 0; 2 for a mistake in what was read or asked, 3 where `what` cannot be written or the machine
+    or ssrlab itself is at fault. Each is said in a line; SSRLAB_TRACEBACK=1 shows where it happened."""
+    try:
+        return work() or 0
+    except ResultsError as mistake:
+        code, said = 2, str(mistake)
+    except Fault as fault:
+        code, said = 3, str(fault)
+    except OSError as fault:
+        code, said = 3, f"cannot write {what}: {fault}; is the disk full, or the folder read-only?"
+    except MemoryError:
+        code, said = 3, f"not enough memory for {what}; close other programs, or ask for less"
+    except KeyboardInterrupt:
+        code, said = 3, f"stopped before {what} were written"
+    except Exception as fault:  # noqa: BLE001  (whatever it is, no user is helped by a traceback)
+        place = traceback.extract_tb(fault.__traceback__)[-1]
+        code, said = 3, f"{what} cannot be made: {type(fault).__name__}: {fault} ({os.path.basename(place.filename)}:{place.lineno}); a fault of ssrlab: report it with the files that were read"
+    if os.environ.get("SSRLAB_TRACEBACK") == "1":
+        traceback.print_exc()
+    print(f"error: {shown(said)}", file=sys.stderr)
+    return code

@@ -1,0 +1,63 @@
+"""Reads files that somebody else may have written, and writes files whole or not at all."""
+
+import contextlib
+import json
+import os
+import stat
+
+from ssrlab.mistakes import ResultsError
+
+
+def read_text(file):
+    """The UTF-8 of a regular file: pipes and devices, which may never end, are refused."""
+    data = read_bytes(file)
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as e:
+        line = data[: e.start].count(b"\n") + 1
+        raise ResultsError(f"{file}:{line}: not UTF-8: the byte 0x{data[e.start]:02x}") from e
+
+
+def read_bytes(file):
+    try:
+        with open(os.open(file, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK), "rb") as stream:
+            if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+                raise ResultsError(f"cannot read {file}: it is no regular file")
+            return stream.read()
+    except OSError as e:
+        raise ResultsError(f"cannot read {file}: {e.strerror}") from e
+
+
+def path_inside(folder, name, where=""):
+    """The path of what a file, or a folder that may come from a stranger, calls `name`, by the rule of core/path_inside.h: ResultsError where
+    it would lead out of `folder`, or a symbolic link is on the way. `where`: file and key that have the name, for the message."""
+    where = where and where + ": "
+    if not isinstance(name, str) or not name or name.startswith("/") or "\0" in name or ".." in name.split("/"):
+        raise ResultsError(f"{where}{json.dumps(name)[:200]} is no path below {folder}: such a name is relative and has no '..'")
+    path = folder
+    for part in name.split("/"):
+        path = os.path.join(path, part)
+        if os.path.islink(path):
+            raise ResultsError(f"{where}{path} is a symbolic link, which may lead out of {folder} and is not followed; put what it points to in its place, or remove it")
+    return path
+
+
+@contextlib.contextmanager
+def whole_file(file):
+    """A name beside `file` to write to, which takes its place once the block has ended well: whole or not at all, and never through a link.
+    Makes the folders above it."""
+    os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
+    temporary = f"{file}.partial-{os.getpid()}"
+    try:
+        if os.path.lexists(temporary):  # of a killed run, or a link
+            os.remove(temporary)
+        yield temporary
+        os.replace(temporary, file)
+    finally:
+        if os.path.lexists(temporary):
+            os.remove(temporary)
+
+
+def write_text(file, text):
+    with whole_file(file) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
+        stream.write(text)
