@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/reading_limits.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -13,6 +14,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <optional>
 
 namespace {
 
@@ -29,6 +32,75 @@ Imf::PixelType file_type(PixelType type) {
 int channel_rank(char letter) {
     const size_t rank = std::string_view("RGBAXYZ").find(letter);
     return rank == std::string_view::npos ? 1000 + letter : int(rank);
+}
+
+/// What an image takes by its header, which is read here since OpenEXR sets memory aside while it reads that.
+struct Announced {
+    double width = 0, height = 0, tile_width = 0, tile_height = 0;  ///< pixels; tiles: 0 of scan lines
+    size_t channels = 0;
+};
+
+/// Reads the header of the OpenEXR file format (openexr.com, "OpenEXR File Layout"): a magic number, a version, and
+/// attributes, each a name, a type, a size and so many bytes. None if it is no such header.
+std::optional<Announced> read_announced(std::ifstream& in, uintmax_t file_size, const std::string& name) {
+    const auto integer = [&] {
+        int32_t value = 0;  // little-endian, as all machines that ssrlab runs on
+        in.read(reinterpret_cast<char*>(&value), sizeof value);
+        return value;
+    };
+    const auto text = [&] {
+        constexpr size_t longest = 255;
+        std::string result;
+        for (char c; in.get(c) && c != 0 && result.size() <= longest;) result += c;
+        return result;
+    };
+    constexpr int32_t magic = 20000630, tiled = 0x200, long_names = 0x400, version = 2;
+    if (integer() != magic) return {};
+    const int32_t kind = integer();
+    if ((kind & ~(tiled | long_names)) != version)
+        fail("cannot read ", name,
+             ": it is no plain OpenEXR image of version 2 (parts, deep pixels); write it as a single part");
+    Announced image;
+    for (std::string attribute = text(); in && !attribute.empty(); attribute = text()) {
+        text();  // its type
+        const auto size = uint32_t(integer());
+        const std::streamoff begin = in.tellg();
+        if (!in || uintmax_t(begin) + size > file_size) return {};
+        if (attribute == "channels") {
+            constexpr size_t bytes_after_name = 16;
+            std::string list(size, '\0');
+            in.read(list.data(), size);
+            for (size_t at = 0; at < list.size() && list[at] != 0; ++image.channels) {
+                at = list.find('\0', at);
+                if (at == std::string::npos) return {};
+                at += 1 + bytes_after_name;
+            }
+        } else if (attribute == "dataWindow") {
+            const double left = integer(), top = integer(), right = integer(), bottom = integer();
+            image.width = right - left + 1, image.height = bottom - top + 1;
+        } else if (attribute == "tiles") {
+            image.tile_width = uint32_t(integer()), image.tile_height = uint32_t(integer());
+        }
+        in.seekg(begin + std::streamoff(size));
+    }
+    return in && image.width > 0 && image.height > 0 ? std::optional(image) : std::nullopt;
+}
+
+/// Sets the image's memory aside before any of it is taken.
+MemoryShare announced_memory(const std::filesystem::path& file) {
+    check_regular_file(file);
+    std::ifstream in(file, std::ios::binary);
+    const auto image = read_announced(in, std::filesystem::file_size(file), file.string());
+    if (!image) fail("cannot read ", file.string(), " as OpenEXR: its header is truncated or malformed");
+    constexpr double most_lines = 256;  // of a block of any compression; OpenEXR holds one compressed, and one not
+    const double block_lines = std::max(std::min(most_lines, image->height), image->tile_height),
+                 block_width = std::max(image->width, image->tile_width);
+    MemoryShare memory;
+    memory.add((image->width * image->height + 2 * block_width * block_lines) * double(image->channels * sizeof(float)),
+               file.string() + ": its image of " + std::to_string(size_t(image->width)) + " x " +
+                   std::to_string(size_t(image->height)) + " pixels with " + std::to_string(image->channels) +
+                   " channels");
+    return memory;
 }
 
 }  // namespace
@@ -92,14 +164,13 @@ void write_exr(const std::filesystem::path& file, const LayeredImage& image) {
 }
 
 LayeredImage read_exr(const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file)) fail("cannot read ", file.string(), ": no such file");
+    LayeredImage image{.layers = {}, .attributes = {}, .memory = announced_memory(file)};
     try {
         Imf::InputFile in(file.c_str());
         const Imf::Header& header = in.header();
         const auto window = header.dataWindow();
         const glm::uvec2 extent(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
 
-        LayeredImage image;
         for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
                 image.attributes[attribute.name()] = text->value();
@@ -153,7 +224,7 @@ void write_exr(const std::filesystem::path& file, const HostImage& rgb, PixelTyp
 }
 
 HostImage read_exr_rgb(const std::filesystem::path& file, const std::string& name) {
-    const LayeredImage all = read_exr(file);
+    LayeredImage all = read_exr(file);
     const Layer* layer = all.find(name);
     const bool is_single = all.layers.size() == 1;
     if (!layer && is_single && (name.empty() || all.layers.front().name.empty())) layer = &all.layers.front();
@@ -167,6 +238,7 @@ HostImage read_exr_rgb(const std::filesystem::path& file, const std::string& nam
     }
     const HostImage& source = layer->image;
     if (source.channels == 2) fail(file.string(), ": layer '", layer->name, "' has two channels, not a colour");
+    all.memory.add(double(source.pixel_count()) * sizeof(glm::vec3), file.string() + ": its colours");
     HostImage rgb(source.extent, 3);
     for (size_t i = 0; i < rgb.pixel_count(); ++i)
         for (unsigned c = 0; c < 3; ++c)

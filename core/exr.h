@@ -1,5 +1,6 @@
 #pragma once
 #include "core/host_image.h"
+#include "core/reading_limits.h"
 
 #include <filesystem>
 #include <map>
@@ -21,6 +22,7 @@ struct Layer {
 struct LayeredImage {
     std::vector<Layer> layers;  ///< all of one extent
     std::map<std::string, std::string> attributes;
+    MemoryShare memory = {};  ///< of an image that was read
 
     const Layer* find(const std::string& name) const;  ///< nullptr if there is none of that name
 };
@@ -30,7 +32,8 @@ struct LayeredImage {
 void write_exr(const std::filesystem::path& file, const LayeredImage& image);
 
 /// Reads all channels of a scan-line or tiled single-part file, each layer's in the order RGBA, XYZ, else alphabetical.
-/// Fails with Error if the file is missing, truncated, of zero size or no OpenEXR file.
+/// Fails with Error if the file is missing, truncated, of zero size or no OpenEXR file, or if its header announces more
+/// than may be read (reading_limits.h).
 LayeredImage read_exr(const std::filesystem::path& file);
 
 /// One RGB image in the default layer.

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/reading_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +92,8 @@ public:
         keys_.back() = is_new ? key : "";
         if (!is_new) fail(name_, place(), ": the key '", shortened(key), "' comes twice in one object");
         member_ = &at->second;
-        if (places_) (*places_)[member_pointer(pointers_.back(), key)] = tokens_.next();
+        set_aside(member_bytes + double(key.size()));
+        if (places_) note(member_pointer(pointers_.back(), key), tokens_.next());
         return true;
     }
     bool parse_error(size_t position, const std::string& last_token, const json::exception& e) override {
@@ -109,8 +111,26 @@ public:
     }
 
 private:
+    // Upper bounds of what they take in libstdc++: of an object's member the node of its map, of an array's element its
+    // place in a vector that grows by doubling, of a place the node of its map without the texts in it.
+    static constexpr double member_bytes = 112, element_bytes = 48, place_bytes = 144;
+
+    /// In pieces of a megabyte, since every one looks at what all threads have.
+    void set_aside(double bytes) {
+        constexpr double piece = 1e6;
+        waiting_ += bytes;
+        if (waiting_ < piece) return;
+        memory_.add(waiting_, name_ + ": its JSON");
+        waiting_ = 0;
+    }
+    void note(std::string pointer, JsonPlace place) {
+        set_aside(place_bytes + double(pointer.size() + place.file.size()));
+        places_->insert_or_assign(std::move(pointer), std::move(place));
+    }
+
     template <class Value>
     bool add(Value&& value) {
+        if constexpr (std::is_same_v<std::decay_t<Value>, std::string>) set_aside(double(value.size()));
         json* at = slot();
         note_place();
         *at = std::forward<Value>(value);
@@ -136,13 +156,14 @@ private:
         if (open_.empty()) return "";
         if (open_.back()->is_object()) return member_pointer(pointers_.back(), keys_.back());  // its key is its place
         const std::string pointer = pointers_.back() + "/" + std::to_string(open_.back()->size() - 1);
-        (*places_)[pointer] = place;
+        note(pointer, place);
         return pointer;
     }
     /// Where the next value goes. What is open stays in place: its parent grows only once it is closed.
     json* slot() {
         if (open_.empty()) return &root_;
         if (open_.back()->is_object()) return member_;
+        set_aside(element_bytes);
         return &open_.back()->emplace_back(nullptr);
     }
     /// ": shots[0]: frames" inside of these.
@@ -166,6 +187,8 @@ private:
     std::vector<std::string> keys_;      ///< the last key of each that is an object
     std::vector<std::string> pointers_;  ///< to each of them; empty texts without places_
     json* member_ = nullptr;             ///< the value of the last key
+    MemoryShare memory_;
+    double waiting_ = 0;  ///< bytes not yet set aside
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/reading_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,11 +43,20 @@ void write_png(const std::filesystem::path& file, const HostImage& rgb, float ex
 }
 
 HostImage read_png_codes(const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file)) fail("cannot read ", file.string(), ": no such file");
+    check_regular_file(file);
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_file(&png, file.c_str())) fail("cannot read ", file.string(), " as PNG: ", png.message);
     png.format = PNG_FORMAT_RGB;
+    constexpr double bytes_per_pixel = 3 * (sizeof(unsigned char) + sizeof(float));
+    MemoryShare memory;
+    try {
+        memory.add(double(png.width) * double(png.height) * bytes_per_pixel,
+                   file.string() + ": its image of " + std::to_string(png.width) + " x " + std::to_string(png.height) + " pixels");
+    } catch (...) {
+        png_image_free(&png);
+        throw;
+    }
     std::vector<unsigned char> bytes(PNG_IMAGE_SIZE(png));
     if (!png_image_finish_read(&png, nullptr, bytes.data(), 0, nullptr)) fail("cannot read ", file.string(), " as PNG: ", png.message);
     HostImage image({png.width, png.height}, 3);

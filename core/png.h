@@ -8,7 +8,8 @@
 void write_png(const std::filesystem::path& file, const HostImage& rgb, float exposure_ev = 0.0f);
 
 /// Reads an 8-bit or 16-bit PNG, grey or colour, as sRGB *codes* in [0, 1] (not linear), three channels.
-/// Fails with Error if the file is missing or no PNG.
+/// Fails with Error if the file is missing or no PNG, or if its header announces more than may be read
+/// (reading_limits.h).
 HostImage read_png_codes(const std::filesystem::path& file);
 
 /// IEC 61966-2-1, both ways; 0 and 1 are kept.

@@ -6,6 +6,8 @@ build_packages=(
     libvulkan-dev mesa-vulkan-drivers glslang-dev spirv-tools
     libembree-dev libtbb-dev libopenexr-dev libpng-dev libglm-dev libtinygltf-dev
     libboost-dev  # Sobol's sequence, for designs of studies; distribution functions
+    libre2-dev  # regular expressions of scene files, in linear time
+    libvalijson-dev  # JSON Schema: glTF files are checked by one
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil
     python3-scipy  # distributions and intervals of `ssrlab tradeoff` and `ssrlab tune`

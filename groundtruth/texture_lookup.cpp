@@ -23,7 +23,7 @@ inline int wrap(int i, int size, TextureWrap mode) {
 }
 
 inline glm::vec4 texel(const Texture& texture, int x, int y) {
-    const uint8_t* code = &texture.rgba[4 * (size_t(y) * texture.extent.x + size_t(x))];
+    const uint8_t* code = &(*texture.rgba)[4 * (size_t(y) * texture.extent.x + size_t(x))];
     const float alpha = float(code[3]) * (1.0f / 255.0f);
     if (texture.is_srgb)
         return {linear_from_code[code[0]], linear_from_code[code[1]], linear_from_code[code[2]], alpha};
@@ -60,6 +60,6 @@ void prefetch_texture(const Texture& texture, glm::vec2 uv) {
     const int x = wrap(int(p.x), size.x, texture.wrap_u);
     for (int dy = 0; dy < 2; ++dy) {
         const int y = wrap(int(p.y) + dy, size.y, texture.wrap_v);
-        __builtin_prefetch(&texture.rgba[4 * (size_t(y) * texture.extent.x + size_t(x))]);
+        __builtin_prefetch(&(*texture.rgba)[4 * (size_t(y) * texture.extent.x + size_t(x))]);
     }
 }

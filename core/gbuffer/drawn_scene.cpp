@@ -58,7 +58,7 @@ DrawnMaterial drawn(const Scene& scene, const Material& m) {
 }  // namespace
 
 DrawnScene::DrawnScene(PassGraph& graph, const Scene& scene, bool keep_all)
-    : graph_(graph), scene_(scene), keep_all_(keep_all), images_(scene.textures.size()) {
+    : graph_(graph), scene_(scene), keep_all_(keep_all) {
     if (scene.instances.empty()) return;
     std::vector<DrawnMaterial> materials;
     for (const Material& material : scene.materials) materials.push_back(drawn(scene, material));
@@ -107,11 +107,11 @@ Image DrawnScene::texture_image(const TextureSlot& slot) {
         }
         return no_texture_;
     }
-    Image& image = images_[slot.texture];
+    const Texture& texture = scene_.textures[slot.texture];
+    Image& image = images_[texture.rgba.get()];
     if (!image.storage) {
-        const Texture& texture = scene_.textures[slot.texture];
         image = graph_.image_of("texture" + std::to_string(slot.texture), Format::rgba8, texture.extent);
-        graph_.upload_rgba8(image, texture.rgba);
+        graph_.upload_rgba8(image, *texture.rgba);
     }
     return image;
 }
@@ -133,11 +133,10 @@ void DrawnScene::pose(const ScenePose& pose, const ScenePose& previous) {
     for (size_t i = 0; i < scene_.instances.size(); ++i) {
         const glm::mat4& world_from_object = pose.world_from_instance[i];
         const NormalTransform normals = normal_transform(world_from_object);
-        instances.push_back(
-            {.world_from_object = world_from_object,
-             .previous_world_from_object = previous.world_from_instance[i],
-             .normal_matrix = glm::mat4(normals.matrix),
-             .ids = {scene_.meshes[scene_.instances[i].mesh].material, normals.is_mirrored, 0, 0}});
+        instances.push_back({.world_from_object = world_from_object,
+                             .previous_world_from_object = previous.world_from_instance[i],
+                             .normal_matrix = glm::mat4(normals.matrix),
+                             .ids = {scene_.meshes[scene_.instances[i].mesh].material, normals.is_mirrored, 0, 0}});
     }
     graph_.upload(instances_, bytes_of(instances));
 }

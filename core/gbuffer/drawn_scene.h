@@ -2,6 +2,7 @@
 #include "core/gpu/pass_graph.h"
 #include "core/scene/scene.h"
 
+#include <map>
 #include <string>
 
 /// A scene on the GPU: what the rasteriser draws.
@@ -32,6 +33,6 @@ private:
     bool keep_all_;
     Buffer materials_, instances_;
     Image no_texture_;
-    std::vector<Image> images_;  ///< of Scene::textures; without storage until a draw needs them
+    std::map<const void*, Image> images_;  ///< by the texels of Scene::textures that draws need
     std::vector<Draw> draws_[3];
 };

@@ -151,7 +151,10 @@ void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffe
 LoadedGBuffer load_gbuffer(const std::filesystem::path& folder) {
     const CameraFile camera = read_camera(path_inside(folder, "camera.json"));
     const std::filesystem::path file = path_inside(folder, "gbuffer.exr");
-    const LayeredImage layers = read_exr(file);
+    LayeredImage layers = read_exr(file);
+    constexpr double floats_per_pixel = 33;  // of a HostGBuffer
+    const glm::dvec4 extent(camera.camera.extent);
+    layers.memory.add(extent.x * extent.y * floats_per_pixel * sizeof(float), file.string() + ": its layers");
     LoadedGBuffer result;
     result.gbuffer.camera = camera.camera;
     result.gbuffer.depth_format = camera.depth_format;

@@ -21,11 +21,11 @@ std::set<unsigned> drawn_materials(const Scene& scene) {
 /// Smallest and largest value of a channel (0: red) of a texture, 1 if there is none. Bilinear filtering stays within.
 glm::vec2 channel_range(const Scene& scene, const TextureSlot& slot, unsigned channel) {
     if (slot.texture < 0) return glm::vec2(1);
-    const Texture& texture = scene.textures[slot.texture];
+    const std::vector<uint8_t>& rgba = *scene.textures[slot.texture].rgba;
     uint8_t least = 255, most = 0;
-    for (size_t i = channel; i < texture.rgba.size(); i += 4) {
-        least = std::min(least, texture.rgba[i]);
-        most = std::max(most, texture.rgba[i]);
+    for (size_t i = channel; i < rgba.size(); i += 4) {
+        least = std::min(least, rgba[i]);
+        most = std::max(most, rgba[i]);
     }
     return glm::vec2(least, most) / 255.0f;
 }

@@ -35,7 +35,7 @@ struct SceneHash {
 
     void add(const Texture& t) {
         add(t.extent);
-        add_bytes(t.rgba);
+        add_bytes(*t.rgba);
         all(int(t.is_srgb), int(t.wrap_u), int(t.wrap_v), int(t.is_nearest));
     }
     void add(const TextureSlot& slot) { all(slot.texture, slot.texcoord, slot.uv_transform); }

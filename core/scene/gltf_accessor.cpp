@@ -80,6 +80,9 @@ std::vector<uint32_t> read_unsigned(const GltfFile& file, int view, size_t offse
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         fail(file.name(), ": ", what, " must be unsigned integers, not component type ", type);
     const Elements source = elements(file, view, offset, count, component_size(file, type, what), what);
+    MemoryShare memory;
+    memory.add(double(count) * sizeof(uint32_t),
+               file.name() + ": " + what + " of " + std::to_string(count) + " elements");
     std::vector<uint32_t> values(count);
     for (size_t i = 0; i < count; ++i) values[i] = unsigned_component(source.data + i * source.stride, type);
     return values;
@@ -121,6 +124,9 @@ const tinygltf::Accessor& checked_accessor(const GltfFile& file, int index, unsi
 std::vector<float> read_floats(const GltfFile& file, int index, unsigned components, const std::string& what) {
     const auto& accessor = checked_accessor(file, index, components, what);
     const size_t size = component_size(file, accessor.componentType, what);
+    MemoryShare memory;
+    memory.add(double(accessor.count) * components * sizeof(float),
+               file.name() + ": " + what + " of " + std::to_string(accessor.count) + " elements");
     std::vector<float> values;
     if (accessor.bufferView >= 0) {
         const Elements source =
@@ -131,9 +137,6 @@ std::vector<float> read_floats(const GltfFile& file, int index, unsigned compone
                 values[i * components + k] =
                     component(source.data + i * source.stride + k * size, accessor.componentType, accessor.normalized);
     } else {
-        // Without a buffer view the count is bounded by nothing but this.
-        if (accessor.count > (1u << 24))
-            fail(file.name(), ": ", what, " has ", accessor.count, " elements but no buffer view");
         values.assign(accessor.count * components, 0.0f);
     }
     if (accessor.sparse.isSparse) apply_sparse(file, accessor, components, what, values);

@@ -3,11 +3,11 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/scene/gltf_schema.h"
 
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
-#include <span>
+#include <optional>
 
 namespace {
 using nlohmann::json;
@@ -42,50 +42,31 @@ std::string glb_json(const std::string& bytes, const std::string& name) {
     return bytes.substr(20, json_length);
 }
 
-/// An unsigned integer member, or `fallback` if absent.
-uint64_t unsigned_member(const json& object, const char* key, uint64_t fallback, const std::string& where) {
-    const auto found = object.find(key);
-    if (found == object.end()) return fallback;
-    if (!found->is_number_unsigned())
-        fail(where, ": '", key, "' must be a whole number of 0 or more, not ", shown(*found));
-    return found->get<uint64_t>();
-}
-
-const json& list(const json& root, const char* key, const std::string& name) {
-    static const json none = json::array();
-    const auto found = root.find(key);
-    if (found == root.end()) return none;
-    const bool holds_objects =
-        found->is_array() && std::ranges::all_of(*found, [](const json& o) { return o.is_object(); });
-    if (!holds_objects) fail(name, ": '", key, "' must be an array of objects");
-    return *found;
-}
-
+/// Whose parts tinygltf 2.7 does not compare: it would read behind the end of a buffer.
 void check_buffer_views(const json& root, const std::string& name) {
-    const json& buffers = list(root, "buffers", name);
-    const json& views = list(root, "bufferViews", name);
+    static const json none = json::array();
+    const auto list = [&](const char* key) -> const json& { return root.contains(key) ? root[key] : none; };
+    const json &buffers = list("buffers"), &views = list("bufferViews");
     for (size_t i = 0; i < views.size(); ++i) {
         const std::string where = name + ": bufferViews[" + std::to_string(i) + "]";
-        const uint64_t buffer = unsigned_member(views[i], "buffer", buffers.size(), where);
+        const auto buffer = views[i]["buffer"].get<size_t>();
         if (buffer >= buffers.size()) fail(where, " names buffer ", buffer, ", but there are ", buffers.size());
-        const uint64_t length =
-            unsigned_member(buffers[buffer], "byteLength", 0, name + ": buffers[" + std::to_string(buffer) + "]");
-        const uint64_t begin = unsigned_member(views[i], "byteOffset", 0, where);
-        const uint64_t size = unsigned_member(views[i], "byteLength", 0, where);
+        const auto length = buffers[buffer]["byteLength"].get<uint64_t>(),
+                   begin = views[i].value("byteOffset", uint64_t(0)), size = views[i]["byteLength"].get<uint64_t>();
         if (begin > length || size > length - begin || size > INT32_MAX)
             fail(where, ": bytes ", begin, " to ", begin + size, " pass the end of its buffer of ", length, " bytes");
     }
-    for (const json& image : list(root, "images", name)) unsigned_member(image, "bufferView", 0, name + ": images");
+}
+
+size_t count_objects(const json& value) {
+    size_t count = value.is_object();
+    if (value.is_structured())
+        for (const json& part : value) count += count_objects(part);
+    return count;
 }
 
 void check_extensions(const json& root, GltfFile& file) {
-    const auto names = [&](const char* key) {
-        std::set<std::string> found;
-        if (root.contains(key) && root[key].is_array())
-            for (const json& extension : root[key])
-                if (extension.is_string()) found.insert(extension.get<std::string>());
-        return found;
-    };
+    const auto names = [&](const char* key) { return root.value(key, std::set<std::string>()); };
     for (const std::string& extension : names("extensionsRequired"))
         if (!supported_extensions.contains(extension) && !opaque_extensions.contains(extension))
             fail(file.name(), " requires the glTF extension ", extension, ", which ssrlab does not support");
@@ -101,10 +82,31 @@ bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, 
     return true;
 }
 
-/// tinygltf also looks in the working folder, where a file of the same name is not the one that the glTF means.
-bool exists_beside_gltf(const std::string& path, void* folder) {
-    return path.starts_with(*static_cast<const std::string*>(folder)) && tinygltf::FileExists(path, nullptr);
-}
+/// What tinygltf asks of the file system. It looks beside the glTF, and then in the working folder, where a file of the
+/// same name is not the one that the glTF means.
+struct Neighbours {
+    GltfFile& file;
+    std::string folder;
+
+    /// The neighbour of that name; none if the path is not in the folder.
+    std::optional<std::filesystem::path> at(const std::string& path) const {
+        if (!path.starts_with(folder + "/")) return {};
+        return file_below(folder, path.substr(folder.size() + 1), file.name());
+    }
+    static bool exists(const std::string& path, void* self) {
+        const auto neighbour = static_cast<Neighbours*>(self)->at(path);
+        std::error_code error;
+        return neighbour && std::filesystem::exists(*neighbour, error);
+    }
+    static bool read(std::vector<unsigned char>* bytes, std::string*, const std::string& path, void* self) {
+        const Neighbours& neighbours = *static_cast<Neighbours*>(self);
+        const std::string text = read_text(*neighbours.at(path));
+        neighbours.file.memory.add(copies * double(text.size()), path + ": " + std::to_string(text.size()) + " bytes");
+        bytes->assign(text.begin(), text.end());
+        return true;
+    }
+    static constexpr double copies = 2;  ///< of what is read: as text, and as the bytes of a buffer or an image
+};
 
 std::string one_line(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
@@ -121,15 +123,20 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     if (!is_binary && path.extension() == ".glb") fail(path.string(), " is not a .glb: it does not begin with 'glTF'");
     // tinygltf parses it again, recursing into what it is given.
     const json root = parse_json(is_binary ? glb_json(bytes, file.name()) : bytes, file.name());
-    if (!root.is_object()) fail(file.name(), ": a glTF must be a JSON object");
+    check_gltf_schema(root, file.name());
     check_buffer_views(root, file.name());
     check_extensions(root, file);
 
-    std::string folder = path.parent_path().empty() ? "." : path.parent_path().string();
+    // As text, in both documents, as a buffer and as an image; and each object as the largest of tinygltf's structures.
+    constexpr double copies = 5;
+    file.memory.add(copies * double(bytes.size()) + double(count_objects(root)) * sizeof(tinygltf::Material),
+                    file.name() + ": what it describes");
+    Neighbours neighbours{file, path.parent_path().empty() ? "." : path.parent_path().string()};
+    const std::string& folder = neighbours.folder;
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_encoded, nullptr);
-    loader.SetFsCallbacks(
-        {exists_beside_gltf, tinygltf::ExpandFilePath, tinygltf::ReadWholeFile, tinygltf::WriteWholeFile, &folder});
+    loader.SetFsCallbacks({Neighbours::exists, [](const std::string& name, void*) { return name; }, Neighbours::read,
+                           tinygltf::WriteWholeFile, &neighbours});
     std::string error, warning;
     bool is_loaded = false;
     try {
@@ -138,6 +145,10 @@ GltfFile read_gltf(const std::filesystem::path& path) {
             is_binary ? loader.LoadBinaryFromMemory(&file.model, &error, &warning,
                                                     reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
                       : loader.LoadASCIIFromString(&file.model, &error, &warning, bytes.data(), size, folder);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& e) {
         fail(file.name(), ": malformed glTF: ", e.what());
     }

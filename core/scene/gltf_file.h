@@ -1,4 +1,6 @@
 #pragma once
+#include "core/reading_limits.h"
+
 #include <tiny_gltf.h>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +14,7 @@ struct GltfFile {
     std::filesystem::path path;
     tinygltf::Model model;
     std::set<std::string> warnings;  ///< one sentence each
+    MemoryShare memory = {};         ///< of the file, its buffers and encoded images, until they are a Scene
 
     std::string name() const { return path.string(); }
 };

@@ -71,7 +71,19 @@ unsigned color_components(const GltfFile& file, const tinygltf::Primitive& primi
     return file.model.accessors[index].type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
 }
 
-Mesh read_mesh(const GltfFile& file, const Scene& scene, size_t mesh_index, size_t primitive_index) {
+/// Vertices and indices of a mesh, its flat normals and the transient lists of what makes tangents included.
+void set_aside(const GltfFile& file, const tinygltf::Primitive& primitive, size_t vertex_count, const std::string& what,
+               MemoryShare& memory) {
+    const bool has_indices = primitive.indices >= 0 && size_t(primitive.indices) < file.model.accessors.size();
+    size_t index_count = has_indices ? file.model.accessors[size_t(primitive.indices)].count : vertex_count;
+    if (primitive.mode > TINYGLTF_MODE_TRIANGLES) index_count *= 3;
+    const size_t most_vertices = std::max(vertex_count, index_count);  // where normals or tangents part them
+    memory.add(double(most_vertices) * sizeof(Vertex) + double(index_count) * sizeof(uint32_t),
+               file.name() + ": " + what + " of " + std::to_string(vertex_count) + " vertices and " +
+                   std::to_string(index_count) + " indices");
+}
+
+Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t primitive_index) {
     const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
     const std::string what = "mesh " + std::to_string(mesh_index) + " primitive " + std::to_string(primitive_index);
     Mesh mesh;
@@ -88,6 +100,7 @@ Mesh read_mesh(const GltfFile& file, const Scene& scene, size_t mesh_index, size
     if (far_off != positions.end())
         fail(file.name(), ": ", what, " POSITION: element ", (far_off - positions.begin()) / 3, " has the coordinate ",
              *far_off, " outside of [", -any_length, ", ", any_length, "] m");
+    set_aside(file, primitive, positions.size() / 3, what, scene.memory);
     mesh.vertices.resize(positions.size() / 3, Vertex{.color = glm::vec4(1.0f)});
     for (size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i].position = glm::make_vec3(&positions[i * 3]);
 

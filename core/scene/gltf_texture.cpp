@@ -1,6 +1,8 @@
 #include "core/scene/gltf_texture.h"
 
 #include "core/error.h"
+#include "core/near_miss.h"
+#include "core/scene/encoded_image.h"
 #include "core/scene/gltf_value.h"
 #include "core/scene/ranges.h"
 
@@ -37,28 +39,41 @@ glm::mat3 texture_transform(const GltfFile& file, const tinygltf::Value& extensi
 
 struct Decoded {
     glm::uvec2 extent{0, 0};
-    std::vector<uint8_t> rgba;
+    Texels rgba;
 };
 
-/// 16-bit images are rounded to 8 bits: a Texture holds no more.
-Decoded decode_image(const GltfFile& file, size_t index) {
+/// Only PNG and JPEG, as glTF 2.0 has it: stb_image would decode other formats by their content. 16-bit images are
+/// rounded to 8 bits: a Texture holds no more. What stays is taken from `kept`.
+Decoded decode_image(const GltfFile& file, size_t index, MemoryShare& kept) {
     const tinygltf::Image& encoded = file.model.images[index];
-    const std::string name = encoded.uri.empty() ? encoded.name : encoded.uri;
+    const std::string name = encoded.uri.empty() ? encoded.name : encoded.uri,
+                      what = file.name() + ": image " + std::to_string(index) + " ('" + shortened(name) + "')";
+    const auto broken = [&] { fail(what, " cannot be decoded: it is neither an intact PNG nor JPEG"); };
+    const glm::uvec2 extent = encoded_extent(encoded.image);
+    if (extent.x == 0 || extent.y == 0) broken();
+    if (std::max(extent.x, extent.y) > any_texture_side)
+        fail(what, " has ", extent.x, " x ", extent.y, " pixels; allowed are sides of ", any_texture_side);
+    constexpr double bytes_kept = 4, bytes_of_decoder = 20;  // per pixel; 16-bit images and progressive JPEG take most
+    const double pixels = double(extent.x) * double(extent.y);
+    const std::string sized = what + " of " + std::to_string(extent.x) + " x " + std::to_string(extent.y) + " pixels";
+    MemoryShare decoder;
+    kept.add(pixels * bytes_kept, sized), decoder.add(pixels * bytes_of_decoder, sized);
+
     tinygltf::Image image;
     std::string error, warning;
     const auto size = static_cast<int>(encoded.image.size());
     if (!tinygltf::LoadImageData(&image, int(index), &error, &warning, 0, 0, encoded.image.data(), size, nullptr))
-        fail(file.name(), ": cannot decode image ", index, " ('", name, "'): neither an intact PNG nor JPEG");
-    Decoded decoded{{unsigned(image.width), unsigned(image.height)}, std::move(image.image)};
+        broken();
     if (image.bits == 16) {
-        const size_t count = decoded.rgba.size() / 2;
+        const size_t count = image.image.size() / 2;
         for (size_t i = 0; i < count; ++i) {
-            const unsigned value = decoded.rgba[i * 2] | decoded.rgba[i * 2 + 1] << 8;
-            decoded.rgba[i] = uint8_t((value * 255u + 32767u) / 65535u);
+            const unsigned value = image.image[i * 2] | image.image[i * 2 + 1] << 8;
+            image.image[i] = uint8_t((value * 255u + 32767u) / 65535u);
         }
-        decoded.rgba.resize(count);
+        image.image.resize(count);
+        image.image.shrink_to_fit();
     }
-    return decoded;
+    return {{unsigned(image.width), unsigned(image.height)}, make_texels(std::move(image.image))};
 }
 }  // namespace
 
@@ -108,15 +123,10 @@ void GltfTextures::decode() {
     std::ranges::sort(images);
     images.erase(std::unique(images.begin(), images.end()), images.end());
     std::vector<Decoded> decoded(file_.model.images.size());
-    tbb::parallel_for(size_t(0), images.size(), [&](size_t i) { decoded[images[i]] = decode_image(file_, images[i]); });
+    tbb::parallel_for(size_t(0), images.size(),
+                      [&](size_t i) { decoded[images[i]] = decode_image(file_, images[i], scene_.memory); });
     for (size_t i = 0; i < scene_.textures.size(); ++i) {
-        Decoded& image = decoded[image_of_[i]];
-        const bool is_last_use =
-            std::find(image_of_.begin() + long(i) + 1, image_of_.end(), image_of_[i]) == image_of_.end();
-        scene_.textures[i].extent = image.extent;
-        if (is_last_use)
-            scene_.textures[i].rgba = std::move(image.rgba);
-        else
-            scene_.textures[i].rgba = image.rgba;
+        const Decoded& image = decoded[image_of_[i]];
+        scene_.textures[i].extent = image.extent, scene_.textures[i].rgba = image.rgba;
     }
 }

@@ -3,15 +3,18 @@
 #include "core/scene/gltf_parts.h"
 #include "core/scene/load_scene.h"
 
+#include <map>
 #include <set>
 
 namespace {
 /// glTF lets cameras share a name, and nodes a camera; here a name means one camera.
 void make_names_unique(std::vector<SceneCamera>& cameras) {
     std::set<std::string> taken;
+    std::map<std::string, int> count;
     for (SceneCamera& camera : cameras) {
         const std::string name = camera.name;
-        for (int i = 2; !taken.insert(camera.name).second; ++i) camera.name = name + "_" + std::to_string(i);
+        int& number = count[name];
+        while (!taken.insert(camera.name).second) camera.name = name + "_" + std::to_string(++number + 1);
     }
 }
 }  // namespace

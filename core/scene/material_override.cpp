@@ -4,16 +4,24 @@
 #include "core/near_miss.h"
 #include "core/scene/ranges.h"
 
+#include <re2/re2.h>
 #include <algorithm>
-#include <regex>
 
 namespace {
 
 /// The texture without one channel: a copy in which that channel is 1, so that the factor alone counts.
-void neutralise_channel(Scene& scene, TextureSlot& slot, size_t channel) {
+void neutralise_channel(Scene& scene, TextureSlot& slot, size_t channel, ChangedTexels& changed) {
     if (slot.texture < 0) return;
     Texture copy = scene.textures[size_t(slot.texture)];
-    for (size_t i = channel; i < copy.rgba.size(); i += 4) copy.rgba[i] = 255;
+    Texels& texels = changed[{copy.rgba, channel}];
+    if (!texels) {
+        scene.memory.add(double(copy.rgba->size()),
+                         "texture '" + shortened(copy.name) + "', as an override changes it,");
+        std::vector<uint8_t> rgba = *copy.rgba;
+        for (size_t i = channel; i < rgba.size(); i += 4) rgba[i] = 255;
+        texels = make_texels(std::move(rgba));
+    }
+    copy.rgba = texels;
     slot.texture = int(scene.textures.size());
     scene.textures.push_back(std::move(copy));
 }
@@ -37,24 +45,16 @@ void hide(Scene& scene, const std::vector<bool>& is_hidden) {
                   [&](const Instance& instance) { return is_hidden[scene.meshes[instance.mesh].material]; });
 }
 
-/// Which materials' whole names match the regular expression `material`.
+/// Which materials' whole names match the regular expression `material`. RE2 takes time proportional to the lengths of
+/// both, whatever the expression; others can take for ever.
 std::vector<bool> matching_materials(JsonObject& entry, const Scene& scene) {
     const std::string pattern = entry.text("material");
-    constexpr size_t longest = 1000;  // bytes: std::regex recurses once per character, and a stack ends somewhere
-    if (pattern.size() > longest)
-        fail(entry.where(), ": 'material' has ", pattern.size(), " characters; allowed are ", longest);
+    const RE2 expression(pattern, RE2::Quiet);
+    if (!expression.ok())
+        fail(entry.where(), ": 'material' = \"", shortened(pattern),
+             "\" is no regular expression of RE2: ", shortened(expression.error()));
     std::vector<bool> matches;
-    try {
-        const std::regex expression(pattern);
-        for (const Material& m : scene.materials) {
-            if (m.name.size() > longest)
-                fail(entry.where(), ": 'material' cannot be compared with \"", shortened(m.name), "\", a name of ",
-                     m.name.size(), " characters; allowed are ", longest);
-            matches.push_back(std::regex_match(m.name, expression));
-        }
-    } catch (const std::regex_error& e) {
-        fail(entry.where(), ": 'material' = \"", shortened(pattern), "\" is no regular expression: ", e.what());
-    }
+    for (const Material& m : scene.materials) matches.push_back(RE2::FullMatch(m.name, expression));
     if (std::ranges::find(matches, true) == matches.end())
         fail(entry.where(), ": no material's whole name matches \"", shortened(pattern), "\"");
     return matches;
@@ -62,7 +62,7 @@ std::vector<bool> matching_materials(JsonObject& entry, const Scene& scene) {
 
 }  // namespace
 
-void apply_override(JsonObject& entry, Scene& scene) {
+void apply_override(JsonObject& entry, Scene& scene, ChangedTexels& changed) {
     const std::vector<bool> matches = matching_materials(entry, scene);
 
     const bool is_hidden = entry.boolean("hidden", false), drops_normal_map = entry.boolean("drop_normal_map", false);
@@ -84,12 +84,12 @@ void apply_override(JsonObject& entry, Scene& scene) {
         if (has_roughness && has_metalness)
             m.metalness_roughness_texture = {};
         else if (has_roughness || has_metalness)
-            neutralise_channel(scene, m.metalness_roughness_texture, has_roughness ? 1 : 2);
+            neutralise_channel(scene, m.metalness_roughness_texture, has_roughness ? 1 : 2, changed);
         if (has_color)
             m.base_color = color,
             m.base_color_texture = m.alpha_mode == AlphaMode::mask ? m.base_color_texture : TextureSlot{};
         if (has_color && m.base_color_texture.texture >= 0)
-            for (size_t c = 0; c < 3; ++c) neutralise_channel(scene, m.base_color_texture, c);
+            for (size_t c = 0; c < 3; ++c) neutralise_channel(scene, m.base_color_texture, c, changed);
         if (has_emission) m.emission = emission, m.emission_texture = {};
         if (has_specular) m.specular = specular;
         if (drops_normal_map) m.normal_texture = {};

@@ -2,7 +2,14 @@
 #include "core/json.h"
 #include "core/scene/scene.h"
 
+#include <map>
+#include <utility>
+
+/// Texels that overrides made, by what they made them from and the channel that they set to 1: the overrides of a scene
+/// share them.
+using ChangedTexels = std::map<std::pair<Texels, size_t>, Texels>;
+
 /// One entry of scene.json's `overrides`: changes all materials whose whole name matches the regular expression
-/// `material`. A given roughness, metalness, base colour or emission takes the place of the texture channel. `hidden`
-/// removes what has the material. Fails if no material matches.
-void apply_override(JsonObject& entry, Scene& scene);
+/// `material` (RE2's syntax). A given roughness, metalness, base colour or emission takes the place of the texture
+/// channel. `hidden` removes what has the material. Fails if no material matches.
+void apply_override(JsonObject& entry, Scene& scene, ChangedTexels& changed);

@@ -6,3 +6,4 @@
 inline constexpr float any_length = 1e9f;      ///< m, and factors of scale; exact enough in float32 to be of use
 inline constexpr float any_far_plane = 1e18f;  ///< m: exporters write it far beyond any_length where they mean none
 inline constexpr float any_radiance = 1e12f;   ///< W sr^-1 m^-2, and radiant intensities and irradiances
+inline constexpr unsigned any_texture_side = 16384;  ///< texels: what lavapipe and the GPUs of desktops hold

@@ -1,9 +1,11 @@
 #pragma once
 #include "core/host_image.h"
+#include "core/reading_limits.h"
 
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,12 +15,18 @@
 
 enum class TextureWrap { repeat, mirrored_repeat, clamp_to_edge };
 
-/// 8-bit RGBA texels, row 0 at v = 0 (glTF: top). Both renderers filter level 0 bilinearly, so that a pixel means the
-/// same in both.
+/// 8-bit RGBA texels, row by row. Those of one image are held once, however many textures show it.
+using Texels = std::shared_ptr<const std::vector<uint8_t>>;
+
+inline Texels make_texels(std::vector<uint8_t> rgba) {
+    return std::make_shared<const std::vector<uint8_t>>(std::move(rgba));
+}
+
+/// Row 0 at v = 0 (glTF: top). Both renderers filter level 0 bilinearly, so that a pixel means the same in both.
 struct Texture {
     std::string name;
     glm::uvec2 extent{0, 0};
-    std::vector<uint8_t> rgba;
+    Texels rgba;           ///< never null in a Scene
     bool is_srgb = false;  ///< RGB are sRGB codes, decoded before filtering; alpha is linear
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     bool is_nearest = false;
@@ -160,6 +168,7 @@ struct Scene {
     float frame_rate = 30.0f;           ///< frames per second of animation time
     std::vector<std::string> warnings;  ///< what the files hold and ssrlab does not use, one sentence each
     std::string content_hash;           ///< of every file and override that the rendered light depends on
+    MemoryShare memory = {};            ///< that of textures, meshes and the environment
 
     const SceneCamera& camera(const std::string& name) const;  ///< "": the first; Error with a near miss if unknown
     size_t triangle_count() const;                             ///< over all instances

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 namespace fs = std::filesystem;
 
@@ -49,16 +50,18 @@ void merge(Scene& scene, Scene other) {
     append(scene.lights, other.lights);
     append(scene.cameras, other.cameras);
     append(scene.warnings, other.warnings);
+    scene.memory.take(other.memory);
     scene.frame_count = std::max(scene.frame_count, other.frame_count);
 }
 
-/// A file named in scene.json: beside it, or in a folder of the search path.
+/// A file named in scene.json: beside it, or in a folder of the search path, or below one of these.
 fs::path find_file(const std::string& name, const fs::path& scene_file, const std::vector<fs::path>& search_path,
                    const std::string& where) {
+    std::vector<fs::path> folders = {scene_file.parent_path()};
+    folders.insert(folders.end(), search_path.begin(), search_path.end());
     std::error_code error;  // a name too long for the file system is just not there
-    if (fs::exists(scene_file.parent_path() / name, error)) return scene_file.parent_path() / name;
-    for (const fs::path& folder : search_path)
-        if (fs::exists(folder / name, error)) return folder / name;
+    for (const fs::path& folder : folders)
+        if (fs::exists(folder / name, error)) return file_below(folder, name, where);
     fail(where, ": '", shortened(name),
          "' is neither beside that file nor in the scene search path; name its folder with --scene-path or "
          "SSRLAB_SCENE_PATH");
@@ -144,10 +147,10 @@ Environment read_environment(JsonObject object, const fs::path& scene_file, cons
 void finish_scene(Scene& scene) {
     for (SceneCamera& camera : scene.cameras)
         if (camera.far == 0.0f) camera.far = std::max(derive_planes(camera, scene).far, 2.0f * camera.near);
-    for (size_t i = 0; i < scene.cameras.size(); ++i)
-        for (size_t j = 0; j < i; ++j)
-            if (scene.cameras[i].name == scene.cameras[j].name)
-                fail("scene '", scene.name, "' has two cameras named '", scene.cameras[i].name, "'");
+    std::set<std::string_view> names;
+    for (const SceneCamera& camera : scene.cameras)
+        if (!names.insert(camera.name).second)
+            fail("scene '", scene.name, "' has two cameras named '", shortened(camera.name), "'");
     scene.content_hash = content_hash(scene);
 }
 
@@ -170,8 +173,11 @@ Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_
     scene.asset = is_own ? scene.name : gltf.filename().string();
     if (object.has("environment"))
         scene.environment = read_environment(object.object("environment"), file, search_path);
+    scene.memory.add(double(scene.environment.latlong.values.size()) * sizeof(float),
+                     file.string() + ": 'environment'");
     for (JsonObject& light : object.objects("lights")) scene.lights.push_back(read_light(light));
-    for (JsonObject& entry : object.objects("overrides")) apply_override(entry, scene);
+    ChangedTexels changed;
+    for (JsonObject& entry : object.objects("overrides")) apply_override(entry, scene, changed);
 
     std::vector<SceneCamera> cameras;
     for (JsonObject& camera : object.objects("cameras")) cameras.push_back(read_camera(camera, scene));

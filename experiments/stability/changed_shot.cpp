@@ -62,7 +62,9 @@ void scale_instances(Scene& scene, glm::vec3 scale) {
 /// Of 2x2 texels: the upper left and the lower right one are there.
 int add_mask(Scene& scene) {
     Texture texture{.name = "mask", .extent = {2, 2}};
-    for (const uint8_t alpha : {255, 0, 0, 255}) texture.rgba.insert(texture.rgba.end(), {255, 255, 255, alpha});
+    std::vector<uint8_t> rgba;
+    for (const uint8_t alpha : {255, 0, 0, 255}) rgba.insert(rgba.end(), {255, 255, 255, alpha});
+    texture.rgba = make_texels(std::move(rgba));
     texture.wrap_u = texture.wrap_v = TextureWrap::clamp_to_edge, texture.is_nearest = true;
     scene.textures.push_back(texture);
     return int(scene.textures.size()) - 1;
@@ -126,7 +128,8 @@ Shot changed_shot(const CaseScene& wanted, const std::vector<std::filesystem::pa
     if (wanted.roughness) {
         const nlohmann::json entry = {{"material", ".*"}, {"roughness", *wanted.roughness}};
         JsonObject object(entry, "a case's 'roughness'");
-        apply_override(object, scene);
+        ChangedTexels changed;
+        apply_override(object, scene, changed);
     }
     if (wanted.radiance != 1.0f) brighten(scene, wanted.radiance);
     if (!wanted.view.is_null()) camera = read_camera(JsonObject(wanted.view, wanted.where + ": view"), scene);

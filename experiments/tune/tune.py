@@ -212,16 +212,6 @@ class Tuning:
         )
 
 
-def search(arguments):
-    try:
-        with open(arguments.asked, encoding="utf-8") as stream:
-            asked = json.load(stream)
-        Tuning(asked, arguments.out, arguments.command).run()
-    except StudyFailed as failed:
-        print(f"error: {failed}", file=sys.stderr)
-        return failed.code
-
-
 def main():
     parser = argparse.ArgumentParser(description="Search a technique's parameters for the front of error against time.")
     parser.add_argument("asked", help="what `ssrlab tune` read of the config")

@@ -6,11 +6,11 @@
 namespace {
 
 Texture checker(const char* name, bool is_srgb, glm::u8vec4 even, glm::u8vec4 odd) {
-    Texture texture{.name = name, .extent = {9, 7}, .is_srgb = is_srgb};
+    std::vector<uint8_t> rgba;
     for (unsigned y = 0; y < 7; ++y)
         for (unsigned x = 0; x < 9; ++x)
-            for (int c = 0; c < 4; ++c) texture.rgba.push_back(((x + y) % 2 ? odd : even)[c]);
-    return texture;
+            for (int c = 0; c < 4; ++c) rgba.push_back(((x + y) % 2 ? odd : even)[c]);
+    return {.name = name, .extent = {9, 7}, .rgba = make_texels(std::move(rgba)), .is_srgb = is_srgb};
 }
 
 void add(Scene& scene, const Mesh& mesh, const glm::mat4& world_from_object = glm::mat4(1)) {

@@ -19,9 +19,10 @@ TestScene make_room(float scale = 1.0f) {
     Material plastic = metal_material(0.6f, 0.6f), wall = lambert_material(0.5f), fence = lambert_material(0.4f);
     plastic.base_color = {0.2f, 0.5f, 0.7f};
     plastic.metalness = 0.0f;
-    Texture stripes{.name = "stripes", .extent = {4, 1}, .rgba = {}, .is_nearest = true};
-    for (int i = 0; i < 4; ++i) stripes.rgba.insert(stripes.rgba.end(), {255, 255, 255, uint8_t(i % 2 ? 0 : 255)});
-    room.scene.textures.push_back(stripes);
+    std::vector<uint8_t> rgba;
+    for (int i = 0; i < 4; ++i) rgba.insert(rgba.end(), {255, 255, 255, uint8_t(i % 2 ? 0 : 255)});
+    room.scene.textures.push_back(
+        {.name = "stripes", .extent = {4, 1}, .rgba = make_texels(std::move(rgba)), .is_nearest = true});
     fence.alpha_mode = AlphaMode::mask;
     fence.base_color_texture.texture = 0;
     const unsigned floor = room.add(metal_material(0.8f, 0.7f)), painted = room.add(plastic), grey = room.add(wall),

@@ -211,7 +211,7 @@ TEST(geometry, unlit_surfaces_radiate_their_colour_and_light_others) {
 
 TEST(geometry, alpha_mask_cuts_camera_rays_and_shadow_rays) {
     TestScene scene;
-    Texture half{.name = "half", .extent = {2, 1}, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}, .is_nearest = true};
+    Texture half{.name = "half", .extent = {2, 1}, .rgba = make_texels({255, 255, 255, 255, 255, 255, 255, 0}), .is_nearest = true};
     half.wrap_u = half.wrap_v = TextureWrap::clamp_to_edge;
     scene.scene.textures.push_back(half);
     Material mask = lambert_material(0.5f);
@@ -236,7 +236,7 @@ TEST(geometry, alpha_mask_cuts_camera_rays_and_shadow_rays) {
 TEST(geometry, alpha_mask_cuts_lamps_for_every_light_strategy) {
     // Alpha falls from 1 to 0 between u = 1/4 and 3/4, so that the part of the lamp with alpha >= cutoff is a
     // rectangle.
-    Texture ramp{.name = "ramp", .extent = {2, 1}, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}};
+    Texture ramp{.name = "ramp", .extent = {2, 1}, .rgba = make_texels({255, 255, 255, 255, 255, 255, 255, 0})};
     ramp.wrap_u = ramp.wrap_v = TextureWrap::clamp_to_edge;
     for (const bool is_seen_from_behind : {false, true})
         for (const float cutoff : {0.2f, 0.5f, 0.9f}) {

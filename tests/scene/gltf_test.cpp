@@ -109,7 +109,7 @@ TEST_F(Gltf, TexturesKnowTheirColourSpace) {
     EXPECT_TRUE(scene.textures.at(size_t(m.base_color_texture.texture)).is_srgb);
     EXPECT_FALSE(scene.textures.at(size_t(m.metalness_roughness_texture.texture)).is_srgb);
     expect_near(m.metalness_roughness_texture.uv_transform * glm::vec3(1, 1, 1), {2.5f, 3, 1}, 1e-6f);
-    EXPECT_NEAR(linear_from_srgb(float(scene.textures.at(size_t(m.base_color_texture.texture)).rgba[0]) / 255.0f),
+    EXPECT_NEAR(linear_from_srgb(float(scene.textures.at(size_t(m.base_color_texture.texture)).rgba->at(0)) / 255.0f),
                 0.25f, 0.005f);  // one code near 137 is 0.004
 }
 

@@ -1,0 +1,7 @@
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+/// Width and height of a PNG or JPEG by its header, before it is decoded; (0, 0) of anything else.
+glm::uvec2 encoded_extent(std::span<const uint8_t> bytes);

@@ -1,0 +1,162 @@
+// What small files may not do: take memory, read other folders, wait for ever.
+#include "core/files.h"
+#include "core/png.h"
+#include "core/scene/encoded_image.h"
+#include "core/scene/material_override.h"
+#include "core/scene/ranges.h"
+#include "tests/reading_limits.h"
+#include "tests/scene/gltf_fixture.h"
+
+#include <sys/stat.h>
+#include <set>
+
+namespace {
+
+struct GltfLimits : Gltf {
+    std::string refused(const LimitsOf&) {
+        const std::string message = error_message([&] { load(); });
+        EXPECT_NE(message.find("--max-memory"), std::string::npos) << message;
+        return message;
+    }
+    /// Materials that show `count` textures of the file's one image.
+    void add_textures(size_t count, glm::uvec2 extent) {
+        write_png(folder / "t.png", HostImage(extent, 3, 0.5f));
+        writer.json["images"] = {{{"uri", "t.png"}}};
+        for (size_t i = 0; i < count; ++i) {
+            writer.json["textures"].push_back({{"source", 0}});
+            writer.json["materials"].push_back(
+                {{"name", "m" + std::to_string(i)},
+                 {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", i}}}}}});
+        }
+        nlohmann::json quad = writer.quad();
+        quad["material"] = 0;
+        writer.add_mesh_node(quad);
+    }
+    static size_t count_texels(const Scene& scene) {
+        std::set<Texels> different;
+        for (const Texture& texture : scene.textures) different.insert(texture.rgba);
+        return different.size();
+    }
+};
+
+}  // namespace
+
+TEST_F(GltfLimits, VerticesWithoutABufferViewCount) {
+    nlohmann::json quad = writer.quad();
+    writer.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 100'000'002}});
+    quad["attributes"] = {{"POSITION", writer.json["accessors"].size() - 1}};
+    quad.erase("indices");
+    writer.add_mesh_node(quad);
+    EXPECT_NE(refused(LimitsOf({.memory = 1'000'000'000})).find("POSITION of 100000002 elements needs 1.2 GB"),
+              std::string::npos);
+    writer.json["accessors"].back()["count"] = 30'000;  // 0.36 MB as read, 2.3 MB as vertices
+    EXPECT_NE(refused(LimitsOf({.memory = 2'000'000})).find("mesh 0 primitive 0 of 30000 vertices"), std::string::npos);
+    EXPECT_EQ(load().triangle_count(), 10'000u);
+}
+
+TEST_F(GltfLimits, DescribedObjectsCount) {
+    writer.add_mesh_node(writer.quad());
+    for (int i = 0; i < 2000; ++i) writer.json["nodes"].push_back(nlohmann::json::object());
+    EXPECT_NE(refused(LimitsOf({.memory = 1'000'000})).find("what it describes"), std::string::npos);
+    EXPECT_EQ(load().triangle_count(), 2u);
+}
+
+TEST_F(GltfLimits, TexturesOfOneImageShareIt) {
+    add_textures(200, {64, 64});
+    {
+        const LimitsOf limits({.memory = 4'000'000});  // 200 copies of 16 kB take 3.3 MB
+        const Scene scene = load();
+        EXPECT_EQ(scene.textures.size(), 200u);
+        EXPECT_EQ(count_texels(scene), 1u);
+    }
+    writer.json["images"] = nlohmann::json::array();
+    for (size_t i = 0; i < 200; ++i) {
+        writer.json["images"].push_back({{"uri", "t.png"}});
+        writer.json["textures"][i]["source"] = i;
+    }
+    EXPECT_NE(refused(LimitsOf({.memory = 4'000'000})).find("image "), std::string::npos);
+}
+
+TEST_F(GltfLimits, OverridesShareWhatTheyChange) {
+    add_textures(20, {64, 64});
+    Scene scene = load();
+    ChangedTexels changed;
+    const auto override_with = [&](const nlohmann::json& entry) {
+        JsonObject object(entry, "a.json");
+        apply_override(object, scene, changed);
+    };
+    for (int i = 0; i < 20; ++i) override_with({{"material", "m" + std::to_string(i)}, {"roughness", 0.5}});
+    EXPECT_EQ(scene.textures.size(), 40u);
+    EXPECT_EQ(count_texels(scene), 2u);
+    EXPECT_EQ(scene.textures.back().rgba->at(1), 255);
+    EXPECT_NE(scene.textures.back().rgba->at(2), 255);
+    override_with({{"material", ".*"}, {"metalness", 0.5}});
+    EXPECT_EQ(count_texels(scene), 3u);
+    const LimitsOf limits({.memory = 1000});
+    EXPECT_NE(error_message([&] {
+                  ChangedTexels none;
+                  changed = none;
+                  override_with({{"material", "m0"}, {"roughness", 1}});
+              }).find("as an override changes it, needs"),
+              std::string::npos);
+}
+
+TEST_F(GltfLimits, ImagesAreJudgedByTheirHeaders) {
+    add_textures(1, {8, 8});
+    std::string png = read_text(folder / "t.png");
+    png[16 + 2] = 0x4E, png[16 + 3] = 0x20;  // a width of 20000
+    write_text(folder / "t.png", png);
+    EXPECT_NE(error_message([&] { load(); }).find("image 0 ('t.png') has 20000 x 8 pixels; allowed are sides of 16384"),
+              std::string::npos);
+    png[16 + 2] = 0x3E, png[20 + 2] = 0x3E;  // 16000 x 16000, nearly
+    write_text(folder / "t.png", png);
+    EXPECT_NE(refused(LimitsOf({.memory = 1'000'000'000})).find("pixels needs"), std::string::npos);
+    // stb_image knows this one, too, and would read it.
+    write_text(folder / "t.png", "P6\n2 2\n255\n" + std::string(12, '\x7F'));
+    EXPECT_NE(error_message([&] { load(); }).find("neither an intact PNG nor JPEG"), std::string::npos);
+}
+
+TEST(EncodedExtent, IsFoundBehindOtherSegmentsOfAJpeg) {
+    const auto extent = [](const std::string& text) {
+        return encoded_extent({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+    };
+    const std::string start("\xFF\xD8", 2),
+        other(
+            "\xFF\xE0\x00\x04"
+            "ab",
+            6),
+        table("\xFF\xC4\x00\x04\x00\x01", 6), frame("\xFF\xFF\xC2\x00\x0B\x08\x01\x02\x03\x04\x01\x11\x00", 13);
+    EXPECT_EQ(extent(start + other + table + frame), glm::uvec2(0x0304, 0x0102));
+    EXPECT_EQ(extent(start + other + table), glm::uvec2(0));
+    EXPECT_EQ(extent(start + other + "a" + frame), glm::uvec2(0));
+    EXPECT_EQ(extent("GIF89a\x01\x01\x01\x01"), glm::uvec2(0));
+}
+
+TEST_F(GltfLimits, UrisStayBelowItsFolder) {
+    const fs::path scene = folder / "scene";
+    fs::create_directories(scene);
+    add_textures(1, {2, 2});
+    fs::copy(folder / "t.png", scene / "own.png");
+    fs::create_symlink("../t.png", scene / "link.png");
+    const auto load_with = [&](const std::string& uri) {
+        writer.json["images"] = {{{"uri", uri}}};
+        return load_gltf(writer.write_gltf(scene / "a.gltf"));
+    };
+    EXPECT_EQ(load_with("./own.png").textures.size(), 1u);
+    for (const std::string uri : {"../t.png", "..%2Ft.png", "%2e%2e/t.png", "link.png", "own/../../t.png"}) {
+        EXPECT_NE(error_message([&] { load_with(uri); }).find("is not below the folder of the file that names it"),
+                  std::string::npos)
+            << uri << ": " << error_message([&] { load_with(uri); });
+    }
+    EXPECT_NE(error_message([&] { load_with((folder / "t.png").string()); }).find("is not below"), std::string::npos);
+    const LimitsOf limits({.memory = reading_limits().memory, .allows_outside = true});
+    for (const std::string uri : {"../t.png", "..%2Ft.png", "link.png"})
+        EXPECT_EQ(load_with(uri).textures.size(), 1u) << uri;
+}
+
+TEST_F(GltfLimits, FifosAreNotWaitedFor) {
+    add_textures(1, {2, 2});
+    fs::remove(folder / "t.png");
+    ASSERT_EQ(mkfifo((folder / "t.png").c_str(), 0600), 0);
+    EXPECT_NE(error_message([&] { load(); }).find("it is a FIFO, not a regular file"), std::string::npos);
+}
