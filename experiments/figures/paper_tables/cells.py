@@ -208,13 +208,22 @@ def _clock(selection, row):
     return clock if row["shot"] in selection.proven else f"{clock} (timer not validated)"
 
 
+def _most_parts(selection):
+    """How many parts the mean of a cell can be of: columns by groups of shots have those of their group alone."""
+    parts = {}
+    for row in selection.rows:
+        name = tuple(selection.label(row, keys) for keys in (selection.table.rows, selection.table.columns))
+        parts.setdefault(name, set()).add(selection.entry(row, selection.table.over))
+    return max(map(len, parts.values()))
+
+
 def _about(selection, filled):
     """What is said of a table beside its cells; `filled`: the rows that have a value."""
     table, over = selection.table, selection.table.over
     if table.of == "at_cost":
         over, count = "scene", len({s["scene"] for s in selection.shots})
     else:
-        count = len({selection.entry(r, over) for r in selection.rows}) if over else None
+        count = _most_parts(selection) if over else None
     shots = [s for s in selection.shots if any(r.get("shot") in (None, "", s["shot"]) for r in filled)]  # without one: over all
     return {
         "name": table.name,

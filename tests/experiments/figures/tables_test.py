@@ -168,6 +168,11 @@ def test_display_names(folder):
     check(lines[5].startswith("| sssr, default |"), lines[5])
     lines = read(os.path.join(folder, "tables", "groups.md")).splitlines()
     check(lines[2] == "| | rooms |" and [line.split(" | ")[0] for line in lines[4:6]] == [r"| sssr, four \| taps", "| faithful, default"], lines)
+    named["shots"][0]["group"] = "halls"
+    write(os.path.join(folder, "manifest.json"), json.dumps(named))
+    check(tables(folder).returncode == 0, "two groups")
+    text = read(os.path.join(folder, "tables", "groups.md"))
+    check(text.splitlines()[2] == "| | halls | rooms |" and " of 2" not in text, text)
 
 
 def test_footers(folder):
