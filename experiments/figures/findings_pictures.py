@@ -234,7 +234,18 @@ def resolution():
     return Picture(panels, "MSE of the reflection, 95 % intervals (most are smaller than the marks)", columns=3)
 
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, metrics, causes, limit, third_party, corrections, estimators, march, thickness, temporal, fragments, resolution)}
+def traced_environment():
+    cells = grid("lit_specular", "mse")
+    points = ["mcguire_dda, best", "amd_sssr, corrected", "diligent_ssr, corrected", "frostbite_sssr, best", "simple_ssr, corrected", "four_mode_ssr, corrected"]
+
+    def marks(scene, point):
+        return [technique_mark(point, cells[f"{scene}{lit}", point], series, lit == "") for lit, series in (("", "without"), (" environment", "with"))]
+
+    panels = [Panel(scene, [(p, marks(scene, p)) for p in points], 1.0) for scene in ("furnace", "curved_metal", "metal_corner", "sponza")]
+    return Picture(panels, "error over that of no reflections, 95 % intervals; with and without the environment's reflections in the traced image", columns=4)
+
+
+PICTURES = {p.__name__: p for p in (techniques, budgets, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution)}
 
 
 def save(name, folder):
