@@ -224,6 +224,7 @@ def main():
         for line in [f"error: {failed}", *failed.said]:
             print(shown(line), file=sys.stderr)
         return failed.code if failed.code in (2, 3) else 3
+    return 0
 
 
 if __name__ == "__main__":
