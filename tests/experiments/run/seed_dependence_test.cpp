@@ -6,7 +6,6 @@
 #include "experiments/store/result_images.h"
 #include "tests/experiments/run/study_fixture.h"
 #include "variants/registry.h"
-#include "variants/tracers/tracers.h"
 
 #include <cstring>
 
@@ -47,7 +46,8 @@ struct SeedDependence : testing::Test {
     std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
     FrameStore store{*source, DepthFormat::d32f, size_t(1) << 28};
 
-    /// All presets of all techniques run here, and all tracers, with synchronisation checks (SSRLAB_VALIDATE=1).
+    /// All presets of all techniques run here, with synchronisation checks (SSRLAB_VALIDATE=1); all tracers do so in
+    /// TracersTest.
     void TearDown() override { EXPECT_EQ(device.validation_messages(), std::vector<std::string>()); }
 
     /// All bits of what a seed gives.
@@ -72,19 +72,6 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 }  // namespace
-
-/// Two seeds of a tracer give the same where its technique says so. exact_scene needs a scene: ExactTracers runs it.
-TEST_F(SeedDependence, OfTracersIsThatOfTheirTechnique) {
-    ASSERT_FALSE(make_variant("mcguire_dda")->depends_on_seed());
-    size_t count = 0;
-    for (const TracerEntry& tracer : tracer_table()) {
-        if (tracer.name == "exact_scene") continue;
-        const Point point{.preset = "", .parameters = {{"tracer", tracer.name}}};
-        EXPECT_TRUE(same_bits(rendered("mcguire_dda", point, 1), rendered("mcguire_dda", point, 2))) << tracer.name;
-        ++count;
-    }
-    EXPECT_GE(count, 9u);
-}
 
 TEST_F(SeedDependence, IsAsDeclared) {
     for (const VariantEntry& entry : variant_table())
