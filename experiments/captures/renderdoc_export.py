@@ -8,15 +8,17 @@ Needs RenderDoc's Python module (Debian: python3-renderdoc) and a device that ca
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
 import numpy as np
 import renderdoc as rd
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from capture_files import CHANNELS, CaptureError, write_environment, write_frame  # noqa: E402
+from ssrlab.json_files import read_json  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, say  # noqa: E402
 from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
 
 KINDS = {"Float": "float", "UNorm": "unorm", "UNormSRGB": "srgb", "SNorm": "snorm", "UInt": "uint", "Depth": "depth"}
@@ -126,13 +128,17 @@ def list_contents(replay):
         outputs = replay.outputs(action)
         if outputs:
             text = ", ".join(f"{output}: {replay.names[texture]}" for output, texture in outputs)
-            print(f"event {action.eventId:6} {name}   [{text}]")
+            say(f"event {action.eventId:6} {name}   [{text}]")
     for texture, about in replay.textures.items():
-        print(f"texture {replay.names[texture]!r} ({int(texture)}): {about.width}x{about.height} {about.format.Name()}")
+        say(f"texture {replay.names[texture]!r} ({int(texture)}): {about.width}x{about.height} {about.format.Name()}")
+
+
+LAYER = {"event?": (int, str), "output?": (int, str), "texture?": str, "mip?": int, "slice?": int, "channels?": str, "decode?": [(str, float)]}
+MAPPING = {"camera": (str, dict), "layers": {"depth": LAYER, "*": LAYER}, "environment?": list}
 
 
 def read_mapping(file):
-    mapping = json.loads(Path(file).read_text())
+    mapping = read_json(file, MAPPING)
     unknown = [key for key in mapping if key not in ("camera", "layers", "environment")]
     unknown += [f"layers.{name}" for name in mapping.get("layers", {}) if name not in CHANNELS]
     unknown += [f"layers.{name}.{key}" for name, entry in mapping.get("layers", {}).items() for key in entry
@@ -140,7 +146,7 @@ def read_mapping(file):
     if unknown:
         raise CaptureError(f"{file}: unknown keys {unknown}")
     if isinstance(mapping["camera"], str):
-        mapping["camera"] = json.loads((Path(file).parent / mapping["camera"]).read_text())
+        mapping["camera"] = read_json(Path(file).parent / mapping["camera"])
     return mapping
 
 
@@ -176,8 +182,12 @@ def main():
         replay.close()
 
 
-if __name__ == "__main__":
+def exported():
     try:
         main()
     except CaptureError as e:
-        sys.exit(f"error: {e}")
+        raise ResultsError(str(e)) from e
+
+
+if __name__ == "__main__":
+    sys.exit(exit_code(exported, "the capture"))
