@@ -20,6 +20,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from blender_passes import PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
 from capture_files import write_environment, write_frame  # noqa: E402
 from ssrlab.exr import read_exr_planes  # noqa: E402
+from ssrlab.mistakes import shown  # noqa: E402
 
 COLOR_AOVS = ("base_color", "true_normal", "emission")
 VALUE_AOVS = ("roughness", "metallic", "specular")
@@ -39,7 +40,7 @@ OTHER_SHADERS = {  # what is not an input of theirs
 
 
 def say(text):
-    print(f"ssrlab: {text}", flush=True)
+    print(f"ssrlab: {shown(text)}", flush=True)
 
 
 def _arguments():

@@ -8,7 +8,6 @@ Needs RenderDoc's Python module (Debian: python3-renderdoc) and a device that ca
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
@@ -18,8 +17,9 @@ import renderdoc as rd
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from capture_files import CHANNELS, CaptureError, write_environment, write_frame  # noqa: E402
+from ssrlab.json_files import read_json  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, say  # noqa: E402
 from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
-from ssrlab.mistakes import ResultsError  # noqa: E402
 from ssrlab.text_files import path_inside  # noqa: E402
 
 KINDS = {"Float": "float", "UNorm": "unorm", "UNormSRGB": "srgb", "SNorm": "snorm", "UInt": "uint", "Depth": "depth"}
@@ -129,13 +129,17 @@ def list_contents(replay):
         outputs = replay.outputs(action)
         if outputs:
             text = ", ".join(f"{output}: {replay.names[texture]}" for output, texture in outputs)
-            print(f"event {action.eventId:6} {name}   [{text}]")
+            say(f"event {action.eventId:6} {name}   [{text}]")
     for texture, about in replay.textures.items():
-        print(f"texture {replay.names[texture]!r} ({int(texture)}): {about.width}x{about.height} {about.format.Name()}")
+        say(f"texture {replay.names[texture]!r} ({int(texture)}): {about.width}x{about.height} {about.format.Name()}")
+
+
+LAYER = {"event?": (int, str), "output?": (int, str), "texture?": str, "mip?": int, "slice?": int, "channels?": str, "decode?": [(str, float)]}
+MAPPING = {"camera": (str, dict), "layers": {"depth": LAYER, "*": LAYER}, "environment?": list}
 
 
 def read_mapping(file):
-    mapping = json.loads(Path(file).read_text())
+    mapping = read_json(file, MAPPING)
     unknown = [key for key in mapping if key not in ("camera", "layers", "environment")]
     unknown += [f"layers.{name}" for name in mapping.get("layers", {}) if name not in CHANNELS]
     unknown += [f"layers.{name}.{key}" for name, entry in mapping.get("layers", {}).items() for key in entry
@@ -143,7 +147,7 @@ def read_mapping(file):
     if unknown:
         raise CaptureError(f"{file}: unknown keys {unknown}")
     if isinstance(mapping["camera"], str):
-        mapping["camera"] = json.loads(Path(path_inside(str(Path(file).parent), mapping["camera"], f"{file}: 'camera'")).read_text())
+        mapping["camera"] = read_json(path_inside(str(Path(file).parent), mapping["camera"], f"{file}: 'camera'"))
     return mapping
 
 
@@ -179,8 +183,12 @@ def main():
         replay.close()
 
 
-if __name__ == "__main__":
+def exported():
     try:
         main()
-    except (CaptureError, ResultsError) as e:
-        sys.exit(f"error: {e}")
+    except CaptureError as e:
+        raise ResultsError(str(e)) from e
+
+
+if __name__ == "__main__":
+    sys.exit(exit_code(exported, "the capture"))

@@ -136,7 +136,7 @@ std::string machine_of(const json& manifest, const std::string& shot) {
     const auto add = [&](const json& host) {
         hosts.insert(host.value("name", "?") + " (" + host.value("cpu", "?") + ")");
     };
-    for (const json& load : manifest.at("clock").value("load", json::array()))
+    for (const json& load : manifest.value("clock", json::object()).value("load", json::array()))
         if (load.value("shot", "") == shot && load.contains("host")) add(load["host"]);
     for (const json& maker : manifest.value("provenance", json::array())) {
         if (hosts.empty() && maker.contains("host")) add(maker["host"]);

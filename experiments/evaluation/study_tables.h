@@ -17,5 +17,8 @@ struct StudyTables {
     std::vector<CostRow> costs;               ///< costs.csv; empty where none were counted
 };
 
+/// Fails with Error, which names the member, where a manifest has another kind of value than those who read it expect.
+void require_manifest(const nlohmann::json& manifest, const std::filesystem::path& file);
+
 /// Fails with Error on what is no results folder, or one of another version or half of one (require_evaluation()).
 StudyTables read_study_tables(const std::filesystem::path& folder);

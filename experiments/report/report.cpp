@@ -5,6 +5,7 @@
 #include "core/json.h"
 #include "core/path_inside.h"
 #include "experiments/evaluation/results_schema.h"
+#include "experiments/evaluation/study_tables.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/report/answers.h"
 #include "experiments/report/report_data.h"
@@ -213,7 +214,7 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
         fail(folder.string(), " holds no results (manifest.json is missing); `ssrlab run` makes some");
     }
     const json manifest = read_json(file);
-    if (!manifest.is_object()) fail(file.string(), " must be a JSON object");
+    require_manifest(manifest, file);
     const ReportTables tables = read_report_tables(folder, manifest);
 
     const PointSet singles = single_changes(manifest);

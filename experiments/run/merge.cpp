@@ -91,6 +91,9 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
     write_results(study, missing.empty(), {});
     say(counted(study.finished.size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");
     for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);
-    if (!missing.empty()) say("They are done by:\n  " + command_line("run", config, settings));
+    if (!missing.empty()) {
+        say("They are done by:");
+        say("  " + command_line("run", config, settings));
+    }
     return missing.size();
 }

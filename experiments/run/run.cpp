@@ -42,10 +42,11 @@ nlohmann::json read_manifest_before(const std::filesystem::path& file) {
 /// What a reader wants to know first.
 std::vector<std::string> lines_of(const StudyAnswers& answers) {
     std::vector<std::string> lines;
-    if (!answers.over_scenes.empty()) lines.push_back("\n" + answers.over_scenes);
+    if (!answers.over_scenes.empty()) lines.insert(lines.end(), {"", answers.over_scenes});
     for (const ShotAnswer& answer : answers.shots)
-        lines.push_back("\n" + answer.shot + ": " + answer.sentence +
-                        (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence));
+        lines.insert(lines.end(),
+                     {"", answer.shot + ": " + answer.sentence +
+                              (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence)});
     return lines;
 }
 
@@ -55,7 +56,8 @@ std::string report_file(const StudySession& study) {
 
 void say_end(StudySession& study, const std::vector<std::string>& lines) {
     for (const std::string& line : lines) study.progress.say(line);
-    study.progress.say("\nReport: " + report_file(study));
+    study.progress.say("");
+    study.progress.say("Report: " + report_file(study));
 }
 
 /// All that decides what a run of the whole study leaves.
@@ -112,8 +114,8 @@ public:
         }
         study_.progress.say(std::to_string(study_.made) + " cells done, " +
                             std::to_string(study_.finished.size() - study_.made) +
-                            " found done before; once all are there, tables and report are made by:\n  " +
-                            command_line("merge", study_.config, study_.settings));
+                            " found done before; once all are there, tables and report are made by:");
+        study_.progress.say("  " + command_line("merge", study_.config, study_.settings));
     }
 
 private:

@@ -1,5 +1,6 @@
 """The tables of a results folder as pandas DataFrames, with the types, units and meanings of its schema.json."""
 
+import io
 import os
 import re
 
@@ -8,7 +9,7 @@ import pandas
 from ssrlab import csv_files
 from ssrlab.mistakes import ResultsError
 from ssrlab.results import read_manifest, read_schema
-from ssrlab.text_files import path_inside
+from ssrlab.text_files import path_inside, read_text
 
 PANDAS_TYPES = {"integer": "Int64", "number": "float64", "boolean": "boolean", "string": "string"}
 
@@ -44,8 +45,8 @@ class Tables:
             own = types | dict.fromkeys(booleans, "Int64")  # which files write as 1 and 0
             file = path_inside(self.folder, name + ".csv")
             try:
-                table = pandas.read_csv(file, dtype=own, keep_default_na=False, na_values=[""]).astype(dict.fromkeys(booleans, "boolean"))
-            except (ValueError, TypeError, OSError, pandas.errors.ParserError) as e:
+                table = pandas.read_csv(io.StringIO(read_text(file)), dtype=own, keep_default_na=False, na_values=[""]).astype(dict.fromkeys(booleans, "boolean"))
+            except (ValueError, TypeError, pandas.errors.ParserError) as e:
                 raise ResultsError(f"cannot read {file} as schema.json describes it: {e}") from e
             lacking = [c for c in types if c not in table]
             if lacking:

@@ -8,6 +8,25 @@ const std::string good_shot = R"("shots": [{"scene": "sky_only", "resolution": [
 
 }  // namespace
 
+/// What terminals obey, and line feeds, which would make a line of their own.
+TEST_F(CommandLine, ShowsNamesFromFilesAndObeysNone) {
+    const auto expect_shown = [&](const Outcome& o, const std::string& name) {
+        EXPECT_NE(o.text.find(name), std::string::npos) << o.text;
+        EXPECT_EQ(o.text.find_first_of("\x1b\x07\r"), std::string::npos) << o.text;
+        EXPECT_EQ(o.text.find("\nerror: forged"), std::string::npos) << o.text;
+    };
+    config("{\"a\\u001b[31m\\nerror: forged\": 1}");
+    expect_shown(ssrlab("run study.json"), "a\\x1b[31m\\nerror: forged");
+    fs::create_directories(folder / "scenes/b\x1b[1m\nerror: forged");
+    write_text(folder / "scenes/b\x1b[1m\nerror: forged/scene.json",
+               R"({"cameras": [{"name": "c\u001b]0;d\u0007\nerror: forged"}]})");
+    write_text(folder / "scenes/b\x1b[1m\nerror: forged/about.txt", "e\x1b[2Jf\r");
+    const Outcome listed = ssrlab("list scenes --scene-path scenes");
+    expect_shown(listed, "b\\x1b[1m\\nerror: forged");
+    expect_shown(listed, "Cameras: c\\x1b]0;d\\x07\\nerror: forged");
+    expect_shown(listed, "e\\x1b[2Jf\\r");
+}
+
 TEST_F(CommandLine, NamesMistakesInConfigs) {
     expect_mistake("run nowhere.json", "nowhere.json");
     config("{\n \"shots\": [,]\n}");

@@ -46,6 +46,10 @@ struct SeedDependence : testing::Test {
     std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
     FrameStore store{*source, DepthFormat::d32f, size_t(1) << 28};
 
+    /// All presets of all techniques run here, with synchronisation checks (SSRLAB_VALIDATE=1); all tracers do so in
+    /// TracersTest.
+    void TearDown() override { EXPECT_EQ(device.validation_messages(), std::vector<std::string>()); }
+
     /// All bits of what a seed gives.
     std::vector<float> rendered(const std::string& variant, const Point& point, unsigned seed) {
         const std::unique_ptr<Variant> made = make_variant(variant, point.parameters, point.preset);

@@ -1,0 +1,152 @@
+"""Every script that reads files of somebody else refuses broken ones in a sentence, with exit code 2 or 3, or does no harm by them.
+
+usage: broken_files_test.py [STRIDE]    every STRIDE-th mutation of each file; default: as many as take two seconds
+"""
+
+import contextlib
+import io
+import json
+import os
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+HERE = os.path.dirname(os.path.abspath(__file__))
+EXPERIMENTS = os.path.join(HERE, "../../../experiments")
+sys.path[:0] = [HERE, os.path.join(HERE, "../figures"), *(os.path.join(EXPERIMENTS, room) for room in ("figures", "python", "tradeoff", "tune", "examples", "measuring/times"))]
+os.environ["MPLBACKEND"] = "Agg"
+
+import broken_files  # noqa: E402
+import cost_agreement  # noqa: E402
+import figures  # noqa: E402
+import judge  # noqa: E402
+import ssrlab  # noqa: E402
+import stability_figure  # noqa: E402
+import studies  # noqa: E402
+import tables  # noqa: E402
+import tables_study  # noqa: E402
+from analysis.points import Study  # noqa: E402
+from ssrlab.mistakes import exit_code  # noqa: E402
+
+STRIDE = int(sys.argv.pop()) if len(sys.argv) > 1 else 31
+ASKED = {
+    **{"baseline": ["sssr", "default"], "times": [5], "factors": [0.5], "target": "specular", "metric": "mse", "mask": "all", "cost": ""},
+    **{"divisors": {"floor": 1, "wall": 1}, "chosen": [{"shot": "floor", "variant": "sssr", "cost": 5, "point": "default", "chosen_on": "all", "fits": "surely"}]},
+}
+FRONT = "shot,scene,machine,variant,point,label,error,error_low,error_high,cost,cost_low,cost_high,verdict\nfloor,s,m,sssr,default,l,1,0.9,1.1,2,1.9,2.1,front\n"
+
+
+class BrokenFiles(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="ssrlab_broken_")
+        self.addCleanup(temporary.cleanup)
+        self.folder = temporary.name
+        self.tried = self.refused = 0
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, name, text):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "w", encoding="utf-8") as stream:
+            stream.write(text if isinstance(text, str) else json.dumps(text))
+
+    @staticmethod
+    def run_script(work, arguments=()):
+        """(exit code, what it said)"""
+        said, before = io.StringIO(), sys.argv
+        sys.argv = ["script", *arguments]
+        try:
+            with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+                code = exit_code(work, "the files")
+        except SystemExit as end:
+            code = end.code
+        finally:
+            sys.argv = before
+        return code, said.getvalue()
+
+    def break_files(self, names, work, *arguments):
+        code, said = self.run_script(work, arguments)
+        self.assertEqual((code, said), (0, ""), "what is whole")
+        for name in names:
+            with open(self.path(name), "rb") as stream:
+                whole = stream.read()
+            mutations = broken_files.of_json(whole) if name.endswith(".json") else broken_files.of_csv(whole)
+            for index, (what, broken) in enumerate(mutations):
+                if index % STRIDE:
+                    continue
+                with open(self.path(name), "wb") as stream:
+                    stream.write(broken)
+                code, said = self.run_script(work, arguments)
+                self.tried, self.refused = self.tried + 1, self.refused + (code != 0)
+                self.assertIn(code, (0, 2, 3), (name, what, said))
+                self.assertNotIn("a fault of ssrlab", said, (name, what))
+                self.assertEqual(said.count("\n"), said.startswith("error: "), (name, what, said))
+            os.remove(self.path(name)), os.mkfifo(self.path(name))
+            code, said = self.run_script(work, arguments)
+            self.assertIn(code, (2, 3), (name, "a pipe", said))
+            os.remove(self.path(name))
+            with open(self.path(name), "wb") as stream:
+                stream.write(whole)
+        self.assertGreater(self.refused, 0)
+
+    def test_tables(self):
+        tables_study.write_results(self.folder)
+        self.break_files(("manifest.json", "summary.csv", "effects.csv", "splits.csv", "time_summary.csv"), tables.main, self.folder)
+
+    def test_kept_summaries(self):
+        tables_study.write_results(self.path("r"))
+        self.write("t/README.md", '<!-- table made_up changes {"rows": ["taps = 4"]} -->\n<!-- end of table -->\n<!-- table made_up levels -->\n<!-- end of table -->\n')
+        self.assertEqual(self.run_script(tables.main, [self.path("r"), "--keep", "--root", self.path("t")]), (0, ""))
+        self.break_files(["t/experiments/summaries/made_up.csv"], tables.main, "--check", "7", "--root", self.path("t"))
+
+    def test_figures(self):
+        """All that is read before the first is drawn."""
+        tables_study.write_results(self.folder)
+        choice = {"figures": [{"kind": "error_time", "width": 9.5, "points": ["sssr*"], "labels": {"sssr": "s"}}], "crops": [{"shot": "floor", "box": [0, 0, 4, 4], "points": [{"variant": "sssr", "point": "default"}]}]}
+        self.write("figures.json", choice | {"font": "serif", "formats": ["svg"], "shots": ["floor"], "colors": {"sssr": "#102030"}})
+        make, figures.make = figures.make, lambda *_: 0
+        self.addCleanup(setattr, figures, "make", make)
+        self.break_files(("figures.json", "manifest.json", "summary.csv", "time_summary.csv"), figures.main, self.folder, "--choice", self.path("figures.json"), "--mask", "all")
+
+    def test_tradeoff(self):
+        tables_study.write_results(self.folder)
+        self.write("tradeoff/asked.json", ASKED | {"results": self.folder, "out": self.path("tradeoff")})
+        self.write("tradeoff/front.csv", FRONT)
+        self.write("tradeoff/across.csv", "variant,label,cost,ratio\nsssr,l,5,1\n")
+        self.write("tradeoff/stages.csv", "shot,variant,cost\nfloor,sssr,1\n")
+        self.write("results.csv", "shot,variant,point,seed,target,metric,mask,value,represents_shot\nfloor,sssr,default,0,specular,mse,all,1,1\n")
+        self.write("times.csv", "shot,variant,point,seed,stage,frame,milliseconds\nfloor,sssr,default,0,total,1,2\n")
+        names = ["manifest.json", "results.csv", "times.csv", *(f"tradeoff/{name}" for name in ("asked.json", "front.csv", "across.csv", "stages.csv"))]
+        self.break_files(names, lambda: Study(self.path("tradeoff")) and None)
+
+    def test_a_search_that_goes_on(self):
+        self.write("minutes.json", {"search/start": 1.5})
+        search = object.__new__(studies.Studies)
+        search.minutes_file, search.minutes = self.path("minutes.json"), {}
+        self.break_files(["minutes.json"], lambda: search._keep_minutes("search/start", 2.0))
+
+    def test_smaller_scripts(self):
+        self.write("times.csv", "shot,variant,point,stage,milliseconds\n" + "".join(f"s,v,p{i},{stage},{i + 1}\n" for i in range(3) for stage in ("total", "a")))
+        self.write("costs.csv", "shot,variant,point,stage,quantity,value\n" + "".join(f"s,v,p{i},{stage},fetches,{i + 1}\n" for i in range(3) for stage in ("total", "a")))
+        self.break_files(("times.csv", "costs.csv"), cost_agreement.main, self.folder)
+        self.write("key.csv", "pair,shot,first,first_point,second,second_point\n1,s,a,b,c,d\n")
+        self.write("answers.csv", "pair,nearer\n1,left\n")
+        known, judge.JUDGEMENTS = judge.JUDGEMENTS, self.path("judgements.csv")
+        self.addCleanup(setattr, judge, "JUDGEMENTS", known)
+        self.break_files(("key.csv", "answers.csv"), judge.main, "enter", self.folder, self.path("answers.csv"), "--judge", "me")
+        self.write("stability.csv", "group,case,variant,point,verdict\ng,c,v,default,ok\n")
+        draw, stability_figure.draw = stability_figure.draw, lambda rows, _: [(r["group"], r["case"], r["variant"], r["point"], r["verdict"]) for r in rows] and None
+        self.addCleanup(setattr, stability_figure, "draw", draw)
+        self.break_files(["stability.csv"], stability_figure.main, self.path("stability.csv"), "--out=" + self.path("f.svg"))
+
+    def test_pandas(self):
+        tables_study.write_results(self.folder)
+        fields = [{"name": name, "type": kind} for name, kind in (("shot", "string"), ("seeds", "integer"), ("value", "number"), ("represents_shot", "boolean"))]
+        self.write("schema.json", {"resources": [{"name": "summary", "schema": {"fields": fields}}]})
+        self.break_files(("schema.json", "summary.csv"), lambda: ssrlab.read(self.folder)["summary"] is None)
+
+
+if __name__ == "__main__":
+    unittest.main()
