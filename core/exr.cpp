@@ -13,6 +13,7 @@
 #include <ImfStringAttribute.h>
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -92,14 +93,20 @@ MemoryShare announced_memory(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     const auto image = read_announced(in, std::filesystem::file_size(file), file.string());
     if (!image) fail("cannot read ", file.string(), " as OpenEXR: its header is truncated or malformed");
-    constexpr double most_lines = 256;  // of a block of any compression; OpenEXR holds one compressed, and one not
+    constexpr double most_lines = 256;      // of a block of any compression; OpenEXR holds one compressed, and one not
+    constexpr double bytes_per_place = 64;  // of a block in the file, of tiles in all their sizes
     const double block_lines = std::max(std::min(most_lines, image->height), image->tile_height),
-                 block_width = std::max(image->width, image->tile_width);
+                 block_width = std::max(image->width, image->tile_width),
+                 blocks =
+                     image->tile_width > 0 && image->tile_height > 0
+                         ? std::ceil(image->width / image->tile_width) * std::ceil(image->height / image->tile_height)
+                         : image->height;
     MemoryShare memory;
-    memory.add((image->width * image->height + 2 * block_width * block_lines) * double(image->channels * sizeof(float)),
-               file.string() + ": its image of " + std::to_string(size_t(image->width)) + " x " +
-                   std::to_string(size_t(image->height)) + " pixels with " + std::to_string(image->channels) +
-                   " channels");
+    memory.add(
+        (image->width * image->height + 2 * block_width * block_lines) * double(image->channels * sizeof(float)) +
+            blocks * bytes_per_place,
+        file.string() + ": its image of " + std::to_string(size_t(image->width)) + " x " +
+            std::to_string(size_t(image->height)) + " pixels with " + std::to_string(image->channels) + " channels");
     return memory;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csetjmp>
 #include <cstdio>
 #include <cstring>
 #include <png.h>
@@ -62,4 +63,65 @@ HostImage read_png_codes(const std::filesystem::path& file) {
     HostImage image({png.width, png.height}, 3);
     std::ranges::transform(bytes, image.values.begin(), [](unsigned char code) { return float(code) / 255.0f; });
     return image;
+}
+
+namespace {
+
+/// All that decode() changes: libpng reports errors by longjmp(), which leaves no other object of a function whole.
+struct PngDecoder {
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    std::span<const uint8_t> rest;
+    unsigned width = 0, height = 0, bytes_per_pixel = 0;
+    std::vector<uint8_t> codes;  ///< RGBA of 8 bits, or of 16, the higher byte first
+
+    ~PngDecoder() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+void hand_out(png_structp png, png_bytep to, size_t count) {
+    auto& rest = static_cast<PngDecoder*>(png_get_io_ptr(png))->rest;
+    if (rest.size() < count) png_error(png, "truncated");
+    std::memcpy(to, rest.data(), count);
+    rest = rest.subspan(count);
+}
+
+/// Colours are expanded, and not converted: what the file says of its gamma is for glTF not to be used (glTF 2.0, section
+/// 3.8.3).
+bool decode(PngDecoder& d) {
+    if (setjmp(png_jmpbuf(d.png))) return false;
+    png_set_read_fn(d.png, &d, hand_out);
+    png_read_info(d.png, d.info);
+    png_set_expand(d.png);
+    png_set_gray_to_rgb(d.png);
+    png_set_add_alpha(d.png, 0xFFFF, PNG_FILLER_AFTER);
+    const int passes = png_set_interlace_handling(d.png);
+    png_read_update_info(d.png, d.info);
+    d.width = png_get_image_width(d.png, d.info), d.height = png_get_image_height(d.png, d.info);
+    d.bytes_per_pixel = 4 * png_get_bit_depth(d.png, d.info) / 8;
+    const size_t row = size_t(d.width) * d.bytes_per_pixel;
+    if (png_get_rowbytes(d.png, d.info) != row) return false;
+    d.codes.resize(row * d.height);
+    for (int pass = 0; pass < passes; ++pass)
+        for (unsigned y = 0; y < d.height; ++y) png_read_row(d.png, d.codes.data() + y * row, nullptr);
+    png_read_end(d.png, nullptr);
+    return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<uint8_t>> decode_png_rgba(std::span<const uint8_t> file) {
+    PngDecoder decoder;
+    decoder.rest = file;
+    decoder.png = png_create_read_struct(
+        PNG_LIBPNG_VER_STRING, nullptr, [](png_structp png, png_const_charp) { png_longjmp(png, 1); },
+        [](png_structp, png_const_charp) {});
+    decoder.info = png_create_info_struct(decoder.png);
+    if (!decode(decoder)) return {};
+    if (decoder.bytes_per_pixel == 4) return std::move(decoder.codes);
+    std::vector<uint8_t> rounded(decoder.codes.size() / 2);
+    for (size_t i = 0; i < rounded.size(); ++i) {
+        const unsigned code = unsigned(decoder.codes[2 * i]) << 8 | decoder.codes[2 * i + 1];
+        rounded[i] = uint8_t((code * 255u + 32767u) / 65535u);
+    }
+    return rounded;
 }

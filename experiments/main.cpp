@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/gpu/shader_error.h"
 #include "core/near_miss.h"
+#include "core/reading_limits.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/store/host_info.h"
@@ -9,9 +10,42 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
+#include <limits>
 #include <new>
 
 namespace {
+
+/// CLI11's own ranges let NaN pass, which lies in none.
+CLI::Validator real_in(double min, double max, const std::string& description) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            char* end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            const bool fits = !text.empty() && *end == 0 && value >= min && value <= max;
+            return fits ? std::string() : "'" + text + "' must be " + description;
+        },
+        "");
+}
+CLI::Validator positive() {
+    return real_in(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "a number above 0");
+}
+
+/// What files may cost and name, of all commands that read them (core/reading_limits.h).
+void add_reading(CLI::App& command) {
+    command
+        .add_option_function<uint64_t>(
+            "--max-memory", [](const uint64_t& bytes) { reading_limits().memory = bytes; },
+            "What files may take at one time, e.g. 8GB; more is refused before it is taken; default: "
+            "SSRLAB_MAX_MEMORY, "
+            "else half of this machine's")
+        ->transform(CLI::AsSizeValue(true))
+        ->envname("SSRLAB_MAX_MEMORY")
+        ->type_name("SIZE");
+    command.add_flag_callback(
+        "--allow-outside", [] { reading_limits().allows_outside = true; },
+        "Scene and glTF files may name files outside of their own folder; for files that you trust");
+}
 
 /// Options that most commands share.
 void add_scene_path(CLI::App& command, CommonOptions& common) {
@@ -103,7 +137,7 @@ int parse_and_run(int argc, char** argv) {
         .add_option("--report-after", run.report_after,
                     "Seconds of a running study until it writes tables and report of what is done; it goes on to do so "
                     "for a twenty-fifth of the time, after ten minutes for half a hundredth")
-        ->check(CLI::NonNegativeNumber)
+        ->check(real_in(0, std::numeric_limits<double>::max(), "a number of 0 or more"))
         ->capture_default_str()
         ->type_name("SECONDS");
     run_command_
@@ -115,6 +149,7 @@ int parse_and_run(int argc, char** argv) {
         ->delimiter(',')
         ->type_name("TERM");
     add_device(run_command_, common), add_scene_path(run_command_, common), add_cache(run_command_, common);
+    add_reading(run_command_);
     run_command_.callback([&] { run_study_command(run, common); });
 
     PlanOptions plan;
@@ -133,6 +168,7 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("FILE.json");
     plan_command_.add_flag("--keep-all", plan.keep_all, "As for `ssrlab run`");
     add_device(plan_command_, common), add_scene_path(plan_command_, common);
+    add_reading(plan_command_);
     plan_command_.callback([&] { plan_command(plan, common); });
 
     MergeOptions merge;
@@ -147,6 +183,7 @@ int parse_and_run(int argc, char** argv) {
     merge_command_.add_flag("--keep-all", merge.keep_all, "The parts were run with --keep-all");
     merge_command_.add_flag("--replace", merge.replaces, "As for `ssrlab run`");
     add_device(merge_command_, common), add_scene_path(merge_command_, common);
+    add_reading(merge_command_);
     merge_command_.callback([&] { status = merge_command(merge, common); });
 
     std::filesystem::path report_folder;
@@ -158,6 +195,7 @@ int parse_and_run(int argc, char** argv) {
     bool links_images = false;
     report_command_.add_flag("--link-images", links_images,
                              "Keep all images beside the page, in report_images/, even if they are small");
+    add_reading(report_command_);
     report_command_.callback([&] { report_command(report_folder, links_images); });
 
     hand_on(*app.add_subcommand(
@@ -179,6 +217,7 @@ int parse_and_run(int argc, char** argv) {
         .add_option("--page", diff.page,
                     "Also write a page with both pictures, their difference and the numbers of what changed")
         ->type_name("FILE.html");
+    add_reading(diff_command_);
     diff_command_.callback([&] { status = diff_command(diff); });
 
     hand_on(*app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),
@@ -197,12 +236,12 @@ int parse_and_run(int argc, char** argv) {
                     "Errors are multiples of this point's; default: none, else the study's first baseline")
         ->type_name("VARIANT:POINT");
     tradeoff_command_.add_option("--times", tradeoff.times, "Time budgets, or budgets of the quantity of --cost")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str()
         ->type_name("MS");
     tradeoff_command_
         .add_option("--factors", tradeoff.factors, "Fractions of the baseline's error, for the time to reach them")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str()
         ->type_name("F");
     tradeoff_command_.add_option("--leave-out", tradeoff.left_out, "Scenes or shots to exclude")->type_name("SCENE");
@@ -211,6 +250,7 @@ int parse_and_run(int argc, char** argv) {
     tradeoff_command_.add_option("--target", tradeoff.target, "Default: that of the study's primary error");
     tradeoff_command_.add_option("--cost", tradeoff.cost, "A counted quantity of costs.csv in place of time")
         ->type_name("QUANTITY");
+    add_reading(tradeoff_command_);
     tradeoff_command_.callback([&] { status = tradeoff_command(tradeoff); });
 
     CLI::App& statistics_command_ = *app.add_subcommand("statistics", "Answer the questions of ssrlab's own scripts");
@@ -225,8 +265,12 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("CONFIG.json");
     tune_command_.add_option("--out", tune.out, "Default: results/<name of the config>")->type_name("DIR");
     add_device(tune_command_, common), add_scene_path(tune_command_, common), add_cache(tune_command_, common);
+    add_reading(tune_command_);
     tune_command_.callback([&] {
         std::vector<std::string> options;
+        if (tune_command_.count("--max-memory"))
+            options.push_back("--max-memory=" + std::to_string(reading_limits().memory));
+        if (reading_limits().allows_outside) options.push_back("--allow-outside");
         if (!common.device.empty()) options.push_back("--device=" + common.device);
         if (!common.cache.empty()) options.push_back("--cache=" + common.cache.string());
         for (const std::filesystem::path& folder : common.scene_path)
@@ -258,11 +302,11 @@ int parse_and_run(int argc, char** argv) {
                     "Write the error map: .exr (a layer per metric) or .png (one metric, in false colour)")
         ->type_name("FILE");
     compare_command_.add_option("--map-max", compare.map_max, "The error shown in the brightest colour of a .png map")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     compare_command_.add_option("--exposure", compare.exposure_ev, "Display metrics use radiance times 2^EV")
         ->type_name("EV")
-        ->check(CLI::Range(-100.0, 100.0))
+        ->check(real_in(-100, 100, "a number from -100 to 100"))
         ->capture_default_str();
     compare_command_.add_option("--tone-map", compare.tone_map, "Applied before display metrics (psnr, ssim, flip)")
         ->check(CLI::IsMember(tone_map_names))
@@ -271,6 +315,7 @@ int parse_and_run(int argc, char** argv) {
         "--fail-on-non-finite", compare.fail_on_non_finite,
         "Exit with 2 if a pixel is NaN or Inf; by default such pixels are excluded and counted in a warning");
     compare_command_.add_flag("--json", compare.as_json, "Print one JSON object");
+    add_reading(compare_command_);
     compare_command_.callback([&] { compare_images_command(compare); });
 
     ReferenceCommandOptions reference;
@@ -284,11 +329,11 @@ int parse_and_run(int argc, char** argv) {
     reference_command_
         .add_option("--seconds", reference.settings.max_seconds,
                     "Time limit, beside the 64 samples of the guide; default: none")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     reference_command_
         .add_option("--target", reference.settings.target_relative_error,
                     "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")
-        ->check(CLI::Range(1e-4, 1.0));
+        ->check(real_in(1e-4, 1, "a number from 0.0001 to 1"));
     reference_command_
         .add_option("--max-depth", reference.settings.max_depth,
                     "Reflections of a path at most; the camera ray does not count")
@@ -300,6 +345,7 @@ int parse_and_run(int argc, char** argv) {
                                 "bounce, and the borders of the screen; about twice the rays");
     reference_command_.add_option("--out", reference.out, "Default: <scene>_reference.exr")->type_name("FILE.exr");
     add_scene_path(reference_command_, common), add_cache(reference_command_, common);
+    add_reading(reference_command_);
     reference_command_.callback([&] { reference_command(reference, common); });
 
     GBufferCommandOptions gbuffer;
@@ -317,6 +363,7 @@ int parse_and_run(int argc, char** argv) {
         ->capture_default_str();
     gbuffer_command_.add_flag("--reversed-depth", gbuffer.is_reversed, "1 at the near plane, 0 at the far plane");
     add_device(gbuffer_command_, common), add_scene_path(gbuffer_command_, common);
+    add_reading(gbuffer_command_);
     gbuffer_command_.callback([&] { gbuffer_command(gbuffer, common); });
 
     CaptureCommandOptions capture;
@@ -327,6 +374,7 @@ int parse_and_run(int argc, char** argv) {
                     "With gbuffer.exr and camera.json, or with folders frame_<number> of them")
         ->required()
         ->type_name("DIR");
+    add_reading(capture_command_);
     capture_command_.callback([&] { capture_command(capture); });
 
     NeedsOptions needs;
@@ -351,6 +399,7 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("N");
     needs_command_.add_option("--csv", needs.csv, "Also write the measurements")->type_name("FILE.csv");
     add_device(needs_command_, common), add_scene_path(needs_command_, common);
+    add_reading(needs_command_);
     needs_command_.callback([&] { status = needs_command(needs, common); });
 
     StabilityOptions stability;
@@ -381,6 +430,7 @@ int parse_and_run(int argc, char** argv) {
                                 "one stage at a time (5 minutes; stability_precision.csv)");
     add_device(stability_command_, common), add_scene_path(stability_command_, common);
     add_cache(stability_command_, common);
+    add_reading(stability_command_);
     stability_command_.callback([&] {
         status =
             stability.is_of_precision ? precision_command(stability, common) : stability_command(stability, common);
@@ -407,6 +457,7 @@ int parse_and_run(int argc, char** argv) {
         ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "metrics", "devices"}))
         ->type_name("scenes|variants|presets|tracers|metrics|devices");
     add_scene_path(list_command_, common);
+    add_reading(list_command_);
     list_command_.callback([&] { list_command(what, common); });
 
     if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);

@@ -5,6 +5,7 @@
 #include "core/exr.h"
 #include "core/near_miss.h"
 #include "core/png.h"
+#include "core/reading_limits.h"
 #include "core/shown_text.h"
 #include "metrics/color_map.h"
 
@@ -118,7 +119,13 @@ void check(const CompareOptions& options) {
 Comparison compare(const CompareOptions& options) {
     check(options);
     Comparison comparison{.options = options};
-    const Source reference = read_source(options.reference, options), test = read_source(options.test, options);
+    const Source reference = read_source(options.reference, options);
+    constexpr double bytes_per_pixel = 300;  // of both images and all maps, as measured with the default metrics
+    MemoryShare memory;
+    memory.add(double(reference.linear.pixel_count()) * bytes_per_pixel,
+               options.reference.string() + ": the comparison of its " +
+                   std::to_string(reference.linear.pixel_count()) + " pixels");
+    const Source test = read_source(options.test, options);
     if (reference.linear.extent != test.linear.extent)
         fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y,
              " pixels, but ", options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y,

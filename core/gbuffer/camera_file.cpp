@@ -89,6 +89,37 @@ void refuse_overflow(const CameraData& c, const std::string& where) {
                          (*m)[column][row], "; their numbers are too large or too small");
 }
 
+/// Fails where the product of `a` and `b` differs from `expected` by more than rounding explains: float32 loses digits
+/// of the product's parts, whose sum may be small beside them.
+void refuse_contradiction(const glm::dmat4& a, const glm::dmat4& b, const glm::dmat4& expected,
+                          const std::string& sentence) {
+    constexpr double tolerance = 1e-3;
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) {
+            double sum = 0, size = 0;
+            for (int k = 0; k < 4; ++k) {
+                const double part = a[k][row] * b[column][k];
+                sum += part, size += std::abs(part);
+            }
+            if (!(std::abs(sum - expected[column][row]) <= tolerance * size)) fail(sentence);
+        }
+}
+
+/// What a file may leave out, since it follows from the others, must follow from them where it is there. `prefix`: ""
+/// or "previous_".
+void refuse_contradictions(const std::string& where, const std::string& prefix, const glm::mat4& clip_from_view,
+                           const glm::mat4& view_from_clip, const glm::mat4& view_from_world,
+                           const glm::mat4& world_from_view, const glm::mat4& clip_from_world) {
+    const auto contradicts = [&](const char* derived, const std::string& others) {
+        return where + ": '" + prefix + derived + "' contradicts " + others + "; leave it out, and it is derived";
+    };
+    const std::string clip = "'" + prefix + "clip_from_view'", view = "'" + prefix + "view_from_world'";
+    refuse_contradiction(view_from_clip, clip_from_view, glm::dmat4(1), contradicts("view_from_clip", clip));
+    refuse_contradiction(world_from_view, view_from_world, glm::dmat4(1), contradicts("world_from_view", view));
+    refuse_contradiction(clip_from_view, view_from_world, clip_from_world,
+                         contradicts("clip_from_world", clip + " and " + view));
+}
+
 void read_matrices(JsonObject& object, CameraData& c) {
     c.clip_from_view = matrix(object, "clip_from_view");
     c.view_from_world = matrix(object, "view_from_world");
@@ -115,6 +146,22 @@ void read_matrices(JsonObject& object, CameraData& c) {
     c.previous_clip_from_world =
         matrix(object, "previous_clip_from_world",
                is_first ? c.clip_from_world : previous_clip_from_view * c.previous_view_from_world);
+    refuse_overflow(c, object.where());
+
+    refuse_contradictions(object.where(), "", c.clip_from_view, c.view_from_clip, c.view_from_world, c.world_from_view,
+                          c.clip_from_world);
+    refuse_contradiction(c.world_from_view, c.view_from_clip, c.world_from_clip,
+                         object.where() +
+                             ": 'world_from_clip' contradicts 'clip_from_view' and 'view_from_world'; leave "
+                             "it out, and it is derived");
+    refuse_contradictions(object.where(), "previous_", previous_clip_from_view, c.previous_view_from_clip,
+                          c.previous_view_from_world, c.previous_world_from_view, c.previous_clip_from_world);
+    const bool divides = c.clip_from_view[0][3] != 0 || c.clip_from_view[1][3] != 0 || c.clip_from_view[2][3] != 0;
+    if (divides == (c.frame.z == 1))
+        fail(object.where(), ": 'is_orthographic' is ", divides ? "true" : "false",
+             ", but the last row of "
+             "'clip_from_view' ",
+             divides ? "divides by the depth" : "is that of an orthographic camera");
 }
 
 }  // namespace
@@ -175,7 +222,6 @@ CameraFile read_camera(const std::filesystem::path& file) {
     result.exposure_ev = object.number("exposure_ev", -100, 100, 0);
     c.jitter = glm::vec4(pair(object, "jitter", {0, 0}), pair(object, "previous_jitter", {0, 0}));
     read_matrices(object, c);
-    refuse_overflow(c, object.where());
     object.finish();
     return result;
 }

@@ -34,15 +34,18 @@ glm::uvec2 jpeg_extent(std::span<const uint8_t> bytes) {
     return {0, 0};
 }
 
+bool begins_with(std::span<const uint8_t> bytes, std::span<const uint8_t> mark) {
+    return bytes.size() >= mark.size() && std::equal(mark.begin(), mark.end(), bytes.begin());
+}
+
 }  // namespace
 
+bool is_png(std::span<const uint8_t> bytes) {
+    return begins_with(bytes, std::array<uint8_t, 8>{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'});
+}
+
 glm::uvec2 encoded_extent(std::span<const uint8_t> bytes) {
-    constexpr std::array<uint8_t, 8> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-    constexpr std::array<uint8_t, 3> jpeg = {0xFF, 0xD8, 0xFF};
-    const auto begins_with = [&](std::span<const uint8_t> mark) {
-        return bytes.size() >= mark.size() && std::equal(mark.begin(), mark.end(), bytes.begin());
-    };
-    if (begins_with(png)) return png_extent(bytes);
-    if (begins_with(jpeg)) return jpeg_extent(bytes);
+    if (is_png(bytes)) return png_extent(bytes);
+    if (begins_with(bytes, std::array<uint8_t, 3>{0xFF, 0xD8, 0xFF})) return jpeg_extent(bytes);
     return {0, 0};
 }

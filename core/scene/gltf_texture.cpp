@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "core/png.h"
 #include "core/scene/encoded_image.h"
 #include "core/scene/gltf_value.h"
 #include "core/scene/ranges.h"
@@ -42,8 +43,8 @@ struct Decoded {
     Texels rgba;
 };
 
-/// Only PNG and JPEG, as glTF 2.0 has it: stb_image would decode other formats by their content. 16-bit images are
-/// rounded to 8 bits: a Texture holds no more. What stays is taken from `kept`.
+/// Only PNG and JPEG, as glTF 2.0 has it. libpng reads PNG: stb_image, which tinygltf calls, inflates a few bytes to
+/// gigabytes without a look at the header. What stays is taken from `kept`.
 Decoded decode_image(const GltfFile& file, size_t index, MemoryShare& kept) {
     const tinygltf::Image& encoded = file.model.images[index];
     const std::string name = encoded.uri.empty() ? encoded.name : encoded.uri,
@@ -53,26 +54,22 @@ Decoded decode_image(const GltfFile& file, size_t index, MemoryShare& kept) {
     if (extent.x == 0 || extent.y == 0) broken();
     if (std::max(extent.x, extent.y) > any_texture_side)
         fail(what, " has ", extent.x, " x ", extent.y, " pixels; allowed are sides of ", any_texture_side);
-    constexpr double bytes_kept = 4, bytes_of_decoder = 20;  // per pixel; 16-bit images and progressive JPEG take most
+    constexpr double bytes_kept = 4, bytes_of_decoder = 20;  // per pixel; progressive JPEG takes most
     const double pixels = double(extent.x) * double(extent.y);
     const std::string sized = what + " of " + std::to_string(extent.x) + " x " + std::to_string(extent.y) + " pixels";
     MemoryShare decoder;
     kept.add(pixels * bytes_kept, sized), decoder.add(pixels * bytes_of_decoder, sized);
 
+    if (is_png(encoded.image)) {
+        auto rgba = decode_png_rgba(encoded.image);
+        if (!rgba) broken();
+        return {extent, make_texels(std::move(*rgba))};
+    }
     tinygltf::Image image;
     std::string error, warning;
     const auto size = static_cast<int>(encoded.image.size());
     if (!tinygltf::LoadImageData(&image, int(index), &error, &warning, 0, 0, encoded.image.data(), size, nullptr))
         broken();
-    if (image.bits == 16) {
-        const size_t count = image.image.size() / 2;
-        for (size_t i = 0; i < count; ++i) {
-            const unsigned value = image.image[i * 2] | image.image[i * 2 + 1] << 8;
-            image.image[i] = uint8_t((value * 255u + 32767u) / 65535u);
-        }
-        image.image.resize(count);
-        image.image.shrink_to_fit();
-    }
     return {{unsigned(image.width), unsigned(image.height)}, make_texels(std::move(image.image))};
 }
 }  // namespace

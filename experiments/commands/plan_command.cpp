@@ -1,6 +1,7 @@
 // ssrlab plan: the cells of a study, which of them are done, and the estimated cost of the others.
 #include "core/error.h"
 #include "core/files.h"
+#include "core/reading_limits.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
@@ -8,7 +9,6 @@
 #include "experiments/run/progress.h"
 #include "experiments/store/cell_store.h"
 
-#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -74,7 +74,7 @@ void refuse_absurd(const std::vector<PlannedWork>& work, bool here) {
     if (seconds > most_days * 86400)
         fail("this would take about ", std::llround(seconds / 86400),
              " days here; sweep fewer values, or take fewer seeds, shots or samples");
-    const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)) / 1048576;
+    const double machine = double(machine_memory()) / 1048576;
     if (here && memory > machine)
         fail(largest, " would need about ", std::llround(memory), " MiB of memory, and this machine has ",
              std::llround(machine), "; give the shot a lower resolution");

@@ -4,10 +4,10 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 
+#include <re2/re2.h>
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <regex>
 #include <stdexcept>
 
 namespace {
@@ -38,7 +38,8 @@ bool fits(const json& value, const json& schema) {
         if (word == "type") return has_type(value, asked);
         if (word == "enum") return std::ranges::count(asked, value) > 0;
         if (word == "const") return value == asked;
-        if (word == "pattern") return std::regex_search(value.get<std::string>(), std::regex(asked.get<std::string>()));
+        if (word == "pattern")  // std::regex recurses once per character, and a stack ends somewhere
+            return RE2::PartialMatch(value.get<std::string>(), RE2(asked.get<std::string>()));
         if (word == "minimum") return value >= asked;
         if (word == "maximum") return value <= asked;
         if (word == "exclusiveMinimum") return value > asked;

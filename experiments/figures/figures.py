@@ -47,6 +47,7 @@ from paper_figures import (
     temporal,
 )
 from paper_figures.crop_choice import read_crops
+from ssrlab import memory
 from ssrlab.results import Results
 from ssrlab.text_files import path_inside
 
@@ -79,7 +80,11 @@ def parse_arguments():
     parser.add_argument("--target", help="default: specular")
     parser.add_argument("--metric", help="default: what the study is made to compare (`primary`), else its first metric")
     parser.add_argument("--mask", help="default: reflective")
-    return parser.parse_args()
+    parser.add_argument("--max-memory", metavar="SIZE", type=memory.size_in_bytes, help=f"what an image may take, e.g. 8GB; default: {memory.VARIABLE}, else half of this machine's memory")
+    arguments = parser.parse_args()
+    if arguments.max_memory is not None:
+        os.environ[memory.VARIABLE] = str(arguments.max_memory)
+    return arguments
 
 
 def for_each_shot(results, requests):

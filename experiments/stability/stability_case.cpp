@@ -1,6 +1,7 @@
 #include "experiments/stability/stability_case.h"
 
 #include "core/error.h"
+#include "core/reading_limits.h"
 #include "experiments/config/point_name.h"
 
 #include <algorithm>
@@ -157,6 +158,15 @@ std::string label_of_value(const std::string& key, const nlohmann::json& value, 
     return label;
 }
 
+/// Sets aside what all combinations of `each` take, before one is made.
+void set_combinations_aside(const nlohmann::json& json, const std::string& where, MemoryShare& memory) {
+    constexpr double bytes_per_case = 4096, bytes_per_character = 32;  // as a document, twice, and as a StabilityCase
+    double count = 1;
+    if (json.is_object() && json.contains("each"))
+        for (const nlohmann::json& values : json["each"]) count *= double(values.size());
+    memory.add(count * (bytes_per_case + bytes_per_character * double(json.dump().size())), where + ": 'each'");
+}
+
 /// Every combination of the values of `each`.
 std::vector<nlohmann::json> expanded(nlohmann::json json, const std::string& where) {
     JsonObject object(json, where);
@@ -210,8 +220,10 @@ std::vector<StabilityCase> read_stability_cases(const std::filesystem::path& fil
     object.finish();
     if (!entries.is_array()) fail(file.string(), ": 'cases' must be an array");
     std::vector<StabilityCase> cases;
+    MemoryShare memory;
     for (size_t i = 0; i < entries.size(); ++i) {
         const std::string where = file.string() + ": cases[" + std::to_string(i) + "]";
+        set_combinations_aside(entries[i], where, memory);
         for (const nlohmann::json& entry : expanded(entries[i], where)) cases.push_back(read_case(entry, where));
     }
     return cases;

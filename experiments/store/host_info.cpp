@@ -2,10 +2,10 @@
 
 #include "core/files.h"
 #include "core/json.h"
+#include "core/reading_limits.h"
 #include "metrics/estimators.h"
 
 #include <sys/utsname.h>
-#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -48,11 +48,10 @@ std::string proc_value(const char* file, const std::string& key) {
 nlohmann::json host_info() {
     utsname kernel{};
     uname(&kernel);
-    const double bytes = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     return {{"name", kernel.nodename},
             {"cpu", proc_value("/proc/cpuinfo", "model name")},
             {"cores", std::thread::hardware_concurrency()},
-            {"memory_gib", std::round(bytes / double(1 << 30) * 10.0) / 10.0},
+            {"memory_gib", std::round(double(machine_memory()) / double(1 << 30) * 10.0) / 10.0},
             {"kernel", std::string(kernel.sysname) + " " + kernel.release}};
 }
 

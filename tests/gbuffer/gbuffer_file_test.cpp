@@ -137,6 +137,28 @@ TEST_F(gbuffer_file, errors_name_file_and_layer) {
         write_text(folder_ / "camera.json", camera.dump());
         EXPECT_NE(load_error().find("camera.json: '" + std::string(key) + "'"), std::string::npos) << load_error();
     }
+    const nlohmann::json zeros(4, nlohmann::json(4, 0)), rows = whole["world_from_view"];
+    const nlohmann::json other = {rows[1], rows[0], rows[2], rows[3]};
+    for (const char* key : {"clip_from_view", "view_from_world"}) {
+        camera = whole;
+        camera[key] = zeros;
+        write_text(folder_ / "camera.json", camera.dump());
+        EXPECT_NE(load_error().find("'" + std::string(key) + "' has determinant 0"), std::string::npos) << load_error();
+    }
+    for (const char* key : {"view_from_clip", "world_from_view", "clip_from_world", "world_from_clip",
+                            "previous_view_from_clip", "previous_world_from_view", "previous_clip_from_world"})
+        for (const nlohmann::json& matrix : {zeros, other}) {
+            camera = whole;
+            camera[key] = matrix;
+            write_text(folder_ / "camera.json", camera.dump());
+            EXPECT_NE(load_error().find("camera.json: '" + std::string(key) + "' contradicts"), std::string::npos)
+                << load_error();
+        }
+    camera = whole;
+    camera["is_orthographic"] = true;
+    write_text(folder_ / "camera.json", camera.dump());
+    EXPECT_NE(load_error().find("'is_orthographic' is true, but the last row"), std::string::npos) << load_error();
+
     camera = whole;  // in range each, not so their product
     for (const char* key : {"view_from_clip", "world_from_view", "clip_from_world", "world_from_clip"})
         camera.erase(key);

@@ -2,6 +2,9 @@
 #include "core/png.h"
 #include "tests/scene/gltf_fixture.h"
 
+#include <cmath>
+#include <set>
+
 namespace {
 std::string base64(const std::string& bytes) {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -111,4 +114,28 @@ TEST_F(Images, BlendingAndTransmissionAreReported) {
     EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::opaque);
     EXPECT_TRUE(mentions(scene.warnings, "'material_0' is blended"));
     EXPECT_TRUE(mentions(scene.warnings, "'pane' transmits light"));
+}
+
+TEST(PngTexels, AreTheFilesCodesOfEveryKind) {
+    const auto decoded = [](const std::string& name) {
+        const std::string file = read_text(fs::path(SSRLAB_SOURCE_DIR) / "tests/data/fuzz/texture" / name);
+        const auto texels = decode_png_rgba({reinterpret_cast<const uint8_t*>(file.data()), file.size()});
+        EXPECT_TRUE(texels) << name;
+        return texels.value_or(std::vector<uint8_t>(36));
+    };
+    const std::vector<uint8_t> rgb = decoded("rgb.png"), rgba = decoded("rgba.png"), grey = decoded("grey16.png");
+    for (unsigned i = 0; i < 9; ++i) {
+        for (unsigned c = 0; c < 3; ++c) {
+            EXPECT_EQ(rgb[4 * i + c], 9 * (3 * i + c));
+            EXPECT_EQ(rgba[4 * i + c], 9 * (3 * i + c));
+            EXPECT_EQ(grey[4 * i + c], std::lround(7000 * i / 65535.0 * 255));
+        }
+        EXPECT_EQ(rgb[4 * i + 3], 255);
+        EXPECT_EQ(rgba[4 * i + 3], 27 * i);
+    }
+    std::set<uint8_t> alphas;
+    const std::vector<uint8_t> palette = decoded("palette.png");
+    for (unsigned i = 0; i < 9; ++i) alphas.insert(palette[4 * i + 3]);
+    EXPECT_EQ(alphas, (std::set<uint8_t>{0, 255}));
+    EXPECT_FALSE(decode_png_rgba({}));
 }

@@ -161,6 +161,10 @@ TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
     }
     config("{" + good_shot + R"(, "variants": [{"variant": ")" + name + R"("}]})");
     expect_mistake("run study.json", "unknown variant 'nnn");
+    // Names that are compared with a pattern.
+    config("{" + good_shot + R"(, "variants": [{"variant": "none"}], "masks": ["roughness_0_0.)" +
+           std::string(300'000, '1') + R"(x"]})");
+    expect_mistake("plan study.json", "'masks' must be");
 }
 
 TEST_F(CommandLine, StopsAReferenceByWhatWasAskedFor) {
@@ -259,4 +263,51 @@ wait $!
     EXPECT_EQ(WEXITSTATUS(status), 130);
     EXPECT_TRUE(read_text(folder / "log").ends_with("\nstopped; the same command continues where it was\n"))
         << read_text(folder / "log");
+}
+
+TEST_F(CommandLine, TakesNumbersOnlyThatAreFinite) {
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    fs::create_directories(folder / "o");
+    for (const std::string number : {"nan", "inf", "1x"})
+        for (const std::string command :
+             {"compare a.exr a.exr --exposure ", "compare a.exr a.exr --map-max ", "reference fence --seconds ",
+              "reference fence --target ", "run study.json --report-after ", "tradeoff o --times ",
+              "tradeoff o --factors "}) {
+            const Outcome o = ssrlab(command + number);
+            EXPECT_EQ(o.code, 2) << command << number << "\n" << o.text;
+            EXPECT_NE(o.text.find("must be a number"), std::string::npos) << command << number << "\n" << o.text;
+        }
+}
+
+TEST_F(CommandLine, FilesTakeNoMoreThanTheyMay) {
+    write_exr(folder / "a.exr", HostImage({256, 256}, 3, 0.5f));  // 19.7 MB to compare
+    expect_mistake("compare a.exr a.exr --max-memory 1MB", "allow more with --max-memory");
+    EXPECT_EQ(ssrlab("compare a.exr a.exr --metric mse --max-memory 25MB").code, 0);
+    const Outcome by_variable = ssrlab("compare a.exr a.exr", "SSRLAB_MAX_MEMORY=1MB");
+    EXPECT_EQ(by_variable.code, 2) << by_variable.text;
+    EXPECT_EQ(ssrlab("compare a.exr a.exr --max-memory much").code, 2);
+    EXPECT_EQ(ssrlab("compare a.exr a.exr --max-memory -1").code, 2);
+
+    std::string each = R"("frames": [1, 2, 3])";
+    for (const char* key : {"near", "far", "scale", "radiance", "roughness", "camera"}) {
+        each += std::string(", \"") + key + "\": [0";
+        for (int i = 1; i < 30; ++i) each += ", " + std::to_string(i);
+        each += "]";
+    }
+    write_text(folder / "cases.json",
+               R"({"cases": [{"case": "c", "group": "g", "why": "w", "scene": "fence", "each": {)" + each + "}}]}");
+    expect_mistake("stability --table cases.json", "cases[0]: 'each' needs");
+}
+
+TEST_F(CommandLine, WaitsForNoFifo) {
+    const std::string fifo = (folder / "fifo").string();
+    ASSERT_EQ(std::system(("mkfifo '" + fifo + "' '" + fifo + ".exr' '" + fifo + ".gltf' '" + fifo + ".json'").c_str()),
+              0);
+    for (const std::string command :
+         {"run fifo", "plan fifo", "merge fifo", "tune fifo", "compare fifo.exr fifo.exr", "needs fifo.gltf",
+          "reference fifo.json", "gbuffer fifo.json", "stability --table fifo"}) {
+        const Outcome o = ssrlab(command, "timeout 20 env");
+        EXPECT_EQ(o.code, 2) << command << "\n" << o.text;
+        EXPECT_NE(o.text.find("it is a FIFO"), std::string::npos) << command << "\n" << o.text;
+    }
 }

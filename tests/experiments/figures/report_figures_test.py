@@ -8,9 +8,12 @@ import csv
 import json
 import os
 import re
+import resource
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 from figures_start import check, request_of
 
@@ -115,6 +118,22 @@ def test_same_bytes(folder, temporary):
         check(first == second, f"{name} differs when it is made again")
 
 
+def exr_header(width, height):
+    """Of an image R, G, B in floats, ZIP-compressed."""
+
+    def attribute(name, kind, value):
+        return name + b"\0" + kind + b"\0" + struct.pack("<i", len(value)) + value
+
+    channels = b"".join(name + b"\0" + struct.pack("<4i", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    return (
+        struct.pack("<II", 20000630, 2)
+        + attribute(b"channels", b"chlist", channels)
+        + attribute(b"compression", b"compression", b"\3")
+        + attribute(b"dataWindow", b"box2i", struct.pack("<4i", 0, 0, width - 1, height - 1))
+        + b"\0"
+    )
+
+
 def test_exr(folder):
     """The Python reader against the C++ one, half and float, over rows that do not fill the last block."""
     for name in (f"{SHOT}/reference_image.exr", "roughness_gradient.side.161x91/none_default_0_specular.exr"):
@@ -128,15 +147,36 @@ def test_exr(folder):
                 [float(np.float16(v)) for v in image[y, x]] == [float(v) for v in printed.split()],
                 f"pixel {x}, {y} of {name}: {image[y, x]}, and C++ reads {printed}",
             )
-    broken = os.path.join(folder, "broken.exr")
-    with open(file, "rb") as whole, open(broken, "wb") as part:
+    with open(file, "rb") as whole:
         data = whole.read()
-        part.write(data[: len(data) // 2])
+    broken = os.path.join(folder, "broken.exr")
+
+    def refuses(content, what):
+        with open(broken, "wb") as part:
+            part.write(content)
+        try:
+            read_exr_rgb(broken)
+            check(False, f"an EXR was read although {what}")
+        except ExrError as e:
+            check("broken.exr" in str(e) and what in str(e), f"the message lacks the file or '{what}': {e}")
+
+    refuses(data[: len(data) // 2], "it is truncated")
+    refuses(exr_header(1_000_000, 1_000_000), "allow more with --max-memory")
+    bomb = zlib.compress(bytes(10**8))  # 97 kB
+    header = exr_header(1, 1)
+    small = header + struct.pack("<Qii", len(header) + 8, 0, len(bomb)) + bomb
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    refuses(small, "a block has 13 bytes and not 12")
+    check(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 50_000, "an EXR of one pixel took 50 MB")
+    fifo = os.path.join(folder, "fifo.exr")
+    os.mkfifo(fifo)
     try:
-        read_exr_rgb(broken)
-        check(False, "a truncated EXR was read")
+        read_exr_rgb(fifo)
+        check(False, "a FIFO was read")
     except ExrError as e:
-        check("broken.exr" in str(e), f"the message names no file: {e}")
+        check("not a regular file" in str(e), f"of a FIFO it says: {e}")
+    finally:
+        os.remove(fifo)
 
 
 def test_chosen_crops(folder, temporary):

@@ -1,0 +1,22 @@
+"""What files may take, as `ssrlab --max-memory` has it: SSRLAB_MAX_MEMORY, else half of this machine's memory."""
+
+import argparse
+import os
+import re
+
+VARIABLE = "SSRLAB_MAX_MEMORY"
+
+
+def size_in_bytes(text):
+    """Of "500MB" (1000^2 bytes each) or "8GiB" (1024^3), as argparse calls it."""
+    match = re.fullmatch(r"(\d+) *(?:([kmgtpe])(i?))?b?", text.strip().lower())
+    if not match:
+        raise argparse.ArgumentTypeError(f"'{text}' is no size such as 8GB")
+    number, unit, is_binary = match.groups()
+    return int(number) * (1024 if is_binary else 1000) ** (" kmgtpe".index(unit) if unit else 0)
+
+
+def limit():
+    """Bytes that one file may take."""
+    asked = os.environ.get(VARIABLE)
+    return size_in_bytes(asked) if asked else os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2

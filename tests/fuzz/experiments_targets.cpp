@@ -1,0 +1,37 @@
+// The readers of studies, tables of cases, and results.
+#include "core/json.h"
+#include "experiments/config/config.h"
+#include "experiments/evaluation/study_tables.h"
+#include "experiments/measuring/cell.h"
+#include "experiments/stability/stability_case.h"
+#include "experiments/tables/columns.h"
+#include "tests/fuzz/targets.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// As CellStore::read(), which takes a cell of other types for damaged.
+void read_cell(const fs::path& file) {
+    try {
+        read_json(file).get<Cell>();
+    } catch (const nlohmann::json::exception&) {
+    }
+}
+
+/// The tables beside a manifest.
+void copy_tables(const fs::path& folder) {
+    fs::copy(fs::path(SSRLAB_SOURCE_DIR) / "tests/data/fuzz/results_folder", folder);
+}
+
+const FuzzTarget targets[] = {
+    {"config", "study.json", [](const fs::path& file) { read_config(file); }},
+    {"cases", "cases.json", [](const fs::path& file) { read_stability_cases(file); }},
+    {"cell", "cell.json", read_cell},
+    {"manifest", "manifest.json", [](const fs::path& file) { read_study_tables(file.parent_path()); }, copy_tables},
+    {"results", "results.csv", [](const fs::path& file) { read_rows<ResultRow>(file); }},
+};
+
+}  // namespace
+
+std::span<const FuzzTarget> fuzz_targets() { return targets; }
