@@ -14,11 +14,12 @@ from markdown_test import FILES, ROOT
 PROGRAM = "the program spells it out, or makes it"
 REQUEST = "a config, or the command line, is what the user asks for, and may name any folder"
 LISTED = "of the user's own folder, which was listed"
-SCENE = "scenes have a rule of their own"
+SCENE = "scenes have a rule of their own: file_below() (core/reading_limits.h)"
 
 ALLOWED = {
     ("core/gpu/shader.cpp", "root / name"): PROGRAM,
     ("core/path_inside.cpp", "path /= part"): "the one way",
+    ("core/reading_limits.cpp", "folder / name"): SCENE,
     ("core/scene/load_scene.cpp", "folder / name"): SCENE,
     ("core/scene/scene_file.cpp", "folder / name"): SCENE,
     ("core/scene/scene_file.cpp", "scene_file.parent_path() / name"): SCENE,

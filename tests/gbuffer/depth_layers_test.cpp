@@ -16,9 +16,11 @@ constexpr glm::uvec2 mask_extent(2, 1);
 
 Scene empty_scene() {
     Scene scene{.name = "layers"};
-    scene.textures = {
-        {.name = "gray", .extent = {1, 1}, .rgba = {90, 90, 90, 255}},
-        {.name = "half", .extent = mask_extent, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}, .is_nearest = true}};
+    scene.textures = {{.name = "gray", .extent = {1, 1}, .rgba = make_texels({90, 90, 90, 255})},
+                      {.name = "half",
+                       .extent = mask_extent,
+                       .rgba = make_texels({255, 255, 255, 255, 255, 255, 255, 0}),
+                       .is_nearest = true}};
     scene.materials = {{.name = "plain"},
                        {.name = "textured", .base_color_texture = {0}},
                        {.name = "masked", .base_color_texture = {1}, .alpha_mode = AlphaMode::mask}};
