@@ -22,7 +22,6 @@ ALLOWED = {
     ("core/reading_limits.cpp", "folder / name"): SCENE,
     ("core/scene/load_scene.cpp", "folder / name"): SCENE,
     ("core/scene/scene_file.cpp", "folder / name"): SCENE,
-    ("core/scene/scene_file.cpp", "scene_file.parent_path() / name"): SCENE,
     ("experiments/commands/list_commands.cpp", "folder / name"): SCENE,
     ("experiments/commands/study_commands.cpp", "out / name"): PROGRAM,
     ("experiments/commands/study_commands.cpp", 'std::filesystem::path("results") / config.stem()'): REQUEST,
