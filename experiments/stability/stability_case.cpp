@@ -151,10 +151,12 @@ std::string label_of_value(const std::string& key, const nlohmann::json& value, 
     if (key != "faults") return label_of({{key, value}});
     const nlohmann::json faults = {{key, value}};
     std::string label;
-    for (JsonObject& fault : JsonObject(faults, where).objects(key))
+    for (JsonObject& fault : JsonObject(faults, where).objects(key)) {
+        for (const char* known : {"image", "times", "value", "where", "at", "step"}) fault.has(known);
         label += (label.empty() ? "" : ", ") + fault.text("image") + " " +
                  plain_text(fault.any(fault.has("times") ? "times" : "value")) +
                  (fault.has("at") ? " at " + fault.any("at").dump() : "");
+    }
     return label;
 }
 

@@ -13,7 +13,7 @@ namespace {
 struct Faults : CommandLine {
     void SetUp() override {
         CommandLine::SetUp();
-        config(R"({"shots": [{"scene": ["sky_only", "fence"], "resolution": [16, 9]}], "reference": {"samples": 16},
+        config(R"({"shots": [{"scene": ["sky_only", "fence"], "resolution": [16, 12]}], "reference": {"samples": 16},
                "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2,
                "tables": [{"name": "errors", "caption": "c", "of": "results", "rows": "variant", "columns": "shot",
                            "where": {"metric": "mse", "target": "specular", "mask": "reflective"}}]})");
@@ -42,7 +42,7 @@ const std::string full_disk = "trap '' XFSZ; ulimit -f 0; export MESA_SHADER_CAC
 TEST_F(Faults, WhatCannotBeWrittenIsNamed) {
     ASSERT_EQ(ssrlab("run study.json --out o").code, 0);
     write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
-    write_text(folder / "tune.json", R"({"shots": [{"scene": "fence", "resolution": [16, 9]}], "timing": {"frames": 15},
+    write_text(folder / "tune.json", R"({"shots": [{"scene": "fence", "resolution": [16, 12]}], "timing": {"frames": 15},
         "variants": [{"variant": "mcguire_dda"}], "tune": {"axes": {"dda.stride": [1, 2]}}})");
     // No user can make a folder there.
     for (const char* command :

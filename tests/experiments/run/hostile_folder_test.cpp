@@ -123,7 +123,7 @@ TEST_F(HostileFolder, ARunWritesAndPrunesNothingOutside) {
 
 TEST_F(HostileFolder, WrongTypesInCellsAreNamed) {
     write_text(folder / "study.json",
-               R"({"shots": [{"scene": "fence", "resolution": [16, 9]}], "reference": {"samples": 16}, "seeds": 2,
+               R"({"shots": [{"scene": "fence", "resolution": [16, 12]}], "reference": {"samples": 16}, "seeds": 2,
         "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "hits": {}, "costs": true})");
     const fs::path out = run(read_config(folder / "study.json"), "a");
     const CellStore store(out, [](const std::string&) {});
