@@ -54,7 +54,10 @@ Decoded decode_image(const GltfFile& file, size_t index, MemoryShare& kept) {
     if (extent.x == 0 || extent.y == 0) broken();
     if (std::max(extent.x, extent.y) > any_texture_side)
         fail(what, " has ", extent.x, " x ", extent.y, " pixels; allowed are sides of ", any_texture_side);
-    constexpr double bytes_kept = 4, bytes_of_decoder = 20;  // per pixel; progressive JPEG takes most
+    // Per pixel: of RGBA, and what is there beside it: 16-bit codes of a PNG; planes, coefficients and a copy of a
+    // JPEG.
+    constexpr double bytes_kept = 4, bytes_of_png = 8, bytes_of_jpeg = 14;
+    const double bytes_of_decoder = is_png(encoded.image) ? bytes_of_png : bytes_of_jpeg;
     const double pixels = double(extent.x) * double(extent.y);
     const std::string sized = what + " of " + std::to_string(extent.x) + " x " + std::to_string(extent.y) + " pixels";
     MemoryShare decoder;

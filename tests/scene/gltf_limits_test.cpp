@@ -8,6 +8,7 @@
 #include "tests/scene/gltf_fixture.h"
 
 #include <sys/stat.h>
+#include <ctime>
 #include <set>
 
 namespace {
@@ -59,6 +60,22 @@ TEST_F(GltfLimits, DescribedObjectsCount) {
     for (int i = 0; i < 2000; ++i) writer.json["nodes"].push_back(nlohmann::json::object());
     EXPECT_NE(refused(LimitsOf({.memory = 1'000'000})).find("what it describes"), std::string::npos);
     EXPECT_EQ(load().triangle_count(), 2u);
+}
+
+TEST_F(GltfLimits, ManyCamerasOfOneNameTakeLinearTime) {
+    constexpr size_t count = 20'000;
+    nlohmann::json camera = {
+        {"name", "c"}, {"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"zfar", 9}}}};
+    writer.json["cameras"] = nlohmann::json(count, camera);
+    writer.json["nodes"] = nlohmann::json::array();
+    writer.json["scenes"][0]["nodes"] = nlohmann::json::array();
+    for (size_t i = 0; i < count; ++i)
+        writer.json["nodes"].push_back({{"camera", i}}), writer.json["scenes"][0]["nodes"].push_back(i);
+    const fs::path file = writer.write_glb(folder / "a.glb");
+    const std::clock_t start = std::clock();
+    const Scene scene = load_scene(file.string(), {});
+    EXPECT_EQ(scene.cameras.back().name, "c_20000");
+    EXPECT_LT(std::clock() - start, 6 * CLOCKS_PER_SEC);  // of the CPU; comparing each with each took 34 s
 }
 
 TEST_F(GltfLimits, TexturesOfOneImageShareIt) {

@@ -3,6 +3,7 @@
 import argparse
 import os
 import re
+import sys
 
 VARIABLE = "SSRLAB_MAX_MEMORY"
 
@@ -17,6 +18,12 @@ def size_in_bytes(text):
 
 
 def limit():
-    """Bytes that one file may take."""
+    """Bytes that one file may take. Ends the program with 2 where the variable holds no size."""
     asked = os.environ.get(VARIABLE)
-    return size_in_bytes(asked) if asked else os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2
+    if not asked:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2
+    try:
+        return size_in_bytes(asked)
+    except argparse.ArgumentTypeError as e:
+        print(f"error: {VARIABLE}: {e}", file=sys.stderr)
+        raise SystemExit(2) from e
