@@ -1,6 +1,7 @@
 """The look that all figures share, and how they are saved."""
 
 import hashlib
+import io
 import re
 import textwrap
 
@@ -264,8 +265,10 @@ def save(figure, folder, name, formats=FORMATS):
     files = []
     for kind in formats:
         file = path_inside(folder, f"{name}.{kind}")
-        with whole_file(file) as temporary:
-            figure.savefig(temporary, format=kind, metadata=metadata[kind])
+        drawn = io.BytesIO()  # matplotlib explains no full disk
+        figure.savefig(drawn, format=kind, metadata=metadata[kind])
+        with whole_file(file) as temporary, open(temporary, "wb") as stream:
+            stream.write(drawn.getvalue())
         files.append(file)
     plt.close(figure)
     return files

@@ -13,7 +13,7 @@ namespace {
 struct Faults : CommandLine {
     void SetUp() override {
         CommandLine::SetUp();
-        config(R"({"shots": [{"scene": ["sky_only", "fence"], "resolution": [16, 12]}], "reference": {"samples": 16},
+        config(R"({"shots": [{"scene": ["mirror_pillars", "fence"], "resolution": [32, 18]}], "reference": {"samples": 16},
                "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2,
                "tables": [{"name": "errors", "caption": "c", "of": "results", "rows": "variant", "columns": "shot",
                            "where": {"metric": "mse", "target": "specular", "mask": "reflective"}}]})");
