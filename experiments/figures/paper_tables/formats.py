@@ -34,7 +34,7 @@ def has_range(cell):
 
 def is_part(table, cell):
     """A mean over fewer than the table has, since the others have no value."""
-    return cell.mean_of is not None and table["over_count"] is not None and cell.mean_of < table["over_count"]
+    return None not in (cell.mean_of, table.get("over_count")) and cell.mean_of < table["over_count"]
 
 
 def reasons(cell):

@@ -122,7 +122,7 @@ def search(folder, fake, rules=None):
     studies.subprocess = types.SimpleNamespace(run=fake)
     sys.argv = ["tune.py", file, "--out", os.path.join(folder, "out"), "ssrlab"]
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-        code = tune.main()
+        code = tune.exit_code(tune.main, "the search")
     return code, said.getvalue()
 
 
