@@ -40,8 +40,10 @@ void add_reading(CLI::App& command) {
             "SSRLAB_MAX_MEMORY, "
             "else half of this machine's")
         ->transform(CLI::AsSizeValue(true))
-        ->envname("SSRLAB_MAX_MEMORY")
-        ->type_name("SIZE");
+        ->transform(CLI::Validator(  // the last one comes first: CLI11 would take -1 for 2^64 - 1
+            [](std::string& text) { return text.starts_with('-') ? "'" + text + "' must be a size" : std::string(); },
+            ""))
+        ->envname("SSRLAB_MAX_MEMORY");
     command.add_flag_callback(
         "--allow-outside", [] { reading_limits().allows_outside = true; },
         "Scene and glTF files may name files outside of their own folder; for files that you trust");
