@@ -359,11 +359,11 @@ TEST_F(Report, NamesTheFileThatIsMissingOrBroken) {
     EXPECT_NE(of_older.find("summary.csv has no column 'standing'; "), std::string::npos) << of_older;
     EXPECT_NE(of_older.find("Run `ssrlab run`"), std::string::npos) << of_older;
     write_text(folder / "summary.csv", summary);
-    EXPECT_NE(after("manifest.json", "[1, 2]").find("manifest.json must be a JSON object"), std::string::npos);
+    EXPECT_NE(after("manifest.json", "[1, 2]").find("manifest.json must be an object"), std::string::npos);
     EXPECT_NE(after("manifest.json", manifest.substr(0, 100)).find("manifest.json:"), std::string::npos);
-    EXPECT_NE(after("manifest.json", R"({"images": [{"shot": 1}]})").find("images[0]: 'shot' must be a text"),
+    EXPECT_NE(after("manifest.json", R"({"images": [{"shot": 1}]})").find("images[0]: shot must be a text"),
               std::string::npos);
-    EXPECT_NE(after("manifest.json", R"({"images": 3})").find("'images' must be an array"), std::string::npos);
+    EXPECT_NE(after("manifest.json", R"({"images": 3})").find("images must be an array"), std::string::npos);
     write_text(folder / "manifest.json", manifest);
     const auto image = folder / "images" / fixture_shots[0] / "reference_image.exr";
     std::filesystem::resize_file(image, 500);
