@@ -1,4 +1,5 @@
 // ssrlab stability --precision: the error of half floats and floats.
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"

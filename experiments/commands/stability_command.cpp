@@ -1,4 +1,5 @@
 // ssrlab stability: techniques under extreme inputs.
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/scene/load_scene.h"
 #include "experiments/commands/commands.h"

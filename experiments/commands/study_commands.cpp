@@ -1,4 +1,5 @@
 // The commands of studies and of what they can be made from: run, merge, report, gbuffer, capture.
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gbuffer/rasterizer.h"

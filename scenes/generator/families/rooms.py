@@ -82,9 +82,10 @@ class Room:
                        walls * grey(wall_finishes[0].colour)) / (2 * plan.area + walls)
         absorbed = (1 - 0.85 * reflectance) * (2 * plan.area + walls) + area
         sun = sum(a * max(0.0, -wall.inward[0] * sky.to_sun[0] - wall.inward[1] * sky.to_sun[2])
-                  for wall, _, a in windows) * sky.sun * 0.7
-        entering = sum(strength for _, strength in lamps) + 0.4 * PI * sky.radiance * area + sun
-        return Light(lamps, sky.to_sun, sky.sun, entering * 0.85 * reflectance / (PI * absorbed), sky.radiance)
+                  for wall, _, a in windows) * sky.sun
+        entering = sum(strength for _, strength in lamps) + 0.4 * PI * sky.radiance * area
+        reflected = 0.85 * reflectance * entering + 0.7 * grey(floor.colour) * sun  # the sun falls on the floor first
+        return Light(lamps, sky.to_sun, sky.sun, reflected / (PI * absorbed), sky.radiance)
 
     # The camera
 

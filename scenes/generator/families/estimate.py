@@ -71,11 +71,11 @@ class Glance:
         return sum(map(is_so, self.hits)) / len(self.hits)
 
     def exposure(self):
-        """ev by which the median becomes 0.18."""
+        """ev by which the median becomes a quarter."""
         middle, ev = sorted(self.radiances)[len(self.radiances) // 2], 0.0
-        while middle * 2.0 ** ev < 0.15 and ev < 12:
+        while middle * 2.0 ** ev < 0.21 and ev < 12:
             ev += 0.25
-        while middle * 2.0 ** ev > 0.18 and ev > -12:
+        while middle * 2.0 ** ev > 0.25 and ev > -12:
             ev -= 0.25
         return ev
 

@@ -53,20 +53,22 @@ def noise(seed, size, waves, octaves=3):
 def grooves(size, columns, rows, width, is_staggered=False):
     """Height of joints of `width` texels between columns x rows plates, 0 at their bottom and 1 on plates, and the
     number of each texel's plate. Staggered: odd rows are shifted by half a plate."""
-    heights, plates = [], []
-    for j in range(size):
-        row = j * rows // size
-        shift = size // columns // 2 if is_staggered and row % 2 else 0
-        from_row = min(j - row * size / rows + 0.5, (row + 1) * size / rows - j - 0.5)
-        line, numbers = [], []
+    def joints(count, shift):
+        heights, plates = [], []
         for i in range(size):
             k = (i + shift) % size
-            column = k * columns // size
-            from_column = min(k - column * size / columns + 0.5, (column + 1) * size / columns - k - 0.5)
-            line.append(min(1.0, min(from_row, from_column) / width))
-            numbers.append(row * columns + column)
-        heights.append(line)
-        plates.append(numbers)
+            plate = k * count // size
+            edge = min(k - plate * size / count + 0.5, (plate + 1) * size / count - k - 0.5)
+            heights.append(min(1.0, edge / width))
+            plates.append(plate)
+        return heights, plates
+
+    lines = [joints(columns, 0), joints(columns, size // columns // 2 if is_staggered else 0)]
+    heights, plates = [], []
+    for low, row in zip(*joints(rows, 0)):
+        line, numbers = lines[row % 2]
+        heights.append([h if h < low else low for h in line] if low < 1 else line)
+        plates.append([row * columns + k for k in numbers])
     return heights, plates
 
 
@@ -74,37 +76,54 @@ def byte(value):
     return 0 if value <= 0 else 255 if value >= 1 else int(255 * value + 0.5)
 
 
+LEVELS = 1024  # of a ramp of colours
+
+
+def bytes_of(image, level):
+    """Each value's `level`, one of LEVELS + 1 byte strings."""
+    rows = []
+    for row in image:
+        rows += [b"\0", *[level[int(LEVELS * v) if 0 <= v <= 1 else LEVELS if v > 1 else 0] for v in row]]
+    return png(len(image[0]), len(image), b"".join(rows), channels=len(level[0]))
+
+
 def grey_png(image):
     """Of values in [0, 1]."""
-    return png(len(image[0]), len(image), b"".join(b"\0" + bytes(map(byte, row)) for row in image), channels=1)
+    return bytes_of(image, [bytes((byte(k / LEVELS),)) for k in range(LEVELS + 1)])
 
 
 def metal_png(image):
     """Roughness in green, metalness 1 in blue, as glTF has them."""
-    rows = (b"\0" + b"".join(bytes((0, byte(value), 255)) for value in row) for row in image)
-    return png(len(image[0]), len(image), b"".join(rows))
+    return bytes_of(image, [bytes((0, byte(k / LEVELS), 255)) for k in range(LEVELS + 1)])
 
 
-def colour_png(image):
-    """Of linear colours, written as sRGB (a square root is within 2 % of its curve, and exact everywhere)."""
-    rows = (b"\0" + bytes(byte(math.sqrt(c)) for colour in row for c in colour) for row in image)
-    return png(len(image[0]), len(image), b"".join(rows))
+def ramp(stops, value):
+    """The colour at `value` in [0, 1] between equally distant stops."""
+    position = min(max(value, 0.0), 1.0) * (len(stops) - 1)
+    k = min(int(position), len(stops) - 2)
+    return mixed(stops[k], stops[k + 1], position - k)
+
+
+def ramp_png(image, stops):
+    """Linear colours of a ramp, written as sRGB (a square root is within 2 % of its curve, and exact everywhere)."""
+    return bytes_of(image, [bytes(byte(math.sqrt(max(0.0, c))) for c in ramp(stops, k / LEVELS))
+                            for k in range(LEVELS + 1)])
 
 
 def normal_png(heights, slope):
     """Of heights in [0, 1]; `slope`: that of a step of 1 between neighbouring texels."""
     size = len(heights)
-    rows = bytearray()
+    rows = []
     for j, row in enumerate(heights):
         above, below = heights[j - 1], heights[(j + 1) % size]
-        rows.append(0)
-        for i in range(size):
-            x = 0.5 * slope * (row[i - 1] - row[(i + 1) % size])
-            y = 0.5 * slope * (below[i] - above[i])  # v points down, +Y of a normal map up
+        rows.append(b"\0")
+        for left, right, up, down in zip(row[-1:] + row[:-1], row[1:] + row[:1], above, below):
+            x = 0.5 * slope * (left - right)
+            y = 0.5 * slope * (down - up)  # v points down, +Y of a normal map up
             scale = 127.5 / math.sqrt(x * x + y * y + 1)
-            rows += bytes((int(127.5 + x * scale + 0.5), int(127.5 + y * scale + 0.5), int(127.5 + scale + 0.5)))
-    return png(size, size, bytes(rows))
+            rows.append(bytes((int(128 + x * scale), int(128 + y * scale), int(128 + scale))))
+    return png(size, size, b"".join(rows))
 
 
 def mixed(a, b, t):
-    return tuple(p + (q - p) * t for p, q in zip(a, b))
+    return (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t)

@@ -30,10 +30,10 @@ CANDELA = 100.0  # cd/m^2 of a radiance of 1
 DAYLIGHT = shares(BOTH, "light outside", {"sun": 0.42, "overcast": 0.28, "dusk": 0.3}, OURS)
 SUN = quartiles(BOTH, "illuminance of the sun across its rays", "klx", (25, 50, 70, 85, 100),
                 "100 klx at noon, below 30 near the horizon")
-SUN_ELEVATION = quartiles(BOTH, "elevation of the sun", "degrees", (8, 20, 30, 42, 58), "55 degrees north, by day")
-SKY = {"sun": quartiles(BOTH, "luminance of a clear sky", "kcd/m^2", (2, 3, 4, 5.5, 8), "CIE S 011, in round numbers"),
+SUN_ELEVATION = quartiles(BOTH, "elevation of the sun", "degrees", (8, 20, 30, 42, 58), OURS)
+SKY = {"sun": quartiles(BOTH, "luminance of a clear sky", "kcd/m^2", (2, 3, 4, 5.5, 8), OURS),
        "overcast": quartiles(BOTH, "luminance of an overcast sky", "kcd/m^2", (1, 2, 3.5, 5, 8),
-                             "CIE S 011, in round numbers"),
+                             OURS),
        "dusk": quartiles(BOTH, "luminance of the sky at dusk", "kcd/m^2", (0.002, 0.005, 0.015, 0.04, 0.1), OURS)}
 SKY_KIND = shares(BOTH, "sky as scene.json has it", {"image": 0.5, "gradient": 0.3, "constant": 0.2}, OURS)
 LAMPS_BY_DAY = rate(ROOMS, "lamps are lit by day", 0.35, OURS)
@@ -45,7 +45,7 @@ DOWNLIGHT_SPACING = quartiles(ROOMS, "distance of downlights and panels", "m", (
 IS_BARE = rate(ROOMS, "bulbs without a shade", 0.3, OURS)
 IS_PUNCTUAL = rate(ROOMS, "downlights are spot lights, not emitting triangles", 0.5, OURS)
 LAMP_WARMTH = quartiles(BOTH, "colour temperature of lamps", "K", (2400, 2700, 3000, 3600, 5000),
-                        "2700 and 3000 K are what is sold most for homes")
+                        "lamps for homes have 2700 and 3000 K")
 
 # Surfaces
 
@@ -63,20 +63,20 @@ TOPS = shares(ROOMS, "table tops and worktops", {"wood": 0.4, "lacquer": 0.28, "
 FRONTS = shares(ROOMS, "fronts of cupboards", {"wood": 0.36, "lacquer": 0.5, "satin_paint": 0.14}, OURS)
 LEGS = shares(ROOMS, "legs and handles", {"wood": 0.4, "chrome": 0.25, "brushed_metal": 0.15, "satin_paint": 0.2}, OURS)
 SEATS = shares(ROOMS, "seats", {"cloth": 0.62, "leather": 0.22, "plastic": 0.16}, OURS)
-ROUGH = "perceptual, by eye from glossmeter classes (gloss, satin, matt)"
 ROUGHNESS = {name: quartiles(BOTH, f"roughness of {name.replace('_', ' ')}", "1", values, source)
-             for name, values, source in (
-    ("polished_stone", (0.03, 0.07, 0.11, 0.17, 0.3), ROUGH), ("lacquer", (0.04, 0.08, 0.13, 0.22, 0.4), ROUGH),
-    ("parquet", (0.12, 0.22, 0.32, 0.43, 0.65), ROUGH), ("tiles", (0.05, 0.1, 0.17, 0.28, 0.55), ROUGH),
-    ("concrete", (0.15, 0.25, 0.35, 0.5, 0.8), ROUGH), ("carpet", (0.9, 0.94, 0.96, 0.98, 1), ROUGH),
-    ("plaster", (0.75, 0.85, 0.9, 0.95, 1), ROUGH), ("satin_paint", (0.25, 0.35, 0.42, 0.5, 0.65), ROUGH),
-    ("wood", (0.15, 0.28, 0.38, 0.48, 0.7), ROUGH), ("brushed_metal", (0.15, 0.22, 0.28, 0.35, 0.5), ROUGH),
-    ("chrome", (0.01, 0.03, 0.06, 0.1, 0.18), ROUGH), ("cloth", (0.8, 0.88, 0.92, 0.96, 1), ROUGH),
-    ("leather", (0.28, 0.36, 0.42, 0.5, 0.6), ROUGH), ("plastic", (0.15, 0.25, 0.35, 0.45, 0.6), ROUGH),
-    ("leaf", (0.3, 0.4, 0.5, 0.6, 0.75), ROUGH), ("ceramic", (0.03, 0.06, 0.09, 0.14, 0.3), ROUGH), ("screen", (0.05, 0.08, 0.12, 0.2, 0.35), ROUGH),
-    ("mirror", (0, 0, 0.005, 0.01, 0.03), ROUGH), ("asphalt", (0.55, 0.7, 0.8, 0.88, 0.95), ROUGH),
-    ("wet_asphalt", (0.03, 0.06, 0.12, 0.2, 0.32), ROUGH), ("paving", (0.4, 0.55, 0.65, 0.75, 0.9), ROUGH),
-    ("car_paint", (0.03, 0.06, 0.1, 0.16, 0.3), ROUGH))}
+             for name, values, source in (  # perceptual
+    ("polished_stone", (0.03, 0.07, 0.11, 0.17, 0.3), OURS), ("lacquer", (0.04, 0.08, 0.13, 0.22, 0.4), OURS),
+    ("parquet", (0.12, 0.22, 0.32, 0.43, 0.65), OURS), ("tiles", (0.05, 0.1, 0.17, 0.28, 0.55), OURS),
+    ("concrete", (0.15, 0.25, 0.35, 0.5, 0.8), OURS), ("carpet", (0.9, 0.94, 0.96, 0.98, 1), OURS),
+    ("plaster", (0.75, 0.85, 0.9, 0.95, 1), OURS), ("satin_paint", (0.25, 0.35, 0.42, 0.5, 0.65), OURS),
+    ("wood", (0.15, 0.28, 0.38, 0.48, 0.7), OURS), ("brushed_metal", (0.15, 0.22, 0.28, 0.35, 0.5), OURS),
+    ("chrome", (0.01, 0.03, 0.06, 0.1, 0.18), OURS), ("cloth", (0.8, 0.88, 0.92, 0.96, 1), OURS),
+    ("leather", (0.28, 0.36, 0.42, 0.5, 0.6), OURS), ("plastic", (0.15, 0.25, 0.35, 0.45, 0.6), OURS),
+    ("leaf", (0.3, 0.4, 0.5, 0.6, 0.75), OURS), ("ceramic", (0.03, 0.06, 0.09, 0.14, 0.3), OURS), ("screen", (0.05, 0.08, 0.12, 0.2, 0.35), OURS),
+    ("mirror", (0, 0, 0.005, 0.01, 0.03), OURS), ("asphalt", (0.55, 0.7, 0.8, 0.88, 0.95), OURS),
+    ("puddles", (0.03, 0.06, 0.12, 0.2, 0.32), OURS), ("bricks", (0.7, 0.8, 0.86, 0.92, 1), OURS),
+    ("bark", (0.85, 0.9, 0.93, 0.96, 1), OURS), ("wet_asphalt", (0.03, 0.06, 0.12, 0.2, 0.32), OURS), ("paving", (0.4, 0.55, 0.65, 0.75, 0.9), OURS),
+    ("car_paint", (0.03, 0.06, 0.1, 0.16, 0.3), OURS))}
 LIGHTNESS = {name: quartiles(BOTH, f"reflectance of {name}", "1", values, source) for name, values, source in (
     ("ceilings", (0.7, 0.76, 0.8, 0.84, 0.88), "EN 12464-1: 0.7 to 0.9"),
     ("walls", (0.3, 0.5, 0.62, 0.73, 0.82), "EN 12464-1: 0.5 to 0.8; some are dark"),
@@ -118,16 +118,20 @@ PATH_TURN = quartiles(BOTH, "turn of the camera", "degrees", (4, 8, 12, 20, 36),
 
 STREET_WIDTH = quartiles(STREETS, "between the facades", "m", (9, 13, 16, 20, 30), OURS)
 STREET_LENGTH = quartiles(STREETS, "length", "m", (50, 70, 90, 110, 150), OURS)
-STREET_LAYOUT = shares(STREETS, "houses on the right", {"row": 0.75, "gap": 0.25}, OURS)
+GAP = rate(STREETS, "a gap in place of a house", 0.12, OURS)
+PAVEMENT = quartiles(STREETS, "width of pavements", "m", (1.6, 2.2, 2.6, 3.2, 4.5), OURS)
 HOUSE_WIDTH = quartiles(STREETS, "width of a house", "m", (6, 9, 12, 16, 26), OURS)
 HOUSE_STOREYS = quartiles(STREETS, "storeys", "1", (1, 2.5, 3.5, 4.5, 7), OURS)
 STOREY_HEIGHT = quartiles(STREETS, "height of a storey", "m", (2.8, 3, 3.2, 3.5, 4.2), OURS)
+FACADES = shares(STREETS, "facades", {"plaster": 0.5, "bricks": 0.3, "concrete": 0.2}, OURS)
 SHOP = rate(STREETS, "a house has a shop", 0.35, OURS)
 LIT_WINDOW = rate(STREETS, "a window is lit at dusk", 0.3, OURS)
 GROUND = shares(STREETS, "ground", {"wet_asphalt": 0.6, "puddles": 0.25, "polished_stone": 0.15},
                 "wet: dry streets reflect nothing, and are refused")
 CARS = quartiles(STREETS, "cars / 10 m of kerb", "1", (0, 0.4, 0.7, 1, 1.4), OURS)
-STREET_LAMPS = quartiles(STREETS, "distance of lamps", "m", (14, 18, 22, 26, 34), "EN 13201 asks for no distance")
+STREET_LAMPS = quartiles(STREETS, "distance of lamps", "m", (14, 18, 22, 26, 34), OURS)
 LAMP_FLUX = quartiles(STREETS, "light of a street lamp", "klm", (2, 4, 6, 9, 15), OURS)
 TREES = rate(STREETS, "trees", 0.45, OURS)
+CABLE = rate(STREETS, "wires across the street", 0.5, OURS)
+FURNITURE = quartiles(STREETS, "benches, bins, bollards, signs / 10 m of kerb", "1", (0, 0.5, 0.9, 1.4, 2.5), OURS)
 STREET_MOVES = rate(STREETS, "a car drives", 0.6, OURS)

@@ -7,44 +7,50 @@ def dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def bevelled_box(width, height, depth, bevel):
-    """Stands on y = 0, centred on x = z = 0. The faces are flat; the normals of the bevels turn from one to the next."""
-    half = (width / 2, height / 2, depth / 2)
-    bevel = min(bevel, 0.45 * min(half))
-    positions, normals, uvs, index = [], [], [], {}
-    for axis in range(3):
-        for corner in range(8):
-            signs = [1 if corner >> k & 1 else -1 for k in range(3)]
-            point = [s * (h - bevel) for s, h in zip(signs, half)]
-            point[axis] = signs[axis] * half[axis]
-            index[axis, tuple(signs)] = len(positions)
-            positions.append(tuple(point))
-            normals.append(tuple(float(signs[axis]) if k == axis else 0.0 for k in range(3)))
-            uvs.append((point[2], point[1]) if axis == 0 else (point[0], point[2]) if axis == 1 else
-                       (point[0], point[1]))
+def _box_corners():
+    """Of a bevelled box: (axis, signs) of each vertex, which lies on the face of that axis; the triangles."""
+    corners = [(axis, tuple(1 if corner >> k & 1 else -1 for k in range(3))) for axis in range(3) for corner in range(8)]
+    index = {key: i for i, key in enumerate(corners)}
     triangles = []
 
-    def add(*corners):
-        for k in range(1, len(corners) - 1):
-            a, b, c = corners[0], corners[k], corners[k + 1]
-            side = cross(minus(positions[b], positions[a]), minus(positions[c], positions[a]))
-            triangles.extend((a, b, c) if dot(side, positions[a]) > 0 else (a, c, b))
+    def add(*keys):
+        points = [[s * (1.0 if k == axis else 0.8) for k, s in enumerate(signs)] for axis, signs in keys]
+        for k in range(1, len(keys) - 1):
+            side = cross(minus(points[k], points[0]), minus(points[k + 1], points[0]))
+            order = (0, k, k + 1) if dot(side, points[0]) > 0 else (0, k + 1, k)
+            triangles.extend(index[keys[i]] for i in order)
 
-    def signs_of(**known):
-        return tuple(known[f"s{k}"] for k in range(3))
+    def signs_of(known):
+        return tuple(known[k] for k in range(3))
 
     for axis in range(3):
         p, q = (axis + 1) % 3, (axis + 2) % 3
         for s in (-1, 1):
-            add(*(index[axis, signs_of(**{f"s{axis}": s, f"s{p}": a, f"s{q}": b})]
-                  for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))))
+            add(*((axis, signs_of({axis: s, p: a, q: b})) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))))
             for t in (-1, 1):  # the edge between faces `axis` and p, along q
-                ends = [signs_of(**{f"s{axis}": s, f"s{p}": t, f"s{q}": end}) for end in (-1, 1)]
-                add(index[axis, ends[0]], index[axis, ends[1]], index[p, ends[1]], index[p, ends[0]])
+                ends = [signs_of({axis: s, p: t, q: end}) for end in (-1, 1)]
+                add((axis, ends[0]), (axis, ends[1]), (p, ends[1]), (p, ends[0]))
     for corner in range(8):
         signs = tuple(1 if corner >> k & 1 else -1 for k in range(3))
-        add(*(index[axis, signs] for axis in range(3)))
-    return moved(Shape(positions, normals, [triangles], uvs), (0, half[1], 0))
+        add(*((axis, signs) for axis in range(3)))
+    return corners, triangles
+
+
+BOX_CORNERS, BOX_TRIANGLES = _box_corners()
+BOX_NORMALS = [tuple(float(signs[axis]) if k == axis else 0.0 for k in range(3)) for axis, signs in BOX_CORNERS]
+
+
+def bevelled_box(width, height, depth, bevel):
+    """Stands on y = 0, centred on x = z = 0. The faces are flat; the normals of the bevels turn from one to the next."""
+    x, y, z = width / 2, height / 2, depth / 2
+    bevel = min(bevel, 0.45 * min(x, y, z))
+    positions, uvs = [], []
+    for axis, (a, b, c) in BOX_CORNERS:
+        point = (a * (x if axis == 0 else x - bevel), y + b * (y if axis == 1 else y - bevel),
+                 c * (z if axis == 2 else z - bevel))
+        positions.append(point)
+        uvs.append((point[2], point[1]) if axis == 0 else (point[0], point[2]) if axis == 1 else (point[0], point[1]))
+    return Shape(positions, BOX_NORMALS, [BOX_TRIANGLES], uvs)
 
 
 def turned(profile, sides=16):
