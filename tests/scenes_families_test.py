@@ -18,7 +18,7 @@ from generator.families.layout import overlaps  # noqa: E402
 from generator.families.rooms import Room  # noqa: E402
 from generator.families.streets import Street  # noqa: E402
 
-ROOMS, STREETS = range(100, 106), range(100, 102)
+ROOMS, STREETS = range(100, 104), range(100, 101)
 
 
 def generate(*arguments, **environment):

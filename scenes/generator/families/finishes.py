@@ -209,11 +209,11 @@ class Finishes:
         return self.grained(name, base, roughness, 0.5, "pile", 32, 2, 0.6, contrast=0.4)
 
     def make_plaster(self, name, dice, roughness, reflectance):
-        base = shaded(dice.uniform(), dice.uniform(0, 0.5) ** 2, reflectance)
+        base = shaded(dice.uniform(), dice.uniform(0, 0.6) ** 3, reflectance)
         return self.grained(name, base, roughness, 1.2, "plaster", 16, 3, dice.uniform(0.05, 0.3))
 
     def make_satin_paint(self, name, dice, roughness, reflectance):
-        base = shaded(dice.uniform(), dice.uniform(0, 0.7) ** 2, reflectance)
+        base = shaded(dice.uniform(), dice.uniform(0, 0.7) ** 3, reflectance)
         return self.grained(name, base, roughness, 0.8, "paint", 12, 2, dice.uniform(0, 0.12))
 
     def make_lacquer(self, name, dice, roughness, reflectance):
