@@ -5,14 +5,16 @@
     scenes/pictures.py --sheet room
 
 Without a name, all scenes whose files are on the search path (SSRLAB_SCENE_PATH), but for those whose licence is in
-doubt. --sheet: room:0 to room:63 on one sheet, <folder>/rooms.png, of few samples and denoised, or street:0 to 15. Needs
-Debian's python3-numpy and python3-pil.
+doubt. --sheet: room:0 to room:63 on one sheet, <folder>/rooms.png, of few samples and denoised, or street:0 to 15.
+Needs Debian's python3-numpy and python3-pil.
 """
 import argparse
 import json
+import os
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 try:
@@ -30,7 +32,7 @@ SIZE = (320, 180)
 SAMPLES = 256
 COLOURS = 64  # of the palette: with twice as many the files are a third larger and look the same
 SHEETS = {"room": (8, 8), "street": (4, 4)}  # columns, rows
-TILE, TILE_SAMPLES = (160, 90), 16
+TILE, TILE_SAMPLES = (128, 72), 16
 NOT_SHOWN = ("sponza", "sponza_gallery", "sponza_wet")  # README.md, "Sponza's licence"
 
 
@@ -75,8 +77,8 @@ def neighbours(image, reach, step=1):
 
 
 def denoised(radiance, planes):
-    """Light over base colour, without outliers, blurred within surfaces of a material and a direction: an a-trous filter
-    (Dammertz et al. 2010), narrower on what mirrors. `planes`: of the G-buffer. For looking at, not for measuring."""
+    """Light over base colour, without outliers, blurred within surfaces of a material and a direction: an a-trous
+    filter (Dammertz et al. 2010), narrower on what mirrors. `planes`: of the G-buffer. For looking at, not for measuring."""
     def vector(name, channels):
         return np.stack([planes[f"{name}.{c}"] for c in channels], axis=-1)
 
@@ -100,20 +102,24 @@ def denoised(radiance, planes):
     return np.where(is_kept[..., None], light, light * colour)
 
 
+def tile(program, scene):
+    """Its picture as sRGB codes."""
+    with tempfile.TemporaryDirectory() as folder:
+        radiance = path_traced(program, scene, TILE, TILE_SAMPLES, folder)
+        ssrlab(program, "gbuffer", scene, "--size", *TILE, "--out", folder)
+        radiance = denoised(radiance, read_exr_planes(Path(folder) / "gbuffer.exr"))
+        exposure = json.loads((Path(folder) / "camera.json").read_text())["exposure_ev"]
+    print(scene, flush=True)
+    return np.round(255 * srgb(radiance * 2.0 ** exposure)).astype(np.uint8)
+
+
 def take_sheet(program, family, out):
     columns, rows = SHEETS[family]
-    sheet = np.zeros((rows * TILE[1], columns * TILE[0], 3), np.uint8)
-    for number in range(columns * rows):
-        scene = f"{family}:{number}"
-        with tempfile.TemporaryDirectory() as folder:
-            radiance = path_traced(program, scene, TILE, TILE_SAMPLES, folder)
-            ssrlab(program, "gbuffer", scene, "--size", *TILE, "--out", folder)
-            radiance = denoised(radiance, read_exr_planes(Path(folder) / "gbuffer.exr"))
-            exposure = json.loads((Path(folder) / "camera.json").read_text())["exposure_ev"]
-        y, x = number // columns * TILE[1], number % columns * TILE[0]
-        sheet[y:y + TILE[1], x:x + TILE[0]] = np.round(255 * srgb(radiance * 2.0 ** exposure))
-        print(scene, flush=True)
-    save(sheet, out / f"{family}s.png")
+    scenes = [f"{family}:{number}" for number in range(columns * rows)]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        tiles = list(pool.map(lambda scene: tile(program, scene), scenes))
+    lines = [np.concatenate(tiles[k:k + columns], axis=1) for k in range(0, len(tiles), columns)]
+    save(np.concatenate(lines), out / f"{family}s.png")
 
 
 def main():

@@ -93,7 +93,7 @@ class Rules(unittest.TestCase):
                 self.assertIsNotNone(hit, f"{room.dice.name}: {direction}")
 
     def test_surfaces_of_the_shell_meet(self):
-        """Each edge of a wall lies beyond floor and ceiling, or on another edge of the same wall, or on the next wall."""
+        """Walls reach beyond floor and ceiling, and their panels cover all but the windows."""
         from generator.families.shell import surfaces
         for room in self.rooms:
             ground, roof, *walls = surfaces(room.plan, *room.surfaces)

@@ -61,7 +61,7 @@ TEST_F(SceneFamilies, RefuseNamesThatAreNoNumber) {
             << said;
     }
     EXPECT_TRUE(made().empty());
-    EXPECT_EQ(error_message([] { load_scene("hall:1", {}); }), "unknown scene 'hall:1'");
+    EXPECT_TRUE(error_message([] { load_scene("hall:1", {}); }).starts_with("unknown scene 'hall:1'"));
     EXPECT_EQ(scenes_in_a_row("room:*", 5, 2), (std::vector<std::string>{"room:5", "room:6"}));
     EXPECT_NE(error_message([] { scenes_in_a_row("room:*", 999'999, 2); }).find("beyond 999999"), std::string::npos);
 }

@@ -1,9 +1,8 @@
 """A camera that a person would choose, and the path that it takes."""
 from ..description import camera, moving
-from ..gltf import tidy, tidy_all
-from ..shapes import cosine, minus, normalized, sine
+from ..gltf import tidy_all
+from ..shapes import cosine, normalized, sine
 from . import densities as of
-from .estimate import View
 
 FRAMES, RATE = 40, 30
 

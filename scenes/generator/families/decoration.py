@@ -136,7 +136,8 @@ def clutter(dice, finishes, space):
         y = 0.0
         for k in range(dice.whole(1, 4)):
             thick = dice.uniform(0.012, 0.04)
-            book = rotated(bevelled_box(min(space, dice.uniform(0.16, 0.24)), thick, min(space, dice.uniform(0.12, 0.17)),
+            book = rotated(bevelled_box(min(space, dice.uniform(0.16, 0.24)), thick,
+                                        min(space, dice.uniform(0.12, 0.17)),
                                         0.002), dice.uniform(-12, 12))
             thing.put(book, finishes.get("satin_paint", f"book{dice.whole(0, 5)}"), (0, y, 0))
             y += thick

@@ -39,7 +39,8 @@ SKY_KIND = shares(BOTH, "sky as scene.json has it", {"image": 0.5, "gradient": 0
 LAMPS_BY_DAY = rate(ROOMS, "lamps are lit by day", 0.35, OURS)
 ILLUMINANCE = quartiles(ROOMS, "lamps' light / floor area", "lm/m^2", (80, 150, 230, 350, 600),
                         "EN 12464-1 asks for 100 to 500 lx on what is looked at")
-CEILING_LIGHT = shares(ROOMS, "light from the ceiling", {"pendants": 0.42, "downlights": 0.26, "panels": 0.14, "none": 0.18},
+CEILING_LIGHT = shares(ROOMS, "light from the ceiling", {"pendants": 0.42, "downlights": 0.26, "panels": 0.14,
+                                                         "none": 0.18},
                        OURS)
 DOWNLIGHT_SPACING = quartiles(ROOMS, "distance of downlights and panels", "m", (1.1, 1.4, 1.6, 1.9, 2.4), OURS)
 IS_BARE = rate(ROOMS, "bulbs without a shade", 0.3, OURS)
@@ -58,7 +59,8 @@ FLOORS = {
                      {"parquet": 0.48, "polished_stone": 0.08, "tiles": 0.08, "concrete": 0.12, "carpet": 0.24}, OURS)}
 WALLS = shares(ROOMS, "walls", {"plaster": 0.72, "satin_paint": 0.28}, OURS)
 WET_WALLS = shares(ROOMS, "walls of kitchens and bathrooms", {"plaster": 0.3, "satin_paint": 0.2, "tiles": 0.5}, OURS)
-TOPS = shares(ROOMS, "table tops and worktops", {"wood": 0.4, "lacquer": 0.28, "polished_stone": 0.24, "brushed_metal": 0.08},
+TOPS = shares(ROOMS, "table tops and worktops", {"wood": 0.4, "lacquer": 0.28, "polished_stone": 0.24,
+                                                 "brushed_metal": 0.08},
               OURS)
 FRONTS = shares(ROOMS, "fronts of cupboards", {"wood": 0.36, "lacquer": 0.5, "satin_paint": 0.14}, OURS)
 LEGS = shares(ROOMS, "legs and handles", {"wood": 0.4, "chrome": 0.25, "brushed_metal": 0.15, "satin_paint": 0.2}, OURS)
@@ -72,10 +74,12 @@ ROUGHNESS = {name: quartiles(BOTH, f"roughness of {name.replace('_', ' ')}", "1"
     ("wood", (0.15, 0.28, 0.38, 0.48, 0.7), OURS), ("brushed_metal", (0.15, 0.22, 0.28, 0.35, 0.5), OURS),
     ("chrome", (0.01, 0.03, 0.06, 0.1, 0.18), OURS), ("cloth", (0.8, 0.88, 0.92, 0.96, 1), OURS),
     ("leather", (0.28, 0.36, 0.42, 0.5, 0.6), OURS), ("plastic", (0.15, 0.25, 0.35, 0.45, 0.6), OURS),
-    ("leaf", (0.3, 0.4, 0.5, 0.6, 0.75), OURS), ("ceramic", (0.03, 0.06, 0.09, 0.14, 0.3), OURS), ("screen", (0.05, 0.08, 0.12, 0.2, 0.35), OURS),
-    ("mirror", (0, 0, 0.005, 0.01, 0.03), OURS), ("asphalt", (0.55, 0.7, 0.8, 0.88, 0.95), OURS),
-    ("puddles", (0.03, 0.06, 0.12, 0.2, 0.32), OURS), ("bricks", (0.7, 0.8, 0.86, 0.92, 1), OURS),
-    ("bark", (0.85, 0.9, 0.93, 0.96, 1), OURS), ("wet_asphalt", (0.03, 0.06, 0.12, 0.2, 0.32), OURS), ("paving", (0.4, 0.55, 0.65, 0.75, 0.9), OURS),
+    ("leaf", (0.3, 0.4, 0.5, 0.6, 0.75), OURS), ("ceramic", (0.03, 0.06, 0.09, 0.14, 0.3), OURS),
+                                          ("screen", (0.05, 0.08, 0.12, 0.2, 0.35), OURS),
+    ("mirror", (0, 0, 0.005, 0.01, 0.03), OURS), ("puddles", (0.03, 0.06, 0.12, 0.2, 0.32), OURS),
+                                          ("bricks", (0.7, 0.8, 0.86, 0.92, 1), OURS),
+    ("bark", (0.85, 0.9, 0.93, 0.96, 1), OURS), ("wet_asphalt", (0.03, 0.06, 0.12, 0.2, 0.32), OURS),
+                                          ("paving", (0.4, 0.55, 0.65, 0.75, 0.9), OURS),
     ("car_paint", (0.03, 0.06, 0.1, 0.16, 0.3), OURS))}
 LIGHTNESS = {name: quartiles(BOTH, f"reflectance of {name}", "1", values, source) for name, values, source in (
     ("ceilings", (0.7, 0.76, 0.8, 0.84, 0.88), "EN 12464-1: 0.7 to 0.9"),

@@ -1,5 +1,5 @@
-"""What a camera would see, estimated by one ray a pixel of a small grid among the bounds of parts: first surfaces, lamps
-without shadows, the sun with them, and an even light of all reflections, as in an integrating sphere."""
+"""What a camera would see, estimated by one ray a pixel of a small grid among the bounds of parts: first surfaces,
+lamps without shadows, the sun with them, and an even light of all reflections, as in an integrating sphere."""
 from dataclasses import dataclass
 
 from ..shapes import cosine, cross, minus, normalized, sine

@@ -61,7 +61,8 @@ class Finishes:
         return self.made["lamp", radiance]
 
     def plain(self, name, colour, roughness, metalness=0.0, period=1.0):
-        return Finish(self.model.surface(name, colour, metalness, roughness), colour, roughness, metalness, period=period)
+        return Finish(self.model.surface(name, colour, metalness, roughness), colour, roughness, metalness,
+                      period=period)
 
     def make(self, kind, use, dice, lightness):
         roughness = round(dice.draw(ROUGHNESS[kind]), 4)
@@ -73,8 +74,8 @@ class Finishes:
         return self.plain(name, shaded(dice.uniform(), dice.uniform(0, 0.75) ** 2, reflectance), roughness)
 
     def mapped(self, name, colour, roughness, period, maps, metalness=0.0):
-        """`maps()` gives (image, colours of its ramp), (an image of roughnesses) and (name of a relief, steepness), each
-        or None."""
+        """`maps()` gives (image, colours of its ramp), an image of roughnesses, and (name of a relief, steepness): each or
+        None."""
         finish = self.plain(name, colour, roughness, metalness, period)
         self.maps[finish.material] = maps
         return finish
@@ -146,7 +147,8 @@ class Finishes:
                     rings = [7 * p + 9 * tints[k] for p, k in zip(a, plate)]
                     shades.append([(0.25 * (r - int(r)) + 0.3 * q + 0.45 * tints[k]) * t + 1 - t
                                    for r, q, k, t in zip(rings, b, plate, h)])
-                rough = [[roughness * (0.7 + 0.6 * p) + 0.3 * (1 - h) for p, h in zip(a, b)] for a, b in zip(grain, heights)]
+                rough = [[roughness * (0.7 + 0.6 * p) + 0.3 * (1 - h) for p, h in zip(a, b)] for a,
+                         b in zip(grain, heights)]
                 self.image(f"boards{counts}_relief", lambda: [[h + 0.05 * p for h, p in zip(a, b)]
                                                               for a, b in zip(heights, pores)])
                 return (shades, [base, dark]), rough, (f"boards{counts}_relief", 0.5)
@@ -195,10 +197,10 @@ class Finishes:
 
         return self.mapped(name, base, roughness, dice.uniform(2, 3), maps)
 
-    def grained(self, name, base, roughness, period, relief, waves, octaves, steepness, contrast=0.0, size=SIZE):
-        """A relief of noise that all finishes of a kind share, and where there is `contrast` a colour that follows it."""
+    def grained(self, name, base, roughness, period, relief, waves, octaves, steepness, contrast=0.0):
+        """A relief of noise that all finishes of a kind share; where there is `contrast`, the colour follows it."""
         def maps():
-            image = self.noise(relief, size, waves, octaves)
+            image = self.noise(relief, SIZE, waves, octaves)
             colours = [tuple(min(1.0, f * c) for c in base) for f in (1 - contrast, 1 + contrast)]
             return (image, colours) if contrast else None, None, (relief, steepness) if steepness else None
 
@@ -256,10 +258,6 @@ class Finishes:
                           roughness)
 
     # Streets
-
-    def make_asphalt(self, name, dice, roughness, reflectance):
-        base = shaded(0.6, 0.05, 0.06 + 0.1 * reflectance)
-        return self.grained(name, base, roughness, 1.6, "asphalt", 64, 2, 0.9, contrast=0.5, size=2 * SIZE)
 
     def make_wet_asphalt(self, name, dice, roughness, reflectance, water=0.3):
         """A film of water over stones: smooth up to a height of `water`, rougher above."""

@@ -2,7 +2,7 @@
 from ..shapes import cosine, sine
 from . import densities as of
 from .furniture import cupboard, handle
-from .solids import bevelled_box, scaled, smooth_grid, turned, wire
+from .solids import scaled, smooth_grid, turned, wire
 from .thing import Thing
 
 
@@ -20,7 +20,8 @@ def kitchen_row(dice, finishes, width, has_wall_units):
     thing.box(black, 0.42, 0.004, 0.34, (sink, height + 0.004, 0.01), bevel=0.001)
     tap = finishes.get("chrome", "tap")
     thing.put(wire([(sink, height, -0.22), (sink, height + 0.24, -0.22), (sink, height + 0.3, -0.18),
-                    (sink, height + 0.31, -0.12), (sink, height + 0.27, -0.06), (sink, height + 0.22, -0.05)], 0.012, 10),
+                    (sink, height + 0.31, -0.12), (sink, height + 0.27, -0.06), (sink, height + 0.22, -0.05)], 0.012,
+                   10),
               tap)
     if has_wall_units:
         front = finishes.get(dice.draw(of.FRONTS), "wall_units")
@@ -59,7 +60,8 @@ def washbasin(dice, finishes, width):
     white, tap = finishes.get("ceramic", "sanitary", "ceilings"), finishes.get("chrome", "tap")
     thing.put(scaled(turned([(0, 0), (0.12, 0), (0.2, 0.05), (0.24, 0.14), (0.22, 0.14), (0.17, 0.05), (0, 0.03)], 28),
                      1, 1, 0.8), white, (0, 0.84, 0.02))
-    thing.put(wire([(0, 0.84, -0.2), (0, 1.08, -0.2), (0, 1.12, -0.16), (0, 1.11, -0.08), (0, 1.08, -0.06)], 0.011, 10), tap)
+    thing.put(wire([(0, 0.84, -0.2), (0, 1.08, -0.2), (0, 1.12, -0.16), (0, 1.11, -0.08), (0, 1.08, -0.06)], 0.011,
+                   10), tap)
     thing.tops = [(0.27, width / 2 - 0.05, -0.18, 0.18, 0.84), (-width / 2 + 0.05, -0.27, -0.18, 0.18, 0.84)]
     thing.tops = [top for top in thing.tops if top[1] - top[0] > 0.12]
     return thing
@@ -86,7 +88,8 @@ def bathtub(dice, finishes):
 def toilet(dice, finishes):
     thing = Thing("toilet")
     white = finishes.get("ceramic", "sanitary", "ceilings")
-    thing.put(scaled(turned([(0, 0), (0.13, 0), (0.12, 0.1), (0.17, 0.3), (0.2, 0.4), (0.19, 0.42), (0, 0.42)], 24), 0.95, 1,
+    thing.put(scaled(turned([(0, 0), (0.13, 0), (0.12, 0.1), (0.17, 0.3), (0.2, 0.4), (0.19, 0.42), (0, 0.42)], 24),
+                     0.95, 1,
                      1.25), white, (0, 0, 0.08))
     thing.box(white, 0.36, 0.36, 0.17, (0, 0.4, -0.25), bevel=0.03)
     thing.box(finishes.get("chrome", "tap"), 0.06, 0.008, 0.03, (0, 0.76, -0.25))
@@ -102,6 +105,7 @@ def radiator(dice, finishes, width):
         thing.box(white, 0.045, 0.58, 0.07, ((k - (count - 1) / 2) * 0.06, 0.12, 0), bevel=0.012)
     for y in (0.16, 0.62):
         thing.box(white, 0.06 * count, 0.03, 0.03, (0, y, 0), bevel=0.01)
-    thing.put(wire([(0.03 * count - 0.02, 0.17, -0.02), (0.03 * count + 0.05, 0.17, -0.02), (0.03 * count + 0.05, 0, -0.02)],
+    thing.put(wire([(0.03 * count - 0.02, 0.17, -0.02), (0.03 * count + 0.05, 0.17, -0.02),
+                    (0.03 * count + 0.05, 0, -0.02)],
                    0.01, 8), finishes.get("chrome", "tap"))
     return thing

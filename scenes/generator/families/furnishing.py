@@ -78,7 +78,8 @@ class Furnishing:
         depth = place.thing.bounds()[1][2] - place.thing.bounds()[0][2]
         x, z = wall.point(along, depth + 0.38 + 0.3)
         if dice.chance(of.HAS_RUG):
-            rug = Place(decoration.rug(dice, self.finishes, min(width + 0.6, wall.length - 0.4), 1.9), *wall.point(along, depth + 0.9),
+            rug = Place(decoration.rug(dice, self.finishes, min(width + 0.6, wall.length - 0.4), 1.9),
+                        *wall.point(along, depth + 0.9),
                         wall.yaw)
             if self.plan.contains(rug.low[0], rug.high[0], rug.low[2], rug.high[2], 0.03):
                 self.layout.flats.append(rug)
@@ -120,7 +121,8 @@ class Furnishing:
             return
         low, _ = place.thing.bounds()
         side, back = dice.one_of((-1, 1)) * dice.uniform(0.15, 0.3), low[2] + 0.006
-        points = [(0.03, 0.008, -0.02), (side / 2, 0.006, back / 2), (side, 0.008, back + 0.012), (side, 0.14, back + 0.005),
+        points = [(0.03, 0.008, -0.02), (side / 2, 0.006, back / 2), (side, 0.008, back + 0.012),
+                  (side, 0.14, back + 0.005),
                   (side, 0.3, back)]
         thing = lamps.cable(self.finishes, points)
         self.layout.flats.append(Place(thing, place.x, place.z, place.yaw))
@@ -210,7 +212,8 @@ class Furnishing:
                     at = self.layout.add(Place(lamp.thing, stood.x, stood.z, stood.yaw, 0.5))
                     self.lamps.append((lamp, at))
             self.looked_at.append((place.x, place.z))
-        wardrobe = furniture.cupboard(dice, self.finishes, "wardrobe", dice.uniform(1.0, 2.2), dice.uniform(1.9, 2.2), 0.6)
+        wardrobe = furniture.cupboard(dice, self.finishes, "wardrobe", dice.uniform(1.0, 2.2), dice.uniform(1.9, 2.2),
+                                      0.6)
         self.layout.against_wall(wardrobe, front=0.6)
         if dice.chance(0.5):
             self.desk(0)
@@ -226,7 +229,8 @@ class Furnishing:
         found = self.layout.against_wall(fittings.washbasin(dice, self.finishes, width), front=0.6)
         if found:
             place, wall, along = found
-            mirror = decoration.wall_mirror(dice, self.finishes, width * dice.uniform(0.8, 1.1), dice.uniform(0.7, 0.95))
+            mirror = decoration.wall_mirror(dice, self.finishes, width * dice.uniform(0.8, 1.1),
+                                            dice.uniform(0.7, 0.95))
             x, z = wall.point(along)
             self.layout.try_at(mirror, x, z, wall.yaw, 1.05)
             self.looked_at.append((place.x, place.z))
@@ -264,13 +268,15 @@ class Furnishing:
         length = sum(wall.length for wall in self.plan.walls)
         for k in range(int(length * dice.draw(of.FILLERS))):
             own = dice.about(f"filler{k}")
-            kinds = {"bathroom": ["plant", "stool"], "kitchen": ["plant", "shelf", "cupboard", "chair"]}
-            kind = own.one_of(kinds.get(self.kind, ["plant", "plant", "shelf", "shelf", "cupboard", "lamp", "armchair", "chair",
+            kinds = {"bathroom": ["plant", "chair"], "kitchen": ["plant", "shelf", "cupboard", "chair"]}
+            kind = own.one_of(kinds.get(self.kind, ["plant", "plant", "shelf", "shelf", "cupboard", "lamp", "armchair",
+                                                    "chair",
                                                     "standing_mirror"]))
             if kind == "plant":
                 self.layout.against_wall(decoration.plant(own, self.finishes, own.uniform(0.5, 1.7)), gap=0.03, front=0)
             elif kind == "shelf":
-                self.layout.against_wall(furniture.shelf(own, self.finishes, own.uniform(0.6, 1.6), own.uniform(1.1, 2.2)))
+                self.layout.against_wall(furniture.shelf(own, self.finishes, own.uniform(0.6, 1.6),
+                                                         own.uniform(1.1, 2.2)))
             elif kind == "cupboard":
                 self.layout.against_wall(furniture.cupboard(own, self.finishes, "spare", own.uniform(0.7, 1.4),
                                                             own.uniform(0.7, 1.1), 0.42))

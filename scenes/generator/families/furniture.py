@@ -111,7 +111,8 @@ def sofa(dice, finishes, seats, use="sofa"):
         for z in (-1, 1):
             thing.pole(leg, 0.02, foot, (x * (width / 2 - 0.08), 0, z * 0.34))
     for _ in range(dice.whole(0, seats)):
-        x, pillow = dice.uniform(-inside / 2 + 0.2, inside / 2 - 0.2), finishes.get("cloth", f"pillow{dice.whole(0, 2)}")
+        x, pillow = dice.uniform(-inside / 2 + 0.2, inside / 2 - 0.2), finishes.get("cloth",
+                                                                                    f"pillow{dice.whole(0, 2)}")
         cushion = scaled(ball(1, 16), 0.22, 0.2, 0.07)
         thing.put(moved(rotated(cushion, -22, 0), (x, foot + 0.5, -0.06)), pillow)
     return thing, width
@@ -163,7 +164,8 @@ def cupboard(dice, finishes, use, width, height, depth, foot=0.08, top_kind=None
                 handle(thing, metal, min(0.14, cell / 2), (x, y + rise - 0.05, depth / 2 - 0.004))
             else:
                 side = cell / 2 - 0.05
-                handle(thing, metal, 0.14, (x + (side if i % 2 == 0 else -side), min(y + rise * 0.7, 1.1), depth / 2 - 0.004),
+                handle(thing, metal, 0.14, (x + (side if i % 2 == 0 else -side), min(y + rise * 0.7, 1.1),
+                                            depth / 2 - 0.004),
                        upright=True)
     if height < 1.2:
         thing.tops.append((-width / 2 + 0.08, width / 2 - 0.08, -depth / 2 + 0.07, depth / 2 - 0.07, height))
@@ -194,12 +196,14 @@ def shelf(dice, finishes, width, height):
                 continue
             if dice.chance(0.06):
                 radius = dice.uniform(0.04, 0.07)
-                thing.put(decoration.vase_shape(dice, radius, min(0.22, step - 0.06)), finishes.get("ceramic", f"vase{dice.whole(0, 2)}"),
+                thing.put(decoration.vase_shape(dice, radius, min(0.22, step - 0.06)),
+                          finishes.get("ceramic", f"vase{dice.whole(0, 2)}"),
                           (x + radius, y + thick, 0))
                 x += 2 * radius + 0.03
                 continue
             thickness, tall = dice.uniform(0.015, 0.05), min(step - 0.04, dice.uniform(0.18, 0.3))
-            thing.box(dice.one_of(books), thickness, tall, dice.uniform(0.14, 0.22), (x + thickness / 2, y + thick, 0.02),
+            thing.box(dice.one_of(books), thickness, tall, dice.uniform(0.14, 0.22),
+                      (x + thickness / 2, y + thick, 0.02),
                       bevel=0.002)
             x += thickness + 0.001
     return thing

@@ -103,7 +103,8 @@ def standing_lamp(dice, finishes, height, use):
         globe, area = bulb(0.06 + 0.04 * min(height, 1))
         return Lamp(thing, (0, height - 0.1, 0), area, [(globe, (0, height - shade + 0.08, 0))], weight=0.5)
     cover = turned([(r, 0), (0.72 * r, shade)], 28)
-    return Lamp(thing, (0, height - shade / 2, 0), 2 * PI * 0.86 * r * shade, [(cover, (0, height - shade, 0))], weight=0.5)
+    return Lamp(thing, (0, height - shade / 2, 0), 2 * PI * 0.86 * r * shade, [(cover, (0, height - shade, 0))],
+                weight=0.5)
 
 
 def cable(finishes, points):

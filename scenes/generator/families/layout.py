@@ -39,8 +39,8 @@ class Layout:
         return self.add(place) if self.is_free(place.low, place.high, ignored=ignored) else None
 
     def against_wall(self, thing, y=0.0, gap=0.005, front=0.5, walls=None, tries=30, covers_windows=False):
-        """Its back to a wall, with `front` metres before it that are free now; (place, wall, along) or None. It does not
-        stand before a window that it would cover, nor on the swing of a door."""
+        """Its back to a wall, with `front` metres before it that are free now; (place, wall, along) or None. It does
+        not stand before a window that it would cover, nor on the swing of a door."""
         low, high = thing.bounds()
         width, middle = high[0] - low[0], (high[0] + low[0]) / 2
         dice = self.dice.about(f"wall/{len(self.places)}/{thing.name}")
@@ -52,9 +52,11 @@ class Layout:
             room = wall.length - width - 0.1
             # People line things up: a third stand in a corner, a third in the middle of the wall.
             where = dice.uniform()
-            along = 0.05 + room * (0.0 if where < 0.16 else 1.0 if where < 0.33 else 0.5 if where < 0.66 else dice.uniform())
+            along = 0.05 + room * (0.0 if where < 0.16 else 1.0 if where < 0.33 else 0.5
+                                   if where < 0.66 else dice.uniform())
             left, right = along, along + width
-            if not covers_windows and any(w.left < right and left < w.right and w.sill < y + high[1] and y + low[1] < w.head
+            if not covers_windows and any(w.left < right and left < w.right and w.sill < y + high[1]
+                                          and y + low[1] < w.head
                                           for w in wall.windows):
                 continue
             if any(a - 0.05 < right and left < b + 0.05 for a, b in wall.doors) and y + low[1] < 2.1:

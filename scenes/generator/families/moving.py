@@ -106,7 +106,8 @@ def rolling_ball(dice, room):
         return False
     thing = Thing("ball")
     thing.put(ball(radius, 28), room.finishes.get("plastic", "ball"))
-    thing.put(wire([(1.001 * radius * cosine(15 * k), 1.001 * radius * sine(15 * k), 0) for k in range(25)], 0.006 * radius / 0.1),
+    thing.put(wire([(1.001 * radius * cosine(15 * k), 1.001 * radius * sine(15 * k), 0) for k in range(25)],
+                   0.006 * radius / 0.1),
               room.finishes.get("lacquer", "ball_stripe"))
     place = slide(room, thing, way, radius)
     (x0, z0), (x1, z1) = way

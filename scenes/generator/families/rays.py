@@ -51,7 +51,8 @@ def hit_shell(plan, finishes, origin, direction):
     walls)."""
     inverse = inverse_of(direction)
     bounds = (plan.width, plan.height, plan.depth)
-    distances = [((bounds[k] if direction[k] > 0 else 0.0) - origin[k]) * inverse[k] if abs(direction[k]) > 1e-9 else 1e30
+    distances = [((bounds[k] if direction[k] > 0 else 0.0) - origin[k]) * inverse[k]
+                 if abs(direction[k]) > 1e-9 else 1e30
                  for k in range(3)]
     distance = min(distances)
     axis = distances.index(distance)

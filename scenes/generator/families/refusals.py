@@ -6,7 +6,7 @@ from .estimate import REFLECTIVE
 
 RULES = {
     "objects": f"not {of.OBJECTS[0]} to {of.OBJECTS[1]} objects",
-    "camera": "no place for a camera: 0.35 m from walls and things along all of its path, with a view of what it looks at",
+    "camera": "no place for a camera, off walls and things along all of its path, with a view of what it looks at",
     "near": "a thing nearer than 0.5 m, or one thing over more than 40 % of the picture",
     "open": "a ray leaves the scene other than through a window",
     "rough": "less than 5 % of the picture have a roughness of at most 0.35",

@@ -1,7 +1,6 @@
 """room:N, furnished rooms."""
 from ..description import scene_json
 from ..gltf import Model
-from ..shapes import cosine, sine
 from . import camera, furnishing, shell
 from . import densities as of
 from .dice import Dice
@@ -27,7 +26,8 @@ class Room:
         self.surfaces = self.draw_surfaces(dice.about("surfaces"))
         self.joinery = shell.joinery(dice.about("joinery"), self.plan, self.finishes)
         self.layout = Layout(dice.about("layout"), self.plan)
-        self.furnishing = furnishing.Furnishing(dice.about("furnishing"), self.kind, self.plan, self.finishes, self.layout)
+        self.furnishing = furnishing.Furnishing(dice.about("furnishing"), self.kind, self.plan, self.finishes,
+                                                self.layout)
         self.furnishing.furnish()
         self.things = self.layout.flats + self.layout.places
         judge_objects(len(self.things))
@@ -40,7 +40,8 @@ class Room:
     def draw_surfaces(self, dice):
         """Finishes of floor, ceiling and each wall."""
         wet = self.kind in ("kitchen", "bathroom")
-        group = {"living": "living", "dining": "living", "kitchen": "kitchen", "bathroom": "kitchen"}.get(self.kind, "office")
+        group = {"living": "living", "dining": "living", "kitchen": "kitchen", "bathroom": "kitchen"}.get(self.kind,
+                                                                                                          "office")
         get = self.finishes.get
         floor = get(dice.draw(of.FLOORS[group]), "floor", "floors")
         ceiling = get("plaster", "ceiling", "ceilings")

@@ -62,7 +62,8 @@ class Plan:
         if scale == 1 and dice.chance(of.IS_L):
             a, b, corner = exact(w * dice.draw(of.NOTCH)), exact(d * dice.draw(of.NOTCH)), dice.whole(0, 3)
             corners[corner:corner + 1] = [[(0.0, b), (a, b), (a, 0.0)], [(w - a, 0.0), (w - a, b), (w, b)],
-                                          [(w, d - b), (w - a, d - b), (w - a, d)], [(a, d), (a, d - b), (0.0, d - b)]][corner]
+                                          [(w, d - b), (w - a, d - b), (w - a, d)],
+                                          [(a, d), (a, d - b), (0.0, d - b)]][corner]
             right, far = corner in (1, 2), corner in (2, 3)
             self.notch = (w - a if right else 0.0, w if right else a, d - b if far else 0.0, d if far else b)
         self.walls = self.walls_of(corners)
@@ -219,7 +220,8 @@ def joinery(dice, plan, finishes):
             for y in (0.25, 1.15):
                 thing.box(leaf, width - 0.42, 0.62, 0.012, (0, y, 0.035), bevel=0.006)
             side = width / 2 - 0.13
-            thing.put(wire([(side, 1.03, 0.03), (side, 1.03, 0.075), (side - 0.02, 1.03, 0.085), (side - 0.12, 1.03, 0.085)],
+            thing.put(wire([(side, 1.03, 0.03), (side, 1.03, 0.075), (side - 0.02, 1.03, 0.085),
+                            (side - 0.12, 1.03, 0.085)],
                            0.008, 8), metal)
             thing.box(metal, 0.035, 0.2, 0.006, (side, 0.93, 0.032), bevel=0.002)
             x, z = wall.point((left + right) / 2)

@@ -74,7 +74,8 @@ class Sky:
         if self.sun:
             warm = min(1.0, 0.45 + self.elevation / 60)
             lights = [{"type": "directional", "direction": [round(-c, 6) for c in normalized(self.to_sun)],
-                       "irradiance": round(self.sun, 3), "color": [1.0, round(0.6 + 0.35 * warm, 4), round(0.3 + 0.6 * warm, 4)]}]
+                       "irradiance": round(self.sun, 3), "color": [1.0, round(0.6 + 0.35 * warm, 4),
+                                                                   round(0.3 + 0.6 * warm, 4)]}]
         colour = [round(c, 5) for c in self.colour]
         if self.kind == "image":
             return {"image": "sky.exr"}, lights, {"sky.exr": self.image()}

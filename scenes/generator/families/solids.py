@@ -9,7 +9,8 @@ def dot(a, b):
 
 def _box_corners():
     """Of a bevelled box: (axis, signs) of each vertex, which lies on the face of that axis; the triangles."""
-    corners = [(axis, tuple(1 if corner >> k & 1 else -1 for k in range(3))) for axis in range(3) for corner in range(8)]
+    corners = [(axis, tuple(1 if corner >> k & 1 else -1 for k in range(3))) for axis in range(3)
+               for corner in range(8)]
     index = {key: i for i, key in enumerate(corners)}
     triangles = []
 
@@ -41,7 +42,7 @@ BOX_NORMALS = [tuple(float(signs[axis]) if k == axis else 0.0 for k in range(3))
 
 
 def bevelled_box(width, height, depth, bevel):
-    """Stands on y = 0, centred on x = z = 0. The faces are flat; the normals of the bevels turn from one to the next."""
+    """Stands on y = 0, centred on x = z = 0. Faces are flat; the normals of bevels turn from one to the next."""
     x, y, z = width / 2, height / 2, depth / 2
     bevel = min(bevel, 0.45 * min(x, y, z))
     positions, uvs = [], []
@@ -54,7 +55,8 @@ def bevelled_box(width, height, depth, bevel):
 
 
 def turned(profile, sides=16):
-    """The profile (radius, y), from its foot up and outside to the right, about +y. Corners below 45 degrees are smooth."""
+    """The profile (radius, y) about +y, from its foot up with the outside to the right. Corners below 45 degrees are
+    smooth."""
     slopes = []
     for (r0, y0), (r1, y1) in zip(profile, profile[1:]):
         slopes.append(normalized((y1 - y0, r0 - r1, 0)))

@@ -96,11 +96,14 @@ def car(dice, finishes, use, is_dusk):
     rows = [[(x, y, length * z) for x, y in rounded_section(half * w, low, high)] for z, w, low, high in stations]
     ends = [[(0.0, 0.48, p[0][2])] * 16 for p in (rows[0], rows[-1])]
     thing.put(smooth_grid([ends[0], *rows, ends[1]], closed=True), paint)
-    cabin = [(-0.4, 0.7, hood - 0.02, hood + 0.06), (-0.32, 0.84, hood - 0.05, tall - 0.1), (-0.2, 0.86, hood - 0.05, tall),
-             (0.02, 0.86, hood - 0.05, tall - 0.02), (0.14, 0.84, hood - 0.05, tall - 0.16), (0.28, 0.78, hood - 0.08, hood + 0.02)]
+    cabin = [(-0.4, 0.7, hood - 0.02, hood + 0.06), (-0.32, 0.84, hood - 0.05, tall - 0.1),
+             (-0.2, 0.86, hood - 0.05, tall),
+             (0.02, 0.86, hood - 0.05, tall - 0.02), (0.14, 0.84, hood - 0.05, tall - 0.16),
+             (0.28, 0.78, hood - 0.08, hood + 0.02)]
     rows = [[(x, y, length * z) for x, y in rounded_section(half * w, low, high, 0.55)] for z, w, low, high in cabin]
     thing.put(smooth_grid(rows, closed=True), glass)
-    thing.put(moved(rotated(bevelled_box(half * 1.22, 0.05, length * 0.34, 0.024), -1, 0), (0, tall - 0.035, -0.12 * length)),
+    thing.put(moved(rotated(bevelled_box(half * 1.22, 0.05, length * 0.34, 0.024), -1, 0),
+                    (0, tall - 0.035, -0.12 * length)),
               paint)
     for x in (-1, 1):
         for z in (-0.31, 0.31):
@@ -113,8 +116,10 @@ def car(dice, finishes, use, is_dusk):
         rear = finishes.lamp("rear_light", (8.0, 0.3, 0.2)) if is_dusk else finishes.get("lacquer", "rear_light")
         thing.box(front, 0.28, 0.1, 0.1, (x * (half - 0.25), hood - 0.26, 0.485 * length), bevel=0.03)
         thing.box(rear, 0.22, 0.12, 0.06, (x * (half - 0.2), hood - 0.2, -0.49 * length), bevel=0.02)
-    thing.box(finishes.get("satin_paint", "plate", "ceilings"), 0.52, 0.11, 0.02, (0, 0.42, 0.5 * length + 0.005), bevel=0.003)
-    thing.box(finishes.get("satin_paint", "plate", "ceilings"), 0.52, 0.11, 0.02, (0, 0.55, -0.5 * length - 0.005), bevel=0.003)
+    thing.box(finishes.get("satin_paint", "plate", "ceilings"), 0.52, 0.11, 0.02, (0, 0.42, 0.5 * length + 0.005),
+              bevel=0.003)
+    thing.box(finishes.get("satin_paint", "plate", "ceilings"), 0.52, 0.11, 0.02, (0, 0.55, -0.5 * length - 0.005),
+              bevel=0.003)
     return thing
 
 
@@ -123,7 +128,8 @@ def street_lamp(dice, finishes, height):
     thing = Thing("street_lamp")
     metal = finishes.get("brushed_metal" if dice.chance(0.5) else "satin_paint", "street_lamp")
     thing.put(turned([(0, 0), (0.1, 0), (0.09, 0.6), (0.055, 0.75), (0.04, height), (0, height)], 14), metal)
-    thing.put(wire([(0, height - 0.1, 0), (0, height + 0.1, 0.3), (0, height + 0.16, 0.8), (0, height + 0.17, 1.1)], 0.03, 8),
+    thing.put(wire([(0, height - 0.1, 0), (0, height + 0.1, 0.3), (0, height + 0.16, 0.8), (0, height + 0.17, 1.1)],
+                   0.03, 8),
               metal)
     thing.box(metal, 0.28, 0.08, 0.6, (0, height + 0.14, 1.3), bevel=0.03)
     glow = smooth_grid([[(-0.11, height + 0.139, z), (0.11, height + 0.139, z)] for z in (1.06, 1.54)])
@@ -164,7 +170,8 @@ def bench(dice, finishes):
 def bollard(dice, finishes):
     thing = Thing("bollard")
     metal = finishes.get("chrome" if dice.chance(0.4) else "brushed_metal", "bollard")
-    thing.put(turned([(0, 0), (0.06, 0), (0.055, 0.85), (0.06, 0.86), (0.06, 0.92), (0.03, 0.96), (0, 0.96)], 20), metal)
+    thing.put(turned([(0, 0), (0.06, 0), (0.055, 0.85), (0.06, 0.86), (0.06, 0.92), (0.03, 0.96), (0, 0.96)], 20),
+              metal)
     return thing
 
 

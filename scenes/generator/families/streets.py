@@ -61,7 +61,8 @@ class Street:
                     self.things.append(Place(thing, side * self.width / 2, z - width / 2, 90 if side < 0 else 270, 0.0))
                 z, k = z - width, k + 1
         for z, yaw in ((-self.length - 4, 0), (34.0, 180)):
-            thing, _ = parts.house(dice.about(f"end{yaw}"), self.finishes, f"end{yaw}", self.width + 14, 9.0, self.is_dusk,
+            thing, _ = parts.house(dice.about(f"end{yaw}"), self.finishes, f"end{yaw}", self.width + 14, 9.0,
+                                   self.is_dusk,
                                    self.kelvin)
             self.things.append(Place(thing, 0.0, z, yaw, 0.0))
 
@@ -106,7 +107,8 @@ class Street:
             make = own.one_of([parts.bench, parts.bin_, parts.bollard, parts.bollard, parts.sign] +
                               [parts.tree] * 3 * has_trees)
             thing = make(own, self.finishes)
-            self.try_at(thing, side * (self.road + (0.45 if make is not parts.bench else 0.6)), z, 90 if side < 0 else 270)
+            self.try_at(thing, side * (self.road + (0.45 if make is not parts.bench else 0.6)), z, 90
+                        if side < 0 else 270)
 
     def add_driving_car(self, dice):
         """(place, metres that it drives along z), or None."""
@@ -115,7 +117,8 @@ class Street:
         side = dice.one_of((-1, 1))
         way = side * dice.uniform(5, 13) * LAST
         thing = parts.car(dice.about("car"), self.finishes, "driving", self.is_dusk)
-        place = Place(thing, -side * min(1.6, self.road - 3.2) if self.road > 4 else 0.0, dice.uniform(-22, -9), 0 if way > 0 else 180,
+        place = Place(thing, -side * min(1.6, self.road - 3.2) if self.road > 4 else 0.0, dice.uniform(-22, -9), 0
+                      if way > 0 else 180,
                       0.0)
         swept = ((place.low[0], place.low[1], min(place.low[2], place.low[2] + way)),
                  (place.high[0], place.high[1], max(place.high[2], place.high[2] + way)))
@@ -135,7 +138,8 @@ class Street:
 
     def cast(self, origin, direction):
         ground = Hit(-origin[1] / direction[1], self.ground, 1) if direction[1] < -1e-6 else None
-        return hit_places(self.things + self.moving_places(), origin, direction, ground.distance if ground else 1e30) or \
+        return hit_places(self.things + self.moving_places(), origin, direction, ground.distance
+                          if ground else 1e30) or \
             ground or Hit(1000.0, SKY, 1)
 
     def sees_sun(self, point):

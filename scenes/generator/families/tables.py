@@ -1,12 +1,13 @@
 """The tables of scenes/README.md that say what is drawn: made of densities.py and refusals.py."""
-from . import densities  # noqa: F401  (states them)
+from . import densities  # noqa: F401  (it states them)
 from .dice import TABLE
 from .refusals import RULES
 
 
 def densities_of(family):
     rows = ["| what | drawn from | unit | source |", "|---|---|---|---|"]
-    return rows + [f"| {d.what} | {d.text()} |{'' if d.unit in ('', '1') else f' {d.unit}'} | {d.source} |" for d in TABLE
+    return rows + [f"| {d.what} | {d.text()} |{'' if d.unit in ('', '1') else f' {d.unit}'} | {d.source} |"
+                   for d in TABLE
                    if d.family == family]
 
 
@@ -15,7 +16,8 @@ def refusals():
 
 
 def filled(document):
-    """The text with each table between its `<!-- densities of rooms -->` (both, streets; refusals) and `<!-- end -->`."""
+    """The text with each table between its `<!-- densities of rooms -->` (both, streets; refusals) and the next
+    `<!-- end -->`."""
     made = {f"densities of {family}": densities_of(family) for family in ("rooms", "both", "streets")}
     made["refusals"] = refusals()
     for name, rows in made.items():

@@ -2,7 +2,7 @@
 from dataclasses import dataclass, field
 
 from ..shapes import Shape, cosine, sine
-from .solids import bevelled_box, moved, pole, rotated
+from .solids import bevelled_box, moved, pole
 
 
 @dataclass(frozen=True)
