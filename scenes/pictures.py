@@ -78,7 +78,7 @@ def neighbours(image, reach, step=1):
 
 def denoised(radiance, planes):
     """Light over base colour, without outliers, blurred within surfaces of a material and a direction: an a-trous
-    filter (Dammertz et al. 2010), narrower on what mirrors. `planes`: of the G-buffer. For looking at, not for measuring."""
+    filter (Dammertz et al. 2010), narrower on what mirrors. `planes`: of the G-buffer. For looking at only."""
     def vector(name, channels):
         return np.stack([planes[f"{name}.{c}"] for c in channels], axis=-1)
 

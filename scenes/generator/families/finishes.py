@@ -74,7 +74,7 @@ class Finishes:
         return self.plain(name, shaded(dice.uniform(), dice.uniform(0, 0.75) ** 2, reflectance), roughness)
 
     def mapped(self, name, colour, roughness, period, maps, metalness=0.0):
-        """`maps()` gives (image, colours of its ramp), an image of roughnesses, and (name of a relief, steepness): each or
+        """`maps()` gives (image, colours of its ramp), an image of roughnesses, (name of a relief, steepness): each or
         None."""
         finish = self.plain(name, colour, roughness, metalness, period)
         self.maps[finish.material] = maps
