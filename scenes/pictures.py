@@ -5,7 +5,7 @@
     scenes/pictures.py --sheet room
 
 Without a name, all scenes whose files are on the search path (SSRLAB_SCENE_PATH), but for those whose licence is in
-doubt. --sheet: room:0 to room:63 on one sheet, <folder>/rooms.png, of few samples and denoised, or street:0 to 15.
+doubt. --sheet: room:0 to room:63 on one sheet, sheets/rooms.png, of few samples and denoised, or street:0 to 15.
 Needs Debian's python3-numpy and python3-pil.
 """
 import argparse
@@ -57,9 +57,9 @@ def path_traced(program, scene, size, samples, folder):
     return read_exr_rgb(reference, "image")
 
 
-def save(codes, file):
+def save(codes, file, colours=COLOURS):
     picture = Image.fromarray(codes)
-    picture = picture.quantize(COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    picture = picture.quantize(colours, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     picture.save(file, optimize=True)
 
 
@@ -119,14 +119,14 @@ def take_sheet(program, family, out):
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         tiles = list(pool.map(lambda scene: tile(program, scene), scenes))
     lines = [np.concatenate(tiles[k:k + columns], axis=1) for k in range(0, len(tiles), columns)]
-    save(np.concatenate(lines), out / f"{family}s.png")
+    save(np.concatenate(lines), out / f"{family}s.png", colours=256)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     program = SCENES.parent / "build/release/ssrlab"
     parser.add_argument("--ssrlab", type=Path, default=program, help="default: build/release/ssrlab")
-    parser.add_argument("--out", type=Path, default=SCENES / "pictures", help="default: pictures, beside this file")
+    parser.add_argument("--out", type=Path, help="default: pictures, or sheets, beside this file")
     parser.add_argument("--sheet", choices=SHEETS, help="of a family of scenes, in place of pictures")
     parser.add_argument("names", nargs="*", metavar="NAME", help="of scenes; none: all")
     arguments = parser.parse_args()
@@ -136,16 +136,17 @@ def main():
         parser.error(f"no scene named '{unknown[0]}'")
     if not arguments.ssrlab.exists():
         parser.error(f"no program {arguments.ssrlab}: build ssrlab, or name it with --ssrlab")
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    out = arguments.out or SCENES / ("sheets" if arguments.sheet else "pictures")
+    out.mkdir(parents=True, exist_ok=True)
     if arguments.sheet:
-        return take_sheet(arguments.ssrlab, arguments.sheet, arguments.out)
+        return take_sheet(arguments.ssrlab, arguments.sheet, out)
     for scene in arguments.names or [scene for scene in scenes if scene not in NOT_SHOWN]:
         loaded = subprocess.run([arguments.ssrlab, "needs", scene], capture_output=True, text=True)
         if loaded.returncode != 0:
             print(f"{scene}: left out, {loaded.stderr.strip()}")
             continue
-        take(arguments.ssrlab, scene, arguments.out)
-        print(f"{scene}: {(arguments.out / f'{scene}.png').stat().st_size} bytes", flush=True)
+        take(arguments.ssrlab, scene, out)
+        print(f"{scene}: {(out / f'{scene}.png').stat().st_size} bytes", flush=True)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace {
 
@@ -17,7 +18,11 @@ MirrorRayShares rays_of(const std::string& name, const RaysOptions& options, con
                              {options.size[0], options.size[1]}, true);
 }
 
-void print_row(const std::string& what, const MirrorRayShares& rays) {
+void print_row(const std::string& what, const MirrorRayShares& rays, bool is_first) {
+    if (is_first)
+        std::printf(
+            "| scene | reflective pixels, %% | sees/hidden/off/behind/sky, %% | on thin things, %% | roughness | F0 |\n"
+            "|---|---|---|---|---|---|\n");
     std::printf("| %s | %.0f | %.0f/%.0f/%.0f/%.0f/%.0f | %.0f | %.2f | %.3f |\n", what.c_str(), 100 * rays.reflective,
                 100 * rays.seen, 100 * rays.hidden, 100 * rays.off, 100 * rays.behind, 100 * rays.sky, 100 * rays.thin,
                 rays.roughness, rays.reflectance);
@@ -42,12 +47,13 @@ MirrorRayShares quantile(const std::vector<MirrorRayShares>& all, double share) 
 }  // namespace
 
 void rays_command(const RaysOptions& options, const CommonOptions& common) {
-    std::printf(
-        "| scene | reflective pixels, %% | sees/hidden/off/behind/sky, %% | on thin things, %% | roughness | F0 |\n"
-        "|---|---|---|---|---|---|\n");
+    bool is_first = true;
+    const auto print = [&](const std::string& what, const MirrorRayShares& rays) {
+        print_row(what, rays, std::exchange(is_first, false));
+    };
     for (const std::string& name : options.scenes) {
         if (!names_several(name)) {
-            print_row(name, rays_of(name, options, common));
+            print(name, rays_of(name, options, common));
             continue;
         }
         std::vector<MirrorRayShares> all;
@@ -55,6 +61,6 @@ void rays_command(const RaysOptions& options, const CommonOptions& common) {
             all.push_back(rays_of(scene, options, common));
         const std::string row = std::to_string(all.size()) + " of " + name + ", ";
         for (const int percent : {5, 25, 50, 75, 95})
-            print_row(row + std::to_string(percent) + " %", quantile(all, percent / 100.0));
+            print(row + std::to_string(percent) + " %", quantile(all, percent / 100.0));
     }
 }
