@@ -74,8 +74,8 @@ class Street:
             lamp.finish(self.finishes, self.kelvin, lumens, self.is_dusk)
             place = Place(lamp.thing, side * (self.road + 0.35), z, 90 if side < 0 else 270, KERB)
             self.things.append(place)
-            if self.is_dusk:
-                self.lamps.append((place.point(lamp.light), lumens / of.CANDELA))
+            if self.is_dusk:  # below a lamp that shines down, three times what one to all sides would give
+                self.lamps.append((place.point(lamp.light), 3 * lumens / of.CANDELA))
             z, side = z - distance, -side
         if dice.chance(of.CABLE):
             for k in range(dice.whole(1, 4)):
@@ -127,10 +127,10 @@ class Street:
         return place, way, swept
 
     def lit(self):
-        """The sky is seen from half of the facades and the ground; what they reflect adds a quarter."""
+        """The sky is seen from half of the facades and the ground; at dusk lit windows and lamps add to it."""
         sky = self.sky
-        lamps = sum(strength for _, strength in self.lamps) * 0.2 / (PI * self.width * self.length)
-        ambient = 0.5 * sky.radiance + 0.05 * sky.sun / PI + lamps
+        lamps = sum(strength for _, strength in self.lamps) * 0.1 / (PI * self.width * self.length)
+        ambient = 0.5 * sky.radiance + 0.05 * sky.sun / PI + lamps + (0.05 if self.is_dusk else 0.0)
         return Light(self.lamps, sky.to_sun, sky.sun, ambient, sky.radiance)
 
     def moving_places(self):
