@@ -5,7 +5,6 @@
 #include "experiments/commands/commands.h"
 #include "experiments/run/progress.h"
 #include "experiments/stability/precision/precision.h"
-#include "groundtruth/reference_cache.h"
 
 #include <algorithm>
 #include <cstdio>

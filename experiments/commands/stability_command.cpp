@@ -7,7 +7,6 @@
 #include "experiments/run/progress.h"
 #include "experiments/stability/stability.h"
 #include "experiments/stability/stability_report.h"
-#include "groundtruth/reference_cache.h"
 
 #include <algorithm>
 #include <cstdio>

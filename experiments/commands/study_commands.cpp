@@ -11,7 +11,6 @@
 #include "experiments/measuring/frames/capture.h"
 #include "experiments/report/report.h"
 #include "experiments/run/run.h"
-#include "groundtruth/reference_cache.h"
 
 #include <cstdio>
 
