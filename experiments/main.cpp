@@ -3,6 +3,7 @@
 #include "core/gpu/shader_error.h"
 #include "core/near_miss.h"
 #include "core/reading_limits.h"
+#include "core/scene/scene_family.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/store/host_info.h"
@@ -403,6 +404,29 @@ int parse_and_run(int argc, char** argv) {
     add_device(needs_command_, common), add_scene_path(needs_command_, common);
     add_reading(needs_command_);
     needs_command_.callback([&] { status = needs_command(needs, common); });
+
+    RaysOptions rays;
+    CLI::App& rays_command_ =
+        *app.add_subcommand("rays", "Trace the mirror rays of what reflects, and print where they end as a table");
+    rays_command_
+        .add_option("scenes", rays.scenes, "Scenes, each seen by its first camera; room:* stands for several in a row")
+        ->required()
+        ->type_name("SCENE...");
+    rays_command_.add_option("--count", rays.count, "How many scenes room:* stands for")
+        ->check(CLI::Range(1u, largest_scene_number + 1))
+        ->capture_default_str()
+        ->type_name("N");
+    rays_command_.add_option("--first", rays.first, "The number of the first of them")
+        ->check(CLI::Range(0u, largest_scene_number))
+        ->capture_default_str()
+        ->type_name("N");
+    rays_command_.add_option("--size", rays.size, "Width and height in pixels; default: 160 90")
+        ->expected(2)
+        ->type_name("W H")
+        ->check(CLI::Range(1, 16384));
+    add_scene_path(rays_command_, common);
+    add_reading(rays_command_);
+    rays_command_.callback([&] { rays_command(rays, common); });
 
     StabilityOptions stability;
     CLI::App& stability_command_ =

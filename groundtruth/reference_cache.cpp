@@ -8,7 +8,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <optional>
 
@@ -70,17 +69,6 @@ fs::path extensible_reference(const fs::path& folder, const std::string& stream,
 }
 
 }  // namespace
-
-fs::path default_cache_folder() {
-    const auto variable = [](const char* name) -> std::string {
-        const char* value = std::getenv(name);
-        return value ? value : "";
-    };
-    if (const std::string folder = variable("SSRLAB_CACHE"); !folder.empty()) return folder;
-    if (const std::string folder = variable("XDG_CACHE_HOME"); !folder.empty()) return fs::path(folder) / "ssrlab";
-    if (const std::string home = variable("HOME"); !home.empty()) return fs::path(home) / ".cache" / "ssrlab";
-    return fs::temp_directory_path() / "ssrlab";
-}
 
 Reference cached_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const fs::path& folder, const ReferenceRun& run) {

@@ -1,9 +1,6 @@
 #pragma once
 #include "groundtruth/reference.h"
 
-/// SSRLAB_CACHE, else $XDG_CACHE_HOME/ssrlab, else ~/.cache/ssrlab.
-std::filesystem::path default_cache_folder();
-
 /// The reference from `folder`, rendered if it is not there. Files are named by reference_key(), so a changed scene,
 /// camera, setting or path tracer finds nothing and renders anew. An unfinished render is continued, a finished one of
 /// less time or fewer samples is added to where can_be_extended() allows it, and a broken file is replaced, with a

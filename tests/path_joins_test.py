@@ -21,6 +21,9 @@ ALLOWED = {
     ("core/path_inside.cpp", "path /= part"): "the one way",
     ("core/reading_limits.cpp", "folder / name"): SCENE,
     ("core/scene/load_scene.cpp", "folder / name"): SCENE,
+    ("core/scene/scene_family.cpp", "beside / scene"): PROGRAM,
+    ("core/scene/scene_family.cpp", "folder / scene"): PROGRAM,
+    ("core/scene/scene_family.cpp", 'folder / (scene.string() + ".partial-" + std::to_string(getpid()))'): PROGRAM,
     ("core/scene/scene_file.cpp", "folder / name"): SCENE,
     ("experiments/commands/list_commands.cpp", "folder / name"): SCENE,
     ("experiments/commands/study_commands.cpp", "out / name"): PROGRAM,
@@ -47,8 +50,11 @@ ALLOWED = {
     ("experiments/python/ssrlab/text_files.py", "os.path.join(path, part)"): "the one way",
     ("experiments/tune/studies.py", "os.path.join(folder, shot[k])"): REQUEST,
     ("experiments/tune/tune.py", "os.path.join(HERE, os.pardir, room)"): PROGRAM,
-    ("scenes/generate.py", "folder / make.__name__"): PROGRAM,
-    ("scenes/pictures.py", "arguments.out / f'{scene}.png'"): LISTED,
+    ("scenes/generate.py", "arguments.out / name"): REQUEST,
+    ("scenes/generate.py", "arguments.out / name.replace(':', '_')"): PROGRAM,
+    ("scenes/generate.py", "folder / name"): PROGRAM,
+    ("scenes/generator/families/shell.py", "wanted / len(outer) / (head - sill)"): "a number of windows",
+    ("scenes/pictures.py", "out / f'{family}s.png'"): PROGRAM,
     ("scenes/pictures.py", "out / f'{scene}.png'"): LISTED,
 }
 

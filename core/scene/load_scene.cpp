@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "core/scene/scene_family.h"
 #include "core/scene/scene_file.h"
 
 #include <climits>
@@ -59,6 +60,7 @@ Scene load_bare_gltf(const fs::path& file) {
 
 Scene load_scene(const std::string& name, const std::vector<fs::path>& search_path) {
     if (name.size() >= PATH_MAX) fail("unknown scene '", shortened(name), "': no path is as long");
+    if (is_of_family(name)) return load_scene_file(scene_file_of_family(name), search_path);
     const fs::path direct = name;
     const std::string extension = direct.extension().string();
     if (extension == ".gltf" || extension == ".glb") return load_bare_gltf(direct);

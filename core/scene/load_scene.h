@@ -12,8 +12,9 @@ std::vector<std::filesystem::path> scene_search_path(const std::vector<std::file
 std::vector<std::string> list_scenes(const std::vector<std::filesystem::path>& search_path);
 
 /// Loads `<folder of the search path>/<name>/scene.json` (its keys: scenes/README.md), or, if `name` is a path to a
-/// .json, .gltf or .glb file, that file; a bare glTF gets its own cameras, a default one that sees all of it, and a
-/// white environment. Fails with Error if something is missing, truncated or malformed.
+/// .json, .gltf or .glb file, that file, or a scene of a family (core/scene/scene_family.h); a bare glTF gets its own
+/// cameras, a default one that sees all of it, and a white environment. Fails with Error if something is missing,
+/// truncated or malformed.
 Scene load_scene(const std::string& name, const std::vector<std::filesystem::path>& search_path);
 
 /// Only the glTF 2.0 file (.gltf or .glb): meshes, materials, nodes, animation, lights, cameras.

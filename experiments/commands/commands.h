@@ -121,6 +121,15 @@ struct NeedsOptions {
 /// The exit code: 0, or 1 if skipped work changed an image by more than stated.
 int needs_command(const NeedsOptions& options, const CommonOptions& common);
 
+struct RaysOptions {
+    std::vector<std::string> scenes;  ///< names, of which `room:*` stands for `count` from `first` on
+    unsigned count = 100, first = 0;
+    std::vector<unsigned> size{160, 90};
+};
+/// Prints where mirror rays end, of each scene's first camera in frame 0, as rows of Markdown: one for each scene, of
+/// `room:*` quantiles over scenes.
+void rays_command(const RaysOptions& options, const CommonOptions& common);
+
 struct StabilityOptions {
     std::vector<std::string> variants, cases;  ///< empty: all
     bool has_all_stages = false, is_of_precision = false;

@@ -3,6 +3,7 @@
 #include "core/gpu/device.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
+#include "core/scene/scene_family.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config_schema.h"
@@ -89,6 +90,12 @@ void list_scenes_with_tests(const std::vector<std::filesystem::path>& search_pat
         const std::string about = about_scene(folder), cameras = cameras_of_scene(folder), indent(width + 2, ' ');
         std::cout << shown_text(name) << (about.empty() ? "" : indent.substr(name.size()) + shown_text(about)) << '\n';
         if (!cameras.empty()) std::cout << indent << "Cameras: " << shown_text(cameras) << '\n';
+    }
+    for (const SceneFamily& family : scene_families()) {
+        const std::string range = family.name + ":0 to " + family.name + ":" + std::to_string(largest_scene_number);
+        std::cout << range << std::string(range.size() < width ? width + 2 - range.size() : 2, ' ') << family.about
+                  << '\n'
+                  << std::string(width + 2, ' ') << "Cameras: main, path\n";
     }
 }
 

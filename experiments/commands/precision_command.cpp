@@ -1,4 +1,5 @@
 // ssrlab stability --precision: the error of half floats and floats.
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
@@ -6,7 +7,6 @@
 #include "experiments/commands/commands.h"
 #include "experiments/run/progress.h"
 #include "experiments/stability/precision/precision.h"
-#include "groundtruth/reference_cache.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,8 +1,8 @@
 // The commands that are Python scripts: figures, tables, tradeoff, tune.
+#include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/path_inside.h"
-#include "experiments/commands/child_process.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
 #include "experiments/config/config_parts.h"

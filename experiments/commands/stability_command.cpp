@@ -1,4 +1,5 @@
 // ssrlab stability: techniques under extreme inputs.
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
@@ -8,7 +9,6 @@
 #include "experiments/run/progress.h"
 #include "experiments/stability/stability.h"
 #include "experiments/stability/stability_report.h"
-#include "groundtruth/reference_cache.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,5 @@
 // The commands of studies and of what they can be made from: run, merge, report, gbuffer, capture.
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gbuffer/rasterizer.h"
@@ -11,7 +12,6 @@
 #include "experiments/measuring/frames/capture.h"
 #include "experiments/report/report.h"
 #include "experiments/run/run.h"
-#include "groundtruth/reference_cache.h"
 
 #include <cstdio>
 

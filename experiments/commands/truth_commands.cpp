@@ -1,4 +1,5 @@
 // The commands that need no Vulkan device: reference, compare.
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/scene/load_scene.h"

@@ -1,6 +1,7 @@
 #include "experiments/config/read_shots.h"
 
 #include "core/error.h"
+#include "core/scene/scene_family.h"
 #include "experiments/config/capture_folder.h"
 #include "experiments/config/point_name.h"
 #include "metrics/ghost.h"
@@ -186,9 +187,34 @@ std::vector<ShotConfig> read_capture(ConfigObject& shot, const std::filesystem::
     return {config};
 }
 
+/// The scenes that an entry names, of which `room:*` stands for `count` from number `first` on.
+std::vector<std::string> read_scenes(ConfigObject& shot) {
+    std::vector<std::string> scenes;
+    const std::vector<std::string> names = shot.texts("scene");
+    for (const char* key : {"count", "first"})
+        if (shot.has(key) && std::ranges::none_of(names, names_several))
+            fail(shot.at(key), ": '", key,
+                 "' counts scenes of a family: name one as in \"scene\": \"room:*\", or leave the key out");
+    for (const std::string& name : names) {
+        if (!names_several(name)) {
+            scenes.push_back(name);
+            continue;
+        }
+        if (!shot.has("count"))
+            fail(shot.at("scene"), ": 'scene' = \"", name, "\" stands for several: say how many in 'count'");
+        try {
+            std::ranges::move(scenes_in_a_row(name, shot.get<unsigned>("first"), shot.get<unsigned>("count")),
+                              std::back_inserter(scenes));
+        } catch (const Error& error) {
+            fail(shot.at("count"), ": ", error.what());
+        }
+    }
+    return scenes;
+}
+
 /// All combinations of scenes, cameras, frames and sizes; frames stay together, since a history runs through them.
 std::vector<ShotConfig> read_views(ConfigObject& shot, ConfigObject& study) {
-    const std::vector<std::string> scenes = shot.texts("scene"), cameras = shot.texts("camera");
+    const std::vector<std::string> scenes = read_scenes(shot), cameras = shot.texts("camera");
     const std::vector<glm::uvec2> extents = extents_of((shot.has("resolution") ? shot : study)["resolution"]);
     std::vector<ShotConfig> playings;
     for (std::vector<unsigned>& frames : read_playings(shot)) {
@@ -236,7 +262,12 @@ void refuse_repetition(const std::vector<ShotConfig>& shots, const std::string& 
 
 Keys scene_keys() {
     return {
-        {"scene", some_of(any_text()), required, "names from `ssrlab list scenes`, or paths to a .json, .gltf or .glb"},
+        {"scene", some_of(any_text()), required,
+         "names from `ssrlab list scenes`, or paths to a .json, .gltf or .glb. `room:17` is a scene by its number, "
+         "`room:*` "
+         "several in a row; likewise `street:`"},
+        {"count", whole(1, most_shots), otherwise("none"), "how many scenes `room:*` stands for"},
+        {"first", whole(0, largest_scene_number), 0, "the number of the first of them"},
         {"camera", some_of(any_text()), Default("", "the scene's first"), "names of its cameras"},
         {"resolution", extents(), otherwise("the study's"), "in pixels"},
         {"frames", either(playing(), array_of(either(ascending(max_frames), frame_range()))),

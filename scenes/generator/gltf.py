@@ -5,7 +5,7 @@ import struct
 # Numbers of OpenGL, as glTF uses them.
 UNSIGNED_SHORT, FLOAT = 5123, 5126
 VERTICES, INDICES = 34962, 34963
-LINEAR, CLAMP_TO_EDGE = 9729, 33071
+LINEAR, CLAMP_TO_EDGE, REPEAT = 9729, 33071, 10497
 
 
 def tidy(value):
@@ -20,9 +20,10 @@ def tidy_all(values):
 class Model:
     def __init__(self):
         self.materials, self.meshes, self.nodes = [], [], []
-        self.accessors, self.buffer_views, self.images, self.channels = [], [], [], []
+        self.accessors, self.buffer_views, self.channels = [], [], []
+        self.images, self.samplers, self.textures = [], [], []
         self.binary = bytearray()
-        self.known_accessors, self.known_meshes = {}, {}
+        self.known_accessors, self.known_meshes, self.known_textures = {}, {}, {}
         self.extensions = set()
 
     # Materials
@@ -48,11 +49,30 @@ class Model:
         self.extensions |= set(extensions)
         return index
 
-    def normal_map(self, material, png, scale):
-        """`png`: bytes of a tangent-space normal map; `scale` multiplies its x and y."""
-        if not self.images:
+    def texture(self, png, wrap):
+        """`wrap`: REPEAT, or CLAMP_TO_EDGE, so that the rim of a surface does not blend with the opposite one. Returns
+        the texture's index; equal contents share one."""
+        if (png, wrap) not in self.known_textures:
+            sampler = {"magFilter": LINEAR, "minFilter": LINEAR, "wrapS": wrap, "wrapT": wrap}
+            if sampler not in self.samplers:
+                self.samplers.append(sampler)
             self.images.append({"bufferView": self.add_bytes(png), "mimeType": "image/png"})
-        self.materials[material]["normalTexture"] = {"index": 0, "scale": tidy(scale)}
+            self.textures.append({"source": len(self.images) - 1, "sampler": self.samplers.index(sampler)})
+            self.known_textures[png, wrap] = len(self.textures) - 1
+        return self.known_textures[png, wrap]
+
+    def normal_map(self, material, png, scale, wrap=CLAMP_TO_EDGE):
+        """`png`: bytes of a tangent-space normal map; `scale` multiplies its x and y."""
+        self.materials[material]["normalTexture"] = {"index": self.texture(png, wrap), "scale": tidy(scale)}
+
+    def colour_map(self, material, png):
+        """Multiplies the base colour; repeats."""
+        self.materials[material]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": self.texture(png, REPEAT)}
+
+    def roughness_map(self, material, png):
+        """Green multiplies the roughness, blue the metalness; repeats."""
+        pbr = self.materials[material]["pbrMetallicRoughness"]
+        pbr["metallicRoughnessTexture"] = {"index": self.texture(png, REPEAT)}
 
     # Geometry
 
@@ -128,13 +148,9 @@ class Model:
         if self.nodes:
             gltf["scenes"][0]["nodes"] = list(range(len(self.nodes)))
         members = {"nodes": self.nodes, "meshes": self.meshes, "materials": self.materials, "accessors": self.accessors,
-                   "bufferViews": self.buffer_views, "images": self.images, "extensionsUsed": sorted(self.extensions)}
+                   "bufferViews": self.buffer_views, "images": self.images, "extensionsUsed": sorted(self.extensions),
+                   "samplers": self.samplers, "textures": self.textures}
         gltf |= {key: value for key, value in members.items() if value}
-        if self.images:
-            # Clamped, so that the rim of a surface does not blend with the opposite one.
-            gltf["samplers"] = [{"magFilter": LINEAR, "minFilter": LINEAR,
-                                 "wrapS": CLAMP_TO_EDGE, "wrapT": CLAMP_TO_EDGE}]
-            gltf["textures"] = [{"source": 0, "sampler": 0}]
         if self.channels:
             gltf["animations"] = [{
                 "samplers": [{"input": times, "output": output, "interpolation": interpolation}

@@ -45,14 +45,14 @@ def texel(direction):
     return bytes(math.floor(round(127.5 + 127.5 * c, 9) + 0.5) for c in normalized(direction))
 
 
-def png(width, height, rows):
-    """8-bit RGB. Stored without compression, whose output would depend on the version of zlib."""
+def png(width, height, rows, channels=3):
+    """8-bit RGB, or grey of one channel. Stored without compression, whose output would depend on the version of zlib."""
     blocks = [rows[i:i + 65535] for i in range(0, len(rows), 65535)]
     stream = b"\x78\x01"
     for i, block in enumerate(blocks):
         stream += struct.pack("<BHH", i == len(blocks) - 1, len(block), 65535 - len(block)) + block
     stream += struct.pack(">I", zlib.adler32(rows))
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, 8, 2 if channels == 3 else 0, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", stream) + chunk(b"IEND", b"")
 
 

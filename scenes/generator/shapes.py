@@ -6,6 +6,7 @@ which the math libraries of two machines differ; all else is +, -, *, / and sqrt
 import math
 import random
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 
 @dataclass
@@ -17,10 +18,12 @@ class Shape:
     tangents: list = field(default_factory=list)  # (x, y, z, w)
 
 
+@lru_cache(4096)
 def cosine(degrees):
     return round(math.cos(math.radians(degrees)), 9)
 
 
+@lru_cache(4096)
 def sine(degrees):
     return round(math.sin(math.radians(degrees)), 9)
 
@@ -35,7 +38,7 @@ def normalized(v):
 
 
 def minus(a, b):
-    return tuple(x - y for x, y in zip(a, b))
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def along(origin, *steps):

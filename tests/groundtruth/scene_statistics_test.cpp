@@ -2,6 +2,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/load_scene.h"
 #include "groundtruth/embree_scene.h"
+#include "groundtruth/mirror_rays.h"
 #include "groundtruth/traced_scene.h"
 
 #include <gtest/gtest.h>
@@ -90,69 +91,18 @@ const std::vector<Case> third_party_cases = {
     {"metal_rough_spheres", "grid_oblique", {29.7, 37.8, 22.7, 2.7, 0.6, 36.3}},
 };
 
-struct Hit {
-    SurfacePoint point;
-    const Material* material;
-};
-
-std::optional<Hit> first_hit(const Scene& scene, const EmbreeScene& embree, glm::vec3 origin, glm::vec3 direction) {
+std::optional<glm::vec3> first_hit(const EmbreeScene& embree, const CameraRay& view) {
     RTCRayHit ray;
-    if (!intersect(embree.handle(), origin, direction, ray)) return {};
-    const unsigned instance = ray.hit.instID[0];
-    return Hit{embree.point(instance, ray.hit.primID, ray.hit.u, ray.hit.v),
-               &scene.materials[embree.instance(instance).material]};
+    if (!intersect(embree.handle(), view.origin, view.direction, ray)) return {};
+    return embree.point(ray.hit.instID[0], ray.hit.primID, ray.hit.u, ray.hit.v).position;
 }
 
-bool is_reflective(const Material& material) {
-    return material.roughness <= 0.351f && material.metalness_roughness_texture.texture < 0;
-}
-
-/// The camera's own ray ends within 0.2 % of the distance of `point`.
-bool is_seen(const Scene& scene, const EmbreeScene& embree, glm::vec3 eye, glm::vec3 point) {
-    const float distance = glm::distance(eye, point);
-    const std::optional<Hit> hit = first_hit(scene, embree, eye, (point - eye) / distance);
-    return !hit || glm::distance(eye, hit->point.position) > 0.998f * distance;
-}
-
-void count_mirror_ray(const Scene& scene, const EmbreeScene& embree, const CameraPose& camera, const CameraRay& view,
-                      const Hit& first, Shares& counts) {
-    const glm::vec3 normal = first.point.front_normal, direction = glm::reflect(view.direction, normal);
-    const glm::vec3 origin = offset_origin(first.point.position, first.point.error, normal, direction);
-    const std::optional<Hit> second = first_hit(scene, embree, origin, direction);
-    if (!second) {
-        ++counts.sky;
-        return;
-    }
-    const glm::vec4 point(second->point.position, 1.0f);
-    const glm::mat4 view_from_world = glm::inverse(camera.world_from_view);
-    const glm::vec4 clip =
-        clip_from_view(camera, float(extent.x) / extent.y, DepthDirection::standard) * view_from_world * point;
-    if (clip.w <= 0.0f)
-        ++counts.behind;
-    else if (std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w)
-        ++counts.off;
-    else if (is_seen(scene, embree, view.origin, second->point.position))
-        ++counts.seen;
-    else
-        ++counts.hidden;
-}
-
-Shares trace_shares(const Scene& scene, const SceneCamera& scene_camera) {
+/// Materials with a map of roughness are left out, as where the expected shares were measured.
+Shares trace_shares(const Scene& scene, const SceneCamera& camera) {
     const ScenePose pose = pose_scene(scene, 0.0f);
-    const CameraPose camera = pose_camera(scene_camera, pose, 0.0f);
-    const EmbreeScene embree(scene, pose, false);
-    Shares counts{};
-    for (unsigned y = 0; y < extent.y; ++y)
-        for (unsigned x = 0; x < extent.x; ++x) {
-            const CameraRay view = camera_ray(camera, extent, {float(x) + 0.5f, float(y) + 0.5f});
-            const std::optional<Hit> hit = first_hit(scene, embree, view.origin, view.direction);
-            if (!hit || !is_reflective(*hit->material)) continue;
-            ++counts.reflective;
-            count_mirror_ray(scene, embree, camera, view, *hit, counts);
-        }
-    const double pixel = 100.0 / (extent.x * extent.y), ray = 100.0 / std::max(1.0, counts.reflective);
-    return {pixel * counts.reflective, ray * counts.seen,   ray * counts.hidden,
-            ray * counts.off,          ray * counts.behind, ray * counts.sky};
+    const MirrorRayShares shares = trace_mirror_rays(scene, pose, pose_camera(camera, pose, 0.0f), extent, false);
+    return {100 * shares.reflective, 100 * shares.seen,   100 * shares.hidden,
+            100 * shares.off,        100 * shares.behind, 100 * shares.sky};
 }
 
 /// `tolerance`: percentage points.
@@ -177,9 +127,9 @@ void check_planes_at(const Scene& scene, const SceneCamera& scene_camera, float 
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 0; x < extent.x; ++x) {
             const CameraRay view = camera_ray(camera, extent, {float(x) + 0.5f, float(y) + 0.5f});
-            const std::optional<Hit> hit = first_hit(scene, embree, view.origin, view.direction);
+            const std::optional<glm::vec3> hit = first_hit(embree, view);
             if (!hit) continue;
-            const float distance = -(glm::inverse(camera.world_from_view) * glm::vec4(hit->point.position, 1.0f)).z;
+            const float distance = -(glm::inverse(camera.world_from_view) * glm::vec4(*hit, 1.0f)).z;
             nearest = std::min(nearest, distance), farthest = std::max(farthest, distance);
         }
     EXPECT_GE(nearest, camera.near) << scene_camera.name << ", frame " << frame;

@@ -1,5 +1,5 @@
 // Programs that ssrlab starts: arguments are data, whatever they hold.
-#include "experiments/commands/child_process.h"
+#include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/commands/commands.h"

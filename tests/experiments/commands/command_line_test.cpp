@@ -135,6 +135,8 @@ TEST_F(CommandLine, NamesBrokenFiles) {
     fs::resize_file(folder / "cut.glb", fs::file_size(folder / "cut.glb") / 2);
     expect_mistake("needs cut.glb", "cut.glb");
     expect_mistake("needs no_such_scene", "unknown scene 'no_such_scene'");
+    expect_mistake("rays room:x", "no scene is called 'room:x'");
+    expect_mistake("rays \"room:*\" --count 0", "--count");
     expect_mistake("figures .", "manifest.json");
     expect_mistake("describe mcguire", "unknown variant 'mcguire'");
     EXPECT_EQ(ssrlab("reference fence --size 0 10").code, 2);
@@ -234,6 +236,7 @@ TEST_F(CommandLine, ListsWhatEachThingIs) {
     EXPECT_NE(scenes.find("\nfence   "), std::string::npos) << scenes;
     EXPECT_NE(scenes.find(" Poles of 2 cm"), std::string::npos) << scenes;
     EXPECT_NE(scenes.find("  Cameras: main, lateral\n"), std::string::npos) << scenes;
+    EXPECT_NE(scenes.find("\nroom:0 to room:999999  "), std::string::npos) << scenes;
     EXPECT_NE(scenes.find("\nmy_scene\n"), std::string::npos) << "it has no about.txt\n" << scenes;
     const std::string variants = ssrlab("list variants").text;
     EXPECT_NE(variants.find("none: No screen-space reflections\n    Confidence 0 everywhere"), std::string::npos)

@@ -315,6 +315,30 @@ TEST_F(Designs, ShotsHaveAxesOfTheirOwn) {
                   "study.json:1:31: shots[0]: 'depth_format'");
 }
 
+TEST_F(Designs, ScenesOfAFamilyAreCounted) {
+    const auto scenes_of = [&](const std::string& shot) {
+        Names names;
+        for (const ShotConfig& s : read(R"({"shots": [{)" + shot + R"(}], "variants": [{"variant": "none"}]})").shots)
+            names.push_back(s.scene);
+        return names;
+    };
+    EXPECT_EQ(scenes_of(R"("scene": "room:*", "count": 2)"), (Names{"room:0", "room:1"}));
+    EXPECT_EQ(scenes_of(R"("scene": ["fence", "street:*", "room:7"], "count": 2, "first": 100)"),
+              (Names{"fence", "street:100", "street:101", "room:7"}));
+    const auto mistake_of = [&](const std::string& shot) {
+        return mistake_in(R"({"shots": [{)" + shot + R"(}], "variants": [{"variant": "none"}]})");
+    };
+    const auto says = [&](const std::string& shot, const char* text) {
+        const std::string said = mistake_of(shot);
+        EXPECT_NE(said.find(text), std::string::npos) << said;
+    };
+    says(R"("scene": "room:*")", "say how many in 'count'");
+    says(R"("scene": "room:*", "count": 0)", "'count'");
+    says(R"("scene": "room:*", "count": 1000000)", "'count'");
+    says(R"("scene": "room:*", "count": 2, "first": 999999)", "goes beyond 999999");
+    says(R"("scene": "room:1", "count": 2)", "leave the key out");
+}
+
 TEST_F(Designs, LabelsAreFilledInAndTellPointsApart) {
     const Config config =
         of(dda(R"("label": "DDA, {dda.stride} px", "group": "marches", "sweep": {"dda.stride": [1, 2]})"),

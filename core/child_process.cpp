@@ -1,4 +1,4 @@
-#include "experiments/commands/child_process.h"
+#include "core/child_process.h"
 
 #include "core/error.h"
 
