@@ -11,14 +11,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As CellStore::read(), which takes a cell of other types for damaged.
-void read_cell(const fs::path& file) {
-    try {
-        read_json(file).get<Cell>();
-    } catch (const nlohmann::json::exception&) {
-    }
-}
-
 /// The tables beside a manifest.
 void copy_tables(const fs::path& folder) {
     fs::copy(fs::path(SSRLAB_SOURCE_DIR) / "tests/data/fuzz/results_folder", folder);
@@ -27,7 +19,7 @@ void copy_tables(const fs::path& folder) {
 const FuzzTarget targets[] = {
     {"config", "study.json", [](const fs::path& file) { read_config(file); }},
     {"cases", "cases.json", [](const fs::path& file) { read_stability_cases(file); }},
-    {"cell", "cell.json", read_cell},
+    {"cell", "cell.json", [](const fs::path& file) { read_cell(read_json(file), file.string()); }},
     {"manifest", "manifest.json", [](const fs::path& file) { read_study_tables(file.parent_path()); }, copy_tables},
     {"results", "results.csv", [](const fs::path& file) { read_rows<ResultRow>(file); }},
 };
