@@ -1,16 +1,16 @@
 """room:N, furnished rooms."""
-from ..description import scene_json
 from ..gltf import Model
 from . import camera, furnishing, shell
 from . import densities as of
 from .dice import Dice
-from .estimate import Light, View, glance
+from .drawn import described, first_seen
+from .estimate import Light, View
 from .finishes import Finishes, grey
 from .lamps import PI
 from .layout import Layout
 from .moving import add_motion
 from .rays import hit_places, hit_shell
-from .refusals import Refused, judge_glance, judge_objects
+from .refusals import Refused, judge_objects
 from .sky import Sky
 from .thing import Place
 
@@ -131,26 +131,18 @@ class Room:
             hit = self.cast(eye, tuple(c / distance for c in way))
             if hit and hit.distance > 0.55 * distance:
                 tries.append((hit.distance, eye, target))
-        if not tries:
-            raise Refused("camera")
         tries.sort(reverse=True)
-        refused = Refused("camera")
-        for _, eye, target in tries[:6]:
+        return first_seen(self.views(dice, tries[:6]), self)
+
+    def views(self, dice, tries):
+        """(view, path) of those that have a path that is clear."""
+        for _, eye, target in tries:
             view = View(eye, target, dice.draw(of.VFOV))
             for _ in range(4):
                 keys = camera.path_of(dice, view)
                 if all(self.is_clear(point, 0.25) for point in camera.points_between(keys)):
+                    yield view, keys
                     break
-            else:
-                continue
-            seen = glance(view, self.cast, self.light, self.sees_sun)
-            try:
-                judge_glance(seen)
-            except Refused as why:
-                refused = why
-                continue
-            return view, keys, seen
-        raise refused
 
     # The scene
 
@@ -165,9 +157,4 @@ class Room:
         moves = self.dice.about("moves")
         if moves.chance(of.MOVES):
             add_motion(moves, self)
-        self.finishes.write_maps()
-        environment, lights, files = self.sky.description()
-        cameras = camera.described(self.view, self.path, self.glance.exposure())
-        text = scene_json(cameras, lights=lights + self.lights, frame_count=camera.FRAMES, frame_rate=camera.RATE)
-        text["environment"] = environment
-        return self.model, text, files
+        return described(self, self.lights)

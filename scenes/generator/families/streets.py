@@ -1,17 +1,16 @@
 """street:N, a street along -z between two rows of houses."""
-from ..description import scene_json
 from ..gltf import Model, tidy
 from . import camera
 from . import densities as of
 from . import street_parts as parts
 from .dice import Dice
-from .estimate import Light, View, glance
+from .drawn import described, first_seen
+from .estimate import Light, View
 from .finishes import Finishes
 from .lamps import PI
 from .layout import overlaps
 from .moving import LAST
 from .rays import SKY, Hit, hit_places
-from .refusals import Refused, judge_glance
 from .shell import panel
 from .sky import Sky
 from .solids import wire
@@ -32,7 +31,7 @@ class Street:
         self.is_dusk = self.sky.weather == "dusk"
         self.ground = self.finishes.get(dice.about("ground").draw(of.GROUND), "road", "floors")
         self.kelvin = dice.about("lamps").draw(of.LAMP_WARMTH)
-        self.lamps, self.lights, self.things = [], [], []
+        self.lamps, self.things = [], []
         self.add_houses(dice.about("houses"))
         self.add_lamps(dice.about("lamps"))
         self.cars = self.add_cars(dice.about("cars"))
@@ -151,7 +150,10 @@ class Street:
         return not any(all(low[k] - margin < point[k] < high[k] + margin for k in range(3)) for low, high in boxes)
 
     def choose_camera(self, dice):
-        refused = Refused("camera")
+        return first_seen(self.views(dice), self)
+
+    def views(self, dice):
+        """(view, path) of those that are clear of things."""
         for _ in range(12):
             x = dice.uniform(-1, 1) * (self.width / 2 - 1)
             base = KERB if abs(x) > self.road else 0.0
@@ -159,16 +161,8 @@ class Street:
             target = (dice.uniform(-0.9, 0.9) * self.road, dice.uniform(0.2, 2.4), eye[2] - dice.uniform(7, 22))
             view = View(eye, target, dice.draw(of.VFOV))
             keys = camera.path_of(dice, view)
-            if not all(self.is_clear(point) for point in camera.points_between(keys)):
-                continue
-            seen = glance(view, self.cast, self.light, self.sees_sun)
-            try:
-                judge_glance(seen)
-            except Refused as why:
-                refused = why
-                continue
-            return view, keys, seen
-        raise refused
+            if all(self.is_clear(point) for point in camera.points_between(keys)):
+                yield view, keys
 
     def surfaces(self):
         """Ground to the far, and pavements on it."""
@@ -193,9 +187,4 @@ class Street:
             place, way, _ = self.driving
             at = (place.x, place.y, place.z)
             self.model.animate(place.node, "translation", [0, LAST], [at, (at[0], at[1], tidy(at[2] + way))])
-        self.finishes.write_maps()
-        environment, lights, files = self.sky.description()
-        cameras = camera.described(self.view, self.path, self.glance.exposure())
-        text = scene_json(cameras, lights=lights, frame_count=camera.FRAMES, frame_rate=camera.RATE)
-        text["environment"] = environment
-        return self.model, text, files
+        return described(self, [])
