@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/json_types.h"
 #include "core/path_inside.h"
 #include "experiments/evaluation/evaluation.h"
 
@@ -10,44 +11,30 @@ namespace {
 
 using nlohmann::json;
 
-/// manifest.json as far as commands read it: each member, where there is one, is of the kind that stands here.
-const json& manifest_sample() {
-    static const json sample = json::parse(R"({
-        "title": "", "is_complete": false, "primary": {"metric": "", "mask": "", "target": ""},
-        "written": {"ssrlab": {}}, "config": {},
-        "variants": [{"variant": "", "point": "", "label": "", "group": "", "baseline": false, "uses_scene_data": false,
-                      "parameters": {}}],
-        "shots": [{"shot": "", "scene": "", "asset": "", "label": "", "group": "", "exposure_ev": 0,
-                   "references": [{"hash": ""}],
-                   "truth_ladder": [{"rung": "", "target": "", "metric": "", "mask": ""}]}],
-        "images": [{"shot": "", "variant": "", "point": "", "kind": "", "target": ""}],
-        "provenance": [{"host": {"name": "", "cpu": ""}, "device": {"name": ""}, "ssrlab": {}}],
-        "clock": {"load": [{"shot": "", "host": {"name": "", "cpu": ""}}], "proofs": [{"verdict": "", "shots": [""]}],
-                  "aa_floors": {}, "aa_pairs": [{"shot": ""}]}
+/// manifest.json as far as commands read it.
+const json& manifest_types() {
+    static const json types = json::parse(R"({
+        "title?": "text", "is_complete?": "true or false",
+        "primary?": {"metric?": "text", "mask?": "text", "target?": "text"},
+        "written?": {"ssrlab?": "object"}, "config?": "object",
+        "variants?": [{"variant?": "text", "point?": "text", "label?": "text", "group?": "text",
+                       "baseline?": "true or false", "uses_scene_data?": "true or false", "parameters?": "object"}],
+        "shots?": [{"shot?": "text", "scene?": "text", "asset?": "text", "label?": "text", "group?": "text",
+                    "exposure_ev?": "number", "references?": [{"hash?": "text"}],
+                    "truth_ladder?": [{"rung?": "text", "target?": "text", "metric?": "text", "mask?": "text"}]}],
+        "images?": [{"shot?": "text", "variant?": "text", "point?": "text", "kind?": "text", "target?": "text"}],
+        "provenance?": [{"host?": {"name?": "text", "cpu?": "text"}, "device?": {"name?": "text"}, "ssrlab?": "object"}],
+        "clock?": {"load?": [{"shot?": "text", "host?": {"name?": "text", "cpu?": "text"}}],
+                   "proofs?": [{"verdict?": "text", "shots?": ["text"]}],
+                   "aa_floors?": "object", "aa_pairs?": [{"shot?": "text"}]}
     })");
-    return sample;
-}
-
-void require_like(const json& value, const json& sample, const std::string& where) {
-    const bool is_like = sample.is_number() ? value.is_number() : value.type() == sample.type();
-    const char* const kind = sample.is_number()    ? "a number"
-                             : sample.is_string()  ? "a text"
-                             : sample.is_boolean() ? "true or false"
-                             : sample.is_array()   ? "an array"
-                                                   : "an object";
-    if (!is_like) fail(where, " must be ", kind, ", not ", shown(value));
-    if (sample.is_array())
-        for (size_t i = 0; i < value.size(); ++i)
-            require_like(value[i], sample.front(), where + "[" + std::to_string(i) + "]");
-    if (sample.is_object())
-        for (const auto& [key, member] : sample.items())
-            if (value.contains(key)) require_like(value[key], member, where + ": " + key);
+    return types;
 }
 
 }  // namespace
 
 void require_manifest(const json& manifest, const std::filesystem::path& file) {
-    require_like(manifest, manifest_sample(), file.string());
+    require_type(manifest, manifest_types(), file.string(), OtherMembers::allowed);
 }
 
 StudyTables read_study_tables(const std::filesystem::path& folder) {

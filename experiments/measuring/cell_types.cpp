@@ -1,85 +1,21 @@
 // What a cell's file holds: types and lengths, so that one of a stranger is refused where it is read.
 #include "core/error.h"
-#include "core/json.h"
-#include "core/near_miss.h"
+#include "core/json_types.h"
 #include "experiments/measuring/cell.h"
 #include "metrics/extrapolation.h"
 
-#include <limits>
+#include <algorithm>
 
 namespace {
 
 using nlohmann::json;
-
-/// A value within others, whose name is made only where it is said.
-struct Place {
-    const Place* parent;
-    std::string key;  ///< "": `index` counts
-    size_t index = 0;
-
-    std::string text() const {
-        const std::string own = key.empty() ? "[" + std::to_string(index) + "]" : ": " + shortened(key);
-        return parent ? parent->text() + own : key;
-    }
-};
-
-bool is_of(const json& value, const std::string& type) {
-    if (type == "text") return value.is_string();
-    if (type == "number") return value.is_number();
-    if (type == "true or false") return value.is_boolean();
-    const uint64_t most = type == "count" ? std::numeric_limits<unsigned>::max() : std::numeric_limits<uint64_t>::max();
-    return value.is_number_unsigned() && value.get<uint64_t>() <= most;
-}
-
-std::string shown_type(const std::string& type) {
-    if (type == "true or false") return type;
-    return type == "count" || type == "size" ? "a whole number from 0" : "a " + type;
-}
-
-/// `type`: "text", "number", "true or false", or whole from 0, "count" (of 32 bits) and "size" (of 64); [type]: an
-/// array of such; {key: type}: an object of these members and no others, of which one whose key ends in "?" may be
-/// missing or null; {"*": type}: of any keys.
-void check(const json& value, const json& type, const Place& place);
-
-void check_object(const json& value, const json& types, const Place& place) {
-    if (!value.is_object()) fail(place.text(), " must be an object, not ", shown(value));
-    size_t known = 0;
-    for (const auto& [key, type] : types.items()) {
-        const bool is_needed = !key.ends_with('?');
-        const std::string name = is_needed ? key : key.substr(0, key.size() - 1);
-        const auto member = value.find(name);
-        if (member == value.end() && is_needed) fail(place.text(), " lacks '", name, "'");
-        if (member == value.end()) continue;
-        ++known;
-        if (is_needed || !member->is_null()) check(*member, type, {&place, name});
-    }
-    if (known == value.size()) return;
-    for (const auto& [name, member] : value.items())
-        if (!types.contains(name) && !types.contains(name + "?"))
-            fail(place.text(), ": '", shortened(name), "' is not known");
-}
-
-void check(const json& value, const json& type, const Place& place) {
-    if (type.is_string()) {
-        const auto& name = type.get_ref<const std::string&>();
-        if (!is_of(value, name)) fail(place.text(), " must be ", shown_type(name), ", not ", shown(value));
-    } else if (type.is_array()) {
-        if (!value.is_array()) fail(place.text(), " must be an array, not ", shown(value));
-        for (size_t i = 0; i < value.size(); ++i) check(value[i], type[0], {&place, "", i});
-    } else if (type.contains("*")) {
-        if (!value.is_object()) fail(place.text(), " must be an object, not ", shown(value));
-        for (const auto& [key, member] : value.items()) check(member, type["*"], {&place, key});
-    } else {
-        check_object(value, type, place);
-    }
-}
 
 void add_type(json& types, const std::string& name, const std::string&) { types[name] = "text"; }
 void add_type(json& types, const std::string& name, bool) { types[name] = "true or false"; }
 void add_type(json& types, const std::string& name, unsigned) { types[name] = "count"; }
 void add_type(json& types, const std::string& name, size_t) { types[name] = "size"; }
 void add_type(json& types, const std::string& name, double) { types[name] = "number"; }
-void add_type(json& types, const std::string& name, const std::optional<double>&) { types[name + "?"] = "number"; }
+void add_type(json& types, const std::string& name, const std::optional<double>&) { types[name + "??"] = "number"; }
 
 /// Of a row's columns.
 template <class Row>
@@ -94,27 +30,27 @@ json cell_types() {
     json types = json::parse(R"({
         "reference_noise": [{"shot": "text", "frame": "text", "variant": "text", "point": "text", "target": "text",
                              "metric": "text", "mask": "text", "sums": ["number"], "growth": ["number"]}],
-        "images": [{"shot": "text", "frame": "count", "variant": "text", "point?": "text", "seed?": "count",
-                    "kind": "text", "target": "text", "epsilon?": "number",
+        "images": [{"shot": "text", "frame": "count", "variant": "text", "point??": "text", "seed??": "count",
+                    "kind": "text", "target": "text", "epsilon??": "number",
                     "exr": "text", "exr_hash": "text", "png": "text", "png_hash": "text"}],
-        "timing?": {"shot": "text", "saved_ms": {"*": "number"},
+        "timing??": {"shot": "text", "saved_ms": {"*": "number"},
                     "aa_pairs": [{"shot": "text", "variant": "text", "point": "text", "first_ms": "number",
                                   "second_ms": "number", "floor": "number"}],
                     "savings": [{"shot": "text", "variant": "text", "point": "text", "complete_ms": "number",
                                  "share": "number", "low": "number", "high": "number"}],
                     "load": {"frames": "count", "disturbed_frames": "count", "left_out_frames": "count",
-                             "largest_foreign_load?": "number", "largest_stolen_share": "number"},
+                             "largest_foreign_load??": "number", "largest_stolen_share": "number"},
                     "clock": {"method": "text", "empty_submit_ms": "number", "verdict": "text",
                               "checks": [{"stage_kind": "text", "expected": ["number"], "measured_ms": ["number"],
-                                          "ratio": ["number"], "foreign_load?": "number", "attempts": "count",
+                                          "ratio": ["number"], "foreign_load??": "number", "attempts": "count",
                                           "verdict": "text"}]}},
         "notes": ["text"],
         "truth": "text",
         "seconds": "number",
-        "shot?": {"needs?": [{"fact": "text", "value": "text", "why": "text"}], "lit?": "text", "warnings?": ["text"],
-                  "flip_exposures?": ["number"], "gbuffer_non_finite?": {"*": "size"},
-                  "truth_ladder?": [{"rung": "text", "target": "text", "metric": "text", "formula": "text",
-                                     "mask": "text", "value?": "number", "low?": "number", "high?": "number",
+        "shot??": {"needs??": [{"fact": "text", "value": "text", "why": "text"}], "lit??": "text", "warnings??": ["text"],
+                  "flip_exposures??": ["number"], "gbuffer_non_finite??": {"*": "size"},
+                  "truth_ladder??": [{"rung": "text", "target": "text", "metric": "text", "formula": "text",
+                                     "mask": "text", "value??": "number", "low??": "number", "high??": "number",
                                      "pixels": "size"}]},
         "provenance": {"what": "text", "started": "text", "finished": "text",
                        "ssrlab": {"version": "text", "commit": "text", "dirty": "true or false", "code": "text",
@@ -126,15 +62,15 @@ json cell_types() {
     const json reference = json::parse(R"({
         "frame": "count", "hash": "text", "samples_median": "number", "passes": "text", "seconds": "number",
         "rays": "number", "max_depth": "count", "target_relative_error": "number",
-        "relative_error": {"median?": "number", "p95?": "number", "mean?": "number"}, "reached_share?": "number",
-        "non_finite_samples": "size", "light_cut?": "number", "warnings": ["text"], "from_cache": "true or false",
-        "halves?": {"*": {"mean_z_squared?": "number", "low?": "number", "high?": "number", "correlation?": "number",
-                          "most_correlation?": "number"}}})");
-    types["shot?"]["reference?"] = reference, types["shot?"]["references?"] = json::array({reference});
+        "relative_error": {"median??": "number", "p95??": "number", "mean??": "number"}, "reached_share??": "number",
+        "non_finite_samples": "size", "light_cut??": "number", "warnings": ["text"], "from_cache": "true or false",
+        "halves??": {"*": {"mean_z_squared??": "number", "low??": "number", "high??": "number", "correlation??": "number",
+                          "most_correlation??": "number"}}})");
+    types["shot??"]["reference??"] = reference, types["shot??"]["references??"] = json::array({reference});
     json split = row_types<SplitRow>();
     split.update(json::parse(R"({
         "seed_numbers": ["count"], "pairs": {"variance": ["number"], "bias_squared": ["number"]},
-        "reference_noise": ["number"], "lit_noise?": "number", "lit_half_width?": "number"})"));
+        "reference_noise": ["number"], "lit_noise??": "number", "lit_half_width??": "number"})"));
     types["splits"] = json::array({split});
     types["rows"] = json::array({row_types<ResultRow>()}), types["times"] = json::array({row_types<TimeRow>()});
     types["hits"] = json::array({row_types<HitRow>()}), types["costs"] = json::array({row_types<CostRow>()});
@@ -168,7 +104,7 @@ void check_lengths(const json& cell, const std::string& where) {
 
 Cell read_cell(const json& json, const std::string& where) {
     static const nlohmann::json types = cell_types();
-    check(json, types, {nullptr, where});
+    require_type(json, types, where);
     check_lengths(json, where);
     return json.get<Cell>();
 }

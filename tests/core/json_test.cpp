@@ -1,5 +1,6 @@
 #include "core/json.h"
 #include "core/error.h"
+#include "core/json_types.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>
@@ -85,4 +86,21 @@ TEST(Json, MessagesStayShort) {
     EXPECT_LT(message([&] { object.finish(); }).size(), 500u);
     EXPECT_LT(message([&] { object.integer(std::string(300'000, 'a'), 0, 1); }).size(), 301'000u);
     EXPECT_LT(message([&] { parse_json("{\"a\": " + text.substr(1), "c.json"); }).size(), 500u);
+}
+
+TEST(Json, TypesNameThePlaceOfWhatIsWrong) {
+    const auto types = nlohmann::json::parse(R"({"a": "count", "b?": ["text"], "c??": {"*": "number"}})");
+    const auto of = [&](const char* text, OtherMembers others = OtherMembers::refused) {
+        return message([&] { require_type(nlohmann::json::parse(text), types, "f.json", others); });
+    };
+    EXPECT_EQ(of(R"({"a": 1, "b": ["x"], "c": {"y": 0.5}})"), "no error");
+    EXPECT_EQ(of(R"({"a": 1, "c": null})"), "no error");
+    EXPECT_EQ(of(R"({"a": -1})"), "f.json: a must be a whole number from 0, not -1");
+    EXPECT_EQ(of(R"({"a": 4294967296})"), "f.json: a must be a whole number from 0, not 4294967296");
+    EXPECT_EQ(of(R"({"a": 1, "b": null})"), "f.json: b must be an array, not null");
+    EXPECT_EQ(of(R"({"a": 1, "b": ["x", 2]})"), "f.json: b[1] must be a text, not 2");
+    EXPECT_EQ(of(R"({"a": 1, "c": {"y": "z"}})"), "f.json: c: y must be a number, not \"z\"");
+    EXPECT_EQ(of("{}"), "f.json lacks 'a'");
+    EXPECT_EQ(of(R"({"a": 1, "d": 2})"), "f.json: 'd' is not known");
+    EXPECT_EQ(of(R"({"a": 1, "d": 2})", OtherMembers::allowed), "no error");
 }
