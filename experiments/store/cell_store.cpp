@@ -81,7 +81,7 @@ std::optional<Cell> CellStore::load_strictly(const std::string& name) const {
             const nlohmann::json& image = cell->images[i];
             const std::string shown = image[kind], place = ": cell: images[" + std::to_string(i) + "]: " + kind,
                               hash = file_hash(image_path(results_, shown, file + place));
-            if (hash == image[kind + "_hash"]) continue;
+            if (image[kind + "_hash"].get<std::string>() == hash) continue;
             notice_("note: " + file + " is done again: its image " + shown +
                     (hash.empty() ? " is missing" : " is not the one that it made"));
             return {};
