@@ -41,6 +41,43 @@ struct Announced {
     size_t channels = 0;
 };
 
+constexpr size_t channel_bytes = 16;  ///< of a channel in the file's list, after its name
+
+/// Whether an attribute is as long as its type makes it. OpenEXR reads attributes of the types that it knows without
+/// looking at the length that stands before them, so that one of another length has it take what follows for lengths of
+/// further attributes, and set memory aside for those.
+bool has_length_of_its_type(const std::string& type, const std::string& value) {
+    // clang-format off
+    static const std::map<std::string_view, size_t> lengths = {
+        {"compression", 1}, {"deepImageState", 1}, {"envmap", 1}, {"lineOrder", 1}, {"float", 4}, {"int", 4}, {"double", 8},
+        {"rational", 8}, {"timecode", 8}, {"tiledesc", 9}, {"keycode", 28}, {"chromaticities", 32}, {"box2f", 16}, {"box2i", 16},
+        {"v2f", 8}, {"v2i", 8}, {"v2d", 16}, {"v3f", 12}, {"v3i", 12}, {"v3d", 24}, {"m33f", 36}, {"m44f", 64}, {"m33d", 72},
+        {"m44d", 128}};
+    // clang-format on
+    const auto integer = [&](size_t at) {
+        uint32_t number = 0;
+        std::memcpy(&number, value.data() + at, sizeof number);
+        return size_t(number);
+    };
+    if (const auto found = lengths.find(type); found != lengths.end()) return value.size() == found->second;
+    if (type == "floatvector") return value.size() % sizeof(float) == 0;
+    if (type == "preview") return value.size() >= 8 && value.size() == 8 + 4 * integer(0) * integer(4);
+    size_t at = 0;
+    if (type == "stringvector") {
+        while (at + 4 <= value.size()) at += 4 + integer(at);
+        return at == value.size();
+    }
+    if (type == "chlist") {
+        while (at < value.size() && value[at] != 0) {
+            at = value.find('\0', at);
+            if (at == std::string::npos) return false;
+            at += 1 + channel_bytes;
+        }
+        return at + 1 == value.size();
+    }
+    return true;  // text, and what OpenEXR does not know and takes as it is
+}
+
 /// Reads the header of the OpenEXR file format (openexr.com, "OpenEXR File Layout"): a magic number, a version, and
 /// attributes, each a name, a type, a size and so many bytes. None if it is no such header.
 std::optional<Announced> read_announced(std::ifstream& in, uintmax_t file_size, const std::string& name) {
@@ -63,26 +100,25 @@ std::optional<Announced> read_announced(std::ifstream& in, uintmax_t file_size, 
              ": it is no plain OpenEXR image of version 2 (parts, deep pixels); write it as a single part");
     Announced image;
     for (std::string attribute = text(); in && !attribute.empty(); attribute = text()) {
-        text();  // its type
+        const std::string type = text();
         const auto size = uint32_t(integer());
         const std::streamoff begin = in.tellg();
         if (!in || uintmax_t(begin) + size > file_size) return {};
-        if (attribute == "channels") {
-            constexpr size_t bytes_after_name = 16;
-            std::string list(size, '\0');
-            in.read(list.data(), size);
-            for (size_t at = 0; at < list.size() && list[at] != 0; ++image.channels) {
-                at = list.find('\0', at);
-                if (at == std::string::npos) return {};
-                at += 1 + bytes_after_name;
-            }
-        } else if (attribute == "dataWindow") {
-            const double left = integer(), top = integer(), right = integer(), bottom = integer();
-            image.width = right - left + 1, image.height = bottom - top + 1;
-        } else if (attribute == "tiles") {
-            image.tile_width = uint32_t(integer()), image.tile_height = uint32_t(integer());
+        std::string value(size, '\0');
+        in.read(value.data(), size);
+        if (!in || !has_length_of_its_type(type, value)) return {};
+        const auto number = [&](size_t index) {
+            int32_t result = 0;
+            std::memcpy(&result, value.data() + index * sizeof result, sizeof result);
+            return result;
+        };
+        if (type == "chlist") {
+            for (size_t at = 0; value[at] != 0; ++image.channels) at = value.find('\0', at) + 1 + channel_bytes;
+        } else if (attribute == "dataWindow" && type == "box2i") {
+            image.width = double(number(2)) - number(0) + 1, image.height = double(number(3)) - number(1) + 1;
+        } else if (attribute == "tiles" && type == "tiledesc") {
+            image.tile_width = uint32_t(number(0)), image.tile_height = uint32_t(number(1));
         }
-        in.seekg(begin + std::streamoff(size));
     }
     return in && image.width > 0 && image.height > 0 ? std::optional(image) : std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include "core/scene/gltf_texture.h"
 
 #include "core/error.h"
+#include "core/jpeg.h"
 #include "core/near_miss.h"
 #include "core/png.h"
 #include "core/scene/encoded_image.h"
@@ -43,8 +44,9 @@ struct Decoded {
     Texels rgba;
 };
 
-/// Only PNG and JPEG, as glTF 2.0 has it. libpng reads PNG: stb_image, which tinygltf calls, inflates a few bytes to
-/// gigabytes without a look at the header. What stays is taken from `kept`.
+/// Only PNG and JPEG, as glTF 2.0 has it, by libpng and libjpeg-turbo: Debian's stb_image, which tinygltf calls,
+/// inflates a few bytes to gigabytes without a look at the header, and writes outside its memory for some broken JPEGs.
+/// What stays is taken from `kept`.
 Decoded decode_image(const GltfFile& file, size_t index, MemoryShare& kept) {
     const tinygltf::Image& encoded = file.model.images[index];
     const std::string name = encoded.uri.empty() ? encoded.name : encoded.uri,
@@ -63,17 +65,9 @@ Decoded decode_image(const GltfFile& file, size_t index, MemoryShare& kept) {
     MemoryShare decoder;
     kept.add(pixels * bytes_kept, sized), decoder.add(pixels * bytes_of_decoder, sized);
 
-    if (is_png(encoded.image)) {
-        auto rgba = decode_png_rgba(encoded.image);
-        if (!rgba) broken();
-        return {extent, make_texels(std::move(*rgba))};
-    }
-    tinygltf::Image image;
-    std::string error, warning;
-    const auto size = static_cast<int>(encoded.image.size());
-    if (!tinygltf::LoadImageData(&image, int(index), &error, &warning, 0, 0, encoded.image.data(), size, nullptr))
-        broken();
-    return {{unsigned(image.width), unsigned(image.height)}, make_texels(std::move(image.image))};
+    auto rgba = is_png(encoded.image) ? decode_png_rgba(encoded.image) : decode_jpeg_rgba(encoded.image, extent);
+    if (!rgba) broken();
+    return {extent, make_texels(std::move(*rgba))};
 }
 }  // namespace
 

@@ -80,6 +80,29 @@ TEST_F(Reading, ReadsPlainExrsOnly) {
     }
 }
 
+/// OpenEXR would set memory aside for lengths that it finds where the attribute does not end for it.
+TEST_F(Reading, RefusesAnExrWithAnAttributeOfAnotherLengthThanItsType) {
+    const fs::path file = with_last_pixel(1, 1);
+    const std::string whole = read_text(file);
+    const auto is_malformed = [&](const std::string& type, const std::string& value) {
+        constexpr size_t before_attributes = 8;
+        std::string attribute = "extra" + std::string(1, '\0') + type + std::string(1, '\0');
+        for (int i = 0; i < 4; ++i) attribute += char(value.size() >> 8 * i);
+        write_text(file, std::string(whole).insert(before_attributes, attribute + value));
+        return error_message([&] { read_exr(file); }).find("truncated or malformed") != std::string::npos;
+    };
+    const std::string one_channel = std::string("R\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0", 18), huge = "\xff\xff\xff\x7f";
+    EXPECT_TRUE(is_malformed("int", "12345"));
+    EXPECT_TRUE(is_malformed("floatvector", "12345"));
+    EXPECT_TRUE(is_malformed("stringvector", huge));
+    EXPECT_TRUE(is_malformed("preview", huge + huge));
+    EXPECT_TRUE(is_malformed("chlist", one_channel));
+    EXPECT_TRUE(is_malformed("chlist", one_channel + std::string(9, '\0')));
+    EXPECT_FALSE(is_malformed("floatvector", "12345678"));
+    EXPECT_FALSE(is_malformed("stringvector", std::string("\2\0\0\0ab", 6)));
+    EXPECT_FALSE(is_malformed("unknown", "12345"));
+}
+
 TEST_F(Reading, TakesNoMemoryThatAPngOnlyAnnounces) {
     const fs::path file = folder / "a.png";
     write_png(file, HostImage({300, 300}, 3));  // 1.35 MB as bytes and floats
