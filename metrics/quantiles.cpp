@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -28,4 +29,10 @@ double student_t_cdf(double t, double degrees) { return boost::math::cdf(student
 double student_t_quantile(double probability, double degrees) {
     check_probability(probability);
     return boost::math::quantile(student_t(degrees), probability);
+}
+
+double chi_squared_quantile(double probability, double degrees) {
+    check_probability(probability);
+    if (!(degrees > 0)) fail("degrees of freedom must be above 0, not ", degrees);
+    return boost::math::quantile(boost::math::chi_squared(degrees), probability);
 }

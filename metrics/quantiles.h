@@ -4,3 +4,4 @@
 double normal_quantile(double probability);
 double student_t_cdf(double t, double degrees);
 double student_t_quantile(double probability, double degrees);
+double chi_squared_quantile(double probability, double degrees);

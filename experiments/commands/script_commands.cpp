@@ -64,6 +64,7 @@ int tradeoff_command(const TradeoffOptions& options) {
     write_rows(out / "front.csv", found.front);
     write_rows(out / "across.csv", found.across);
     write_rows(out / "stages.csv", found.changes);
+    write_text(out / "frozen.json", nlohmann::json{{"frozen", frozen_json(found.to_freeze)}}.dump(2) + "\n");
     nlohmann::json asked = {{"results", options.results.string()},
                             {"out", out.string()},
                             {"baseline", found.baseline},

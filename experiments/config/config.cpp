@@ -124,6 +124,10 @@ Keys study_keys(const json& variant = json::object()) {
          "the mask `reflective`: split-sum reflectance F0 A + F90 B (largest channel) at least"},
         {"tables", named(checked_inside(array_of(object_of(table_keys()), 0), "array"), "an array of tables, below"),
          none, "what `ssrlab tables` makes of the results, below"},
+        {"frozen", named(checked_inside(array_of(object_of(frozen_keys()), 0), "array"), "an array, below"), none,
+         "which point stands for a technique at a cost, chosen on other scenes by another study, before these are "
+         "seen; "
+         "without it each scene is judged by what errs least in the others"},
         {"tune", checked_inside({schema_of(tune_keys()), "an object, below", {}}, "object"), none,
          "what `ssrlab tune` varies, below; such a study is not run by itself"}};
     return joined(keys, settings_of_shots());
@@ -260,6 +264,7 @@ Config read_config(const std::filesystem::path& file) {
                                                        : KeptImages::last;
     read_measures(study, config);
     check_tables(study, config);
+    check_frozen(study, config);
     check_tune(study, config);
     for (const Key& key : settings_of_shots()) study.has(key.name);  // read with the shots, of which there may be none
     study.finish();
@@ -294,6 +299,7 @@ std::string with_key_tables(const std::string& markdown) {
                                                                {"shot", keys_of_all_shots()},
                                                                {"variant", variant_keys(*make_variant("none"))},
                                                                {"table", table_keys()},
+                                                               {"frozen", frozen_keys()},
                                                                {"tune", tune_keys()}};
     std::string text = markdown;
     for (const auto& [name, keys] : objects) {

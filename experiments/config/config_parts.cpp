@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/pass_cost.h"
+#include "core/near_miss.h"
 #include "experiments/config/conditions.h"
 #include "experiments/config/design.h"
 #include "experiments/config/read_shots.h"
@@ -117,6 +118,33 @@ void check_tables(ConfigObject& study, const Config& config) {
             fail(table.at("best"), ": means over ", table["over"].dump(),
                  " have no 'best': `ssrlab tradeoff` compares over scenes");
         if (of == "hits" && !config.hits) fail(table.at("of"), ": the study judges no rays; add \"hits\": {}");
+    }
+}
+
+Keys frozen_keys() {
+    const Values points = {
+        {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}}, "an object of texts", {}};
+    return {{"cost",
+             {{{"type", "number"}, {"exclusiveMinimum", 0}}, "a number above 0", {}},
+             required,
+             "milliseconds, or what `ssrlab tradeoff --cost` counts"},
+            {"points", points, required, "technique to the name of one of its points"}};
+}
+
+void check_frozen(ConfigObject& study, const Config& config) {
+    for (JsonObject& entry : study.elements("frozen")) {
+        ConfigObject frozen(std::move(entry), frozen_keys());
+        frozen.get<double>("cost");
+        for (const auto& [variant, point] : frozen["points"].items()) {
+            std::vector<std::string> points;
+            for (const VariantConfig& v : config.variants)
+                if (v.variant == variant) points.push_back(v.point);
+            if (points.empty()) fail(frozen.at("points"), ": the study has no variant '", variant, "'");
+            if (std::ranges::count(points, point.get<std::string>()) == 0)
+                fail(frozen.at("points"), ": the study has no point '", point.get<std::string>(), "' of ", variant,
+                     suggestion(point.get<std::string>(), points));
+        }
+        frozen.finish();
     }
 }
 

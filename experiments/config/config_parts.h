@@ -12,6 +12,10 @@ Keys tune_keys();
 /// "tables" of the study, if it has any; `config`: what has been read of `study`.
 void check_tables(ConfigObject& study, const Config& config);
 
+/// An entry of `frozen`: which points stand for their techniques at a cost (evaluation/chosen_points.h).
+Keys frozen_keys();
+void check_frozen(ConfigObject& study, const Config& config);
+
 /// "tune", if there is one; `config`: what has been read of `study`. All points are of one variant, the first becomes
 /// the baseline if none is, and axes are parameters of it with allowed values. Sets config.is_tuned.
 void check_tune(ConfigObject& study, Config& config);

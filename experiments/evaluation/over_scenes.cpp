@@ -101,6 +101,12 @@ void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span
         point.over_best = std::exp(mean.value);
         point.over_best_low = exponential(mean.low), point.over_best_high = exponential(mean.high);
         if (mean.p) compared.push_back(&point), p.push_back(*mean.p);
+        if (mean.scenes < least_scenes) continue;
+        const double degrees = double(mean.scenes) - 1,
+                     deviation = mean.standard_error * std::sqrt(double(mean.scenes));
+        point.scenes_needed = scenes_needed(deviation);
+        point.scenes_needed_low = scenes_needed(deviation * std::sqrt(degrees / chi_squared_quantile(0.975, degrees)));
+        point.scenes_needed_high = scenes_needed(deviation * std::sqrt(degrees / chi_squared_quantile(0.025, degrees)));
     }
     const std::vector<double> adjusted = holm_adjusted(p);
     for (size_t i = 0; i < compared.size(); ++i) compared[i]->p_holm = adjusted[i];
@@ -156,6 +162,19 @@ std::optional<std::pair<double, double>> bootstrap_over_scenes(std::span<const d
         return std::lerp(means[left], means[left + 1], place - double(left));
     };
     return std::pair(end(0.025), end(0.975));
+}
+
+double scenes_needed(double deviation) {
+    constexpr double power = 0.8;
+    const double effects = deviation / std::log1p(worth_deciding);  // deviations in one difference
+    double scenes = double(least_scenes);
+    for (int step = 0; step < 50; ++step) {
+        const double sum = student_t_quantile(0.975, scenes - 2) + student_t_quantile(power, scenes - 2);
+        const double next = std::max(double(least_scenes), sum * sum * effects * effects);
+        if (std::abs(next - scenes) < 0.01) break;
+        scenes = 0.5 * (scenes + next);  // few scenes ask for many more, and these for few
+    }
+    return std::ceil(scenes);
 }
 
 std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, double lacking) {

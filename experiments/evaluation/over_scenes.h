@@ -45,6 +45,12 @@ struct ShotErrors {
     std::map<PointName, double> errors;
 };
 
+/// How many scenes like these show a difference of `worth_deciding` in the mean of logarithms of ratios that scatter by
+/// `deviation` (a standard deviation over scenes), with 80 % power at a significance of 5 % (two-sided, Student's t of
+/// n - 2 degrees as above): at least least_scenes.
+double scenes_needed(double deviation);
+inline constexpr double worth_deciding = 0.1;  ///< 10 % more error
+
 /// What scenes say of the errors of one point.
 struct OverScenes {
     std::string variant, point;
@@ -53,8 +59,11 @@ struct OverScenes {
     std::optional<double> low, high;                  ///< its MeanOverScenes
     std::optional<double> rank, rank_low, rank_high;  ///< 1: the least; ends with any one scene left out
     std::optional<double> over_best, over_best_low, over_best_high;  ///< error / that of the first rank
-    std::optional<double> p_holm;         ///< of "over_best is 1", adjusted for all that is compared here
-    std::string standing;                 ///< see standings.h; of what is ranked over least_scenes or more
+    std::optional<double> p_holm;  ///< of "over_best is 1", adjusted for all that is compared here
+    std::string standing;          ///< see standings.h; of what is ranked over least_scenes or more
+    /// To tell it and the first rank apart where one errs worth_deciding more; ends by those of the deviation (95 %, of
+    /// normal logarithms). None below least_scenes.
+    std::optional<double> scenes_needed, scenes_needed_low, scenes_needed_high;
     std::vector<double> logarithms = {};  ///< of the ratio in each scene
 };
 

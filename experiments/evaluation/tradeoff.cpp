@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
+#include "experiments/evaluation/tradeoff_shots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,33 +13,6 @@
 namespace {
 
 using nlohmann::json;
-
-struct TradeoffPoint {
-    FrontRow row;
-    const MetricSummary* error = nullptr;
-    double fits_from = 0, may_fit_from = 0;  ///< as TimeSummary's
-    bool is_judged = false;                  ///< by error and cost
-    PointName name() const { return {row.variant, row.point}; }
-    /// Whether others can be chosen by it.
-    bool has_error() const { return error->holds_all_noise && *error->value > 0; }
-};
-
-struct TradeoffShot {
-    std::string name, scene, asset, machine;
-    std::optional<double> divisor;
-    std::vector<TradeoffPoint> points;
-    bool is_timed() const { return std::ranges::any_of(points, &TradeoffPoint::is_judged); }
-    const TradeoffPoint* find(const PointName& name) const {
-        const auto found = std::ranges::find(points, name, &TradeoffPoint::name);
-        return found == points.end() ? nullptr : &*found;
-    }
-    std::vector<std::string> judged_variants() const {
-        std::vector<std::string> variants;
-        for (const TradeoffPoint& p : points)
-            if (p.is_judged && std::ranges::count(variants, p.row.variant) == 0) variants.push_back(p.row.variant);
-        return variants;
-    }
-};
 
 std::string text_of(const json& object, const char* key) {
     const json value = object.is_object() ? object.value(key, json()) : json();
@@ -178,43 +152,6 @@ void judge_front(TradeoffShot& shot, const std::map<std::pair<PointName, PointNa
             p.row.verdict = "undecided";
 }
 
-/// Geometric mean over scenes of the point's error over the baseline's, in these shots.
-double mean_elsewhere(const PointName& name, const std::vector<const TradeoffShot*>& shots) {
-    std::vector<ShotValue> logarithms;
-    for (const TradeoffShot* shot : shots)
-        logarithms.push_back({shot->asset, std::log(*shot->find(name)->row.error / *shot->divisor)});
-    return mean_over_scenes(logarithms).value;
-}
-
-ChosenPoint choose(const TradeoffShot& shot, const std::string& variant, double cost,
-                   const std::vector<TradeoffShot>& shots) {
-    ChosenPoint choice{.shot = shot.name, .variant = variant, .cost = cost};
-    std::vector<const TradeoffPoint*> fitting;
-    const TradeoffPoint* cheapest = nullptr;
-    for (const TradeoffPoint& p : shot.points) {
-        if (!p.is_judged || p.row.variant != variant) continue;
-        if (!cheapest || *p.row.cost < *cheapest->row.cost) cheapest = &p;
-        if (*p.row.cost <= cost) fitting.push_back(&p);
-    }
-    std::vector<const TradeoffShot*> common;
-    for (const TradeoffShot& other : shots)
-        if (other.asset != shot.asset && other.divisor && std::ranges::all_of(fitting, [&](const TradeoffPoint* p) {
-                const TradeoffPoint* there = other.find(p->name());
-                return there && there->has_error();
-            }))
-            common.push_back(&other);
-    const TradeoffPoint* chosen = cheapest;
-    if (!fitting.empty()) {
-        choice.chosen_on = common.empty() ? "this shot" : "other scenes";
-        chosen = *std::ranges::min_element(fitting, {}, [&](const TradeoffPoint* p) {
-            return common.empty() ? *p->row.error : mean_elsewhere(p->name(), common);
-        });
-        choice.point = chosen->row.point;
-    }
-    choice.fits = chosen->fits_from <= cost ? "surely" : chosen->may_fit_from <= cost ? "maybe" : "no";
-    return choice;
-}
-
 /// What is compared over scenes, and which point stands for it in each shot.
 struct Contest {
     std::vector<const TradeoffShot*> shots;
@@ -347,12 +284,16 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
         judge_front(shot, dominates[shot.name], using_scene);
         for (const TradeoffPoint& p : shot.points) found.front.push_back(p.row);
     }
+    const std::vector<FrozenPoint> frozen = frozen_points(tables.manifest);
     std::vector<std::string> machines;
     for (const TradeoffShot& shot : shots) {
         if (shot.is_timed() && std::ranges::count(machines, shot.machine) == 0) machines.push_back(shot.machine);
         for (const std::string& variant : shot.judged_variants())
-            for (const double cost : question.costs) found.chosen.push_back(choose(shot, variant, cost, shots));
+            for (const double cost : question.costs) found.chosen.push_back(choose(shot, variant, cost, shots, frozen));
     }
+    for (const std::string& machine : machines)
+        for (const double cost : question.costs)
+            std::ranges::move(freeze(machine, cost, shots), std::back_inserter(found.to_freeze));
     found.across = across_points(shots, less);
     for (AcrossRow& row : found.across) row.label = label_of(labels, {row.variant, row.point});
     for (const std::string& machine : machines)

@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/evaluation/chosen_points.h"
 #include "experiments/evaluation/pairs.h"
 
 inline constexpr const char* unit_of_times = "ms";
@@ -35,17 +36,6 @@ struct FrontRow {
     }
 };
 
-/// The point by which a variant stands at a cost in a shot: of those whose median cost is within, the one of least
-/// error in the other scenes (geometric mean over scenes of the ratio to the baseline's, over the shots in which all
-/// that fit have an error). Where there is no other scene it is the one of least error in the shot itself, which is
-/// flattered by the choice.
-struct ChosenPoint {
-    std::string shot, variant;
-    double cost = 0;
-    std::string point, chosen_on;  ///< empty where nothing fits
-    std::string fits;  ///< whether it, or the variant's cheapest, fits: surely, maybe, no (TimeSummary::fits_from)
-};
-
 /// What holds over the scenes of points, or of variants at a cost, each at its ChosenPoint; of the shots of one machine
 /// where costs count.
 struct AcrossRow : OverScenes {
@@ -71,7 +61,9 @@ struct AcrossRow : OverScenes {
             Column{"rank_low", &AcrossRow::rank_low}, Column{"rank_high", &AcrossRow::rank_high},
             Column{"against_best", &AcrossRow::over_best}, Column{"against_best_low", &AcrossRow::over_best_low},
             Column{"against_best_high", &AcrossRow::over_best_high}, Column{"p_holm", &AcrossRow::p_holm},
-            Column{"standing", &AcrossRow::standing});
+            Column{"standing", &AcrossRow::standing}, Column{"scenes_needed", &AcrossRow::scenes_needed},
+            Column{"scenes_needed_low", &AcrossRow::scenes_needed_low},
+            Column{"scenes_needed_high", &AcrossRow::scenes_needed_high});
     }
 };
 
@@ -119,6 +111,7 @@ struct Tradeoff {
     std::vector<PairRow> pairs;
     std::vector<FrontRow> front;
     std::vector<ChosenPoint> chosen;
+    std::vector<FrozenPoint> to_freeze;  ///< what a study that judges other scenes should hold as its "frozen"
     std::vector<AcrossRow> across;
     std::vector<ChangeRow> changes;
 };

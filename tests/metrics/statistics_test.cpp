@@ -9,6 +9,7 @@
 TEST(Quantiles, MatchTables) {
     // NIST/SEMATECH e-Handbook, section 1.3.6.7, to its three digits; the longer ones are closed forms.
     EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
+    EXPECT_NEAR(chi_squared_quantile(0.3, 2), -2 * std::log(0.7), 1e-12);  // exponential
     EXPECT_NEAR(student_t_quantile(0.975, 1), std::tan(M_PI * 0.475), 1e-10);  // Cauchy
     EXPECT_NEAR(student_t_quantile(0.975, 2), 0.95 * std::sqrt(2 / (1 - 0.95 * 0.95)),
                 1e-10);  // closed form of two degrees

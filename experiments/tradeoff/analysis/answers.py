@@ -97,11 +97,17 @@ class Answers:
     def _at_costs(self):
         lines = []
         for machine in self.analysis.machines():
-            lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"On {markdown_text(machine)}, over scenes.", ""]
+            lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"On {markdown_text(machine)}, over scenes. {self._who_stands()}".rstrip(), ""]
             lines += table((self.unit, "least error", f"error / {self.base}", "not distinguishable from it"), [self._short(machine, c) for c in self.analysis.costs])
             for cost in self.analysis.costs:
                 lines += self._at_cost(machine, cost)
         return lines
+
+    def _who_stands(self):
+        chosen_on = {c["chosen_on"] for c in self.study.chosen.values() if c["point"]}
+        if chosen_on == {"frozen"}:
+            return "Each technique stands at the point that was chosen for it on the scenes of another study (`frozen`)."
+        return "Some points were chosen on the scenes of another study (`frozen`), others here." if "frozen" in chosen_on else ""
 
     def _rows_at(self, machine, cost):
         return [r for r in self.study.across if r.get("machine") == machine and r.get("cost") == cost]
@@ -144,13 +150,14 @@ class Answers:
                 measured(r["ratio"], r["low"], r["high"]),
                 measured(r["against_best"], r["against_best_low"], r["against_best_high"]),
                 number(r["p_holm"]),
+                measured(r["scenes_needed"], r["scenes_needed_low"], r["scenes_needed_high"]),
                 r["wins"],
                 r["shared"],
                 own,
             )
             for r, own in zip(rows, of_last)
         ]
-        head = (what, "rank (without any one scene)", f"error / {self.base}", "error / first's", "p (Holm)", "shots won", "shots shared", last)
+        head = (what, "rank (without any one scene)", f"error / {self.base}", "error / first's", "p (Holm)", "scenes that 10 % need", "shots won", "shots shared", last)
         return table(head, cells)
 
     def _first_sentence(self, first, rows, of_scenes):

@@ -43,6 +43,7 @@ STUDY = BASE | {
 }  # fmt: skip
 TUNE = BASE | {
     "variants": [{"variant": TECHNIQUE}],
+    "frozen": [{"cost": 5, "points": {TECHNIQUE: "default"}}],
     "tune": {
         "axes": {"dda.stride": [1, 2], "max_roughness": {"lin": [0.1, 0.6]}, "dda.thickness": {"log": [0.01, 1], "only_if": {"dda.stride": 2}},
                  "dda.refine": {"values": [True], "skip_if": {"dda.stride": 2}}},

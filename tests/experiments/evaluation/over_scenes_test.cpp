@@ -57,6 +57,40 @@ TEST(OverScenes, MeansAreStudentsOverAssets) {
     EXPECT_NEAR(*mean.p, 1 - t / std::sqrt(2 + t * t), 1e-12);
 }
 
+/// Of 1000 trials, 0.8 +- 4 standard errors of 0.0126; of too few scenes for a normal test, too.
+TEST(OverScenes, ScenesThatAreNeededDecideInFourCasesOfFive) {
+    std::mt19937 random(6);
+    for (const double deviation : {0.12, 0.4}) {
+        std::normal_distribution<double> logarithm(std::log(1.1), deviation);
+        const size_t scenes = size_t(scenes_needed(deviation));
+        int decided = 0;
+        for (int trial = 0; trial < 1000; ++trial) {
+            std::vector<ShotValue> values;
+            for (size_t i = 0; i < scenes; ++i) values.push_back({std::to_string(i), logarithm(random)});
+            decided += *mean_over_scenes(values).p < 0.05;
+        }
+        EXPECT_NEAR(decided / 1000.0, 0.8, 4 * 0.0126) << scenes;
+    }
+    EXPECT_EQ(scenes_needed(0), double(least_scenes));
+}
+
+/// 95 % of 1000: 24 or fewer miss in one of 10^4 runs at 0.05, and 79 or more.
+TEST(OverScenes, ScenesThatAreNeededHaveTheEndsOfTheDeviation) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> a(0, 0.3), b(0, 0.4);  // of the difference 0.5
+    int missed = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        std::vector<std::vector<double>> of_points(2, std::vector<double>(12));
+        for (double& v : of_points[0]) v = a(random);
+        for (double& v : of_points[1]) v = b(random);
+        const OverScenes second = compare_over_scenes(shots_of(of_points)).back();
+        EXPECT_LE(*second.scenes_needed_low, *second.scenes_needed);
+        missed += *second.scenes_needed_low > scenes_needed(0.5) || *second.scenes_needed_high < scenes_needed(0.5);
+    }
+    EXPECT_GT(missed, 24);
+    EXPECT_LT(missed, 79);
+}
+
 TEST(OverScenes, ThreeAssetsHaveNoInterval) {
     const std::vector<ShotValue> values = {{"a", 1}, {"a", 2}, {"b", 3}, {"c", 3}};
     const MeanOverScenes mean = mean_over_scenes(values);

@@ -1,6 +1,8 @@
 // Error against cost: the point that stands for a technique, the front, and what changes are worth, of made-up tables.
 #include "experiments/evaluation/tradeoff.h"
 
+#include "tests/error_message.h"
+
 #include <gtest/gtest.h>
 #include <cmath>
 #include <random>
@@ -102,6 +104,48 @@ TEST(Tradeoff, AloneASceneChoosesForItselfAndSaysSo) {
     const auto chosen = std::ranges::find(found.chosen, "v", &ChosenPoint::variant);
     EXPECT_EQ(chosen->point, "b");
     EXPECT_EQ(chosen->chosen_on, "this shot");
+}
+
+TEST(Tradeoff, AFrozenPointStandsWhereverItRan) {
+    MadeStudy made;
+    made.add_point("none", "default");
+    for (const char* shot : {"s", "t", "u"}) {
+        made.add(shot, "none", "default", 3, 1);
+        made.add(shot, "v", "better", 1, 5), made.add(shot, "v", "frozen", 2, *shot == 'u' ? 20 : 5);
+        made.add(shot, "w", "better", 1, 5);
+    }
+    made.tables.manifest["config"] = json::parse(R"({"frozen": [{"cost": 8, "points": {"v": "frozen"}}]})");
+    std::vector<std::string> said;
+    for (const ChosenPoint& c : made.found({6, 8}).chosen)
+        if (c.variant != "none" && c.shot != "t")
+            said.push_back(c.shot + " " + std::to_string(int(c.cost)) + " " + c.point + " " + c.chosen_on + " " +
+                           c.fits);
+    EXPECT_EQ(said, (std::vector<std::string>{"s 6 better other scenes surely", "s 8 frozen frozen surely",
+                                              "s 6 better other scenes surely", "s 8 better other scenes surely",
+                                              "u 6 better other scenes surely", "u 8 frozen frozen no",
+                                              "u 6 better other scenes surely", "u 8 better other scenes surely"}));
+    made.tables.manifest["config"] = json::parse(R"({"frozen": [{"cost": 8, "points": {"v": 1}}]})");
+    EXPECT_NE(error_message([&] { made.found({8}); }).find("config.frozen"), std::string::npos);
+}
+
+TEST(Tradeoff, WhatIsFrozenKeepsItsBudgetInNineScenesOfTen) {
+    MadeStudy made;
+    made.add_point("none", "default");
+    for (int i = 0; i < 20; ++i) {
+        const std::string shot = "s" + std::to_string(i);
+        made.add(shot, "none", "default", 3, 1);
+        made.add(shot, "v", "worst", 2.5, 5);
+        made.add(shot, "v", "best", 1, i < 3 ? 20 : 5);                  // beyond 8 ms in three of twenty
+        made.add(shot, "v", "second", i < 2 ? 4 : 1.5, i < 2 ? 20 : 5);  // in two
+        if (i > 0) made.add(shot, "v", "somewhere", 0.5, 5);
+    }
+    const std::vector<FrozenPoint> frozen = made.found({4, 8, 30}).to_freeze;
+    const json expected = json::parse(
+        R"([{"cost": 4, "points": {"none": "default"}}, {"cost": 8, "points": {"none": "default", "v": "second"}},
+            {"cost": 30, "points": {"none": "default", "v": "best"}}])");
+    EXPECT_EQ(frozen_json(frozen), expected);
+    made.tables.manifest["config"] = {{"frozen", frozen_json(frozen)}};
+    EXPECT_EQ(frozen_json(frozen_points(made.tables.manifest)), expected);
 }
 
 TEST(Tradeoff, ChangesOfOneParameterHaveTheirVerdicts) {

@@ -1,0 +1,40 @@
+#pragma once
+#include "experiments/evaluation/chosen_points.h"
+#include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/tradeoff.h"
+
+// The shots of a study as tradeoff.cpp and chosen_points.cpp share them.
+
+struct TradeoffPoint {
+    FrontRow row;
+    const MetricSummary* error = nullptr;
+    double fits_from = 0, may_fit_from = 0;  ///< as TimeSummary's
+    bool is_judged = false;                  ///< by error and cost
+    PointName name() const { return {row.variant, row.point}; }
+    /// Whether others can be chosen by it.
+    bool has_error() const { return error->holds_all_noise && *error->value > 0; }
+};
+
+struct TradeoffShot {
+    std::string name, scene, asset, machine;
+    std::optional<double> divisor;
+    std::vector<TradeoffPoint> points;
+    bool is_timed() const { return std::ranges::any_of(points, &TradeoffPoint::is_judged); }
+    const TradeoffPoint* find(const PointName& name) const {
+        const auto found = std::ranges::find(points, name, &TradeoffPoint::name);
+        return found == points.end() ? nullptr : &*found;
+    }
+    std::vector<std::string> judged_variants() const {
+        std::vector<std::string> variants;
+        for (const TradeoffPoint& p : points)
+            if (p.is_judged && std::ranges::count(variants, p.row.variant) == 0) variants.push_back(p.row.variant);
+        return variants;
+    }
+};
+
+/// The point by which a variant stands at a cost in a shot, `frozen` or by the other shots' errors.
+ChosenPoint choose(const TradeoffShot& shot, const std::string& variant, double cost,
+                   const std::vector<TradeoffShot>& shots, std::span<const FrozenPoint> frozen);
+
+/// The points that a study of other scenes should judge: one of each variant at a cost on a machine, if any.
+std::vector<FrozenPoint> freeze(const std::string& machine, double cost, const std::vector<TradeoffShot>& shots);
