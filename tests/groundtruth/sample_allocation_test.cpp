@@ -203,7 +203,7 @@ TEST(SampleAllocation, IsWithoutBiasWhereBrightPathsAreRare) {
     // 10^4 pixels but where hardly any event is met: there its tails are those of a Poisson count of 20 or more. 5
     // standard errors and 11 comparisons: 1 in 10^5 seeds fails a sound rule.
     constexpr double limit = 5, pixels = extent.x * extent.y;
-    for (const auto [p, seconds] :
+    for (const auto& [p, seconds] :
          {std::pair(1e-2, 0.0), {1e-3, 0.0}, {1e-4, 0.0}, {1e-5, 0.0}, {1e-3, long_limit}, {1e-4, long_limit}}) {
         double error = 0, squares = 0, product = 0, product_squares = 0, sum_z_squared = 0;
         constexpr int images = 40;
