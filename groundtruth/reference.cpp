@@ -138,7 +138,12 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
         .trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
                      PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }};
-    if (state.reference.guide.specular.values.empty()) state.reference.guide = render_guide(tracer, extent, run);
+    const bool needs_guide_variance = settings.target_relative_error > 0 && state.guide_variance.values.empty();
+    if (state.reference.guide.specular.values.empty() || needs_guide_variance) {
+        RenderedGuide guide = render_guide(tracer, extent, run);
+        state.reference.guide = std::move(guide.means);
+        if (needs_guide_variance) state.guide_variance = std::move(guide.specular_variance);
+    }
 
     RenderClock clock{.run = run, .seconds_before = state.reference.seconds, .rays_before = state.reference.rays};
     render_until_limits(state, tracer, clock);

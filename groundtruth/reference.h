@@ -98,8 +98,9 @@ struct Reference {
 ///
 /// With a target, pixels stop one by one. Stopping when the error *looks* small would favour pixels that have not yet
 /// met their rare bright paths (up to -33 % with p = 1e-4 a path), so the samples of other pixels decide: see
-/// sample_allocation.h. All that is traced is kept. Most pixels then reach the target and some do not, which is
-/// reported and not acted on; a time limit is kept within 5 %, by leaving pixels out of the last pass if need be.
+/// sample_allocation.h. All that is traced is kept. Most pixels then reach the target and some do not. With a time
+/// limit as well, the time that is left is spent while more than 0.5 % do not; else it is reported and not acted on. A
+/// time limit is kept within 5 %, by leaving pixels out of the last pass if need be.
 struct ReferenceSettings {
     static constexpr unsigned default_samples = 256;
 

@@ -58,6 +58,7 @@ std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
 std::vector<NamedImage> named_images(ReferenceState& state) {
     return {{"sample_goal", "Y", &state.sample_goal, PixelType::uint32},
             {"earlier", "XY", &state.earlier},
+            {"guide_variance", "RGB", &state.guide_variance},
             {"rays_per_sample", "Y", &state.rays_per_sample}};
 }
 

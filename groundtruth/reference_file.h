@@ -8,6 +8,7 @@ struct ReferenceState {
     HostImage sample_goal;  ///< one channel: sample_count at the end of the pass under way
     /// Samples of the pixels with the most of them, at the end of the pass under way.
     uint64_t level = 0;
+    HostImage guide_variance;  ///< RGB, of reference.guide.specular; only with a target
     // Of a render with a target, once its pixels have different goals:
     HostImage earlier;  ///< two channels: before each pixel's last pass, sample_count and the variance of `specular`
     HostImage rays_per_sample;  ///< one channel, of each pixel's last pass; only with a time limit
@@ -24,7 +25,7 @@ void write_reference(const std::filesystem::path& file, Reference& reference, co
 /// Fails with Error if the file is missing, truncated, or lacks a layer or an attribute.
 Reference read_reference(const std::filesystem::path& file);
 
-/// As write_reference(), with the layers sample_goal, earlier and rays_per_sample.
+/// As write_reference(), with the layers sample_goal, earlier, guide_variance and rays_per_sample.
 void write_reference_state(const std::filesystem::path& file, ReferenceState& state);
 
 /// Reads what either function wrote; a finished reference has an empty sample_goal.

@@ -22,7 +22,7 @@ void render_band(Reference& guide, const PixelTracer& tracer, unsigned first_row
 
 }  // namespace
 
-ReferenceGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, const ReferenceRun& run) {
+RenderedGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, const ReferenceRun& run) {
     static_assert(guide_samples % batch_count == 0);
     ReferenceState state = empty_state(extent, {});
     const auto start = std::chrono::steady_clock::now();
@@ -39,5 +39,6 @@ ReferenceGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, const 
         run.progress(done, double(rays) / spent, spent * (1 - done) / done);
     }
     Reference& guide = state.reference;
-    return {std::move(guide.specular.mean), std::move(guide.incident.mean), std::move(guide.diffuse.mean)};
+    return {{std::move(guide.specular.mean), std::move(guide.incident.mean), std::move(guide.diffuse.mean)},
+            std::move(guide.specular.variance)};
 }

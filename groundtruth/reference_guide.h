@@ -9,6 +9,11 @@
 /// that in three of the scenes, and to 1.068 in the fourth, where they spread what is bright and rare.
 inline constexpr unsigned guide_samples = 64;
 
+struct RenderedGuide {
+    ReferenceGuide means;
+    HostImage specular_variance;  ///< RGB, of means.specular
+};
+
 /// The guide of one frame: the means over guide_samples samples of each pixel from a set of their own, independent of
 /// the reference's seed and of its settings except max_depth, which `tracer` has. Reports to `run.progress`.
-ReferenceGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, const ReferenceRun& run);
+RenderedGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, const ReferenceRun& run);

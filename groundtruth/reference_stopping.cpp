@@ -23,6 +23,9 @@ constexpr uint64_t uniform_samples = 256;
 constexpr double uniform_share_of_time = 0.25;
 constexpr double least_growth = 1.0 / 16;  ///< of a pixel's samples: less would change little
 
+constexpr double least_pass = 1.0 / 64;  ///< of all samples: where needs come to less, time is left to spend
+constexpr double factor_step = 1.5;      ///< between factors of needs that are tried then
+
 struct Limits {
     uint64_t samples;  ///< per pixel
     double seconds;    ///< 0: unlimited
@@ -102,11 +105,34 @@ double affordable_level(const ReferenceState& state, const HostImage& needed, do
     return low;
 }
 
+/// Raises needs by one factor, as far as a pixel's largest allows, until a pass is worth while. Where no noise is known
+/// the first samples count as what is needed.
+void spend_time_left(const ReferenceState& state, HostImage& needed, Limits limit) {
+    const std::vector<float>& held = state.reference.sample_count.values;
+    const double worth_while = least_pass * total_samples(state.reference);
+    const auto is_little = [&] {
+        double added = 0;
+        for (size_t i = 0; i < held.size(); ++i)
+            added += double(pass_samples(held[i], needed.values[i], double(limit.samples)));
+        return added < worth_while;
+    };
+    if (!is_little()) return;
+    const HostImage base = needed, largest = largest_factors(state);
+    for (double factor = factor_step; factor < double(limit.samples) && is_little(); factor *= factor_step)
+        for (size_t i = 0; i < held.size(); ++i) {
+            if (largest.values[i] == 1.0f) continue;
+            const double least = std::max(double(base.values[i]), double(uniform_samples));
+            const double raised = least * std::min(factor, double(largest.values[i]));
+            needed.values[i] = float(std::min(raised, double(limit.samples)));
+        }
+}
+
 /// The next pass of a render with a target: pixels below the level that need more go up to it, or to what they need. So
 /// where time ends first, those that need most have had as many samples as a uniform render would have given them.
 bool plan_adaptive_pass(ReferenceState& state, RenderClock& clock, Limits limit) {
     Reference& reference = state.reference;
-    const HostImage needed = needed_samples(state);
+    HostImage needed = needed_samples(state);
+    if (limit.seconds > 0) spend_time_left(state, needed, limit);
     double level = std::min(level_growth * double(state.level), double(limit.samples));
     if (limit.seconds > 0)
         level = std::min(

@@ -1,9 +1,11 @@
 #include "groundtruth/sample_allocation.h"
 
 #include "groundtruth/reference_error.h"
+#include "groundtruth/reference_guide.h"
 #include "groundtruth/reference_stopping.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -20,6 +22,10 @@ constexpr double least_exponent = 1.0, largest_exponent = 1.6;
 /// The errors that are stated scatter by a fifth (14 degrees of freedom): this much more than is needed on average
 /// brings most of the pixels below the target.
 constexpr double safety = 1.3;
+
+constexpr double missed_share = 0.005;         ///< of the pixels may miss the target while time is left
+constexpr size_t enough_judges = 200;          ///< fewer cannot show so small a share
+constexpr float factor_without_judges = 4.0f;  ///< far in the tail of what errors scatter
 
 /// The place of a pixel in the nested lattices x, y = 0 modulo 2^k and their halves, where x + y is even.
 struct Lattice {
@@ -88,6 +94,15 @@ Knowledge knowledge(const ReferenceState& state, size_t pixel, double floor) {
     return result;
 }
 
+/// Samples^exponent that a pixel needs as far as its guide knows.
+double need_of_guide(const ReferenceState& state, size_t pixel, double floor, double exponent) {
+    if (state.guide_variance.values.empty()) return 0;
+    const double radiance = std::max(rgb_mean(state.reference.guide.specular, pixel), floor);
+    if (radiance <= 0) return 0;
+    const double unit = std::pow(state.settings.target_relative_error * radiance, 2);
+    return rgb_mean(state.guide_variance, pixel) / unit * std::pow(double(guide_samples), exponent);
+}
+
 double decay_exponent(const std::vector<Knowledge>& knowledge, const std::vector<size_t>& informers) {
     double before = 0, after = 0, log_growth = 0, count = 0;
     for (const size_t i : informers) {
@@ -131,9 +146,36 @@ HostImage needed_samples(const ReferenceState& state) {
             double squares = 0;
             for (const size_t i : informers)
                 squares += std::pow(known[i].excess * std::pow(known[i].samples, exponent), 2);
-            if (squares <= 0) continue;
-            const double typical = std::sqrt(squares / double(informers.size()));
+            const double others = informers.empty() ? 0 : std::sqrt(squares / double(informers.size()));
+            const double typical = std::max(others, need_of_guide(state, reference.extent.x * y + x, floor, exponent));
+            if (typical <= 0) continue;
             *needed.pixel(x, y) = float(std::min(std::pow(safety * typical, 1 / exponent), double(max_sample_limit)));
         }
     return needed;
+}
+
+HostImage largest_factors(const ReferenceState& state) {
+    const Reference& reference = state.reference;
+    const HostImage error = relative_error(reference, reference.specular);
+    const auto class_of = [&](size_t pixel) {
+        return lattice(unsigned(pixel % reference.extent.x), unsigned(pixel / reference.extent.x)).coarseness();
+    };
+    constexpr size_t class_count = 2 * coarsest + 2;
+    std::array<size_t, class_count> pixels{}, missed{};
+    for (size_t i = 0; i < error.values.size(); ++i) {
+        if (reference.material_id.values[i] == 0) continue;
+        ++pixels[class_of(i)];
+        missed[class_of(i)] += error.values[i] > state.settings.target_relative_error;
+    }
+    std::array<float, class_count> factors{};
+    size_t coarser = 0, coarser_missed = 0;
+    for (size_t c = class_count; c-- > 0;) {
+        const bool is_missed = double(coarser_missed) > missed_share * double(coarser);
+        factors[c] = coarser < enough_judges ? factor_without_judges : is_missed ? float(max_sample_limit) : 1.0f;
+        coarser += pixels[c], coarser_missed += missed[c];
+    }
+    HostImage result(reference.extent, 1, 1.0f);
+    for (size_t i = 0; i < result.values.size(); ++i)
+        if (reference.material_id.values[i] != 0) result.values[i] = factors[class_of(i)];
+    return result;
 }

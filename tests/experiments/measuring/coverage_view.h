@@ -25,7 +25,7 @@ struct View {
           tracer{[this](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
                  [this](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
                         PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }},
-          guide(render_guide(tracer, extent, {})) {}
+          guide(render_guide(tracer, extent, {}).means) {}
 
     Reference reference(unsigned samples, unsigned seed) const {
         ReferenceState state = empty_state(extent, {.ladder = true});
