@@ -14,10 +14,13 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "experiments/python"))
+
 from generator import glossy, mirrors, motion
 from generator.description import to_text
 from generator.families import FAMILIES, LARGEST_NUMBER, drawn, refusals_of
 from generator.families.tables import filled
+from ssrlab.mistakes import exit_code
 
 SCENES = [
     mirrors.mirror_pillars, mirrors.grazing, mirrors.fence, mirrors.floating_holes, mirrors.offscreen_mirror,
@@ -69,21 +72,18 @@ def main():
     if unknown:
         parser.error(f"no scene named '{unknown[0]}'; known are: {', '.join(known)}, and "
                      f"{' and '.join(f'{family}:0' for family in FAMILIES)} to {LARGEST_NUMBER}")
-    try:
-        if arguments.fill:
-            text = arguments.fill.read_text(encoding="utf-8")
-            arguments.fill.write_text(filled(text), encoding="utf-8", newline="\n")
-            return
-        for name in arguments.names or known:
-            if name in is_family:
-                print_refusals(name, arguments.refusals)
-            elif name in known:
-                write_scene(arguments.out / name, *known[name](), {})
-            else:
-                write_scene(arguments.out / name.replace(":", "_"), *drawn(name.partition(":")[0], number_of(name)))
-    except OSError as error:
-        sys.exit(f"error: cannot write {error.filename or arguments.out}: {error.strerror}")
+    if arguments.fill:
+        text = arguments.fill.read_text(encoding="utf-8")
+        arguments.fill.write_text(filled(text), encoding="utf-8", newline="\n")
+        return
+    for name in arguments.names or known:
+        if name in is_family:
+            print_refusals(name, arguments.refusals)
+        elif name in known:
+            write_scene(arguments.out / name, *known[name](), {})
+        else:
+            write_scene(arguments.out / name.replace(":", "_"), *drawn(name.partition(":")[0], number_of(name)))
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(exit_code(main, "the scenes"))

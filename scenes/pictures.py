@@ -17,16 +17,18 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+SCENES = Path(__file__).resolve().parent
+sys.path.insert(0, str(SCENES.parent / "experiments/python"))
+sys.dont_write_bytecode = True
+from ssrlab.mistakes import Fault, exit_code, stop  # noqa: E402  (found by the path above)
+
 try:
     import numpy as np
     from PIL import Image
 except ImportError as missing:
-    sys.exit(f"error: {missing}: install python3-numpy and python3-pil, and run this with Debian's python3")
+    stop(f"{missing}: install python3-numpy and python3-pil, and run this with Debian's python3")
 
-SCENES = Path(__file__).resolve().parent
-sys.path.insert(0, str(SCENES.parent / "experiments/python"))
-sys.dont_write_bytecode = True
-from ssrlab.exr import read_exr_planes, read_exr_rgb  # noqa: E402  (found by the path above)
+from ssrlab.exr import read_exr_planes, read_exr_rgb  # noqa: E402
 
 SIZE = (320, 180)
 SAMPLES = 256
@@ -47,7 +49,9 @@ def srgb(linear):
 
 
 def ssrlab(program, *arguments):
-    return subprocess.run([program, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Fault(f"{program} {' '.join(map(str, arguments))} failed: {done.stderr.strip()}")
 
 
 def path_traced(program, scene, size, samples, folder):
@@ -150,4 +154,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(exit_code(main, "the pictures"))

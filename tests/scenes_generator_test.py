@@ -157,6 +157,12 @@ class Deterministic(unittest.TestCase):
         self.assertEqual(run.returncode, 2)
         self.assertIn("no scene named 'fense'", run.stderr)
 
+    def test_what_cannot_be_written_is_a_fault_that_is_named(self):
+        command = [sys.executable, "-B", SCENES / "generate.py", "--out", "/proc/none", "fence"]
+        run = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (3, 1), run.stderr)
+        self.assertIn("/proc/none", run.stderr)
+
 
 class Structure(unittest.TestCase):
     def test_counts(self):

@@ -32,6 +32,11 @@ class Pictures(unittest.TestCase):
         self.assertEqual(run.returncode, 2)
         self.assertIn("no scene named 'fense'", run.stderr)
 
+    def test_what_cannot_be_written_is_a_fault_that_is_named(self):
+        run = take("/proc/none", "sky_only")
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (3, 1), run.stderr)
+        self.assertIn("/proc/none", run.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

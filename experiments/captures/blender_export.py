@@ -20,7 +20,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from blender_passes import PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
 from capture_files import write_environment, write_frame  # noqa: E402
 from ssrlab.exr import read_exr_planes  # noqa: E402
-from ssrlab.mistakes import shown  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, shown  # noqa: E402
 
 COLOR_AOVS = ("base_color", "true_normal", "emission")
 VALUE_AOVS = ("roughness", "metallic", "specular")
@@ -195,7 +195,7 @@ def posed_camera(scene, frame):
                      for x in (scene.render.resolution_x, scene.render.resolution_y))  # fmt: skip
     projection = scene.camera.calc_matrix_camera(graph, x=width, y=height)
     if camera.data.type == "PANO":
-        raise SystemExit("error: the camera is panoramic; ssrlab needs a perspective or an orthographic one")
+        raise ResultsError("the camera is panoramic; ssrlab needs a perspective or an orthographic one")
     return camera_of(camera.matrix_world, projection, (width, height), camera.data.clip_start, camera.data.clip_end,
                      camera.data.type == "ORTHO", max(frame, 0))  # fmt: skip
 
@@ -237,9 +237,12 @@ def main():
     arguments = _arguments()
     scene = bpy.context.scene
     if arguments.camera:
-        scene.camera = bpy.data.objects[arguments.camera]
+        scene.camera = bpy.data.objects.get(arguments.camera)
+        if scene.camera is None or scene.camera.type != "CAMERA":
+            cameras = ", ".join(thing.name for thing in bpy.data.objects if thing.type == "CAMERA")
+            raise ResultsError(f"no camera is called '{arguments.camera}'; known are: {cameras or 'none'}")
     if scene.camera is None:
-        raise SystemExit("error: the scene has no camera: name one with --camera")
+        raise ResultsError("the scene has no camera: name one with --camera")
     first, last = arguments.frames or (scene.frame_current, scene.frame_current)
     prepare_materials()
     layer = prepare_scene(scene, arguments.size)
@@ -259,4 +262,6 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    code = exit_code(main, "the capture")
+    if code:  # else Blender goes on with the rest of its command line
+        sys.exit(code)

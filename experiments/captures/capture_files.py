@@ -1,6 +1,6 @@
 """Writes captures as ssrlab reads them: gbuffer.exr, camera.json and environment.json (README.md beside this file).
 
-Only numpy is needed, so that Blender's and RenderDoc's Python can use it.
+Only numpy is needed, so that Blender's and RenderDoc's Python can use it. What is wrong with the files or the request is a ResultsError.
 """
 
 import json
@@ -10,6 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ssrlab.mistakes import ResultsError
+
 # Layers and their channels: core/gbuffer/gbuffer_file.h.
 CHANNELS = {
     "depth": "Z", "normal": "XYZ", "roughness": "Y", "base_color": "RGB", "metalness": "Y", "lit": "RGB",
@@ -17,10 +19,6 @@ CHANNELS = {
     "previous_depth": "Z", "previous_normal": "XYZ", "previous_roughness": "Y", "fallback": "RGB",
 }  # fmt: skip
 REQUIRED = ("depth", "normal", "roughness", "base_color", "metalness")
-
-
-class CaptureError(Exception):
-    """An error in the files or the request: one sentence."""
 
 
 def _attribute(name, kind, value):
@@ -46,7 +44,7 @@ def write_exr(path, planes):
     height, width = planes[names[0]].shape
     for name in names:
         if planes[name].shape != (height, width):
-            raise CaptureError(f"{path}: '{name}' is {planes[name].shape}, but '{names[0]}' {(height, width)}")
+            raise ResultsError(f"{path}: '{name}' is {planes[name].shape}, but '{names[0]}' {(height, width)}")
     float32 = struct.pack("<iBBBBii", 2, 0, 0, 0, 0, 1, 1)
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
     header = struct.pack("<II", 20000630, 2 | (0x400 if max(map(len, names)) > 31 else 0))
@@ -76,13 +74,13 @@ def write_frame(folder, layers, camera):
     missing = [name for name in REQUIRED if name not in layers]
     unknown = [name for name in layers if name not in CHANNELS]
     if missing or unknown:
-        raise CaptureError(f"{folder}: lacks the layers {missing}; does not know {unknown}")
+        raise ResultsError(f"{folder}: lacks the layers {missing}; does not know {unknown}")
     planes = {}
     for name, values in layers.items():
         values = np.asarray(values, np.float32)
         values = values if values.ndim == 3 else values[..., None]
         if values.shape[2] != len(CHANNELS[name]):
-            raise CaptureError(f"{folder}: '{name}' has {values.shape[2]} channels and needs {len(CHANNELS[name])}")
+            raise ResultsError(f"{folder}: '{name}' has {values.shape[2]} channels and needs {len(CHANNELS[name])}")
         for i, channel in enumerate(CHANNELS[name]):
             planes[f"{name}.{channel}"] = values[..., i]
     height, width = planes["depth.Z"].shape

@@ -16,7 +16,7 @@ import renderdoc as rd
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
-from capture_files import CHANNELS, CaptureError, write_environment, write_frame  # noqa: E402
+from capture_files import CHANNELS, write_environment, write_frame  # noqa: E402
 from ssrlab.json_files import read_json  # noqa: E402
 from ssrlab.mistakes import ResultsError, exit_code, say  # noqa: E402
 from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
@@ -34,10 +34,10 @@ class Replay:
         self.file = rd.OpenCaptureFile()
         result = self.file.OpenFile(str(file), "", None)
         if result != rd.ResultCode.Succeeded:
-            raise CaptureError(f"{file}: {result}")
+            raise ResultsError(f"{file}: {result}")
         result, self.controller = self.file.OpenCapture(rd.ReplayOptions(), None)
         if result != rd.ResultCode.Succeeded:
-            raise CaptureError(f"{file} cannot be replayed here: {result}")
+            raise ResultsError(f"{file} cannot be replayed here: {result}")
         self.names = {r.resourceId: r.name for r in self.controller.GetResources()}
         self.textures = {t.resourceId: t for t in self.controller.GetTextures()}
         self.actions = []
@@ -65,7 +65,7 @@ class Replay:
         found = [a for a, name in self.actions
                  if event is None or (a.eventId == event if isinstance(event, int) else event in name)]  # fmt: skip
         if not found:
-            raise CaptureError(f"no event is called {event!r}; --list shows all")
+            raise ResultsError(f"no event is called {event!r}; --list shows all")
         return found[-1]
 
     def texels(self, entry):
@@ -73,12 +73,12 @@ class Replay:
         if "output" in entry:
             outputs = dict(self.outputs(action))
             if entry["output"] not in outputs:
-                raise CaptureError(f"event {action.eventId} has no output {entry['output']!r}, only {list(outputs)}")
+                raise ResultsError(f"event {action.eventId} has no output {entry['output']!r}, only {list(outputs)}")
             texture = outputs[entry["output"]]
         else:
             named = [i for i in self.textures if entry["texture"] in (self.names[i], str(int(i)))]
             if len(named) != 1:
-                raise CaptureError(f"{len(named)} textures are called '{entry['texture']}'; --list shows all")
+                raise ResultsError(f"{len(named)} textures are called '{entry['texture']}'; --list shows all")
             texture = named[0]
         self.controller.SetFrameEvent(action.eventId, True)
         about = self.textures[texture]
@@ -93,7 +93,7 @@ class Replay:
         state = self.controller.GetPipelineState()
         shader = state.GetShaderReflection(stage)
         if shader is None:
-            raise CaptureError(f"event {action.eventId} has no {entry.get('stage', 'vertex')} shader")
+            raise ResultsError(f"event {action.eventId} has no {entry.get('stage', 'vertex')} shader")
         is_compute = stage == rd.ShaderStage.Compute
         pipeline = state.GetComputePipelineObject() if is_compute else state.GetGraphicsPipelineObject()
         found = {}
@@ -104,7 +104,7 @@ class Replay:
                 buffer.byteOffset, buffer.byteSize):  # fmt: skip
                 _collect_variables(value, "", found)
         if entry["variable"] not in found:
-            raise CaptureError(f"event {action.eventId} has no variable '{entry['variable']}', only {sorted(found)}")
+            raise ResultsError(f"event {action.eventId} has no variable '{entry['variable']}', only {sorted(found)}")
         return found[entry["variable"]]
 
 
@@ -145,7 +145,7 @@ def read_mapping(file):
     unknown += [f"layers.{name}.{key}" for name, entry in mapping.get("layers", {}).items() for key in entry
                 if key not in ("event", "output", "texture", "mip", "slice", "channels", "decode")]  # fmt: skip
     if unknown:
-        raise CaptureError(f"{file}: unknown keys {unknown}")
+        raise ResultsError(f"{file}: unknown keys {unknown}")
     if isinstance(mapping["camera"], str):
         mapping["camera"] = read_json(path_inside(str(Path(file).parent), mapping["camera"], f"{file}: 'camera'"))
     return mapping
@@ -183,12 +183,5 @@ def main():
         replay.close()
 
 
-def exported():
-    try:
-        main()
-    except CaptureError as e:
-        raise ResultsError(str(e)) from e
-
-
 if __name__ == "__main__":
-    sys.exit(exit_code(exported, "the capture"))
+    sys.exit(exit_code(main, "the capture"))

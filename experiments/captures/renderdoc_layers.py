@@ -3,7 +3,8 @@ tests need none."""
 
 import numpy as np
 
-from capture_files import CHANNELS, CaptureError, vulkan_clip
+from capture_files import CHANNELS, vulkan_clip
+from ssrlab.mistakes import ResultsError
 
 FLOATS = {2: "<f2", 4: "<f4", 8: "<f8"}
 WHOLES = {1: "u1", 2: "<u2", 4: "<u4"}
@@ -30,7 +31,7 @@ def _regular(data, kind, width, count):
         return np.maximum(whole.view(WHOLES[width].replace("u", "i")) / ((most - 1) / 2), -1.0)
     if kind == "uint":
         return whole.astype(float)
-    raise CaptureError(f"textures of the kind '{kind}' are not read")
+    raise ResultsError(f"textures of the kind '{kind}' are not read")
 
 
 def decoded(data, extent, texture_format):
@@ -51,7 +52,7 @@ def decoded(data, extent, texture_format):
     elif layout == "d32s8":
         parts = [np.frombuffer(data, "<f4")[0::2].astype(float)]
     else:
-        raise CaptureError(f"textures of the layout '{layout}' are not read")
+        raise ResultsError(f"textures of the layout '{layout}' are not read")
     return np.stack(parts, axis=-1).reshape(shape)
 
 
@@ -98,7 +99,7 @@ def layer_of(name, texels, entry, camera):
     channels = entry.get("channels", "RGBA"[: 2 if "octahedral" in steps else len(CHANNELS[name])])
     missing = [c for c in channels if c not in "RGBA"[: texels.shape[2]]]
     if missing:
-        raise CaptureError(f"{where}: the texture has no channel {missing[0]}, only {'RGBA'[: texels.shape[2]]}")
+        raise ResultsError(f"{where}: the texture has no channel {missing[0]}, only {'RGBA'[: texels.shape[2]]}")
     values = texels[..., ["RGBA".index(c) for c in channels]]
     for step in steps:
         if isinstance(step, (int, float)):
@@ -106,9 +107,9 @@ def layer_of(name, texels, entry, camera):
         elif step in DECODERS:
             values = DECODERS[step](values, camera)
         else:
-            raise CaptureError(f"{where}: there is no decoder '{step}'; known are: {', '.join(DECODERS)}")
+            raise ResultsError(f"{where}: there is no decoder '{step}'; known are: {', '.join(DECODERS)}")
     if values.shape[2] != len(CHANNELS[name]):
-        raise CaptureError(f"{where} has {values.shape[2]} channels after decoding and needs {len(CHANNELS[name])}")
+        raise ResultsError(f"{where} has {values.shape[2]} channels after decoding and needs {len(CHANNELS[name])}")
     return values
 
 
@@ -131,10 +132,10 @@ def camera_value(name, values, entry):
     if "component" in entry:
         return float(values.ravel()[entry["component"]])
     if values.shape != (4, 4):
-        raise CaptureError(f"camera: '{name}' is of shape {values.shape} and needs 4 x 4, or a 'component'")
+        raise ResultsError(f"camera: '{name}' is of shape {values.shape} and needs 4 x 4, or a 'component'")
     for step in entry.get("decode", []):
         if step not in MATRIX_DECODERS:
             known = ", ".join(MATRIX_DECODERS)
-            raise CaptureError(f"camera: '{name}': there is no decoder '{step}'; known are: {known}")
+            raise ResultsError(f"camera: '{name}': there is no decoder '{step}'; known are: {known}")
         values = MATRIX_DECODERS[step](values)
     return values

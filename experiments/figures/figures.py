@@ -19,7 +19,7 @@ os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into i
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../python"))
 
-from ssrlab.mistakes import ResultsError, exit_code, stop  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, say, stop  # noqa: E402
 
 try:
     import matplotlib
@@ -69,6 +69,7 @@ STUDY_FIGURES = {
 }
 UNASKED_OF_SHOTS = ("error_time", "stage_times", "stage_costs", "crops", "motion")  # without figures.json a file for each shot
 UNASKED = ("ladder", "roughness_error", "roughness_bias", "bias_variance", "temporal", "frames", "fits", "fetches", "effects")
+OF_ONE_ERROR = ("error_time", "ladder", "response", "map", "convergence", "fits", "crops", "motion")  # that of their target, metric and mask
 UNMEASURED = ("stage_times", "stage_costs", "fetches")  # of studies without a reference, too
 
 
@@ -95,11 +96,22 @@ def for_each_shot(results, requests):
     return of_shots + [r for r in requests if r.kind not in UNASKED_OF_SHOTS]
 
 
-def drawn(results, chosen):
-    """(name, figure) of a request; several of one that makes a figure for each shot or baseline."""
+def view_of(results, chosen):
+    """The results as a figure shows them."""
     view = results.narrowed(chosen.shots, chosen.points)
     view.labels = chosen.labels
     view.rounds_names = True
+    return view
+
+
+def without_errors(view, chosen):
+    """The shots that no pixel of its mask is in, or that lack its metric or target for another reason."""
+    measured = {r["shot"] for r in view.errors if all(r[key] == getattr(chosen, key) for key in request.TEXTS)}
+    return [shot for shot in view.shots() if shot not in measured]
+
+
+def drawn(view, chosen):
+    """(name, figure) of a request; several of one that makes a figure for each shot or baseline."""
     if chosen.kind == "effects":
         for name, rows in effects.comparisons(view, chosen).items():
             yield name.replace("effects", chosen.name, 1), effects.draw(view, chosen, rows)
@@ -115,19 +127,27 @@ def drawn(results, chosen):
 def make(results, requests, look, out):
     """Draws and writes all; how many files."""
     is_measured = bool(results.errors)
-    written = []
+    written, notes = [], []
     for chosen in requests:
         if not is_measured and chosen.kind not in UNMEASURED:
             if chosen.where:
                 raise ResultsError(f"{chosen.where}: the study measures no errors, and so has no figure of the kind {chosen.kind}")
             continue
+        view = view_of(results, chosen)
+        if chosen.kind in OF_ONE_ERROR:
+            lacking = without_errors(view, chosen)
+            notes += [f"note: {view.shot_label(shot)} has no error of target {chosen.target}, metric {chosen.metric}, mask {chosen.mask}: figures of that leave it out" for shot in lacking]
+            if lacking == view.shots() and not chosen.where:
+                continue
         style.apply(look.font, chosen.width)
         count = len(written)
-        for name, figure in drawn(results, chosen):
+        for name, figure in drawn(view, chosen):
             if figure is not None:
                 written += figure.save(out, name) if isinstance(figure, motion.Animation) else style.save(figure, out, name, look.formats)
         if chosen.where and len(written) == count:
             raise ResultsError(f"{chosen.where}: the results have nothing for a figure of the kind {chosen.kind}")
+    for note in dict.fromkeys(notes):
+        say(note)
     return len(written)
 
 

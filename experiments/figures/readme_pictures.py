@@ -17,24 +17,25 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "python"))
+
+from ssrlab.mistakes import exit_code, stop  # noqa: E402  (found by the path above)
+
 try:
     import matplotlib
     import numpy as np
     from PIL import Image, PngImagePlugin
 except ImportError as missing:
-    sys.exit(f"error: {missing}: install python3-matplotlib, python3-numpy and python3-pil")
+    stop(f"{missing}: install python3-matplotlib, python3-numpy and python3-pil")
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how it draws)
 from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
-sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "python"))
-
 from paper_figures import crops, style  # noqa: E402
 from paper_figures.crop_choice import read_crops  # noqa: E402
 from paper_figures.request import Request, read_choice  # noqa: E402
-from ssrlab.mistakes import exit_code  # noqa: E402
 from ssrlab.results import Results, label  # noqa: E402
 from paper_tables import summary_file  # noqa: E402
 

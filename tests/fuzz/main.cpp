@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/reading_limits.h"
+#include "core/shown_text.h"
 #include "tests/fuzz/targets.h"
 
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -86,7 +88,20 @@ std::string mutated(std::string input, std::mt19937& random) {
     return input;
 }
 
-/// usage: PROGRAM INPUTS MUTATIONS: reads all of INPUTS/<target>, and so many inputs made from each.
+/// Prints what the target's reader says of each file, in a line each: nothing of what it takes.
+int say(const std::string& name, std::span<char*> files) {
+    const auto target = std::ranges::find(fuzz_targets(), name, &FuzzTarget::name);
+    if (target == fuzz_targets().end()) return 2;
+    for (const char* file : files) try {
+            target->read(file);
+            std::puts("");
+        } catch (const Error& error) {
+            std::puts(shown_text(error.what()).c_str());
+        }
+    return 0;
+}
+
+/// Reads all of INPUTS/<target>, and so many inputs made from each.
 int replay(const fs::path& inputs, int mutations) {
     bool is_complete = true;
     for (const FuzzTarget& target : fuzz_targets()) {
@@ -111,9 +126,12 @@ int replay(const fs::path& inputs, int mutations) {
 
 }  // namespace
 
+/// usage: PROGRAM INPUTS MUTATIONS
+///        PROGRAM say TARGET FILE...
 int main(int argc, char** argv) {
-    if (argc != 3) return 2;
+    if (argc < 3) return 2;
     reading_limits().memory = memory;
+    if (argv[1] == std::string("say")) return say(argv[2], {argv + 3, argv + argc});
     return replay(argv[1], std::atoi(argv[2]));
 }
 

@@ -3,19 +3,25 @@
 usage: captures_test.py SSRLAB
 """
 
+import contextlib
+import io
+import runpy
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 
 EXPERIMENTS = Path(__file__).resolve().parents[3] / "experiments"
 sys.path[:0] = [str(EXPERIMENTS / "captures"), str(EXPERIMENTS / "python")]
 from blender_passes import PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
-from capture_files import CaptureError, write_environment, write_exr, write_frame  # noqa: E402
+from capture_files import write_environment, write_exr, write_frame  # noqa: E402
 from ssrlab.exr import read_exr_planes  # noqa: E402
+from ssrlab.mistakes import ResultsError  # noqa: E402
 from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
 
 SSRLAB = sys.argv.pop(1)
@@ -67,6 +73,13 @@ def passes_of_ground(x, x_before, height_before=2.0):
         "roughness": 0.3 * full, "metallic": 0 * full, "specular": 0.25 * full,
     }  # fmt: skip
     return passes, hit[..., 0], distance[..., 0], camera, before[2]
+
+
+class Things(dict):
+    """As Blender has them: by name, and one after the other."""
+
+    def __iter__(self):
+        return iter(self.values())
 
 
 class CapturesTest(unittest.TestCase):
@@ -139,8 +152,25 @@ class CapturesTest(unittest.TestCase):
         passes, _, _, camera, before = passes_of_ground(0.0, 0.0)
         layers = layers_of(passes, camera, before)
         layers["rougness"] = layers.pop("roughness")
-        with self.assertRaisesRegex(CaptureError, r"lacks the layers \['roughness'\]; does not know \['rougness'\]"):
+        with self.assertRaisesRegex(ResultsError, r"lacks the layers \['roughness'\]; does not know \['rougness'\]"):
             write_frame(self.folder, layers, camera)
+
+    def test_blender_ends_with_the_codes_that_other_commands_have(self):
+        def run(cameras, active, *arguments):
+            things = {name: SimpleNamespace(name=name, type="CAMERA" if name in cameras else "MESH") for name in ("eye", "cube")}
+            modules = {"bpy": SimpleNamespace(data=SimpleNamespace(objects=Things(things)), context=SimpleNamespace(scene=SimpleNamespace(camera=active))),
+                       "mathutils": SimpleNamespace(Matrix=None)}  # fmt: skip
+            said = io.StringIO()
+            with mock.patch.dict(sys.modules, modules), mock.patch.object(sys, "argv", ["blender", "--", "--out", "o", *arguments]), \
+                    contextlib.redirect_stderr(said), self.assertRaises(SystemExit) as end:  # fmt: skip
+                runpy.run_path(str(EXPERIMENTS / "captures/blender_export.py"), run_name="__main__")
+            return end.exception.code, said.getvalue()
+
+        self.assertEqual(run([], None), (2, "error: the scene has no camera: name one with --camera\n"))
+        for name in ("ey", "cube"):
+            self.assertEqual(run(["eye"], None, "--camera", name), (2, f"error: no camera is called '{name}'; known are: eye\n"))
+        code, said = run(["eye"], "eye")
+        self.assertEqual((code, said.count("\n")), (3, 1), "a fault of ours: there is no scene that Blender could render")
 
     def test_the_panorama_looks_where_environment_images_do(self):
         # Blender's +x in the middle, and a quarter to the right our +Z, which is Blender's -y.
@@ -164,7 +194,7 @@ class CapturesTest(unittest.TestCase):
         self.assertEqual(first(packed.to_bytes(4, "little"), "r11g11b10", "", 0, 0), [2.0**-15, 3, 2])
         self.assertEqual(first(b"\xff\xff\xff\x07", "d24s8", "", 0, 0), [1])
         self.assertEqual(first(np.array([0.25, 9], "<f4").tobytes(), "d32s8", "", 0, 0), [0.25])
-        with self.assertRaisesRegex(CaptureError, "layout 'BC7' are not read"):
+        with self.assertRaisesRegex(ResultsError, "layout 'BC7' are not read"):
             first(b"", "BC7", "", 0, 0)
 
     def test_a_mapping_decodes_layers_and_matrices(self):
@@ -185,9 +215,9 @@ class CapturesTest(unittest.TestCase):
         self.assertAlmostEqual(roughness[0], 0.5)
         np.testing.assert_allclose(layer("motion", (4.8, 2.7), decode=["pixels_to_uv", "y_up", "negate"]), (-0.1, 0.1))
         np.testing.assert_allclose(layer("normal", (1, 2, 3), decode=["z_up"]), (1, 3, -2))
-        with self.assertRaisesRegex(CaptureError, "layer 'roughness': the texture has no channel A, only RG"):
+        with self.assertRaisesRegex(ResultsError, "layer 'roughness': the texture has no channel A, only RG"):
             layer("roughness", (1, 1), channels="A")
-        with self.assertRaisesRegex(CaptureError, "no decoder 'sgrb'"):
+        with self.assertRaisesRegex(ResultsError, "no decoder 'sgrb'"):
             layer("base_color", (1, 1, 1), decode=["sgrb"])
 
         matrix, projection, ours = blender_camera(0.3, 0)

@@ -1,6 +1,6 @@
 """A config's keys: what the JSON Schema of `ssrlab describe --schema` refuses, ssrlab refuses, and every key that it declares is read.
 
-usage: config_schema_test.py SSRLAB"""
+usage: config_schema_test.py SSRLAB FUZZ_EXPERIMENTS    the second reads hundreds of configs in one process (tests/fuzz/main.cpp)"""
 
 import copy
 import json
@@ -12,7 +12,7 @@ import unittest
 
 import jsonschema
 
-SSRLAB = sys.argv.pop(1)
+SSRLAB, READER = sys.argv.pop(1), sys.argv.pop(1)
 SCHEMA = json.loads(subprocess.run([SSRLAB, "describe", "--schema"], stdout=subprocess.PIPE, check=True).stdout)
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 TECHNIQUE = "mcguire_dda"
@@ -105,18 +105,23 @@ class Keys(unittest.TestCase):
             stream.write(json.dumps(config))  # in one piece and on one line: some 400 times, five times as fast as json.dump
         return file
 
-    def refusal(self, config):
-        """What ssrlab says of a config that it does not read; "" if it does."""
-        file = self.write("config.json", config)
-        said = subprocess.run([SSRLAB, "tune", file, "--out", "/dev/null/none"], stderr=subprocess.PIPE, text=True).stderr
-        is_read = "has no 'tune'" in said or "/dev/null" in said
-        return "" if is_read else said
+    def refusals(self, configs):
+        """What ssrlab says of each config that it does not read; "" of one that it does."""
+        files = [self.write(f"config{i}.json", config) for i, config in enumerate(configs)]
+        said = subprocess.run([READER, "say", "config", *files], stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
+        self.assertEqual(len(said), len(files))
+        return said
+
+    def check_refused(self, tried):
+        """`tried`: (config, what was changed in it, what is said beside its place)."""
+        for (_, what, says), said in zip(tried, self.refusals([config for config, _, _ in tried])):
+            self.assertRegex(said, rf"config\d+\.json:\d+:\d+: .*{says}", what)
 
     def test_all_that_are_declared_are_read(self):
+        self.assertEqual(self.refusals([STUDY, TUNE, EXTENDING]), ["", "", ""])
         unused = {}  # schema of an object to the keys that no config here has
         for config in (STUDY, TUNE, EXTENDING):
             VALIDATOR.validate(config)
-            self.assertEqual(self.refusal(config), "")
             for path, value, schema in objects(config, SCHEMA):
                 if not path or path[-1] not in OF_PARAMETERS:
                     unused.setdefault(json.dumps(schema), set(schema.get("properties", {}))).difference_update(value)
@@ -132,24 +137,27 @@ class Keys(unittest.TestCase):
         return changed
 
     def test_what_the_schema_refuses_the_reader_refuses(self):
-        refused = set()  # once for each declaration
+        seen, refused = set(), []  # once for each declaration
         for config in (STUDY, TUNE):
             for path, value, schema in objects(config, SCHEMA):
                 for key in value:
                     for wrong in wrong_values(declared(schema, key)):
-                        changed, what = self.changed(config, path, key, wrong), json.dumps([schema, key, wrong])
-                        if what not in refused and not VALIDATOR.is_valid(changed):
-                            self.assertRegex(self.refusal(changed), r"config\.json:\d+:\d+: ", f"{path} {key} = {wrong}")
-                            refused.add(what)
+                        what = json.dumps([schema, key, wrong])
+                        if what not in seen and not VALIDATOR.is_valid(changed := self.changed(config, path, key, wrong)):
+                            seen.add(what)
+                            refused.append((changed, f"{path} {key} = {wrong}", ""))
         self.assertGreater(len(refused), 150)
+        self.check_refused(refused)
 
     def test_what_is_not_declared_is_refused_by_both(self):
+        refused = []
         for config in (STUDY, TUNE):
             for path, _, schema in objects(config, SCHEMA):
                 changed = self.changed(config, path, "no_such_key", 1)
                 if schema.get("additionalProperties") is False:
                     self.assertFalse(VALIDATOR.is_valid(changed), path)
-                    self.assertRegex(self.refusal(changed), r"config\.json:\d+:\d+: .*no_such_key", path)
+                    refused.append((changed, path, "no_such_key"))
+        self.check_refused(refused)
 
 
 if __name__ == "__main__":

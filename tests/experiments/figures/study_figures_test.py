@@ -3,7 +3,9 @@
 usage: study_figures_test.py REPORT_PAGE_PROGRAM
 """
 
+import contextlib
 import csv
+import io
 import os
 import subprocess
 import sys
@@ -13,9 +15,10 @@ from figures_start import check, request_of
 
 import matplotlib.pyplot as plt
 import numpy as np
-from figures import SHOT_FIGURES, STUDY_FIGURES
+from figures import SHOT_FIGURES, STUDY_FIGURES, for_each_shot, make
 from matplotlib.text import Text
 from paper_figures import effects, error_time, fetches, motion, style
+from paper_figures.request import Look
 from PIL import Image
 from ssrlab.mistakes import ResultsError
 from ssrlab.results import Measured, Results, is_over_frames
@@ -290,6 +293,24 @@ def test_ratios_far_from_one(folder):
     plt.close("all")
 
 
+def test_a_shot_without_such_pixels(folder):
+    """What was not asked for by name leaves it out and says so; what was is a mistake."""
+    results = Results(folder)
+    shot, other = results.shots()[:2]
+    results.errors = [r for r in results.errors if (r["shot"], r["mask"]) != (shot, "reflective")]
+    look, said = Look(formats=("svg",)), io.StringIO()
+    with tempfile.TemporaryDirectory(prefix="ssrlab_lacking_") as out, contextlib.redirect_stdout(said):
+        make(results, for_each_shot(results, [request_of("error_time", shots=[shot, other])]), look, out)
+        check(os.listdir(out) == [f"error_time_{other}.svg"], f"files: {os.listdir(out)}")
+        try:
+            make(results, [request_of("error_time", shots=[shot], where="figures[0]")], look, out)
+            check(False, "a figure that was asked for is not there, and nobody says so")
+        except ResultsError as mistake:
+            check("mask reflective" in str(mistake), str(mistake))
+    expected = f"note: {results.shot_label(shot)} has no error of target specular, metric relmse, mask reflective: figures of that leave it out\n"
+    check(said.getvalue() == expected, said.getvalue())
+
+
 with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     study = os.path.join(temporary, "study")
     subprocess.run([sys.argv[1], "--study", study], check=True)
@@ -302,3 +323,4 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     test_images_of_frames(study)
     test_several_baselines(study)
     test_ratios_far_from_one(study)
+    test_a_shot_without_such_pixels(study)

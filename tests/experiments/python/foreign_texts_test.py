@@ -1,4 +1,5 @@
-"""Texts that somebody else wrote stay texts in every language that scripts write: a terminal's, Markdown, CSV, LaTeX, and matplotlib's labels."""
+"""Texts that somebody else wrote stay texts in every language that scripts write: a terminal's, Markdown, CSV, LaTeX, and matplotlib's labels;
+and names of files stay below their folder."""
 
 import csv
 import html
@@ -23,8 +24,9 @@ from paper_tables import latex, markdown, summary_file  # noqa: E402
 from paper_tables.cell import Cell  # noqa: E402
 from ssrlab.csv_files import parse_rows, write_lines  # noqa: E402
 from ssrlab.markdown_text import markdown_code, markdown_prose, markdown_text  # noqa: E402
-from ssrlab.mistakes import shown  # noqa: E402
+from ssrlab.mistakes import ResultsError, shown  # noqa: E402
 from ssrlab.tables import Tables  # noqa: E402
+from ssrlab.text_files import path_inside  # noqa: E402
 
 TYPED = "\\immediate\\openout7=forged.txt\\immediate\\write7{x}\\immediate\\closeout7"
 ATTACKS = [
@@ -134,6 +136,24 @@ def table_of(text, count=1):
     origin = {"study": text, "commit": text, "shots": 2, "device": text, "is_complete": False}
     about = {"name": text, "caption": text, "rows": [text], "columns": [text], "shots": [text], "resolutions": [text], "over": text, "over_count": 2, "clocks": [text, "b"]}
     return about, cells, summary_file.made_from(origin, about, cells)
+
+
+class Paths(unittest.TestCase):
+    def test_they_lead_nowhere_else(self):
+        """As core/path_inside.h has it."""
+        with tempfile.TemporaryDirectory() as outside:
+            folder = os.path.join(outside, "results")
+            os.makedirs(os.path.join(folder, "images"))
+            os.symlink(outside, os.path.join(folder, "up"))
+            os.symlink("gone", os.path.join(folder, "images/dangling"))
+            for name in ("images/a.exr", "new/b.exr", "..b..c"):
+                self.assertEqual(path_inside(folder, name), f"{folder}/{name}")
+            for name in ("", "..", "../a", "images/../../a", "images/..", "/etc/passwd", "a\0b", 3, None):
+                with self.assertRaisesRegex(ResultsError, "^m.json: 'exr': .* is no path below", msg=name):
+                    path_inside(folder, name, "m.json: 'exr'")
+            for name in ("up", "up/x", "images/dangling"):
+                with self.assertRaisesRegex(ResultsError, "is a symbolic link", msg=name):
+                    path_inside(folder, name)
 
 
 class Latex(unittest.TestCase):
