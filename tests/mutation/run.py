@@ -4,8 +4,8 @@
     tests/mutation/run.py [--build build/release] [NAME...]     all mutants of mutants.json, or those named
 
 A mutant is one exact text of one file, found there once, and what stands there instead; the test that should fail with
-it; and what breaks. Shaders are read when a test runs; for C++ only the test's program is built, before and after. Each
-test must pass without mutants. Files are restored whatever happens: edit none of them meanwhile. Exit status: 0 if all
+it; and what breaks. Shaders and scripts are read when a test runs; for C++ only the test's program is built, before and
+after. The program "ctest" stands for a test of ctest, which the filter names. Each test must pass without mutants. Files are restored whatever happens: edit none of them meanwhile. Exit status: 0 if all
 mutants died, 1 if one survived, 2 if the table or a test is wrong."""
 import argparse
 import json
@@ -46,6 +46,8 @@ class Mutant:
 
 
 def build(folder, program):
+    if program == "ctest":
+        return subprocess.CompletedProcess((), 0)
     return subprocess.run(["cmake", "--build", folder, "--target", program, "--", "--quiet"],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
@@ -53,13 +55,15 @@ def build(folder, program):
 def passes(folder, program, test_filter):
     """True if the tests of that filter exist, end in time, and none fails."""
     environment = dict(os.environ, SSRLAB_VALIDATE="1")
+    command = [Path(folder) / program, f"--gtest_filter={test_filter}", "--gtest_brief=1", "--gtest_fail_fast"]
+    if program == "ctest":
+        command = ["ctest", "--test-dir", folder, "-R", f"^{test_filter}$"]
     try:
-        run = subprocess.run([Path(folder) / program, f"--gtest_filter={test_filter}", "--gtest_brief=1", "--gtest_fail_fast"],
-                             cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        run = subprocess.run(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                              timeout=SECONDS)
     except subprocess.TimeoutExpired:
         return False
-    if "0 tests from 0 test suites ran" in run.stdout:
+    if "0 tests from 0 test suites ran" in run.stdout or "No tests were found" in run.stdout:
         stop(f"{program} has no test {test_filter}")
     return run.returncode == 0
 

@@ -141,7 +141,7 @@ TEST_F(HostileFolder, WrongTypesInCellsAreNamed) {
         cell.notes = {"a note"};
         const nlohmann::json right = cell;
         std::vector<nlohmann::json::json_pointer> places;
-        collect(right, {}, places);
+        collect(right, nlohmann::json::json_pointer(), places);
         for (const auto& place : places)
             for (const nlohmann::json& other : others(right[place])) {
                 nlohmann::json wrong = right;
@@ -185,4 +185,24 @@ TEST_F(HostileFolder, ShortListsInCellsAreNamed) {
     saying("splits[0]: pairs: variance has 0 values", [](Cell& cell) { cell.splits[0].pairs.variance.clear(); });
     saying("splits[0]: reference_noise has 1 values", [](Cell& cell) { cell.splits[0].reference_noise.resize(1); });
     EXPECT_EQ(merging("a", "merged"), "no error");
+}
+
+TEST_F(HostileFolder, ARunDoesACellOfWrongTypesAgain) {
+    const fs::path out = run(small(), "a");
+    const std::string results = read_text(out / "results.csv");
+    const CellStore store(out, [](const std::string&) {});
+    const auto names = store.names();
+    const auto name =
+        std::ranges::find_if(names, [&](const std::string& one) { return !store.read(one)->images.empty(); });
+    ASSERT_NE(name, names.end());
+    Cell cell = *store.read(*name);
+    cell.images[0]["frame"] = "a text";
+    store.save(*name, cell);
+    testing::internal::CaptureStdout();
+    run(small(), "a");
+    const std::string said = testing::internal::GetCapturedStdout();
+    EXPECT_NE(said.find("/cells/" + *name + ".json: cell: images[0]: frame must be"), std::string::npos) << said;
+    EXPECT_NE(said.find("the cell is not used"), std::string::npos) << said;
+    EXPECT_EQ(read_json(out / "manifest.json")["run"]["cells_made"], 1);
+    EXPECT_EQ(read_text(out / "results.csv"), results);
 }

@@ -104,12 +104,15 @@ TEST_F(StudyTest, SkyIsExact) {
 
 TEST_F(StudyTest, ProcessesShareAFolder) {
     const Config study = config(R"(["mirror_pillars", "fence"])", R"(, "title": "shared")");
-    const std::string alone = read_text(run(study, "alone") / "results.csv");
-    const std::string command = "cd '" + folder.string() + "' && SSRLAB_CACHE='" + (folder / "cache").string() +
-                                "' '" SSRLAB_PROGRAM "' run study.json --out shared > ";
-    ASSERT_EQ(std::system((command + "log1 2>&1 & " + command + "log2 2>&1; code=$?; wait; exit $code").c_str()), 0)
-        << read_text(folder / "log2");
-    EXPECT_EQ(read_text(folder / "shared/results.csv"), alone);
+    const fs::path alone = run(study, "alone");
+    std::string shell = "cd '" + folder.string() + "'; code=0; all=;";
+    for (const char* log : {"log1", "log2", "log3"})
+        shell += " SSRLAB_CACHE='" + (folder / "cache").string() +
+                 "' '" SSRLAB_PROGRAM "' run study.json --out shared > " + log + " 2>&1 & all=\"$all $!\";";
+    EXPECT_EQ(std::system((shell + " for one in $all; do wait $one || code=1; done; exit $code").c_str()), 0)
+        << read_text(folder / "log1") << read_text(folder / "log2") << read_text(folder / "log3");
+    for (const char* table : {"results.csv", "splits.csv"})
+        EXPECT_EQ(read_text(folder / "shared" / table), read_text(alone / table)) << table;
     size_t cells = 0;
     for (const auto& entry : fs::directory_iterator(folder / "shared/cells")) {
         cells += entry.path().extension() == ".json";
