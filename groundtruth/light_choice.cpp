@@ -13,9 +13,6 @@ constexpr double even_share = 0.1;
 /// A cell counts as if it had seen so many samples of each group with the mean of the cell around it.
 constexpr double prior_samples = 8;
 
-constexpr float finest_cells = 48, coarse_cells = 8;  ///< along the diagonal of the scene
-constexpr uint64_t cell_bits = 20;
-
 using Values = std::array<double, max_light_groups>;
 
 Values posterior(const Values& sum, const Values& count, const Values& around) {
@@ -45,21 +42,10 @@ LightChoice::Shares LightChoice::shares_of(const Values& means) const {
     return shares;
 }
 
-uint64_t LightChoice::key(vec3 position, vec3 normal, float cell_size) const {
-    uint64_t key = 0;
-    int axis = 0;
-    for (int i = 0; i < 3; ++i) {
-        const float at = std::floor((position[i] - low_[i]) / cell_size);
-        key = key << cell_bits | uint64_t(std::clamp(at, 0.0f, float((1 << cell_bits) - 1)));
-        if (std::fabs(normal[i]) > std::fabs(normal[axis])) axis = i;
-    }
-    return key << 3 | uint64_t(axis) << 1 | (normal[axis] < 0);
-}
-
 uint32_t LightChoice::find_cell(vec3 position, vec3 normal) const {
-    if (const auto found = finest_.find(key(position, normal, finest_size_)); found != finest_.end())
+    if (const auto found = finest_.find(cell_key(position, normal, low_, finest_size_)); found != finest_.end())
         return found->second;
-    const auto found = coarse_.find(key(position, normal, coarse_size_));
+    const auto found = coarse_.find(cell_key(position, normal, low_, coarse_size_));
     return found != coarse_.end() ? found->second : 0;
 }
 
@@ -78,8 +64,8 @@ void LightChoice::learn(std::span<const LightObservation> observations, vec3 low
     };
     std::unordered_map<uint64_t, Finest> finest;
     for (const LightObservation& seen : observations) {
-        const uint64_t around = key(seen.position, seen.normal, coarse_size_);
-        Finest& cell = finest[key(seen.position, seen.normal, finest_size_)];
+        const uint64_t around = cell_key(seen.position, seen.normal, low_, coarse_size_);
+        Finest& cell = finest[cell_key(seen.position, seen.normal, low_, finest_size_)];
         cell.around = around;
         for (Sums* sums : {&all, &coarse[around], &cell.sums}) {
             sums->sum[seen.group] += double(seen.contribution);

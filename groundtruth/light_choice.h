@@ -1,5 +1,5 @@
 #pragma once
-#include "core/shared/language.h"
+#include "groundtruth/cell_key.h"
 
 #include <array>
 #include <cstdint>
@@ -47,7 +47,6 @@ private:
         std::array<double, max_light_groups> sum{}, count{};
     };
     uint32_t find_cell(vec3 position, vec3 normal) const;
-    uint64_t key(vec3 position, vec3 normal, float cell_size) const;
     Shares shares_of(const std::array<double, max_light_groups>& means) const;
 
     uint32_t groups_;

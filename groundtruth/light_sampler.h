@@ -44,6 +44,8 @@ public:
     void learn(std::span<const LightObservation> observations) { choice_.learn(observations, low_, high_); }
     /// The cell of LightChoice for a point (m) with a unit geometric normal on the side where light arrives.
     uint32_t cell(glm::vec3 position, glm::vec3 normal) const { return choice_.cell(position, normal); }
+    glm::vec3 low() const { return low_; }  ///< bounds of the scene (m)
+    glm::vec3 high() const { return high_; }
     const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< that shine
     bool has_environment_table() const { return environment_index_ != none; }
 

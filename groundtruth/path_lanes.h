@@ -16,6 +16,9 @@ struct PathStart {
     uint32_t light_cell;       ///< of the first hit: see LightSampler::cell()
     uint32_t reversed_sample;  ///< the index of the sample, bits reversed
     bool is_specular;          ///< it leaves along the specular lobe, else the diffuse one
+    /// 1 / luminance that the pixel is thought to hold of this lobe: roulette ends what promises little of it; 0: by
+    /// throughput.
+    float per_estimate;
 };
 
 /// What paths estimate.
@@ -42,19 +45,28 @@ private:
     template <bool has_lights, PathGoal goal>
     void scatter();
     void trace_shadow_rays(uint32_t reached);
+    void look_ahead();
+    void record(uint32_t continuing);
     void end(int lane);
+
+    struct Visit {
+        vec3 position, normal;
+        float throughput, radiance;  ///< luminance, when the path went on
+    };
 
     const TracedScene& scene_;
     const SobolSequence& sequence_;
     const PathGoal goal_;
     PixelEstimate& estimate_;
-    uint32_t busy_ = 0;  ///< bit per lane: it holds a path
+    uint32_t busy_ = 0;                       ///< bit per lane: it holds a path
+    std::vector<std::vector<Visit>> visits_;  ///< of each lane, while what paths find is taken down
 
     // Of each path:
     LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
     Lanes<float> pdf_;            ///< with which direction_ was drawn
     Lanes<uint32_t> light_cell_;  ///< of the last vertex that took a light sample
     Lanes<uint32_t> depth_, pair_, reversed_sample_, is_specular_;
+    Lanes<float> per_estimate_;
     Lanes<uint32_t> is_on_screen_;  ///< what it met first
     // Of the vertex that it has reached:
     Lanes<uint32_t> continues_;  ///< 1 if there is one, and later if the path goes on from it, else 0
@@ -62,5 +74,7 @@ private:
     Lanes<float> metalness_, roughness_, specular_;
     LightLanes lights_;
     LanesVec3 direct_;  ///< what the light sample adds, if it is visible
-    LanesVec3 cut_;     ///< throughput with which the path would go on, were it not for max_depth
+    Lanes<float>
+        promise_;    ///< what a path of weight 1 is expected to bring beyond it, in parts of the pixel's; 0: unknown
+    LanesVec3 cut_;  ///< throughput with which the path would go on, were it not for max_depth
 };

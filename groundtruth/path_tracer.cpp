@@ -20,7 +20,8 @@ struct FirstVertex {
     mat3 world_from_local{};
     Lobes lobes{};
     bool wants_diffuse = false, wants_specular = false;
-    uint32_t light_cell = 0;  ///< see LightSampler::cell()
+    uint32_t light_cell = 0;               ///< see LightSampler::cell()
+    float per_estimate[2] = {0.0f, 0.0f};  ///< see PathStart; diffuse, specular
 };
 
 /// Fills in all but the hit; false if the surface reflects nothing: the background, unlit materials, and where the
@@ -132,6 +133,7 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
 /// Starts the paths of one lobe for a lanes' worth of samples.
 void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsigned first_sample, int count,
                  bool is_specular, PathLanes& paths, PixelEstimate& estimate) {
+    const float per_estimate = vertex.per_estimate[is_specular];
     const FirstHit& hit = vertex.hit;
     LanesVec3 origin, direction, weight;
     Lanes<float> pdf, local_height;
@@ -154,7 +156,7 @@ void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsig
         if (is_specular) ++estimate.lobe_samples;
         if (local_height[lane] <= 0) continue;
         paths.start({origin.get(lane), direction.get(lane), weight.get(lane), pdf[lane], vertex.light_cell,
-                     reverse_bits(first_sample + uint32_t(lane)), is_specular});
+                     reverse_bits(first_sample + uint32_t(lane)), is_specular, per_estimate});
     }
 }
 
@@ -186,7 +188,10 @@ void trace_lit_colors(const TracedScene& scene, const FirstVertex& vertex, const
 /// Light samples that teach with which probability to choose lights, at least, and of how many pixels at most. Their
 /// seed is no other's: what a render draws must not depend on what it learnt from.
 constexpr unsigned learning_samples = 1u << 15, learning_pixels = 1u << 11;
-constexpr uint64_t learning_seed = 0x6c69676874730a01u;
+constexpr uint64_t light_seed = 0x6c69676874730a01u, radiance_seed = 0x7261646961e0a02u;
+
+/// A pixel darker than this share of the image's mean promises paths as much as one that is so bright.
+constexpr double estimate_floor = 0.1;
 
 /// Made once. Isolated, since a thread that waits for it must not begin other work that waits for it too.
 const HostImage& split_sum_factors() {
@@ -201,6 +206,7 @@ struct PathTracer::State {
     glm::uvec2 extent;
     TracedScene scene;
     std::vector<LeftOut> left_out;
+    HostImage per_estimate[2];  ///< 1 / luminance that a pixel is thought to hold, diffuse and specular; see expect()
     // For the truth ladder:
     PrefilteredEnvironment prefiltered;
     const HostImage* split_sum = nullptr;
@@ -218,31 +224,54 @@ void PathTracer::State::add_composite_terms(FirstHit& hit) const {
                       specular_f90(hit.metalness, hit.specular) * ab.y;
 }
 
-/// Paths from pixels all over the image, in an order that no number of threads changes. Each stands somewhere else in
-/// its stretch of the rows, or images as wide as a multiple of the stretch would be looked at in a few columns only.
-void PathTracer::learn_light_choice() {
+/// What paths from pixels all over the image take down, in an order that no number of threads changes. Each pixel
+/// stands somewhere else in its stretch of the rows, or images as wide as a multiple of the stretch would be looked at
+/// in a few columns only.
+template <class Observation>
+std::vector<Observation> PathTracer::learn(uint64_t seed, std::vector<Observation>* PixelEstimate::*record) const {
     const glm::uvec2 extent = state_->extent;
     const unsigned pixels = extent.x * extent.y, used = std::min(pixels, learning_pixels);
     const unsigned samples = std::max(learning_samples / std::max(used, 1u), unsigned(lane_count));
-    std::vector<std::vector<LightObservation>> seen(used);
+    std::vector<std::vector<Observation>> seen(used);
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(0u, used, [&](unsigned i) {
             const uint64_t first = uint64_t(i) * pixels / used, end = uint64_t(i + 1) * pixels / used;
             const double turn = i * std::numbers::phi;
             const unsigned pixel = unsigned(first + uint64_t((turn - std::floor(turn)) * double(end - first)));
             const unsigned x = pixel % extent.x, y = pixel / extent.x;
-            PixelEstimate estimate{.light_record = &seen[i]};
-            trace(x, y, first_hit(x, y), learning_seed, 0, samples, estimate);
+            PixelEstimate estimate;
+            estimate.*record = &seen[i];
+            trace(x, y, first_hit(x, y), seed, 0, samples, estimate);
         });
     });
-    std::vector<LightObservation> all;
+    std::vector<Observation> all;
     for (const auto& part : seen) all.insert(all.end(), part.begin(), part.end());
-    state_->scene.lights.learn(all);
+    return all;
+}
+
+void PathTracer::learn_light_choice() { state_->scene.lights.learn(learn(light_seed, &PixelEstimate::light_record)); }
+
+void PathTracer::expect(const HostImage& diffuse, const HostImage& specular) {
+    TracedScene& scene = state_->scene;
+    scene.expected.learn(learn(radiance_seed, &PixelEstimate::radiance_record), scene.lights.low(),
+                         scene.lights.high());
+    const HostImage* images[] = {&diffuse, &specular};
+    for (const bool is_specular : {false, true}) {
+        HostImage& per_estimate = state_->per_estimate[is_specular];
+        per_estimate = HostImage(state_->extent, 1);
+        double sum = 0;
+        for (size_t i = 0; i < per_estimate.values.size(); ++i) {
+            per_estimate.values[i] = luminance(images[is_specular]->rgb(i));
+            sum += per_estimate.values[i];
+        }
+        const float floor = float(estimate_floor * sum / double(per_estimate.values.size()));
+        for (float& value : per_estimate.values) value = floor > 0 ? 1.0f / std::max(value, floor) : 0.0f;
+    }
 }
 
 PathTracer::PathTracer(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                        const PathTracerSettings& settings)
-    : state_(new State{camera, extent, {scene, pose, CameraView(camera, extent), settings}, {}, {}}) {
+    : state_(new State{camera, extent, {scene, pose, CameraView(camera, extent), settings}, {}, {}, {}}) {
     if (settings.ladder) {
         state_->prefiltered = prefilter_environment(scene.environment);
         state_->split_sum = &split_sum_factors();
@@ -299,6 +328,9 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
     const TracedScene& scene = state_->scene;
     FirstVertex vertex{.hit = hit};
     if (!prepare(scene, vertex)) return;
+    for (const int lobe : {0, 1})
+        if (const HostImage& image = state_->per_estimate[lobe]; !image.values.empty())
+            vertex.per_estimate[lobe] = *image.pixel(x, y);
 
     const SobolSequence sequence(seed ^ hash_bits_64(uint64_t(y) << 32 | x));
     PathLanes paths(scene, sequence, PathGoal::reflection, estimate);

@@ -50,6 +50,7 @@ struct FirstHit {
 };
 
 struct LightObservation;
+struct RadianceObservation;
 
 /// Sums over the samples of one pixel, to be divided as written here.
 struct PixelEstimate {
@@ -68,9 +69,11 @@ struct PixelEstimate {
     uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
     /// Samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0.
     uint64_t non_finite = 0;
-    uint64_t rays = 0;                                      ///< traced, of both kinds
-    uint64_t paths = 0;                                     ///< rays that left the first hit along a lobe
-    std::vector<LightObservation>* light_record = nullptr;  ///< takes down what each light sample found, if given
+    uint64_t rays = 0;   ///< traced, of both kinds
+    uint64_t paths = 0;  ///< rays that left the first hit along a lobe
+    // Take down what each light sample found, and what each path beyond each vertex, if given.
+    std::vector<LightObservation>* light_record = nullptr;
+    std::vector<RadianceObservation>* radiance_record = nullptr;
 };
 
 /// Unbiased path tracer over Embree (next-event estimation and BSDF sampling combined by multiple importance sampling)
@@ -95,6 +98,11 @@ public:
     PathTracer(const PathTracer&) = delete;
     PathTracer& operator=(const PathTracer&) = delete;
 
+    /// From now on Russian roulette ends paths by what they are expected to bring to their pixel and not by their
+    /// throughput. `diffuse`, `specular`: about what each pixel holds (RGB), from other samples than those that will be
+    /// traced. The means stay the same. To be called before trace() is.
+    void expect(const HostImage& diffuse, const HostImage& specular);
+
     /// The hit of the ray through the centre of pixel (x, y), y down.
     FirstHit first_hit(unsigned x, unsigned y) const;
 
@@ -109,6 +117,8 @@ public:
 
 private:
     void learn_light_choice();
+    template <class Observation>
+    std::vector<Observation> learn(uint64_t seed, std::vector<Observation>* PixelEstimate::*record) const;
 
     struct State;
     std::unique_ptr<State> state_;

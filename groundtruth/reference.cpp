@@ -131,9 +131,8 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
     state.reference.stream = stream;
     state.reference.hash = reference_key(stream, settings);
 
-    const PathTracer path_tracer(
-        scene, pose, camera, extent,
-        {.max_depth = settings.max_depth, .ladder = settings.ladder, .keep_all = settings.keep_all});
+    PathTracer path_tracer(scene, pose, camera, extent,
+                           {.max_depth = settings.max_depth, .ladder = settings.ladder, .keep_all = settings.keep_all});
     const PixelTracer tracer{
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
         .trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
@@ -144,6 +143,8 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
         state.reference.guide = std::move(guide.means);
         if (needs_guide_variance) state.guide_variance = std::move(guide.specular_variance);
     }
+
+    path_tracer.expect(state.reference.guide.diffuse, state.reference.guide.specular);
 
     RenderClock clock{.run = run, .seconds_before = state.reference.seconds, .rays_before = state.reference.rays};
     render_until_limits(state, tracer, clock);

@@ -1,5 +1,6 @@
 #pragma once
 #include "groundtruth/camera_view.h"
+#include "groundtruth/expected_radiance.h"
 #include "groundtruth/light_sampler.h"
 #include "groundtruth/lobes.h"
 #include "groundtruth/path_tracer.h"
@@ -16,6 +17,7 @@ struct TracedScene {
     MaterialTable materials;
     LightSampler lights;
     bool has_environment;  ///< that is not black
+    ExpectedRadiance expected;
 
     TracedScene(const Scene& scene, const ScenePose& pose, const CameraView& camera,
                 const PathTracerSettings& settings);

@@ -247,6 +247,23 @@ TEST(estimator, surface_looks_the_same_in_a_mirror) {
         }
 }
 
+TEST(estimator, roulette_by_what_is_expected_changes_no_mean) {
+    const TestScene room = make_room();
+    const PathTracer usual(room.scene, room.pose(), room_camera(), extent, {});
+    PathTracer expecting(room.scene, room.pose(), room_camera(), extent, {});
+    // Pixels of this room hold 0.02 to 1: most are expected to be brighter than they are, some darker.
+    expecting.expect(HostImage(extent, 3, 0.5f), HostImage(extent, 3, 0.5f));
+    Render a{std::vector<PixelMoments>(std::size(pixels))}, b = a;
+    uint64_t rays = 0, usual_rays = 0;
+    for (size_t i = 0; i < std::size(pixels); ++i) {
+        a.pixels[i] = render_pixel(usual, pixels[i].x, pixels[i].y, 2048, 10);
+        b.pixels[i] = render_pixel(expecting, pixels[i].x, pixels[i].y, 4096, 11);
+        usual_rays += sums(usual, pixels[i], 256).rays, rays += sums(expecting, pixels[i], 256).rays;
+    }
+    expect_same_means(b, a);
+    EXPECT_LT(rays, 0.9 * double(usual_rays));  // it decides
+}
+
 TEST(estimator, translation_changes_nothing) {
     const TestScene room = make_room();
     TestScene moved = room;
