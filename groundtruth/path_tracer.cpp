@@ -183,9 +183,10 @@ void trace_lit_colors(const TracedScene& scene, const FirstVertex& vertex, const
     estimate.paths += lit.paths;
 }
 
-/// Light samples that teach with which probability to choose lights, at least, and of how many pixels at most. Their
-/// seed is no other's: what a render draws must not depend on what it learnt from.
-constexpr unsigned learning_samples = 1u << 15, learning_pixels = 1u << 11;
+/// Samples that teach with which probability to choose lights, at least, of few groups and of more, and of how many
+/// pixels at most. Their seed is no other's: what a render draws must not depend on what it learnt from.
+constexpr unsigned few_groups = 8, learning_samples_of_few = 1u << 15, learning_samples_of_more = 1u << 16;
+constexpr unsigned learning_pixels = 1u << 11;
 constexpr uint64_t learning_seed = 0x6c69676874730a01u;
 
 /// Made once. Isolated, since a thread that waits for it must not begin other work that waits for it too.
@@ -223,7 +224,9 @@ void PathTracer::State::add_composite_terms(FirstHit& hit) const {
 void PathTracer::learn_light_choice() {
     const glm::uvec2 extent = state_->extent;
     const unsigned pixels = extent.x * extent.y, used = std::min(pixels, learning_pixels);
-    const unsigned samples = std::max(learning_samples / std::max(used, 1u), unsigned(lane_count));
+    const unsigned wanted =
+        state_->scene.lights.group_count() > few_groups ? learning_samples_of_more : learning_samples_of_few;
+    const unsigned samples = std::max(wanted / std::max(used, 1u), unsigned(lane_count));
     std::vector<std::vector<LightObservation>> seen(used);
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(0u, used, [&](unsigned i) {
