@@ -16,7 +16,7 @@ constexpr double unprobed_share = 0.1;
 constexpr int probes_per_side = 4;
 
 constexpr size_t max_groups_of_a_kind = 16;
-/// Emissive triangles nearer to each other are not told apart: a cell of LightChoice. As a share of the scene's
+/// Emissive triangles nearer to each other are not divided: a cell of LightChoice. As a share of the scene's
 /// diagonal.
 constexpr float least_extent = 1.0f / 48;
 /// Triangles that face opposite ways are as far apart as twice this share.
@@ -92,7 +92,7 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
     for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
 }
 
-/// Lamps and emissive triangles are told apart by their places, triangles by where they face as well.
+/// Lamps and emissive triangles are divided by their places, triangles by where they face as well.
 void LightSampler::group_lights(std::span<const double> powers, float diagonal) {
     if (!(diagonal > 0)) diagonal = 1;
     std::vector<PlacedPower> triangles, lamps, suns;

@@ -126,7 +126,7 @@ TEST(light_choice, draws_groups_with_the_probabilities_that_it_states) {
         }
         for (uint32_t g = 0; g < 3; ++g) {
             total += choice.probability(cell, g);
-            EXPECT_GE(choice.probability(cell, g), 0.033f);  // a third of the even share of 0.1
+            EXPECT_GE(choice.probability(cell, g), 0.033f);  // a third of the share of 0.1 that is not learnt
             EXPECT_NEAR(count[g] / samples, choice.probability(cell, g), 1.0 / samples);  // an even grid of numbers
             EXPECT_NEAR(rest[g] / count[g], 0.5, 1e-3);
         }
