@@ -2,8 +2,10 @@
 #include "core/scene/scene.h"
 #include "groundtruth/alias_table.h"
 
-/// Draws directions in proportion to the luminance of an environment, from a table over latitude and longitude (Pharr,
-/// Jakob and Humphreys 2023, "Physically Based Rendering", section 12.5).
+/// Draws directions of an environment, part by part: a part is a connected region of the sky, of which a window shows
+/// some and hides others. Within a part directions are drawn in proportion to luminance, from a table over latitude and
+/// longitude (Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", section 12.5); a constant and a gradient
+/// are drawn evenly.
 class EnvironmentTable {
 public:
     EnvironmentTable() = default;
@@ -11,17 +13,26 @@ public:
     /// directions dimmer than the mean are then never drawn, so it must not be used without BSDF sampling.
     EnvironmentTable(const Environment& environment, bool compensate);
 
-    bool empty() const { return cells_.empty(); }
-    double mean_luminance() const { return mean_luminance_; }  ///< over the sphere
+    uint32_t part_count() const { return uint32_t(parts_.size()); }  ///< 0: nothing to draw
+    double mean_luminance() const { return mean_luminance_; }        ///< over the sphere
 
-    glm::vec3 sample(glm::uvec2 bits, float& pdf) const;  ///< unit direction; pdf in sr^-1
-    float pdf(glm::vec3 direction) const;                 ///< with which sample() draws a unit direction, sr^-1
+    /// A unit direction of a part; pdf in sr^-1, given the part.
+    glm::vec3 sample(uint32_t part, glm::uvec2 bits, float& pdf) const;
+    struct Density {
+        uint32_t part;
+        float pdf;  ///< with which sample() draws the direction, given the part (sr^-1)
+    };
+    Density density(glm::vec3 direction) const;  ///< of a unit direction
 
 private:
+    struct Part {
+        std::vector<uint32_t> cells;
+        AliasTable table;
+    };
     unsigned width_ = 0, height_ = 0;  ///< cells in longitude and latitude
     glm::vec2 cell_extent_{0.0f};      ///< in uv
     float rotation_ = 0;
-    AliasTable cells_;
-    std::vector<float> density_;  ///< of each cell, sr^-1
+    std::vector<Part> parts_;
+    std::vector<Density> density_;  ///< of each cell
     double mean_luminance_ = 0;
 };

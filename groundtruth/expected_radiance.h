@@ -1,8 +1,8 @@
 #pragma once
-#include "groundtruth/cell_key.h"
+#include "groundtruth/learning_grid.h"
 
 #include <span>
-#include <unordered_map>
+#include <vector>
 
 /// What one path found beyond one of its vertices.
 struct RadianceObservation {
@@ -24,8 +24,11 @@ public:
     float at(vec3 position, vec3 normal) const;
 
 private:
-    vec3 low_{0.0f};
-    float finest_size_ = 1.0f, coarse_size_ = 1.0f;  ///< of cells (m)
-    std::unordered_map<uint64_t, float> finest_, coarse_;
-    float mean_ = 0.0f;
+    LearningGrid grid_;
+    std::vector<float> radiance_;  ///< of grid_; empty: nothing is learnt
 };
+float finest_size_ = 1.0f, coarse_size_ = 1.0f;  ///< of cells (m)
+std::unordered_map<uint64_t, float> finest_, coarse_;
+float mean_ = 0.0f;
+}
+;

@@ -1,96 +1,80 @@
 #include "groundtruth/light_choice.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace {
 
 constexpr uint32_t whole = 1u << 24;  ///< probability 1
 
-/// Share of the choice that is the same for all groups, independent of learning.
-constexpr double even_share = 0.1;
+/// Share of the choice that learning leaves as it was.
+constexpr double unlearnt_share = 0.1;
 
 /// A cell counts as if it had seen so many samples of each group with the mean of the cell around it.
 constexpr double prior_samples = 8;
 
-using Values = std::array<double, max_light_groups>;
-
-Values posterior(const Values& sum, const Values& count, const Values& around) {
-    Values means{};
-    for (uint32_t g = 0; g < max_light_groups; ++g)
-        means[g] = (sum[g] + prior_samples * around[g]) / (count[g] + prior_samples);
-    return means;
-}
-
 }  // namespace
 
-LightChoice::LightChoice(uint32_t groups) : groups_(groups) { cells_ = {shares_of(Values{})}; }
-
-/// Whole numbers, so that the probabilities that a sample is divided by are exactly those that it was drawn with.
-LightChoice::Shares LightChoice::shares_of(const Values& means) const {
-    double total = 0;
-    for (uint32_t g = 0; g < groups_; ++g) total += means[g];
-    Shares shares{};
-    uint32_t rest = whole, largest = 0;
-    for (uint32_t g = 0; g < groups_; ++g) {
-        const double learnt = total > 0 ? means[g] / total : 1.0 / groups_;
-        shares[g] = uint32_t((even_share / groups_ + (1 - even_share) * learnt) * whole);
-        rest -= shares[g];
-        if (shares[g] > shares[largest]) largest = g;
-    }
-    shares[largest] += rest;
-    return shares;
+LightChoice::LightChoice(std::vector<double> shares) : shares_(std::move(shares)), groups_(uint32_t(shares_.size())) {
+    add_cell(shares_);
 }
 
-uint32_t LightChoice::find_cell(vec3 position, vec3 normal) const {
-    if (const auto found = finest_.find(cell_key(position, normal, low_, finest_size_)); found != finest_.end())
-        return found->second;
-    const auto found = coarse_.find(cell_key(position, normal, low_, coarse_size_));
-    return found != coarse_.end() ? found->second : 0;
+/// Whole numbers, so that the probabilities that a sample is divided by are exactly those that it was drawn with.
+void LightChoice::add_cell(std::span<const double> means) {
+    double total = 0;
+    for (const double mean : means) total += mean;
+    double end = 0;
+    for (size_t g = 0; g < groups_; ++g) {
+        end += unlearnt_share * shares_[g] + (1 - unlearnt_share) * (total > 0 ? means[g] / total : shares_[g]);
+        ends_.push_back(uint32_t(std::min(end, 1.0) * whole));
+    }
+    ends_.back() = whole;
 }
 
 void LightChoice::learn(std::span<const LightObservation> observations, vec3 low, vec3 high) {
-    const float diagonal = std::sqrt(dot(high - low, high - low));
-    if (groups_ < 2 || !(diagonal > 0)) return;
-    low_ = low;
-    finest_size_ = diagonal / finest_cells;
-    coarse_size_ = diagonal / coarse_cells;
+    if (groups_ < 2 || !(dot(high - low, high - low) > 0)) return;
+    grid_ = LearningGrid(low, high);
 
-    Sums all;
-    std::unordered_map<uint64_t, Sums> coarse;
-    struct Finest {
-        Sums sums;
-        uint64_t around;
+    // Cells are numbered as they are seen: the whole scene, the coarse ones, the fine ones.
+    std::vector<uint32_t> coarse(grid_.size(), 0), around{0};  // around: of each cell, the one that holds it
+    cells_.assign(grid_.size(), 0);
+    const auto number = [&](uint32_t& cell, uint32_t holder) {
+        if (cell != 0) return;
+        cell = uint32_t(around.size());
+        around.push_back(holder);
     };
-    std::unordered_map<uint64_t, Finest> finest;
+    std::vector<size_t> places;
     for (const LightObservation& seen : observations) {
-        const uint64_t around = cell_key(seen.position, seen.normal, low_, coarse_size_);
-        Finest& cell = finest[cell_key(seen.position, seen.normal, low_, finest_size_)];
-        cell.around = around;
-        for (Sums* sums : {&all, &coarse[around], &cell.sums}) {
-            sums->sum[seen.group] += double(seen.contribution);
-            sums->count[seen.group] += 1;
+        places.push_back(grid_.index(seen.position, seen.normal));
+        number(coarse[grid_.coarse_index(places.back())], 0);
+    }
+    for (const size_t place : places) number(cells_[place], coarse[grid_.coarse_index(place)]);
+
+    std::vector<double> sum(around.size() * groups_, 0.0), count(sum.size(), 0.0), mean(sum.size(), 0.0);
+    for (size_t i = 0; i < observations.size(); ++i) {
+        const LightObservation& seen = observations[i];
+        for (const uint32_t cell : {0u, coarse[grid_.coarse_index(places[i])], cells_[places[i]]}) {
+            sum[size_t(cell) * groups_ + seen.group] += double(seen.contribution) * shares_[seen.group];
+            count[size_t(cell) * groups_ + seen.group] += 1;
         }
     }
-
-    Values mean{};
-    for (uint32_t g = 0; g < groups_; ++g) mean[g] = all.count[g] > 0 ? all.sum[g] / all.count[g] : 0.0;
-    cells_ = {shares_of(mean)};
-    std::unordered_map<uint64_t, Values> learnt;
-    for (const auto& [key, sums] : coarse) {
-        learnt[key] = posterior(sums.sum, sums.count, mean);
-        coarse_[key] = uint32_t(cells_.size());
-        cells_.push_back(shares_of(learnt[key]));
+    ends_.clear();
+    for (size_t cell = 0; cell < around.size(); ++cell) {
+        for (size_t g = 0; g < groups_; ++g) {
+            const size_t at = cell * groups_ + g;
+            const double prior = cell ? prior_samples : 0, samples = count[at] + prior;
+            if (samples > 0) mean[at] = (sum[at] + prior * mean[size_t(around[cell]) * groups_ + g]) / samples;
+        }
+        add_cell(std::span(mean).subspan(cell * groups_, groups_));
     }
-    for (const auto& [key, cell] : finest) {
-        finest_[key] = uint32_t(cells_.size());
-        cells_.push_back(shares_of(posterior(cell.sums.sum, cell.sums.count, learnt[cell.around])));
-    }
+    for (size_t place = 0; place < cells_.size(); ++place)
+        if (cells_[place] == 0) cells_[place] = coarse[grid_.coarse_index(place)];
 }
 
 LightChoice::Choice LightChoice::sample(uint32_t cell, uint32_t bits) const {
-    const Shares& shares = cells_[cell];
-    uint32_t at = bits >> 8, group = 0;
-    while (at >= shares[group]) at -= shares[group++];
-    return {group, uint32_t((uint64_t(at) << 40 | uint64_t(bits & 0xff) << 32) / (uint64_t(shares[group]) << 8))};
+    const auto ends = std::span(ends_).subspan(size_t(cell) * groups_, groups_);
+    const uint32_t at = bits >> 8;
+    const auto end = std::ranges::upper_bound(ends, at);
+    const uint32_t start = end == ends.begin() ? 0 : *(end - 1);
+    return {uint32_t(end - ends.begin()),
+            uint32_t((uint64_t(at - start) << 40 | uint64_t(bits & 0xff) << 32) / (uint64_t(*end - start) << 8))};
 }

@@ -1,15 +1,11 @@
 #pragma once
-#include "groundtruth/cell_key.h"
+#include "groundtruth/learning_grid.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
-inline constexpr uint32_t max_light_groups = 8;
-
-/// What one light sample found, for a group that was chosen with probability 1 / (number of groups).
+/// What one light sample found, for a group that was chosen with the probability that it has before learning.
 struct LightObservation {
     vec3 position;  ///< where the light arrives (m)
     vec3 normal;    ///< geometric, on the side where it arrives
@@ -25,15 +21,20 @@ struct LightObservation {
 /// that no render's mean depends on what was learnt.
 class LightChoice {
 public:
-    /// Nothing is learnt: every group is as likely as any other, everywhere.
-    explicit LightChoice(uint32_t groups = 1);
+    /// Nothing is learnt: each group has its share everywhere. `shares`: of each group, > 0; they add up to 1.
+    explicit LightChoice(std::vector<double> shares = {1.0});
 
     /// `low`, `high`: bounds of the scene (m). The same observations in the same order give the same choice to the bit.
     void learn(std::span<const LightObservation> observations, vec3 low, vec3 high);
 
     /// The cell of a point (m) with a unit normal; 0 stands for the whole scene.
-    uint32_t cell(vec3 position, vec3 normal) const { return finest_.empty() ? 0 : find_cell(position, normal); }
-    float probability(uint32_t cell, uint32_t group) const { return float(cells_[cell][group]) * 0x1p-24f; }
+    uint32_t cell(vec3 position, vec3 normal) const {
+        return cells_.empty() ? 0 : cells_[grid_.index(position, normal)];
+    }
+    float probability(uint32_t cell, uint32_t group) const {
+        const uint32_t* ends = &ends_[size_t(cell) * groups_];
+        return float(ends[group] - (group ? ends[group - 1] : 0)) * 0x1p-24f;
+    }
 
     struct Choice {
         uint32_t group, rest;  ///< rest: uniform 32-bit fixed point
@@ -42,16 +43,11 @@ public:
     Choice sample(uint32_t cell, uint32_t bits) const;
 
 private:
-    using Shares = std::array<uint32_t, max_light_groups>;  ///< in 2^-24; they add up to 1 exactly
-    struct Sums {
-        std::array<double, max_light_groups> sum{}, count{};
-    };
-    uint32_t find_cell(vec3 position, vec3 normal) const;
-    Shares shares_of(const std::array<double, max_light_groups>& means) const;
+    void add_cell(std::span<const double> means);
 
+    std::vector<double> shares_;
     uint32_t groups_;
-    vec3 low_{0.0f};
-    float finest_size_ = 0.0f, coarse_size_ = 0.0f;  ///< of cells (m)
-    std::unordered_map<uint64_t, uint32_t> finest_, coarse_;
-    std::vector<Shares> cells_;
+    LearningGrid grid_;
+    std::vector<uint32_t> cells_;  ///< of grid_; empty: nothing is learnt
+    std::vector<uint32_t> ends_;  ///< of each cell: sums of the groups' probabilities up to each (2^-24); the last is 1
 };

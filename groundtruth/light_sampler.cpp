@@ -1,13 +1,12 @@
 #include "groundtruth/light_sampler.h"
 
 #include "core/shared/punctual_light.h"
+#include "groundtruth/light_groups.h"
 #include "groundtruth/lobes.h"
 #include "groundtruth/sobol.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
 namespace {
 
@@ -15,6 +14,15 @@ namespace {
 /// texel between them is ever missed.
 constexpr double unprobed_share = 0.1;
 constexpr int probes_per_side = 4;
+
+constexpr size_t max_groups_of_a_kind = 16;
+/// Emissive triangles nearer to each other are not divided: a cell of LightChoice. As a share of the scene's
+/// diagonal.
+constexpr float least_extent = 1.0f / 48;
+/// Triangles that face opposite ways are as far apart as twice this share.
+constexpr float facing_scale = 0.05f;
+
+constexpr uint32_t in_environment = ~0u;
 
 /// Barycentrics that are uniform over a triangle (Turk 1990).
 glm::vec2 triangle_barycentrics(glm::vec2 u) {
@@ -60,65 +68,84 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
         if (materials.emits(geometry.instance(i).material)) add_triangles(scene, i, powers);
 
     triangle_count_ = uint32_t(triangles_.size());
-    std::vector<std::vector<uint32_t>> groups(1, std::vector<uint32_t>(triangle_count_));
-    std::iota(groups[0].begin(), groups[0].end(), 0u);
 
     const auto bounds = scene_bounds(scene, pose);
     low_ = bounds[0];
     high_ = bounds[1];
-    const double radius = 0.5 * glm::length(glm::dvec3(high_) - glm::dvec3(low_));
+    const float diagonal = glm::length(high_ - low_);
+    const double radius = 0.5 * double(diagonal);
     for (const PunctualLight& light : pose.lights) {
         if (light.intensity == glm::vec3(0.0f)) continue;
         lights_.push_back(light);
-        groups.push_back({uint32_t(powers.size())});
         // A direction of no length scale, or a scene without extent, still needs a chance.
         powers.push_back(std::max(punctual_power(light, radius), 1e-6 * luminance(light.intensity)));
     }
+    light_probabilities_.resize(lights_.size());
+    group_lights(powers, diagonal);
+
     if (sample_environment && !scene.environment.is_black()) {
         environment_ = EnvironmentTable(scene.environment, compensate);
-        if (!environment_.empty()) {
-            environment_index_ = powers.size();
-            groups.push_back({uint32_t(powers.size())});
-            powers.push_back(std::max(environment_.mean_luminance(), 1e-30) * 4 * M_PI * M_PI *
-                             std::max(radius * radius, 1e-12));
-            environment_source_ = &scene.environment;
-        }
+        environment_source_ = &scene.environment;
     }
-    light_probabilities_.resize(powers.size() - triangle_count_);
-    light_groups_.resize(light_probabilities_.size());
-    make_groups(std::move(groups), powers);
-    choice_ = LightChoice(std::max(1u, group_count()));
-    needs_more_ = powers.size() > triangle_count_;
+    if (!empty()) choice_ = LightChoice(shares());
+    needs_more_ = !lights_.empty() || has_environment_table();
     for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
 }
 
-void LightSampler::make_groups(std::vector<std::vector<uint32_t>> lights, std::span<const double> powers) {
-    const auto power_of = [&](const std::vector<uint32_t>& group) {
-        return std::accumulate(group.begin(), group.end(), 0.0,
-                               [&](double sum, uint32_t i) { return sum + powers[i]; });
-    };
-    std::erase_if(lights, [&](const auto& group) { return !(power_of(group) > 0); });
-    std::ranges::stable_sort(lights, std::greater(), power_of);
-    for (size_t i = max_light_groups; i < lights.size(); ++i)
-        lights[max_light_groups - 1].insert(lights[max_light_groups - 1].end(), lights[i].begin(), lights[i].end());
-    lights.resize(std::min<size_t>(lights.size(), max_light_groups));
-
-    for (std::vector<uint32_t>& members : lights) {
-        std::vector<double> weights;
-        for (const uint32_t light : members) weights.push_back(powers[light]);
-        const AliasTable table(weights);
-        for (size_t i = 0; i < members.size(); ++i) {
-            const float probability = float(table.probability(i));
-            if (members[i] < triangle_count_) {
-                triangles_[members[i]].area_pdf *= probability;
-                triangles_[members[i]].group = group_count();
-            } else {
-                light_probabilities_[members[i] - triangle_count_] = probability;
-                light_groups_[members[i] - triangle_count_] = group_count();
-            }
-        }
-        groups_.push_back({std::move(members), table});
+/// Lamps and emissive triangles are divided by their places, triangles by where they face as well.
+void LightSampler::group_lights(std::span<const double> powers, float diagonal) {
+    if (!(diagonal > 0)) diagonal = 1;
+    std::vector<PlacedPower> triangles, lamps, suns;
+    for (uint32_t i = 0; i < triangle_count_; ++i) {
+        const Triangle& light = triangles_[i];
+        const glm::vec3 at = (light.position[0] + light.position[1] + light.position[2]) / (3 * diagonal);
+        const glm::vec3 facing = light.emits_behind ? glm::vec3(0.0f) : light.front_normal * facing_scale;
+        triangles.push_back({{at.x, at.y, at.z, facing.x, facing.y, facing.z}, powers[i]});
     }
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        const bool is_sun = lights_[i].type == LightType::directional;
+        const glm::vec3 at = is_sun ? lights_[i].direction : lights_[i].position / diagonal;
+        const PlacedPower light{{at.x, at.y, at.z}, powers[triangle_count_ + i]}, none{{}, 0};
+        lamps.push_back(is_sun ? none : light);
+        suns.push_back(is_sun ? light : none);
+    }
+    for (auto& group : divide_lights(triangles, max_groups_of_a_kind, least_extent))
+        add_group(std::move(group), powers);
+    for (const auto& kind : {lamps, suns})
+        for (auto& group : divide_lights(kind, max_groups_of_a_kind, 0)) {
+            for (uint32_t& light : group) light += triangle_count_;
+            add_group(std::move(group), powers);
+        }
+}
+
+/// Of each group: all emissive triangles together, all parts of the environment together and each group of lamps have
+/// the same share, so that no kind of light is short of samples because another was divided into many groups.
+std::vector<double> LightSampler::shares() const {
+    uint32_t of_triangles = 0;
+    for (const Group& group : groups_) of_triangles += group.lights[0] < triangle_count_;
+    const uint32_t lamps = uint32_t(groups_.size()) - of_triangles, parts = environment_.part_count();
+    const double share = 1.0 / (lamps + (of_triangles > 0) + (parts > 0));
+    std::vector<double> shares(of_triangles, share / of_triangles);
+    shares.resize(groups_.size(), share);
+    shares.resize(group_count(), share / parts);
+    return shares;
+}
+
+/// `powers`: of all lights.
+void LightSampler::add_group(std::vector<uint32_t> lights, std::span<const double> powers) {
+    std::vector<double> weights;
+    for (const uint32_t light : lights) weights.push_back(powers[light]);
+    const AliasTable table(weights);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const float probability = float(table.probability(i));
+        if (lights[i] < triangle_count_) {
+            triangles_[lights[i]].area_pdf *= probability;
+            triangles_[lights[i]].group = uint32_t(groups_.size());
+        } else {
+            light_probabilities_[lights[i] - triangle_count_] = probability;
+        }
+    }
+    groups_.push_back({std::move(lights), table});
 }
 
 void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, std::vector<double>& powers) {
@@ -161,8 +188,13 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
     for (int lane = 0; lane < lane_count; ++lane) {
         if (!is_wanted[lane]) continue;
         const LightChoice::Choice group = choice_.sample(cell[lane], x[lane]);
-        const AliasTable::Choice chosen = groups_[group.group].table.sample(group.rest);
         lights.group[lane] = group.group;
+        if (group.group >= groups_.size()) {
+            choice[lane] = in_environment;
+            rest[lane] = group.rest;
+            continue;
+        }
+        const AliasTable::Choice chosen = groups_[group.group].table.sample(group.rest);
         choice[lane] = groups_[group.group].lights[chosen.index];
         rest[lane] = chosen.rest;
         if (choice[lane] >= triangle_count_) continue;
@@ -201,18 +233,20 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
                                                               u[lane], v[lane]));
             continue;
         }
-        const float probability =
-            light_probabilities_[index - triangle_count_] * choice_.probability(cell[lane], lights.group[lane]);
-        if (index == environment_index_)
-            sample_environment(rest[lane], y[lane], probability, lane, lights);
+        const uint32_t group = lights.group[lane];
+        const float probability = choice_.probability(cell[lane], group);
+        if (index == in_environment)
+            sample_environment(group, rest[lane], y[lane], probability, lane, lights);
         else
-            sample_punctual(lights_[index - triangle_count_], point.get(lane), probability, lane, lights);
+            sample_punctual(lights_[index - triangle_count_], point.get(lane),
+                            light_probabilities_[index - triangle_count_] * probability, lane, lights);
     }
 }
 
-void LightSampler::sample_environment(uint32_t x, uint32_t y, float probability, int lane, LightLanes& lights) const {
+void LightSampler::sample_environment(uint32_t group, uint32_t x, uint32_t y, float probability, int lane,
+                                      LightLanes& lights) const {
     float pdf;
-    const glm::vec3 direction = environment_.sample({x, y}, pdf);
+    const glm::vec3 direction = environment_.sample(group - uint32_t(groups_.size()), {x, y}, pdf);
     lights.pdf[lane] = pdf * probability;
     lights.direction.set(lane, direction);
     lights.radiance.set(lane, environment_source_->radiance(direction));
@@ -242,7 +276,7 @@ float LightSampler::triangle_pdf(uint32_t cell, uint32_t instance, uint32_t tria
 }
 
 float LightSampler::environment_pdf(uint32_t cell, glm::vec3 direction) const {
-    if (environment_index_ == none) return 0.0f;
-    const size_t light = environment_index_ - triangle_count_;
-    return light_probabilities_[light] * choice_.probability(cell, light_groups_[light]) * environment_.pdf(direction);
+    if (!has_environment_table()) return 0.0f;
+    const EnvironmentTable::Density density = environment_.density(direction);
+    return density.pdf * choice_.probability(cell, uint32_t(groups_.size()) + density.part);
 }

@@ -29,8 +29,8 @@ struct PunctualArrival {
 PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
 
 /// Chooses among emissive triangles, punctual lights and the environment: a group by LightChoice, and within it in
-/// proportion to power. The environment, all emissive triangles together and each punctual light are groups; of more
-/// than max_light_groups the weakest share one.
+/// proportion to power. Groups are neighbouring triangles, neighbouring lamps (each its own, if there are few) and the
+/// parts of the environment.
 class LightSampler {
 public:
     /// `sample_environment`: also where it is constant or a gradient, which BSDF sampling finds as well.
@@ -38,8 +38,8 @@ public:
     LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry, const MaterialTable& materials,
                  bool sample_environment, bool compensate);
 
-    bool empty() const { return groups_.empty(); }
-    uint32_t group_count() const { return uint32_t(groups_.size()); }
+    bool empty() const { return group_count() == 0; }
+    uint32_t group_count() const { return uint32_t(groups_.size()) + environment_.part_count(); }
     /// See LightChoice::learn().
     void learn(std::span<const LightObservation> observations) { choice_.learn(observations, low_, high_); }
     /// The cell of LightChoice for a point (m) with a unit geometric normal on the side where light arrives.
@@ -47,7 +47,7 @@ public:
     glm::vec3 low() const { return low_; }  ///< bounds of the scene (m)
     glm::vec3 high() const { return high_; }
     const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< that shine
-    bool has_environment_table() const { return environment_index_ != none; }
+    bool has_environment_table() const { return environment_.part_count() > 0; }
 
     /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives; `cell`: its cell. The sampler must
     /// not be empty(). Lanes that are not wanted get anything.
@@ -71,18 +71,20 @@ private:
         uint32_t instance, triangle, group;
         bool emission_varies, emits_behind;
     };
-    static constexpr size_t none = size_t(-1);
     static constexpr uint32_t no_light = ~0u;
 
-    /// Lights that are chosen together, as indices of triangles_, then lights_, then the environment.
+    /// Lights that are chosen together, as indices of triangles_, then lights_.
     struct Group {
         std::vector<uint32_t> lights;
         AliasTable table;
     };
 
     void add_triangles(const Scene& scene, uint32_t instance, std::vector<double>& powers);
-    void make_groups(std::vector<std::vector<uint32_t>> lights, std::span<const double> powers);
-    void sample_environment(uint32_t x, uint32_t y, float probability, int lane, LightLanes& lights) const;
+    void group_lights(std::span<const double> powers, float diagonal);
+    std::vector<double> shares() const;
+    void add_group(std::vector<uint32_t> lights, std::span<const double> powers);
+    void sample_environment(uint32_t group, uint32_t x, uint32_t y, float probability, int lane,
+                            LightLanes& lights) const;
     void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
                          LightLanes& lights) const;
 
@@ -92,13 +94,11 @@ private:
     uint32_t triangle_count_ = 0;
     std::vector<uint32_t> first_triangle_;  ///< of each instance, or no_light
     std::vector<PunctualLight> lights_;
-    std::vector<float> light_probabilities_;  ///< of lights_, then of the environment, within their groups
-    std::vector<uint32_t> light_groups_;      ///< the same
+    std::vector<float> light_probabilities_;  ///< of lights_ within their groups
     EnvironmentTable environment_;
     const Environment* environment_source_ = nullptr;
-    bool needs_more_ = false;  ///< there is more to sample than triangles of constant emission
-    size_t environment_index_ = none;
-    std::vector<Group> groups_;
+    bool needs_more_ = false;    ///< there is more to sample than triangles of constant emission
+    std::vector<Group> groups_;  ///< LightChoice counts these, then the parts of environment_
     LightChoice choice_;
     glm::vec3 low_{0.0f}, high_{0.0f};  ///< bounds of the scene (m)
 };

@@ -185,9 +185,11 @@ void trace_lit_colors(const TracedScene& scene, const FirstVertex& vertex, const
     estimate.paths += lit.paths;
 }
 
-/// Light samples that teach with which probability to choose lights, at least, and of how many pixels at most. Their
-/// seed is no other's: what a render draws must not depend on what it learnt from.
-constexpr unsigned learning_samples = 1u << 15, learning_pixels = 1u << 11;
+/// Samples that teach what the scene is like, at least, where few things are learnt of each cell and where more are,
+/// and of how many pixels at most. Their seeds are no other's: what a render draws must not depend on what it learnt
+/// from.
+constexpr unsigned few_groups = 8, learning_samples_of_few = 1u << 15, learning_samples_of_more = 1u << 16;
+constexpr unsigned learning_pixels = 1u << 11;
 constexpr uint64_t light_seed = 0x6c69676874730a01u, radiance_seed = 0x7261646961e0a02u;
 
 /// A pixel darker than this share of the image's mean promises paths as much as one that is so bright.
@@ -228,10 +230,11 @@ void PathTracer::State::add_composite_terms(FirstHit& hit) const {
 /// stands somewhere else in its stretch of the rows, or images as wide as a multiple of the stretch would be looked at
 /// in a few columns only.
 template <class Observation>
-std::vector<Observation> PathTracer::learn(uint64_t seed, std::vector<Observation>* PixelEstimate::*record) const {
+std::vector<Observation> PathTracer::learn(uint64_t seed, unsigned wanted_samples,
+                                           std::vector<Observation>* PixelEstimate::*record) const {
     const glm::uvec2 extent = state_->extent;
     const unsigned pixels = extent.x * extent.y, used = std::min(pixels, learning_pixels);
-    const unsigned samples = std::max(learning_samples / std::max(used, 1u), unsigned(lane_count));
+    const unsigned samples = std::max(wanted_samples / std::max(used, 1u), unsigned(lane_count));
     std::vector<std::vector<Observation>> seen(used);
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(0u, used, [&](unsigned i) {
@@ -249,12 +252,16 @@ std::vector<Observation> PathTracer::learn(uint64_t seed, std::vector<Observatio
     return all;
 }
 
-void PathTracer::learn_light_choice() { state_->scene.lights.learn(learn(light_seed, &PixelEstimate::light_record)); }
+void PathTracer::learn_light_choice() {
+    LightSampler& lights = state_->scene.lights;
+    const unsigned samples = lights.group_count() > few_groups ? learning_samples_of_more : learning_samples_of_few;
+    lights.learn(learn(light_seed, samples, &PixelEstimate::light_record));
+}
 
 void PathTracer::expect(const HostImage& diffuse, const HostImage& specular) {
     TracedScene& scene = state_->scene;
-    scene.expected.learn(learn(radiance_seed, &PixelEstimate::radiance_record), scene.lights.low(),
-                         scene.lights.high());
+    scene.expected.learn(learn(radiance_seed, learning_samples_of_few, &PixelEstimate::radiance_record),
+                         scene.lights.low(), scene.lights.high());
     const HostImage* images[] = {&diffuse, &specular};
     for (const bool is_specular : {false, true}) {
         HostImage& per_estimate = state_->per_estimate[is_specular];

@@ -118,7 +118,8 @@ public:
 private:
     void learn_light_choice();
     template <class Observation>
-    std::vector<Observation> learn(uint64_t seed, std::vector<Observation>* PixelEstimate::*record) const;
+    std::vector<Observation> learn(uint64_t seed, unsigned wanted_samples,
+                                   std::vector<Observation>* PixelEstimate::*record) const;
 
     struct State;
     std::unique_ptr<State> state_;

@@ -154,14 +154,15 @@ TEST(estimator, lamp_in_a_bright_sky_has_its_closed_form_for_every_strategy) {
 }
 
 TEST(estimator, more_lights_than_groups_have_their_closed_form) {
-    // Seven far lamps are groups of their own; the three weakest share the eighth. They are near, and three quarters of
-    // the light is theirs: if each counted only as its part of the group, half of all light would be missing.
+    // Lamps of a ring and three near ones, which bring three quarters of the light: if each counted only as its part of
+    // its group, much light would be missing.
     TestScene scene;
     scene.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, scene.add(lambert_material(0.5f)));
     std::vector<PunctualLight>& lights = scene.scene.lights;
-    for (int i = 0; i < 7; ++i) {
-        const float turn = 2 * float(M_PI) * float(i) / 7;
-        lights.push_back({.intensity = glm::vec3(2), .position = {std::cos(turn), 2, std::sin(turn)}});
+    const int in_ring = 70;
+    for (int i = 0; i < in_ring; ++i) {
+        const float turn = 2 * float(M_PI) * float(i) / in_ring;
+        lights.push_back({.intensity = glm::vec3(0.2f), .position = {std::cos(turn), 2, std::sin(turn)}});
     }
     lights.push_back({.intensity = glm::vec3(0.5f), .position = {0.1f, 0.5f, 0}});
     lights.push_back({.intensity = glm::vec3(0.4f), .position = {0, 0.4f, 0.1f}});
@@ -203,6 +204,59 @@ TEST(estimator, sky_that_is_not_seen_starves_no_lamp) {
     // the sky keeps a third of the even share. Batches estimate the sums of 64 variances to some 5 %.
     EXPECT_LT(variance[1], 1.5 * variance[0]);
     EXPECT_NEAR(mean[1], mean[0], 6 * std::sqrt(variance[0] + variance[1]));
+}
+
+TEST(estimator, small_window_under_a_wide_sky_has_its_closed_form_and_its_samples) {
+    // A black box over a grey floor, with a window of 0.4 m in a wall 3 m from the point that is seen: 0.2 % of the
+    // sky, all of which is as bright above the horizon.
+    TestScene scene;
+    const unsigned grey = scene.add(lambert_material(0.5f)), black = scene.add(lambert_material(0));
+    scene.quad({-3, 0, 3}, {3, 0, 3}, {3, 0, -3}, {-3, 0, -3}, grey);
+    scene.quad({-3, 2, -3}, {3, 2, -3}, {3, 2, 3}, {-3, 2, 3}, black);
+    const auto wall = [&](float y0, float y1, float z0, float z1) {
+        scene.quad({3, y0, z0}, {3, y0, z1}, {3, y1, z1}, {3, y1, z0}, black);
+    };
+    wall(0, 2, -3, .5f), wall(0, 2, .9f, 3), wall(0, .8f, .5f, .9f), wall(1.2f, 2, .5f, .9f);
+    scene.quad({-3, 0, 3}, {-3, 0, -3}, {-3, 2, -3}, {-3, 2, 3}, black);
+    for (const float z : {-3.0f, 3.0f}) scene.quad({-3, 0, z}, {3, 0, z}, {3, 2, z}, {-3, 2, z}, black);
+    Environment& sky = scene.scene.environment;
+    sky = {.type = Environment::Type::image, .latlong = HostImage({64, 32}, 3)};
+    for (unsigned i = 0; i < 64 * 16; ++i) sky.latlong.set_rgb(i, glm::vec3(10));
+    const double exact =
+        0.5 * 10 * polygon_form_factor({0, 0, 0}, {0, 1, 0}, {{3, .8, .5}, {3, .8, .9}, {3, 1.2, .9}, {3, 1.2, .5}});
+    const PixelMoments pixel =
+        render(scene, looking_along({0, 1, 0}, {0, -1, 0}), 256, {.model = ReflectionModel::lambert});
+    // 6 standard errors with 15 degrees of freedom: p = 2.4e-5.
+    EXPECT_NEAR(pixel.diffuse.mean.x, exact, 6 * pixel.diffuse.standard_error.x);
+    EXPECT_LT(pixel.diffuse.standard_error.x, 0.08 * exact);  // 0.023; with the sky in one piece 0.24
+}
+
+TEST(estimator, lamp_of_a_room_is_sampled_in_that_room) {
+    // Sixteen rooms in a row, black but for the floor, with a lamp each: fifteen of them are hidden where the camera
+    // is. A batch has fewer samples than there are rooms.
+    TestScene scene;
+    const unsigned grey = scene.add(lambert_material(0.5f)), black = scene.add(lambert_material(0)),
+                   lamp = scene.add(lambert_material(0, 5));
+    const int rooms = 16;
+    for (int i = 0; i < rooms; ++i) {
+        const float x = 3 * float(i);
+        scene.room({x - 1.4f, 0, -1.4f}, {x + 1.4f, 2, 1.4f}, black);
+        scene.quad({x - 1.4f, .01f, 1.4f}, {x + 1.4f, .01f, 1.4f}, {x + 1.4f, .01f, -1.4f}, {x - 1.4f, .01f, -1.4f},
+                   grey);
+        scene.quad({x - .1f, 1.8f, -.1f}, {x + .1f, 1.8f, -.1f}, {x + .1f, 1.8f, .1f}, {x - .1f, 1.8f, .1f}, lamp);
+    }
+    for (const int seen : {0, 7}) {
+        const double x = 3.0 * seen;
+        const double exact =
+            0.5 * 5 *
+            polygon_form_factor({x + 0.5, .01, 0}, {0, 1, 0},
+                                {{x - .1, 1.8, -.1}, {x + .1, 1.8, -.1}, {x + .1, 1.8, .1}, {x - .1, 1.8, .1}});
+        const PixelMoments pixel =
+            render(scene, looking_along({float(x) + 0.5f, 1, 0}, {0, -1, 0}), 4, {.model = ReflectionModel::lambert});
+        // 6 standard errors with 15 degrees of freedom: p = 2.4e-5 each.
+        EXPECT_NEAR(pixel.diffuse.mean.x, exact, 6 * pixel.diffuse.standard_error.x + 1e-4 * exact);
+        EXPECT_LT(pixel.diffuse.standard_error.x, 0.15 * exact);  // 0.05; with all lamps in one group 0.4
+    }
 }
 
 TEST(estimator, mean_does_not_depend_on_roulette_or_seed) {
