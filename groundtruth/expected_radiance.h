@@ -27,8 +27,3 @@ private:
     LearningGrid grid_;
     std::vector<float> radiance_;  ///< of grid_; empty: nothing is learnt
 };
-float finest_size_ = 1.0f, coarse_size_ = 1.0f;  ///< of cells (m)
-std::unordered_map<uint64_t, float> finest_, coarse_;
-float mean_ = 0.0f;
-}
-;
