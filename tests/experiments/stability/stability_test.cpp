@@ -215,7 +215,9 @@ TEST_F(StabilityTest, ErrorsAndDriftAreWhatTheyMustBe) {
 }
 
 /// What claims to know of no unit of length keeps its error in scenes of any size, but for rounding, which moves single
-/// hits by a pixel: of 1296 pixels one weighs up to 1 % of the error. The path tracer's picture keeps all but 6 digits.
+/// hits by a pixel: of 1296 pixels one weighs up to 1 % of the error. The path tracer's picture differs where rounding moves
+/// a path across the border of two cells with other probabilities to go on: one of a pixel's 64 samples that ends has
+/// up to ten times the weight elsewhere, which is (10 / 64)^2 / 1296 = 2e-5 of the squares; five such may.
 TEST_F(StabilityTest, ErrorsOfWhatHasNoUnitDoNotDependOnScale) {
     std::string cases;
     for (const char* scale : {"1e-3", "1e3", "1e5"})
@@ -227,7 +229,7 @@ TEST_F(StabilityTest, ErrorsOfWhatHasNoUnitDoNotDependOnScale) {
     for (const StabilityRow& row : run(cases, {"mcguire_dda:any_scale", "simple_ssr:corrected", "frostbite_sssr:best",
                                                "diligent_ssr:corrected", "four_mode_ssr:corrected"}))
         if (row.variant == "path_tracer")
-            EXPECT_LT(*row.error, 1e-6) << row.case_name;
+            EXPECT_LT(*row.error, 1e-4) << row.case_name;
         else
             EXPECT_NEAR(*row.error_ratio, 1.0, 0.02) << row.variant << " " << row.case_name;
 }
