@@ -52,6 +52,8 @@ void check(glm::uvec2 extent, const ReferenceSettings& settings) {
              ", but must be within 0 and 1");
     if (settings.max_samples > max_sample_limit)
         fail("max_samples of a reference is ", settings.max_samples, ", but can be ", max_sample_limit, " at most");
+    if (settings.lit_only && (settings.ladder || settings.target_relative_error > 0))
+        fail("a reference of the lit colour alone has no truth ladder and no target, which are of the specular light");
     if (settings.max_depth == 0) fail("max_depth of a reference is 0, but must be at least 1");
 }
 
@@ -87,7 +89,7 @@ std::string reference_request(const Scene& scene, const ScenePose& pose, const C
     add(hash, pose);
     add(hash, camera);
     for (const unsigned value : {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder),
-                                 unsigned(settings.keep_all)})
+                                 unsigned(settings.lit_only), unsigned(settings.keep_all)})
         hash.add(value);
     return hash.hex();
 }
@@ -132,19 +134,24 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
     state.reference.hash = reference_key(stream, settings);
 
     PathTracer path_tracer(scene, pose, camera, extent,
-                           {.max_depth = settings.max_depth, .ladder = settings.ladder, .keep_all = settings.keep_all});
+                           {.max_depth = settings.max_depth,
+                            .specular = !settings.lit_only,
+                            .ladder = settings.ladder,
+                            .keep_all = settings.keep_all});
     const PixelTracer tracer{
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
         .trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
                      PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }};
     const bool needs_guide_variance = settings.target_relative_error > 0 && state.guide_variance.values.empty();
-    if (state.reference.guide.specular.values.empty() || needs_guide_variance) {
-        RenderedGuide guide = render_guide(tracer, extent, run);
-        state.reference.guide = std::move(guide.means);
-        if (needs_guide_variance) state.guide_variance = std::move(guide.specular_variance);
+    // Of the lit colour alone few samples are asked, and a guide would take more than roulette by it saves.
+    if (!settings.lit_only) {
+        if (state.reference.guide.specular.values.empty() || needs_guide_variance) {
+            RenderedGuide guide = render_guide(tracer, extent, run);
+            state.reference.guide = std::move(guide.means);
+            if (needs_guide_variance) state.guide_variance = std::move(guide.specular_variance);
+        }
+        path_tracer.expect(state.reference.guide.diffuse, state.reference.guide.specular);
     }
-
-    path_tracer.expect(state.reference.guide.diffuse, state.reference.guide.specular);
 
     RenderClock clock{.run = run, .seconds_before = state.reference.seconds, .rays_before = state.reference.rays};
     render_until_limits(state, tracer, clock);

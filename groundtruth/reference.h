@@ -75,6 +75,9 @@ struct Reference {
     HostImage material_id;               ///< one channel: material index + 1, 0: background
     ReferenceGuide guide;
     TruthLadder ladder;  ///< empty unless ReferenceSettings::ladder
+
+    bool is_lit_only() const { return specular.mean.values.empty(); }
+
     double seconds = 0;  ///< wall clock, over all continued runs, without the guide's
     double rays = 0;     ///< of both kinds, over all runs, without the guide's
     /// Samples with NaN or Inf, whose parts count as zero: an image is valid only if 0.
@@ -112,6 +115,9 @@ struct ReferenceSettings {
         0;  ///< relative standard error of `specular` at each pixel, see relative_error(); 0: no such stop
     unsigned max_depth = 64;  ///< reflections per path
     unsigned seed = 0x5eed;
+    /// `diffuse` alone, for frames that techniques read and that nothing is compared with: `image`, `specular`,
+    /// `incident` and the guide are empty, and cut_share is of the diffuse light. Without a ladder and a target.
+    bool lit_only = false;
     bool ladder = false;    ///< also the lower rungs of the truth ladder: about twice the rays
     bool keep_all = false;  ///< trace also what the scene does not need: the same image, slower
 };
@@ -142,7 +148,7 @@ struct ReferenceRun {
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 
-/// Hash of what a reference is asked to show: scene content, pose, camera, extent, seed, depth, ladder. Fails with
+/// Hash of what a reference is asked to show: scene content, pose, camera, extent, seed, depth, parts. Fails with
 /// Error if scene.content_hash is empty.
 std::string reference_request(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                               const ReferenceSettings& settings);

@@ -27,9 +27,10 @@ PixelZ half_z(const ReferenceOutput& output, const HostImage* weights, size_t pi
 }
 
 double light_cut(const Reference& reference) {
+    const HostImage& light = reference.is_lit_only() ? reference.diffuse.mean : reference.image.mean;
     double cut = 0, all = 0;
     for (size_t i = 0; i < reference.cut_share.values.size(); ++i) {
-        const glm::dvec3 radiance = reference.image.mean.rgb(i);
+        const glm::dvec3 radiance = light.rgb(i);
         const double sum = radiance.x + radiance.y + radiance.z;
         cut += reference.cut_share.values[i] * sum, all += sum;
     }
@@ -98,10 +99,13 @@ HalfAudit audit_halves(const ReferenceOutput& output, const HostImage* weights) 
 }
 
 ReferenceAudit audit_reference(const Reference& reference) {
-    ReferenceAudit audit{.outputs = {{"image", audit_halves(reference.image)},
-                                     {"diffuse", audit_halves(reference.diffuse)},
-                                     {"specular", audit_halves(reference.specular)},
-                                     {"incident", audit_halves(reference.incident, &reference.lobe_samples)}}};
+    ReferenceAudit audit;
+    if (!reference.is_lit_only()) audit.outputs.push_back({"image", audit_halves(reference.image)});
+    audit.outputs.push_back({"diffuse", audit_halves(reference.diffuse)});
+    if (!reference.is_lit_only()) {
+        audit.outputs.push_back({"specular", audit_halves(reference.specular)});
+        audit.outputs.push_back({"incident", audit_halves(reference.incident, &reference.lobe_samples)});
+    }
     if (!reference.ladder.is_empty()) {
         const TruthLadder& ladder = reference.ladder;
         audit.outputs.push_back({"camera_radiance", audit_halves(ladder.camera_radiance, &reference.lobe_samples)});

@@ -16,14 +16,20 @@ struct NamedImage {
     PixelType type = PixelType::float32;
 };
 
-std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
+/// `parts`: ReferenceSettings::lit_only and ladder.
+std::vector<NamedImage> named_images(Reference& reference, const ReferenceSettings& parts) {
     std::vector<NamedImage> images;
-    std::vector<std::pair<std::string, ReferenceOutput*>> outputs = {{"image", &reference.image},
-                                                                     {"diffuse", &reference.diffuse},
-                                                                     {"specular", &reference.specular},
-                                                                     {"incident", &reference.incident}};
+    std::vector<std::pair<std::string, ReferenceOutput*>> outputs = {{"diffuse", &reference.diffuse}};
+    if (!parts.lit_only) {
+        outputs.insert(
+            outputs.end(),
+            {{"image", &reference.image}, {"specular", &reference.specular}, {"incident", &reference.incident}});
+        images.push_back({"guide.specular", "RGB", &reference.guide.specular});
+        images.push_back({"guide.incident", "RGB", &reference.guide.incident});
+        images.push_back({"guide.diffuse", "RGB", &reference.guide.diffuse});
+    }
     TruthLadder& ladder = reference.ladder;
-    if (has_ladder) {
+    if (parts.ladder) {
         outputs.push_back({"camera_radiance", &ladder.camera_radiance});
         outputs.push_back({"on_screen", &ladder.on_screen});
         images.push_back({"on_screen_share", "Y", &ladder.on_screen_share});
@@ -41,9 +47,6 @@ std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
         images.push_back({name + ".b", "RGB", &output->half_b});
         images.push_back({name + ".variance", "RGB", &output->variance});
     }
-    images.push_back({"guide.specular", "RGB", &reference.guide.specular});
-    images.push_back({"guide.incident", "RGB", &reference.guide.incident});
-    images.push_back({"guide.diffuse", "RGB", &reference.guide.diffuse});
     images.push_back({"highlights", "RGB", &reference.highlights});
     images.push_back({"cut_share", "Y", &reference.cut_share});
     images.push_back({"sample_count", "Y", &reference.sample_count, PixelType::uint32});
@@ -53,6 +56,11 @@ std::vector<NamedImage> named_images(Reference& reference, bool has_ladder) {
     images.push_back({"normal", "XYZ", &reference.normal});
     images.push_back({"material_id", "Y", &reference.material_id, PixelType::uint32});
     return images;
+}
+
+/// What a reference holds, whatever it was asked for.
+ReferenceSettings parts_of(const Reference& reference) {
+    return {.lit_only = reference.is_lit_only(), .ladder = !reference.ladder.is_empty()};
 }
 
 std::vector<NamedImage> named_images(ReferenceState& state) {
@@ -77,6 +85,7 @@ std::map<std::string, std::string> attributes(const Reference& reference, const 
         {"ssrlab.target_relative_error", shortest_digits(settings.target_relative_error)},
         {"ssrlab.max_depth", shortest_digits(settings.max_depth)},
         {"ssrlab.seed", shortest_digits(settings.seed)},
+        {"ssrlab.lit_only", shortest_digits(unsigned(reference.is_lit_only()))},
         {"ssrlab.ladder", shortest_digits(unsigned(!reference.ladder.is_empty()))},
         {"ssrlab.keep_all", shortest_digits(unsigned(settings.keep_all))},
         {"ssrlab.level", shortest_digits(level)},
@@ -168,11 +177,11 @@ void write_reference(const std::filesystem::path& file, Reference& reference, co
         header["ssrlab.audit." + output + ".mean_z_squared"] = shortest_digits(halves.mean_z_squared);
         header["ssrlab.audit." + output + ".correlation"] = shortest_digits(halves.correlation);
     }
-    write(file, named_images(reference, !reference.ladder.is_empty()), std::move(header));
+    write(file, named_images(reference, parts_of(reference)), std::move(header));
 }
 
 void write_reference_state(const std::filesystem::path& file, ReferenceState& state) {
-    std::vector<NamedImage> images = named_images(state.reference, !state.reference.ladder.is_empty());
+    std::vector<NamedImage> images = named_images(state.reference, parts_of(state.reference));
     for (const NamedImage& image : named_images(state))
         if (!image.image->values.empty()) images.push_back(image);
     write(file, std::move(images), attributes(state.reference, state.settings, state.level));
@@ -195,11 +204,12 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
     header.read("target_relative_error", state.settings.target_relative_error);
     header.read("max_depth", state.settings.max_depth);
     header.read("seed", state.settings.seed);
+    state.settings.lit_only = layers.attributes.contains("ssrlab.lit_only") && header.flag("lit_only");
     state.settings.ladder = header.flag("ladder");
     state.settings.keep_all = header.flag("keep_all");
     header.read("level", state.level);
 
-    for (const NamedImage& image : named_images(reference, state.settings.ladder)) take_layer(file, layers, image);
+    for (const NamedImage& image : named_images(reference, state.settings)) take_layer(file, layers, image);
     for (const NamedImage& image : named_images(state))
         if (layers.find(image.name)) take_layer(file, layers, image);
     reference.extent = reference.sample_count.extent;

@@ -17,9 +17,10 @@ struct ReferenceState {
 /// One multi-layer EXR: for each output `image`, `image.a`, `image.b`, `image.variance` and so on, and the layers
 /// sample_count, lobe_samples, depth, geometric_normal, normal, material_id, highlights, cut_share,
 /// guide.specular, guide.incident, guide.diffuse; with the truth ladder also the outputs camera_radiance and on_screen,
-/// and on_screen_share, reflectance, fallback. Header attributes "ssrlab.*" hold settings, keys, code version, seconds,
-/// rays, non-finite samples, the audit (reference_audit.h), and the policies that a user of the numbers must know.
-/// Images are moved into the file's layers and back, not copied, since they may fill the memory.
+/// and on_screen_share, reflectance, fallback; of the lit colour alone no output but diffuse, and no guide. Header
+/// attributes "ssrlab.*" hold settings, keys, code version, seconds, rays, non-finite samples, the audit
+/// (reference_audit.h), and the policies that a user of the numbers must know. Images are moved into the file's layers
+/// and back, not copied, since they may fill the memory.
 void write_reference(const std::filesystem::path& file, Reference& reference, const ReferenceSettings& settings);
 
 /// Fails with Error if the file is missing, truncated, or lacks a layer or an attribute.

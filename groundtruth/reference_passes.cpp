@@ -124,8 +124,9 @@ ReferenceState empty_state(glm::uvec2 extent, const ReferenceSettings& settings)
         for (HostImage* image : {&output.mean, &output.half_a, &output.half_b, &output.variance})
             *image = HostImage(extent, 3);
     };
-    for (ReferenceOutput* output : {&reference.image, &reference.diffuse, &reference.specular, &reference.incident})
-        clear(*output);
+    clear(reference.diffuse);
+    if (!settings.lit_only)
+        for (ReferenceOutput* output : {&reference.image, &reference.specular, &reference.incident}) clear(*output);
     for (HostImage* image : {&reference.highlights, &reference.geometric_normal, &reference.normal})
         *image = HostImage(extent, 3);
     for (HostImage* image : {&reference.cut_share, &reference.sample_count, &reference.depth, &reference.material_id})

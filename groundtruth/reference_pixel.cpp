@@ -140,14 +140,17 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
     }
 
     const double old_weight[2] = {samples_before / 2, samples_before / 2};
-    merge(reference.diffuse, pixel, means(diffuse), old_weight);
-    merge(reference.specular, pixel, means(specular), old_weight);
-    const PassMeans image_means = means(image);
-    merge(reference.image, pixel, image_means, old_weight);
     const double samples = double(batch_samples) * batch_count;
+    const bool is_lit_only = reference.is_lit_only();
+    const PassMeans diffuse_means = means(diffuse), image_means = is_lit_only ? diffuse_means : means(image);
+    merge(reference.diffuse, pixel, diffuse_means, old_weight);
     float& cut_share = reference.cut_share.values[pixel];
     const double its_share = share_of_light(cut / samples, 0.5 * (image_means.half[0] + image_means.half[1]));
     cut_share = float((cut_share * samples_before + its_share * samples) / (samples_before + samples));
+    reference.sample_count.values[pixel] += float(samples);
+    if (is_lit_only) return cost;
+    merge(reference.specular, pixel, means(specular), old_weight);
+    merge(reference.image, pixel, image_means, old_weight);
 
     float* lobe_samples = &reference.lobe_samples.values[pixel * 2];
     const double old_lobe_weight[2] = {lobe_samples[0], lobe_samples[1]};
@@ -169,6 +172,5 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
         if (total > 0) share = float((share * before + on_screen_samples) / total);
     }
     for (unsigned h = 0; h < 2; ++h) lobe_samples[h] += float(incident_means.weight[h]);
-    reference.sample_count.values[pixel] += float(samples);
     return cost;
 }

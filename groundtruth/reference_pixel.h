@@ -20,7 +20,8 @@ struct PixelCost {
 /// Which of the independent sets of samples a pass draws from.
 enum class SampleSet : uint64_t { reference, guide };
 
-/// Adds batch_count batches of `batch_samples` samples to the outputs of one pixel, and writes its first-hit layers.
+/// Adds batch_count batches of `batch_samples` samples to the outputs of one pixel that `reference` has, and writes its
+/// first-hit layers.
 /// The scrambles depend on seed, set, and how many samples the pixel has already, and so on nothing that threads or
 /// time decide.
 PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed,

@@ -34,6 +34,11 @@ Keys reference_keys() {
              otherwise(std::to_string(ReferenceSettings::default_samples) +
                        "; no limit if `seconds` or `target_relative_error` is set"),
              "per pixel, rounded up to 16 x 2^k"},
+            {"lit_samples", whole(16, 1 << 24),
+             otherwise("`samples`; with `target_relative_error` " + std::to_string(ReferenceSettings::default_samples) +
+                       " at most"),
+             "the same, in frames that techniques read and that no result is compared with: only their lit colour is "
+             "rendered"},
             {"seconds", number(0, 1e7), Default(0, "no limit"), "for each frame, beside those of its guide"},
             {"target_relative_error", number(0, 1), Default(0, "none"),
              "the relative standard error of the specular light at a pixel"},
@@ -152,6 +157,7 @@ void read_reference(ConfigObject& study, Config& config) {
     ConfigObject object = study.object("reference");
     ReferenceSettings& settings = config.reference;
     if (object.has("samples")) settings.max_samples = object.get<unsigned>("samples");
+    if (object.has("lit_samples")) config.lit_samples = object.get<unsigned>("lit_samples");
     settings.max_seconds = object.get<float>("seconds");
     settings.target_relative_error = object.get<float>("target_relative_error");
     settings.max_depth = object.get<unsigned>("max_depth");

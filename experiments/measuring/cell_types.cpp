@@ -60,7 +60,7 @@ json cell_types() {
                        "host": {"name": "text", "cpu": "text", "cores": "count", "memory_gib": "number",
                                 "kernel": "text"}}})");
     const json reference = json::parse(R"({
-        "frame": "count", "hash": "text", "samples_median": "number", "passes": "text", "seconds": "number",
+        "frame": "count", "hash": "text", "lit_only??": "true or false", "samples_median": "number", "passes": "text", "seconds": "number",
         "rays": "number", "max_depth": "count", "target_relative_error": "number",
         "relative_error": {"median??": "number", "p95??": "number", "mean??": "number"}, "reached_share??": "number",
         "non_finite_samples": "size", "light_cut??": "number", "warnings": ["text"], "from_cache": "true or false",

@@ -34,10 +34,10 @@ std::string content_hash(const Reference& reference) {
 /// More than half of a frame may be black; the exposure it is displayed with is then the only sensible one.
 FlipExposures exposures_of(const Reference& reference, const MetricSettings& settings) {
     try {
-        return flip_exposure_range(reference.image.mean, settings.hdr_flip_tone_map);
+        if (!reference.is_lit_only()) return flip_exposure_range(reference.image.mean, settings.hdr_flip_tone_map);
     } catch (const Error&) {
-        return {.start = settings.exposure_ev, .stop = settings.exposure_ev, .count = 1};
     }
+    return {.start = settings.exposure_ev, .stop = settings.exposure_ev, .count = 1};
 }
 
 const ReferenceOutput& target_output(const std::string& target, const Reference& reference) {

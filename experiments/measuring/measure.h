@@ -31,9 +31,9 @@ struct PoseTruth {
     std::optional<ReferenceHalves> lit_halves;  ///< of it
     HostImage direct;  ///< and what `image` adds to every result: the same with the highlights of punctual lights
     std::map<std::string, MetricReference> targets;  ///< by name, with all metrics; where everything is measured
-    std::optional<MetricReference>
-        frame_reference;            ///< `specular` with Config::frame_metrics; in shots of several frames
-    std::vector<RungHalves> rungs;  ///< those among Config::targets, where everything is measured
+    std::optional<MetricReference> frame_reference;  ///< `specular` with Config::frame_metrics; in shots of several
+                                                     ///< frames, of those that are compared
+    std::vector<RungHalves> rungs;                   ///< those among Config::targets, where everything is measured
     HostImage view_depth, normal, material_id;
     FlipExposures flip_exposures;
     std::string content_hash;  ///< of the reference's pixels
@@ -53,7 +53,8 @@ HostImage sum(const HostImage& a, const HostImage& b);
 struct PoseUse {
     bool has_targets = false, has_frame_reference = false;
 };
-/// Fails if a target of `use` is a rung of the truth ladder, and the reference has none.
+/// `use` is empty where the reference is of the lit colour alone. Fails if a target of `use` is a rung of the truth
+/// ladder, and the reference has none.
 PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use);
 FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer& gbuffer, const Config& config);
 

@@ -5,6 +5,7 @@
 #include "core/gbuffer/gbuffer_transfer.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -42,6 +43,16 @@ bool is_after_change(const Shot& shot, const FrameStep& step) {
     return shot.config.change && step.frame >= *shot.config.change;
 }
 
+std::set<unsigned> compared_frames(const Shot& shot) {
+    std::set<unsigned> compared;
+    for (const FrameStep& step : shot.steps) {
+        const bool is_in_sequence = measures_difference(shot, step) || is_after_change(shot, step);
+        if (step.is_measured || step.is_held || is_in_sequence) compared.insert(step.frame);
+        if (is_in_sequence && step.previous_frame) compared.insert(*step.previous_frame);
+    }
+    return compared;
+}
+
 const FrameTruth* ShotTruth::frame(const FrameStep& step) const {
     const auto found = frames.find({step.frame, step.previous_frame});
     return found == frames.end() ? nullptr : &found->second;
@@ -59,6 +70,20 @@ std::string ShotTruth::content_hash() const {
     return hash.hex();
 }
 
+ReferenceSettings settings_of(const Config& config, ReferenceUse use, bool keep_all) {
+    ReferenceSettings settings = config.reference;
+    settings.keep_all = keep_all;
+    settings.ladder = use.is_of_last && needs_ladder(config);
+    if (use.is_compared) return settings;
+    settings.lit_only = true;
+    const bool has_target = std::exchange(settings.target_relative_error, 0.0f) > 0;
+    if (config.lit_samples > 0)
+        settings.max_samples = config.lit_samples;
+    else if (has_target && (settings.max_samples == 0 || settings.max_samples > ReferenceSettings::default_samples))
+        settings.max_samples = ReferenceSettings::default_samples;
+    return settings;
+}
+
 ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
                      const std::function<Reference(unsigned frame, ReferenceUse use)>& obtain) {
     std::map<unsigned, std::string> looks;
@@ -67,20 +92,23 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     check_change(shot, looks);
 
     ShotTruth truth;
+    std::set<std::string> compared;
+    for (const unsigned frame : compared_frames(shot)) compared.insert(looks.at(frame));
     std::map<std::string, std::shared_ptr<const PoseTruth>> by_look;
     const bool has_several = shot.steps.size() > shot.config.warm_up + 1;
     for (const FrameStep& step : shot.steps) {
         if (truth.poses.contains(step.frame) || !needs_reference(shot, step)) continue;
         std::shared_ptr<const PoseTruth>& pose = by_look[looks[step.frame]];
         const std::string& look = looks[step.frame];
-        const ReferenceUse use{.is_of_last = look == looks[shot.config.frames.back()],
-                               .is_of_measured = std::ranges::any_of(shot.steps, [&](const FrameStep& s) {
-                                   return s.is_measured && looks[s.frame] == look;
-                               })};
+        const ReferenceUse use{
+            .is_of_last = look == looks[shot.config.frames.back()],
+            .is_of_measured = std::ranges::any_of(
+                shot.steps, [&](const FrameStep& s) { return s.is_measured && looks[s.frame] == look; }),
+            .is_compared = compared.contains(look)};
         if (!pose)
             pose = std::make_shared<PoseTruth>(
                 pose_truth(obtain(step.frame, use), config, shot.camera.exposure_ev,
-                           {.has_targets = use.is_of_last, .has_frame_reference = has_several}));
+                           {.has_targets = use.is_of_last, .has_frame_reference = has_several && use.is_compared}));
         truth.poses[step.frame] = pose;
     }
     for (const FrameStep& step : shot.steps) {

@@ -3,6 +3,7 @@
 #include "experiments/measuring/measure.h"
 
 #include <functional>
+#include <set>
 
 /// Everything that the frames of a shot are measured against. Poses that look alike share one reference, so a static
 /// shot has one for any number of frames.
@@ -24,10 +25,18 @@ bool measures_difference(const Shot& shot, const FrameStep& step);
 /// The frames from Shot::config.change on.
 bool is_after_change(const Shot& shot, const FrameStep& step);
 
+/// The frames that a result is compared with, by themselves or in what changes from frame to frame; techniques only
+/// read the lit colour of the others.
+std::set<unsigned> compared_frames(const Shot& shot);
+
 /// Which frames look as a reference does.
 struct ReferenceUse {
     bool is_of_last = false, is_of_measured = false;
+    bool is_compared = false;  ///< any of compared_frames()
 };
+
+/// What is asked of a reference. A target is of the specular light, and so no budget of the lit colour alone.
+ReferenceSettings settings_of(const Config& config, ReferenceUse use, bool keep_all);
 
 /// What is to be measured in a shot. `obtain` gives the reference of a frame; it is called once per pose that looks
 /// different (of a capture, per file). Fails if the shot names a change after which the scene still moves.

@@ -15,7 +15,8 @@ nlohmann::json fact_entries(const std::vector<SceneFact>& facts) {
 nlohmann::json reference_entry(const Reference& reference, unsigned frame, const Config& config) {
     std::vector<float> samples = reference.sample_count.values;
     std::ranges::nth_element(samples, samples.begin() + long(samples.size() / 2));
-    const ErrorSummary error = relative_error_summary(reference, reference.specular);
+    const ErrorSummary error =
+        relative_error_summary(reference, reference.is_lit_only() ? reference.diffuse : reference.specular);
     const ReferenceAudit audit = audit_reference(reference);
     nlohmann::json halves;
     for (const auto& [output, of_output] : audit.outputs)
@@ -26,6 +27,7 @@ nlohmann::json reference_entry(const Reference& reference, unsigned frame, const
                           {"most_correlation", of_output.most_correlation}};
     return {{"frame", frame},
             {"hash", reference.hash},
+            {"lit_only", reference.is_lit_only()},
             {"samples_median", samples[samples.size() / 2]},
             {"passes", reference.passes},
             {"seconds", reference.seconds},

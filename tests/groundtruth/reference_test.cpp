@@ -273,6 +273,33 @@ TEST_F(References, AreIndependentOfTheirGuide) {
     }
 }
 
+TEST_F(References, OfTheLitColorAloneHaveItsLightAndNoOther) {
+    const ReferenceSettings lit_only{.max_samples = 256, .seed = 1, .lit_only = true};
+    Reference lit = render(lit_only);
+    const Reference whole = render(samples(1024, 2));
+    EXPECT_TRUE(lit.is_lit_only());
+    EXPECT_FALSE(whole.is_lit_only());
+    for (const HostImage* image : {&lit.image.mean, &lit.specular.mean, &lit.incident.mean, &lit.guide.specular})
+        EXPECT_TRUE(image->values.empty());
+    EXPECT_NE(lit.stream, render(samples(256, 1)).stream);  // no cache takes one for the other
+    // As in OfOtherSeedsDifferByTheirStatedVariance, but over 192 noisy pixels, whose channels share their paths.
+    const double z = mean_z_squared(lit.diffuse, whole.diffuse);
+    EXPECT_GT(z, 0.5);
+    EXPECT_LT(z, 1.7);
+    EXPECT_NEAR(mean_of(lit.diffuse.mean) / mean_of(whole.diffuse.mean), 1.0, 0.01);
+    EXPECT_LT(lit.rays, 0.25 * 0.8 * whole.rays);  // a quarter of the samples, and of these the diffuse paths
+    EXPECT_EQ(lit.normal.values, whole.normal.values);
+
+    const std::vector<float> half = lit.diffuse.half_b.values;
+    write_reference(folder / "lit.exr", lit, lit_only);
+    const Reference back = read_reference(folder / "lit.exr");
+    EXPECT_TRUE(back.is_lit_only());
+    EXPECT_EQ(back.diffuse.half_b.values, half);
+    EXPECT_EQ(back.hash, lit.hash);
+    EXPECT_THROW(render({.max_samples = 16, .lit_only = true, .ladder = true}), Error);
+    EXPECT_THROW(render({.target_relative_error = 0.1f, .lit_only = true}), Error);
+}
+
 TEST_F(References, WithoutAGuideSayWhatToDo) {
     Reference r = render(samples(16));
     write_reference(folder / "new.exr", r, samples(16));

@@ -26,6 +26,7 @@ constexpr std::array<glm::uvec2, 3> calibration_extents = {glm::uvec2(64, 36), g
 using OfTwoSizes = std::array<double, 2>;
 using OfAllSizes = std::array<double, calibration_extents.size()>;
 constexpr unsigned few_samples = 32, many_samples = 128;
+constexpr double lit_share = 0.6;  ///< of a reference's time without its guide is that of its lit colour alone
 constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
 
 double seconds_of(const std::function<void()>& work) {
@@ -240,7 +241,7 @@ public:
         const double pixels = pixels_of(shot.extent);
         switch (cell.kind) {
             case CellKind::references:
-                return rates_.opening.at(pixels) + cell.units * of_reference(shot);
+                return rates_.opening.at(pixels) + of_references(shot, cell.units);
             case CellKind::renders:
                 return of_renders(*cell.variant, shot);
             case CellKind::costs:
@@ -256,14 +257,21 @@ public:
     unsigned copies_timed() const { return config_.timing.has_copies ? 3 : 1; }
 
 private:
-    double of_reference(const ShotConfig& shot) const {
+    double of_references(const ShotConfig& shot, double frames) const {
         if (!config_.has_reference || !shot.gbuffer.empty()) return 0;
-        const double pixels = pixels_of(shot.extent), guide = rates_.guide.at(pixels);
-        const auto [samples, seconds] = std::pair(config_.reference.max_samples, config_.reference.max_seconds);
-        if (samples == 0 && seconds > 0) return guide + seconds;
+        const double compared = double(compared_frames({.config = shot, .steps = timeline(shot)}).size());
+        const double pixels = pixels_of(shot.extent);
+        return compared * (rates_.guide.at(pixels) + of_samples(config_.reference, pixels)) +
+               std::max(frames - compared, 0.0) * lit_share * of_samples(settings_of(config_, {}, false), pixels);
+    }
+
+    /// Of one reference, without its guide.
+    double of_samples(const ReferenceSettings& settings, double pixels) const {
+        const auto [samples, seconds] = std::pair(settings.max_samples, settings.max_seconds);
+        if (samples == 0 && seconds > 0) return seconds;
         // How many samples an error takes is not known: then those that a reference has by default.
         const double traced = rates_.per_sample * pixels * (samples > 0 ? samples : ReferenceSettings::default_samples);
-        return guide + (seconds > 0 ? std::min(traced, double(seconds)) : traced);
+        return seconds > 0 ? std::min(traced, double(seconds)) : traced;
     }
 
     double of_renders(const VariantConfig& variant, const ShotConfig& shot) const {

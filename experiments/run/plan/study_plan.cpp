@@ -5,6 +5,7 @@
 #include "experiments/config/conditions.h"
 #include "experiments/config/shot.h"
 #include "experiments/measuring/frames/capture.h"
+#include "experiments/measuring/shot_truth.h"
 #include "experiments/store/manifest.h"
 #include "experiments/store/source_code.h"
 #include "variants/registry.h"
@@ -120,8 +121,7 @@ Shot load(const ShotConfig& config, const std::vector<std::filesystem::path>& se
 
 /// What a shot shows and how it is played: all that its cells depend on, but for what is rendered.
 std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
-    ReferenceSettings settings = config.reference;
-    settings.keep_all = keep_all;
+    const std::set<unsigned> compared = compared_frames(shot);
     ContentHash hash;
     hash.add(shot.scene.content_hash), hash.add(shot.name()), hash.add(shot.camera.exposure_ev);
     for (const unsigned frame : shot.config.frames) {
@@ -129,7 +129,9 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
         if (!shot.config.reference.empty()) hash.add(read_text(capture_reference_file(shot.config, frame)));
         if (!shot.config.gbuffer.empty()) continue;
         const ShotFrame now = shot_frame(shot, frame);
-        settings.ladder = frame == shot.config.frames.back() && needs_ladder(config);
+        const ReferenceUse use{.is_of_last = frame == shot.config.frames.back(),
+                               .is_compared = compared.contains(frame)};
+        const ReferenceSettings settings = settings_of(config, use, keep_all);
         hash.add(reference_key(reference_request(shot.scene, now.scene, now.camera, shot.config.extent, settings),
                                settings));
     }

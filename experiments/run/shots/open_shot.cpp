@@ -34,9 +34,6 @@ struct Opening {
 Reference obtain_reference(const Opening& opening, unsigned frame, ReferenceUse use) {
     const Shot& shot = opening.shot.shot;
     const ShotFrame now = shot_frame(shot, frame);
-    ReferenceSettings settings = opening.config.reference;
-    settings.keep_all = opening.settings.keep_all;
-    settings.ladder = use.is_of_last && needs_ladder(opening.config);
     ReferenceRun run;
     run.progress = [&](double fraction, double rays_per_second, double) {
         char rate[32];
@@ -44,8 +41,8 @@ Reference obtain_reference(const Opening& opening, unsigned frame, ReferenceUse 
         opening.settings.report(fraction, shot.name() + ": reference of frame " + std::to_string(frame) + ", " + rate);
     };
     run.notice = [&](const std::string& text) { opening.settings.say("note: " + text); };
-    return cached_reference(shot.scene, now.scene, now.camera, shot.config.extent, settings, opening.settings.cache,
-                            run);
+    return cached_reference(shot.scene, now.scene, now.camera, shot.config.extent,
+                            settings_of(opening.config, use, opening.settings.keep_all), opening.settings.cache, run);
 }
 
 /// Keeps for the manifest what is worth knowing of a reference, and writes its images if they are kept.
@@ -62,7 +59,10 @@ void note_reference(Opening& opening, const Reference& reference, unsigned frame
     if (use.is_of_last || (opening.config.kept_images == KeptImages::measured && use.is_of_measured))
         opening.reference_images[frame] = save_reference_images(out, open.shot.name(), frame, reference, exposure_ev);
     else if (opening.config.kept_images == KeptImages::played)
-        opening.reference_images[frame] = {save_played_reference(out, open.shot.name(), frame, reference, exposure_ev)};
+        opening.reference_images[frame] = {save_played_reference(
+            out, open.shot.name(), frame,
+            reference.is_lit_only() ? obtain_reference(opening, frame, {.is_compared = true}) : reference,
+            exposure_ev)};
 }
 
 /// Lists the images of the references, and writes those of the surfaces, of each frame whose results are kept. Frames

@@ -70,6 +70,20 @@ TEST(Timeline, MeasuresFromAFrameOn) {
     EXPECT_EQ(compared, (std::vector<unsigned>{7}));
 }
 
+TEST(Timeline, ComparesOnlyWhatResultsAreHeldAgainst) {
+    const auto compared = [](const ShotConfig& config) {
+        Shot shot{.config = config, .scene = {}, .camera = {}, .facts = {}, .steps = timeline(config)};
+        return compared_frames(shot);
+    };
+    using Frames = std::set<unsigned>;
+    EXPECT_EQ(compared({.frames = {0}, .warm_up = 3}), (Frames{0}));
+    EXPECT_EQ(compared({.frames = {4, 5, 6}}), (Frames{4, 5, 6}));
+    EXPECT_EQ(compared({.frames = {4, 5, 6, 7}, .measures_last_only = true}), (Frames{7}));
+    EXPECT_EQ(compared({.frames = {4, 5, 6, 7}, .measure_from = 6}), (Frames{6, 7}));
+    // What changes is seen against the frame before.
+    EXPECT_EQ(compared({.frames = {4, 5, 6, 7}, .change = 6, .measures_last_only = true}), (Frames{5, 6, 7}));
+}
+
 TEST(Timeline, NamesWhatTellsShotsApart) {
     Shot shot{.config = {.extent = {32, 18}}, .scene = {}, .camera = {.name = "c"}, .facts = {}, .steps = {}};
     shot.scene.name = "s";
