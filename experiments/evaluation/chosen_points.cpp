@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 std::string fits(const TradeoffPoint& point, double cost) {
+    if (!point.row.cost) return "not timed";
     return point.fits_from <= cost ? "surely" : point.may_fit_from <= cost ? "maybe" : "no";
 }
 
@@ -31,17 +32,18 @@ ChosenPoint choose(const TradeoffShot& shot, const std::string& variant, double 
     for (const FrozenPoint& f : frozen) {
         if (f.variant != variant || f.cost != cost) continue;
         const TradeoffPoint* here = shot.find({variant, f.point});
-        if (here && here->is_judged)
+        if (here && here->has_error())
             choice.point = f.point, choice.chosen_on = "frozen", choice.fits = fits(*here, cost);
         return choice;
     }
     std::vector<const TradeoffPoint*> fitting;
     const TradeoffPoint* cheapest = nullptr;
     for (const TradeoffPoint& p : shot.points) {
-        if (!p.is_judged || p.row.variant != variant) continue;
+        if (!p.can_be_chosen() || p.row.variant != variant) continue;
         if (!cheapest || *p.row.cost < *cheapest->row.cost) cheapest = &p;
         if (*p.row.cost <= cost) fitting.push_back(&p);
     }
+    if (!cheapest) return choice;
     std::vector<const TradeoffShot*> common;
     for (const TradeoffShot& other : shots)
         if (other.asset != shot.asset && other.divisor && std::ranges::all_of(fitting, [&](const TradeoffPoint* p) {
@@ -69,12 +71,12 @@ std::vector<FrozenPoint> freeze(const std::string& machine, double cost, const s
     if (counted.empty()) return {};
     for (const TradeoffPoint& candidate : counted.front()->points) {
         const PointName name = candidate.name();
-        const auto is_judged = [&](const TradeoffShot* shot) {
+        const auto can_be_chosen = [&](const TradeoffShot* shot) {
             const TradeoffPoint* p = shot->find(name);
-            return p && p->is_judged && p->has_error();
+            return p && p->can_be_chosen();
         };
         const auto is_within = [&](const TradeoffShot* shot) { return *shot->find(name)->row.cost <= cost; };
-        if (!std::ranges::all_of(counted, is_judged) ||
+        if (!std::ranges::all_of(counted, can_be_chosen) ||
             double(std::ranges::count_if(counted, is_within)) < share_within_budget * double(counted.size()))
             continue;
         const double error = mean_elsewhere(name, counted);

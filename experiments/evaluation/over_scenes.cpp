@@ -164,6 +164,22 @@ std::optional<std::pair<double, double>> bootstrap_over_scenes(std::span<const d
     return std::pair(end(0.025), end(0.975));
 }
 
+MedianOverScenes median_over_scenes(std::vector<double> values) {
+    if (values.empty()) fail("a median over scenes needs a value");
+    std::ranges::sort(values);
+    const size_t n = values.size();
+    MedianOverScenes median{.value = 0.5 * (values[(n - 1) / 2] + values[n / 2]), .low = {}, .high = {}};
+    // Outside of the values at ranks k and n + 1 - k lies the median with twice the probability of fewer than k heads.
+    double of_count = std::exp2(-double(n)), below = 0;
+    for (size_t k = 1; k <= n / 2; ++k) {
+        below += of_count;
+        if (2 * below > significance) break;
+        median.low = values[k - 1], median.high = values[n - k];
+        of_count *= double(n - k + 1) / double(k);
+    }
+    return median;
+}
+
 double scenes_needed(double deviation) {
     constexpr double power = 0.8;
     const double effects = deviation / std::log1p(worth_deciding);  // deviations in one difference
@@ -265,7 +281,7 @@ std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> err
             ShotErrors& own = shots.emplace_back(
                 ShotErrors{.asset = asset_of(manifest, shot), .divisor = divisor_of(of_shot, baseline), .errors = {}});
             for (const MetricSummary* e : of_shot)
-                if (e->holds_all_noise && e->low && !using_scene.contains({e->variant, e->point}))
+                if (e->counts_over_scenes() && !using_scene.contains({e->variant, e->point}))
                     own.errors[{e->variant, e->point}] = *e->value;
         }
         for (OverScenes& o : compare_over_scenes(shots, most_lacking)) {

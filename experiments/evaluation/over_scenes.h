@@ -76,6 +76,15 @@ std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, d
 /// So many of the shots may a point lack an error above 0 in, and be ranked.
 inline constexpr double most_lacking = 0.1;
 
+/// The median over scenes with its interval of at least 95 % from order statistics, exact for whatever distribution;
+/// none of less than six.
+struct MedianOverScenes {
+    double value = 0;
+    std::optional<double> low, high;
+};
+/// Fails with Error where there is no value.
+MedianOverScenes median_over_scenes(std::vector<double> values);
+
 /// The point that errors are given as multiples of: `none`, no screen-space reflections, where the study has it, else
 /// its first baseline, else its first point. Fails with Error where the manifest has no variants.
 PointName baseline_over_scenes(const nlohmann::json& manifest);
@@ -106,5 +115,5 @@ struct OverScenesRow : OverScenes {
 };
 
 /// Of every error (target, metric, mask) for which less is better, the points that can be ranked in a shot
-/// (MetricSummary::holds_all_noise) and use no scene data, as multiples of baseline_over_scenes().
+/// (MetricSummary::counts_over_scenes()) and use no scene data, as multiples of baseline_over_scenes().
 std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest);

@@ -113,6 +113,11 @@ std::vector<std::vector<const Row*>> grouped(std::span<const Row> rows, KeyOf ke
 
 }  // namespace
 
+bool MetricSummary::counts_over_scenes() const {
+    const bool has_no_bias = is_corrected || floor == 0.0;
+    return value && ((holds_all_noise && low) || (interval == interval::one_seed && has_no_bias));
+}
+
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds) {
     std::vector<MetricSummary> summaries;
     const auto key = [](const ResultRow& r) {

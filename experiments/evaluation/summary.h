@@ -30,6 +30,10 @@ struct MetricSummary {
     std::string fronts = {};       ///< the costs against which the point is on the front, see set_fronts()
     std::string dominated = {};    ///< whether another point of the shot surely beats it, see set_dominated()
 
+    /// Whether it is one draw of what scenes are compared by: an estimate without bias, of however few seeds. How seeds
+    /// scatter is then part of how scenes do.
+    bool counts_over_scenes() const;
+
     static constexpr auto columns() {
         return std::tuple(
             Column{"shot", &MetricSummary::shot}, Column{"frame", &MetricSummary::frame},

@@ -63,7 +63,8 @@ std::vector<TradeoffShot> shots_of(const StudyTables& tables, const TradeoffQues
             const std::string scene = entry_of(tables.manifest, e.shot).value("scene", "");
             shot = shots.insert(shot, TradeoffShot{.name = e.shot,
                                                    .scene = scene.empty() ? e.shot.substr(0, e.shot.find('.')) : scene,
-                                                   .asset = asset_of(tables.manifest, e.shot)});
+                                                   .asset = asset_of(tables.manifest, e.shot),
+                                                   .group = entry_of(tables.manifest, e.shot).value("group", "")});
         }
         TradeoffPoint& p = shot->points.emplace_back(TradeoffPoint{.error = &e});
         p.row = {.shot = e.shot, .scene = shot->scene, .variant = e.variant, .point = e.point};
@@ -91,7 +92,7 @@ void add_costs(std::vector<TradeoffShot>& shots, const StudyTables& tables, cons
     if (!quantity.empty() && std::ranges::count(tables.costs, quantity, &CostRow::quantity) == 0)
         fail("costs.csv has no '", quantity, "'");
     for (TradeoffShot& shot : shots) {
-        std::string clock = "no clock";
+        std::string clock;
         const std::map<PointName, double> counts = counted_costs(tables, shot.name, quantity);
         for (TradeoffPoint& p : shot.points) {
             p.row.unit = quantity.empty() ? unit_of_times : quantity;
@@ -109,7 +110,9 @@ void add_costs(std::vector<TradeoffShot>& shots, const StudyTables& tables, cons
         }
         const json& entry = entry_of(tables.manifest, shot.name);
         shot.machine = text_of(entry, "width") + "x" + text_of(entry, "height");
-        if (quantity.empty())
+        if (quantity.empty() && clock.empty())
+            shot.machine = "not timed, " + shot.machine;
+        else if (quantity.empty())
             shot.machine = (machines.contains(shot.name) ? machines[shot.name] : "machine not known") + ", " + clock +
                            ", " + shot.machine;
     }
@@ -122,8 +125,8 @@ void judge_front(TradeoffShot& shot, const std::map<std::pair<PointName, PointNa
     for (TradeoffPoint& p : shot.points) {
         const FrontRow& row = p.row;
         const bool has_interval = p.error->holds_all_noise && row.error_low && row.error_high;
-        p.row.machine = shot.machine;
-        p.row.verdict = using_scene.contains(p.name())  ? "uses scene data"
+        p.row.machine = shot.machine, p.uses_scene_data = using_scene.contains(p.name());
+        p.row.verdict = p.uses_scene_data               ? "uses scene data"
                         : !has_interval                 ? "not ranked"
                         : !row.cost || !(*row.cost > 0) ? "no cost"
                         : !(*row.error > 0)             ? "error not above 0"
@@ -193,6 +196,9 @@ std::vector<AcrossRow> across_of(const Contest& contest, double lacking, const L
         AcrossRow& row = rows.emplace_back();
         static_cast<OverScenes&>(row) = std::move(o);
         row.of_scenes = assets.size();
+        const MedianOverScenes median = median_over_scenes(row.logarithms);
+        row.median = std::exp(median.value);
+        if (median.low) row.median_low = std::exp(*median.low), row.median_high = std::exp(*median.high);
         if (const auto ends = bootstrap_over_scenes(row.logarithms))
             row.bootstrap_low = std::exp(ends->first), row.bootstrap_high = std::exp(ends->second);
         count_wins(row, contest, less);
@@ -206,7 +212,7 @@ std::vector<AcrossRow> across_points(const std::vector<TradeoffShot>& shots, con
         contest.shots.push_back(&shot);
         std::map<PointName, PointName>& here = contest.stands_for.emplace_back();
         for (const TradeoffPoint& p : shot.points)
-            if (p.row.verdict != "uses scene data" && p.row.verdict != "not ranked") here[p.name()] = p.name();
+            if (!p.uses_scene_data && p.error->counts_over_scenes()) here[p.name()] = p.name();
     }
     return across_of(contest, most_lacking, less);
 }
@@ -215,8 +221,9 @@ std::vector<AcrossRow> across_at(const std::string& machine, double cost, const 
                                  const std::vector<ChosenPoint>& chosen, const LessErrors& less) {
     Contest contest;
     std::map<std::string, std::set<std::string>> fitting;  // variant to assets
+    bool is_timed = false;
     for (const TradeoffShot& shot : shots) {
-        if (shot.machine != machine || !shot.is_timed()) continue;
+        if (shot.machine != machine) continue;
         contest.shots.push_back(&shot);
         std::map<PointName, PointName>& here = contest.stands_for.emplace_back();
         for (const ChosenPoint& c : chosen) {
@@ -224,15 +231,27 @@ std::vector<AcrossRow> across_at(const std::string& machine, double cost, const 
             here[{c.variant, ""}] = {c.variant, c.point};
             if (c.fits == "surely") fitting[c.variant].insert(shot.asset);
         }
+        is_timed |= shot.is_timed();
     }
     char cost_text[32];
     std::snprintf(cost_text, sizeof cost_text, "%.9g", cost);
     std::vector<AcrossRow> rows = across_of(contest, 0, less);
     for (AcrossRow& row : rows) {
         row.machine = machine, row.cost = cost_text, row.label = row.variant;
-        row.scenes_that_fit = double(fitting[row.variant].size());
+        if (is_timed) row.scenes_that_fit = double(fitting[row.variant].size());
     }
     return rows;
+}
+
+/// All shots first, then each of their groups where there are several.
+std::vector<std::string> groups_of(const std::vector<TradeoffShot>& shots) {
+    std::vector<std::string> groups;
+    for (const TradeoffShot& shot : shots)
+        if (std::ranges::count(groups, shot.group) == 0) groups.push_back(shot.group);
+    if (groups.size() == 1) groups.clear();
+    std::erase(groups, "");
+    groups.insert(groups.begin(), "");
+    return groups;
 }
 
 PointName baseline_named(const std::string& text, const json& manifest) {
@@ -287,18 +306,26 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
     const std::vector<FrozenPoint> frozen = frozen_points(tables.manifest);
     std::vector<std::string> machines;
     for (const TradeoffShot& shot : shots) {
-        if (shot.is_timed() && std::ranges::count(machines, shot.machine) == 0) machines.push_back(shot.machine);
-        for (const std::string& variant : shot.judged_variants())
+        // Frozen points need no times.
+        if (!shot.is_timed() && frozen.empty()) continue;
+        if (std::ranges::count(machines, shot.machine) == 0) machines.push_back(shot.machine);
+        for (const std::string& variant : shot.variants())
             for (const double cost : question.costs) found.chosen.push_back(choose(shot, variant, cost, shots, frozen));
     }
     for (const std::string& machine : machines)
         for (const double cost : question.costs)
             std::ranges::move(freeze(machine, cost, shots), std::back_inserter(found.to_freeze));
-    found.across = across_points(shots, less);
-    for (AcrossRow& row : found.across) row.label = label_of(labels, {row.variant, row.point});
-    for (const std::string& machine : machines)
-        for (const double cost : question.costs)
-            std::ranges::move(across_at(machine, cost, shots, found.chosen, less), std::back_inserter(found.across));
+    for (const std::string& group : groups_of(shots)) {
+        std::vector<TradeoffShot> of_group = shots;
+        if (!group.empty()) std::erase_if(of_group, [&](const TradeoffShot& shot) { return shot.group != group; });
+        std::vector<AcrossRow> rows = across_points(of_group, less);
+        for (AcrossRow& row : rows) row.label = label_of(labels, {row.variant, row.point});
+        for (const std::string& machine : machines)
+            for (const double cost : question.costs)
+                std::ranges::move(across_at(machine, cost, of_group, found.chosen, less), std::back_inserter(rows));
+        for (AcrossRow& row : rows) row.group = group;
+        std::ranges::move(rows, std::back_inserter(found.across));
+    }
     const std::string unit = question.cost.empty() ? unit_of_times : question.cost;
     for (AcrossRow& row : found.across) row.baseline = label_of(labels, found.baseline), row.unit = unit;
     found.changes = changes_of(tables, question.error, found.front, unit);

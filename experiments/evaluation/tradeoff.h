@@ -39,25 +39,29 @@ struct FrontRow {
 /// What holds over the scenes of points, or of variants at a cost, each at its ChosenPoint; of the shots of one machine
 /// where costs count.
 struct AcrossRow : OverScenes {
+    std::string group;  ///< of shots, as the study groups them; "": all
     std::string machine;
     std::string cost;  ///< as tables ask for it: up to nine digits; "": points, whatever they cost, over all shots
     std::string unit, label, baseline;
     size_t of_scenes = 0;                                 ///< how many there are
     std::optional<double> bootstrap_low, bootstrap_high;  ///< bootstrap_over_scenes()
-    std::optional<double> scenes_that_fit;                ///< at a cost: in how many it surely fits
+    double median = 1;                                    ///< over the scenes of error / the baseline's
+    std::optional<double> median_low, median_high;        ///< median_over_scenes()
+    std::optional<double> scenes_that_fit;  ///< at a cost: in how many it surely fits, if times were taken
     size_t wins = 0, shared = 0;  ///< shots with certainly the least error; with one not distinguishable from it
 
     static constexpr auto columns() {
         return std::tuple(
-            Column{"machine", &AcrossRow::machine}, Column{"cost", &AcrossRow::cost}, Column{"unit", &AcrossRow::unit},
-            Column{"variant", &AcrossRow::variant}, Column{"point", &AcrossRow::point},
-            Column{"label", &AcrossRow::label}, Column{"baseline", &AcrossRow::baseline},
-            Column{"scenes", &AcrossRow::scenes}, Column{"of_scenes", &AcrossRow::of_scenes},
-            Column{"shots", &AcrossRow::shots}, Column{"ratio", &AcrossRow::ratio}, Column{"low", &AcrossRow::low},
-            Column{"high", &AcrossRow::high}, Column{"bootstrap_low", &AcrossRow::bootstrap_low},
-            Column{"bootstrap_high", &AcrossRow::bootstrap_high},
-            Column{"scenes_that_fit", &AcrossRow::scenes_that_fit}, Column{"wins", &AcrossRow::wins},
-            Column{"shared", &AcrossRow::shared}, Column{"rank", &AcrossRow::rank},
+            Column{"group", &AcrossRow::group}, Column{"machine", &AcrossRow::machine},
+            Column{"cost", &AcrossRow::cost}, Column{"unit", &AcrossRow::unit}, Column{"variant", &AcrossRow::variant},
+            Column{"point", &AcrossRow::point}, Column{"label", &AcrossRow::label},
+            Column{"baseline", &AcrossRow::baseline}, Column{"scenes", &AcrossRow::scenes},
+            Column{"of_scenes", &AcrossRow::of_scenes}, Column{"shots", &AcrossRow::shots},
+            Column{"ratio", &AcrossRow::ratio}, Column{"low", &AcrossRow::low}, Column{"high", &AcrossRow::high},
+            Column{"bootstrap_low", &AcrossRow::bootstrap_low}, Column{"bootstrap_high", &AcrossRow::bootstrap_high},
+            Column{"median", &AcrossRow::median}, Column{"median_low", &AcrossRow::median_low},
+            Column{"median_high", &AcrossRow::median_high}, Column{"scenes_that_fit", &AcrossRow::scenes_that_fit},
+            Column{"wins", &AcrossRow::wins}, Column{"shared", &AcrossRow::shared}, Column{"rank", &AcrossRow::rank},
             Column{"rank_low", &AcrossRow::rank_low}, Column{"rank_high", &AcrossRow::rank_high},
             Column{"against_best", &AcrossRow::over_best}, Column{"against_best_low", &AcrossRow::over_best_low},
             Column{"against_best_high", &AcrossRow::over_best_high}, Column{"p_holm", &AcrossRow::p_holm},

@@ -9,25 +9,30 @@ struct TradeoffPoint {
     FrontRow row;
     const MetricSummary* error = nullptr;
     double fits_from = 0, may_fit_from = 0;  ///< as TimeSummary's
-    bool is_judged = false;                  ///< by error and cost
+    bool is_judged = false;                  ///< by error and cost, in its own shot
+    bool uses_scene_data = false;
     PointName name() const { return {row.variant, row.point}; }
+    /// Whether it can stand for its variant at a cost: in many scenes one seed in each is enough.
+    bool can_be_chosen() const { return !uses_scene_data && has_error() && row.cost && *row.cost > 0; }
     /// Whether others can be chosen by it.
-    bool has_error() const { return error->holds_all_noise && *error->value > 0; }
+    bool has_error() const { return error->counts_over_scenes() && *error->value > 0; }
 };
 
 struct TradeoffShot {
-    std::string name, scene, asset, machine;
+    std::string name, scene, asset, group, machine;
     std::optional<double> divisor;
     std::vector<TradeoffPoint> points;
-    bool is_timed() const { return std::ranges::any_of(points, &TradeoffPoint::is_judged); }
+    bool is_timed() const { return std::ranges::any_of(points, &TradeoffPoint::can_be_chosen); }
     const TradeoffPoint* find(const PointName& name) const {
         const auto found = std::ranges::find(points, name, &TradeoffPoint::name);
         return found == points.end() ? nullptr : &*found;
     }
-    std::vector<std::string> judged_variants() const {
+    /// Those that have a point which can be chosen.
+    std::vector<std::string> variants() const {
         std::vector<std::string> variants;
         for (const TradeoffPoint& p : points)
-            if (p.is_judged && std::ranges::count(variants, p.row.variant) == 0) variants.push_back(p.row.variant);
+            if (!p.uses_scene_data && p.has_error() && std::ranges::count(variants, p.row.variant) == 0)
+                variants.push_back(p.row.variant);
         return variants;
     }
 };

@@ -83,6 +83,8 @@ class Selection:
         if table.of in ("at_cost", "changes"):
             tradeoff.require_primary(results, SOURCES[table.of][0])
         rows = results.read_csv(SOURCES[table.of][0])
+        if table.of == "at_cost" and "group" not in (*table.where, *table.rows, *table.columns):
+            rows = [r for r in rows if not r["group"]]
         if table.of == "changes":
             rows = list(_change_rows(rows))
         if table.of == "splits":

@@ -61,6 +61,8 @@ class Answers:
         machines = self.analysis.machines()
         if not machines:
             lines.append("Nothing was timed: errors alone are compared." if self.unit == "ms" else f"Nothing has {self.unit}.")
+        elif all(row["cost"] is None for row in study.front):
+            lines.append("Nothing was timed here: at a time stands what was chosen for it on the scenes of another study.")
         elif self.unit == "ms":
             lines.append(
                 f"Times are medians of the sum of a technique's own stages. Taken on {'; '.join(map(markdown_text, machines))}."
@@ -109,8 +111,25 @@ class Answers:
             return "Each technique stands at the point that was chosen for it on the scenes of another study (`frozen`)."
         return "Some points were chosen on the scenes of another study (`frozen`), others here." if "frozen" in chosen_on else ""
 
-    def _rows_at(self, machine, cost):
-        return [r for r in self.study.across if r.get("machine") == machine and r.get("cost") == cost]
+    def _rows_at(self, machine, cost, group=""):
+        return [r for r in self.study.across if (r.get("machine"), r.get("cost"), r["group"]) == (machine, cost, group)]
+
+    def _groups_at(self, machine, cost):
+        """Each technique in each group of shots, where the study has several."""
+        groups = list(dict.fromkeys(r["group"] for r in self.study.across if r["group"]))
+        if not groups:
+            return []
+        of_group = {g: self._rows_at(machine, cost, g) for g in groups}
+        head = ("technique", *(f"{g} ({max((r['scenes'] for r in of_group[g]), default=0)})" for g in groups))
+        cells = []
+        for variant in dict.fromkeys(r["variant"] for r in self._rows_at(machine, cost)):
+            own = [next((r for r in of_group[g] if r["variant"] == variant), None) for g in groups]
+            cells.append((variant, *(r and f"{self._place(r)}{measured(r['ratio'], r['low'], r['high'])}; {number(r['median'])}" or "" for r in own)))
+        return ["", f"In each group (scenes): error / {self.base}, geometric mean with its interval, then the median. **Best or tied**: not distinguishable from the least.", "", *table(head, cells)]
+
+    @staticmethod
+    def _place(row):
+        return "**best or tied** " if row["standing"] in ("best", "tied") else ""
 
     def _short(self, machine, cost):
         rows = self._rows_at(machine, cost)
@@ -138,8 +157,8 @@ class Answers:
         absent = {v for c in self.analysis.curves.values() for v in c} - {r["variant"] for r in rows}
         if absent:
             lines.append(f"In no scene fit {markdown_text(listed(sorted(absent)))}.")
-        fits = [f"{r['scenes_that_fit']} of {of_scenes}" for r in rows]
-        return [*lines, "", *self._ranking("technique", rows, "surely fits in scenes", fits)]
+        fits = ["" if r["scenes_that_fit"] is None else f"{r['scenes_that_fit']} of {of_scenes}" for r in rows]
+        return [*lines, "", *self._ranking("technique", rows, "surely fits in scenes", fits), *self._groups_at(machine, cost)]
 
     def _ranking(self, what, rows, last, of_last):
         """Rows of across.csv as a table; `last`: the head of its last column, `of_last`: what stands there."""
@@ -148,6 +167,7 @@ class Answers:
                 r["label"],
                 r["rank"] and f"{r['rank']} ({r['rank_low']} to {r['rank_high']})" or "",
                 measured(r["ratio"], r["low"], r["high"]),
+                measured(r["median"], r["median_low"], r["median_high"]),
                 measured(r["against_best"], r["against_best_low"], r["against_best_high"]),
                 number(r["p_holm"]),
                 measured(r["scenes_needed"], r["scenes_needed_low"], r["scenes_needed_high"]),
@@ -157,7 +177,7 @@ class Answers:
             )
             for r, own in zip(rows, of_last)
         ]
-        head = (what, "rank (without any one scene)", f"error / {self.base}", "error / first's", "p (Holm)", "scenes that 10 % need", "shots won", "shots shared", last)
+        head = (what, "rank (without any one scene)", f"error / {self.base}", "median of it", "error / first's", "p (Holm)", "scenes that 10 % need", "shots won", "shots shared", last)
         return table(head, cells)
 
     def _first_sentence(self, first, rows, of_scenes):
@@ -178,7 +198,7 @@ class Answers:
         return text + "."
 
     def _whole(self):
-        rows = [r for r in self.study.across if r.get("cost") is None]
+        rows = [r for r in self.study.across if r.get("cost") is None and not r["group"]]
         if not rows:
             return []
         lines = ["## Least error at any cost", "", self._first_sentence(next((r for r in rows if r["rank"] == 1), None), rows, rows[0]["of_scenes"]), ""]

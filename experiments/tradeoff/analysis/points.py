@@ -11,7 +11,7 @@ from ssrlab.text_files import path_inside
 TOTAL = "total"  # of a technique's own stages (experiments/RESULTS.md): no G-buffer, no lit colour
 JUDGED = ("front", "dominated", "undecided")  # front.csv's verdicts of points that are compared by error and cost
 NEVER_RANKED = ("uses scene data", "not ranked")
-TEXTS = ("shot", "scene", "machine", "variant", "point", "label", "unit", "verdict", "dominated_by", "undecided_with", "baseline", "standing", "against_variant", "against_point", "change")
+TEXTS = ("shot", "scene", "machine", "variant", "point", "label", "unit", "verdict", "dominated_by", "undecided_with", "baseline", "standing", "against_variant", "against_point", "change", "group")
 
 
 ASKED = {  # asked.json

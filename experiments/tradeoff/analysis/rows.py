@@ -34,8 +34,9 @@ class Analysis:
         self.limits = [row for s in study.shots for row in self._limit_rows(s)]
 
     def machines(self):
-        """Those that timed something; what they timed is never compared with what another did."""
-        return list(dict.fromkeys(s.machine for s in self.study.shots if self.curves[s.name]))
+        """Those with points at a cost: that timed something, or whose points are frozen. What one timed is never compared with what
+        another did."""
+        return list(dict.fromkeys(r["machine"] for r in self.study.across if r["cost"] is not None))
 
     def _shot_columns(self, shot):
         return {"shot": shot.name, "scene": shot.scene, "machine": shot.machine, "unit": self.study.unit}
@@ -51,7 +52,7 @@ class Analysis:
                 row = self._curve_columns(shot, variant, curve) | {"cost": float(cost), "fits": chosen["fits"], "status": "before start"}
                 if chosen["point"]:
                     error, low, high, _ = curve.error_at(cost)
-                    p = next(p for p in curve.points if p.point == chosen["point"])
+                    p = next(p for p in shot.points if (p.variant, p.point) == (variant, chosen["point"]))
                     row |= {"status": _place(cost, curve), "error": error, "low": low, "high": high, "chosen_on": chosen["chosen_on"]}
                     row |= {"point": p.point, "point_error": p.error, "point_low": p.error_low, "point_high": p.error_high}
                 yield row

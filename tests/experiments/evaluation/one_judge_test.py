@@ -209,7 +209,8 @@ def over_scenes(folder, manifest, found, summary, sentence):
     logs, using_scene = {}, {(v["variant"], v["point"]) for v in manifest["variants"] if v.get("uses_scene_data")}
     for r in representative:
         key = (r["variant"], r["point"])
-        if r["ranked"] == "1" and r["low"] and key not in using_scene and r["shot"] in base and float(r["value"]) > 0:
+        is_without_bias = r["interval"] == "none: 1 seed" and (r["corrected"] == "1" or r["floor"] == "0")  # scenes are the sample
+        if (r["ranked"] == "1" and r["low"] or is_without_bias) and key not in using_scene and r["shot"] in base and float(r["value"]) > 0:
             logs.setdefault(key, {})[r["shot"]] = math.log(float(r["value"]) / base[r["shot"]])
     ranked = [k for k, v in logs.items() if len(v) >= 0.9 * len(base)]
     common = [s for s in base if all(s in logs[k] for k in ranked)]
@@ -239,8 +240,8 @@ def over_scenes(folder, manifest, found, summary, sentence):
     assert listed(said[2]) == tied[:2], (sentence, tied)
     assert listed(said[3]) == (behind[:3] if tied else ["all others"]), (sentence, behind)
 
-    across = {(r["variant"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"]}
-    assert across.keys() == rows.keys()
+    across = {(r["variant"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"] and not r["group"]}
+    assert across.keys() == rows.keys(), across.keys() ^ rows.keys()
     for key, r in rows.items():
         for column in ("scenes", "shots", "ratio", "low", "high", "rank", "rank_low", "rank_high", "p_holm", "standing"):
             assert r[column] == across[key][column], (key, column, r, across[key])

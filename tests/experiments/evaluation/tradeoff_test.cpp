@@ -1,6 +1,7 @@
 // Error against cost: the point that stands for a technique, the front, and what changes are worth, of made-up tables.
 #include "experiments/evaluation/tradeoff.h"
 
+#include "experiments/evaluation/interval.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>
@@ -126,6 +127,29 @@ TEST(Tradeoff, AFrozenPointStandsWhereverItRan) {
                                               "u 6 better other scenes surely", "u 8 better other scenes surely"}));
     made.tables.manifest["config"] = json::parse(R"({"frozen": [{"cost": 8, "points": {"v": 1}}]})");
     EXPECT_NE(error_message([&] { made.found({8}); }).find("config.frozen"), std::string::npos);
+}
+
+TEST(Tradeoff, FrozenPointsNeedNoTimesAndOneSeed) {
+    MadeStudy made;
+    made.add_point("none", "default");
+    for (const char* shot : {"r", "s", "t", "u"}) {
+        made.add(shot, "none", "default", 4, 1), made.add(shot, "v", "frozen", *shot == 'u' ? 2 : 1, 5);
+        made.tables.manifest["shots"].push_back({{"shot", shot}, {"group", *shot < 't' ? "early" : "late"}});
+        MetricSummary& e = made.tables.errors.back();
+        e.low = e.high = {}, e.holds_all_noise = false, e.interval = interval::one_seed, e.is_corrected = true;
+    }
+    made.tables.times.clear();
+    made.tables.manifest["config"] = json::parse(R"({"frozen": [{"cost": 8, "points": {"v": "frozen"}}]})");
+    std::map<std::string, double> ratios;
+    for (const AcrossRow& row : made.found({8}).across)
+        if (row.variant == "v" && row.cost == "8") {
+            ratios[row.group] = row.ratio;
+            EXPECT_FALSE(row.scenes_that_fit) << row.group;
+            EXPECT_NEAR(row.median, row.group == "late" ? std::sqrt(0.125) : 0.25, 1e-12) << row.group;
+        }
+    EXPECT_NEAR(ratios.at(""), std::pow(2.0, -1.75), 1e-12);
+    EXPECT_NEAR(ratios.at("early"), 0.25, 1e-12);
+    EXPECT_NEAR(ratios.at("late"), std::sqrt(0.125), 1e-12);
 }
 
 TEST(Tradeoff, WhatIsFrozenKeepsItsBudgetInNineScenesOfTen) {

@@ -3,6 +3,7 @@
 usage: report_study_in_browser.py REPORT_PAGE_PROGRAM
 """
 
+import json
 import os
 import re
 import subprocess
@@ -82,7 +83,10 @@ def test_results(page, folder):
 def test_first_sentence(page, folder):
     first = next(r for r in rows_of(folder, "over_scenes.csv", target="specular", metric="relmse", mask="reflective") if r["rank"] == "1")
     said = page.find_element(By.ID, "answers").text
-    wanted = rf"Over {first['scenes']} scenes (no technique is significantly the best\. )?{first['variant']} {first['point']} (has|measures) the least error"
+    with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as stream:
+        labels = {(v["variant"], v["point"]): v.get("label") for v in json.load(stream)["variants"]}
+    name = re.escape(labels[first["variant"], first["point"]] or f"{first['variant']} {first['point']}")
+    wanted = rf"Over {first['scenes']} scenes (no technique is significantly the best\. )?{name} (has|measures) the least error"
     check(re.match(wanted, said), f"the first sentence is of all scenes: {said[:120]}, in place of {wanted}")
 
 
