@@ -284,7 +284,9 @@ PathTracer::PathTracer(const Scene& scene, const ScenePose& pose, const CameraPo
         state_->split_sum = &split_sum_factors();
     }
     state_->left_out = left_out_features(state_->scene);
-    if (state_->scene.lights.group_count() > 1 && settings.strategy != LightStrategy::bsdf_only) learn_light_choice();
+    if (settings.learns_lights && state_->scene.lights.group_count() > 1 &&
+        settings.strategy != LightStrategy::bsdf_only)
+        learn_light_choice();
 }
 
 PathTracer::~PathTracer() = default;

@@ -21,6 +21,8 @@ struct PathTracerSettings {
     bool russian_roulette = true;
     ReflectionModel model = ReflectionModel::gltf;
     bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
+    bool learns_lights =
+        true;               ///< which lights reach which places, see LightChoice; else their groups share the samples
     bool ladder = false;    ///< also estimate the lower rungs of the truth ladder, see PixelEstimate: twice the rays
     bool keep_all = false;  ///< trace and evaluate also what left_out() names: the same image, slower
 };

@@ -1,0 +1,221 @@
+// What the path tracer gains by what it learns, and what a reference costs: variance of the specular light times rays,
+// and times processor time, with each thing that is learnt over neither (`learning`), and the rays of a reference whose
+// median pixel has an error of 3 % (`rays_to_3_percent`). `truth_benchmark --table` prints the first as a table of
+// groundtruth/README.md. Scenes are found as by `ssrlab`; what is nowhere is left out with a note.
+#include "core/error.h"
+#include "core/scene/load_scene.h"
+#include "groundtruth/path_tracer.h"
+#include "groundtruth/reference.h"
+#include "groundtruth/reference_error.h"
+#include "metrics/quantiles.h"
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <optional>
+
+namespace {
+
+constexpr const char* scene_names[] = {
+    "modern_hall", "breakfast_room", "sponza",         "room:3",         "room:11",
+    "street:2",    "flight_helmet",  "facing_mirrors", "glossy_stretch", "emissive_strength_test"};
+constexpr const char* rooms[] = {"modern_hall", "breakfast_room", "sponza"};
+constexpr glm::uvec2 extent(48, 27);
+constexpr unsigned batches = 8, samples = 16, guide_samples = 64, seeds = 8;
+/// A pixel darker than this share of the mean counts as if it were so bright: else a few black ones would decide.
+constexpr double floor_share = 0.1;
+
+struct Learnt {
+    const char* name;
+    bool lights, roulette;
+};
+constexpr Learnt learnt[] = {
+    {"neither", false, false}, {"lights", true, false}, {"roulette", false, true}, {"both", true, true}};
+
+struct Spent {
+    double variance = 0, rays = 0, cpu_seconds = 0;  ///< the first: mean over pixels, relative to their radiance
+};
+
+double luminance_of(glm::dvec3 rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
+
+double cpu_seconds() {
+    timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+/// A scene's first view, with about what each pixel holds.
+class View {
+public:
+    explicit View(const std::string& name)
+        : scene_(load_scene(name, scene_search_path())),
+          pose_(pose_scene(scene_, 0)),
+          camera_(pose_camera(scene_.cameras.front(), pose_, 0)),
+          diffuse_(extent, 3),
+          specular_(extent, 3) {
+        const PathTracer tracer(scene_, pose_, camera_, extent, {});
+        for (size_t pixel = 0; pixel < specular_.pixel_count(); ++pixel) {
+            PixelEstimate sum;
+            const FirstHit hit = trace(tracer, pixel, 1, guide_samples, sum);
+            diffuse_.set_rgb(pixel, glm::vec3(sum.diffuse / double(guide_samples)));
+            specular_.set_rgb(pixel, glm::vec3(sum.specular / double(guide_samples)));
+            if (hit.is_hit) mean_ += luminance_of(specular_.rgb(pixel)), ++hits_;
+        }
+        mean_ /= std::max(hits_, 1.0);
+    }
+
+    /// By seeds, whose paths are others.
+    std::vector<Spent> spent(const Learnt& what) const {
+        PathTracer tracer(scene_, pose_, camera_, extent, {.learns_lights = what.lights});
+        if (what.roulette) tracer.expect(diffuse_, specular_);
+        std::vector<Spent> of_seeds(seeds);
+        for (unsigned seed = 0; seed < seeds; ++seed) of_seeds[seed] = spent(tracer, 1000 * (seed + 1));
+        return of_seeds;
+    }
+
+private:
+    static FirstHit trace(const PathTracer& tracer, size_t pixel, uint64_t seed, unsigned count, PixelEstimate& sum) {
+        const unsigned x = unsigned(pixel % extent.x), y = unsigned(pixel / extent.x);
+        const FirstHit hit = tracer.first_hit(x, y);
+        if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, seed, 0, count, sum);
+        return hit;
+    }
+
+    Spent spent(const PathTracer& tracer, uint64_t seed) const {
+        Spent all;
+        const double start = cpu_seconds();
+        for (size_t pixel = 0; pixel < specular_.pixel_count(); ++pixel) {
+            double sum = 0, squares = 0;
+            bool is_hit = true;
+            for (unsigned batch = 0; batch < batches && is_hit; ++batch) {
+                PixelEstimate estimate;
+                is_hit = trace(tracer, pixel, seed + batch, samples, estimate).is_hit;
+                const double value = luminance_of(estimate.specular) / samples;
+                sum += value, squares += value * value, all.rays += double(estimate.rays);
+            }
+            const double radiance = std::max(luminance_of(specular_.rgb(pixel)), floor_share * mean_);
+            const double variance = std::max(squares - sum * sum / batches, 0.0) / (batches - 1);
+            if (is_hit && radiance > 0) all.variance += variance / (radiance * radiance) / hits_;
+        }
+        all.cpu_seconds = cpu_seconds() - start;
+        return all;
+    }
+
+    Scene scene_;
+    ScenePose pose_;
+    CameraPose camera_;
+    HostImage diffuse_, specular_;
+    double mean_ = 0, hits_ = 0;
+};
+
+struct Ratio {
+    double value = 1, low = 1, high = 1;
+};
+
+/// Geometric mean over the seeds with its 95 % interval (Student's t of the logarithms).
+template <class Cost>
+Ratio ratio_of(const std::vector<Spent>& with, const std::vector<Spent>& without, Cost cost) {
+    double sum = 0, squares = 0;
+    for (unsigned i = 0; i < seeds; ++i) {
+        const double log = std::log(cost(with[i]) / cost(without[i]));
+        sum += log, squares += log * log;
+    }
+    const double mean = sum / seeds, deviation = std::sqrt(std::max(squares - sum * mean, 0.0) / (seeds - 1));
+    const double half = student_t_quantile(0.975, seeds - 1) * deviation / std::sqrt(double(seeds));
+    return {std::exp(mean), std::exp(mean - half), std::exp(mean + half)};
+}
+
+double by_rays(const Spent& s) { return s.variance * s.rays; }
+double by_cpu(const Spent& s) { return s.variance * s.cpu_seconds; }
+
+/// None where the scene is not on this machine.
+std::optional<View> view_of(const std::string& name) {
+    try {
+        return std::optional<View>(std::in_place, name);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "%s is left out: %s\n", name.c_str(), error.what());
+        return {};
+    }
+}
+
+void measure_learning(benchmark::State& state, const std::string& scene, const Learnt& what) {
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    const std::optional<View> view = view_of(scene);
+    if (!view) return state.SkipWithError("the scene is not on this machine");
+    for (auto _ : state) {
+        const std::vector<Spent> with = view->spent(what), without = view->spent(learnt[0]);
+        const Ratio rays = ratio_of(with, without, by_rays), cpu = ratio_of(with, without, by_cpu);
+        state.counters["rays"] = rays.value, state.counters["rays_low"] = rays.low,
+        state.counters["rays_high"] = rays.high;
+        state.counters["cpu"] = cpu.value, state.counters["cpu_low"] = cpu.low, state.counters["cpu_high"] = cpu.high;
+    }
+}
+
+/// From 256 samples, the median falling with the square root of the rays: at 192x108, without the guide's.
+void measure_rays(benchmark::State& state, const std::string& name) {
+    constexpr double wanted = 0.03;
+    Scene scene;
+    try {
+        scene = load_scene(name, scene_search_path());
+    } catch (const Error& error) {
+        return state.SkipWithError(error.what());
+    }
+    const ScenePose pose = pose_scene(scene, 0);
+    const CameraPose camera = pose_camera(scene.cameras.front(), pose, 0);
+    for (auto _ : state) {
+        const Reference r = render_reference(scene, pose, camera, {192, 108}, {.max_samples = 256});
+        const double median = relative_error_summary(r, r.specular).median;
+        state.counters["median"] = median, state.counters["rays"] = r.rays;
+        state.counters["rays_to_3_percent"] = r.rays * std::pow(median / wanted, 2);
+        state.counters["rays_per_second"] = r.rays / r.seconds;
+    }
+}
+
+std::string text_of(const Ratio& ratio) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f [%.2f, %.2f]", ratio.value, ratio.low, ratio.high);
+    return text;
+}
+
+int print_table() {
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    std::printf(
+        "| Scene | lights, rays | time | roulette, rays | time | both, rays | time |\n|---|---|---|---|---|---|---|\n");
+    for (const char* name : scene_names) {
+        const std::optional<View> view = view_of(name);
+        if (!view) continue;
+        std::printf("| `%s` |", name);
+        const std::vector<Spent> without = view->spent(learnt[0]);
+        for (size_t i = 1; i < std::size(learnt); ++i) {
+            const std::vector<Spent> with = view->spent(learnt[i]);
+            std::printf(" %s | %s |", text_of(ratio_of(with, without, by_rays)).c_str(),
+                        text_of(ratio_of(with, without, by_cpu)).c_str());
+        }
+        std::printf("\n"), std::fflush(stdout);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc == 2 && std::strcmp(argv[1], "--table") == 0) return print_table();
+    for (const char* scene : scene_names)
+        for (size_t i = 1; i < std::size(learnt); ++i)
+            benchmark::RegisterBenchmark((std::string("learning/") + scene + "/" + learnt[i].name).c_str(),
+                                         measure_learning, std::string(scene), learnt[i])
+                ->Iterations(1)
+                ->Unit(benchmark::kSecond);
+    for (const char* scene : rooms)
+        benchmark::RegisterBenchmark((std::string("rays_to_3_percent/") + scene).c_str(), measure_rays,
+                                     std::string(scene))
+            ->Iterations(1)
+            ->Unit(benchmark::kSecond);
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    benchmark::RunSpecifiedBenchmarks();
+}
