@@ -3,7 +3,7 @@
 # scene code consist of, and of BUILD (compiler, its flags). The sources are not listed: they are those of both folders,
 # with what they include and the sources of those headers. SOURCES, if given, is a file that gets their names.
 cmake_minimum_required(VERSION 3.25)
-file(GLOB todo RELATIVE ${ROOT} ${ROOT}/groundtruth/*.h ${ROOT}/groundtruth/*.cpp ${ROOT}/core/scene/*.h
+file(GLOB todo RELATIVE ${ROOT} ${ROOT}/groundtruth/*/*.h ${ROOT}/groundtruth/*/*.cpp ${ROOT}/core/scene/*.h
   ${ROOT}/core/scene/*.cpp)
 set(sources "")
 while(todo)

@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/run/run.h"
-#include "groundtruth/reference.h"
+#include "groundtruth/reference/reference.h"
 
 #include <filesystem>
 #include <string>

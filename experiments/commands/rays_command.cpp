@@ -3,7 +3,7 @@
 #include "core/scene/load_scene.h"
 #include "core/scene/scene_family.h"
 #include "experiments/commands/commands.h"
-#include "groundtruth/mirror_rays.h"
+#include "groundtruth/paths/mirror_rays.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -7,12 +7,12 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/shot.h"
 #include "experiments/run/progress.h"
-#include "groundtruth/path_tracer.h"
-#include "groundtruth/reference_audit.h"
-#include "groundtruth/reference_cache.h"
-#include "groundtruth/reference_error.h"
-#include "groundtruth/reference_file.h"
-#include "groundtruth/truth_ladder.h"
+#include "groundtruth/paths/path_tracer.h"
+#include "groundtruth/reference/reference_audit.h"
+#include "groundtruth/reference/reference_cache.h"
+#include "groundtruth/reference/reference_error.h"
+#include "groundtruth/reference/reference_file.h"
+#include "groundtruth/reference/truth_ladder.h"
 #include "metrics/compare.h"
 
 #include <cmath>

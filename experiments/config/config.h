@@ -2,7 +2,7 @@
 #include "core/gbuffer/composite.h"
 #include "core/scene/camera.h"
 #include "experiments/config/targets.h"
-#include "groundtruth/reference.h"
+#include "groundtruth/reference/reference.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -28,7 +28,7 @@ struct ShotConfig {
     std::filesystem::path
         reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
 
-    bool direct_lit = false;  ///< SSR reads rasterised direct light in place of the path-traced lit colour
+    bool direct_lit = false;           ///< SSR reads rasterised direct light in place of the path-traced lit colour
     bool lit_has_environment = false;  ///< that image also holds the environment's specular reflections
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
@@ -108,7 +108,7 @@ struct Config {
     std::vector<ShotConfig> shots;
     std::vector<VariantConfig> variants;
     ReferenceSettings reference;
-    unsigned lit_samples = 0;  ///< per pixel of references of the lit colour alone; 0: as settings_of() says
+    unsigned lit_samples = 0;   ///< per pixel of references of the lit colour alone; 0: as settings_of() says
     bool has_reference = true;  ///< else no error is measured: frames are timed and rays judged
     CompositeFormula composite = CompositeFormula::split_sum;
     TimingConfig timing;

@@ -1,7 +1,7 @@
 #include "experiments/measuring/left_out_by.h"
 
 #include "core/gbuffer/rasterizer.h"
-#include "groundtruth/path_tracer.h"
+#include "groundtruth/paths/path_tracer.h"
 #include "variants/registry.h"
 
 std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantConfig>& variants) {

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gbuffer/composite.h"
-#include "groundtruth/truth_ladder.h"
+#include "groundtruth/reference/truth_ladder.h"
 
 #include <cmath>
 #include <span>

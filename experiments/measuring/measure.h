@@ -2,7 +2,7 @@
 #include "core/gbuffer/gbuffer_file.h"
 #include "experiments/config/config.h"
 #include "experiments/measuring/cell.h"
-#include "groundtruth/reference.h"
+#include "groundtruth/reference/reference.h"
 #include "metrics/masks.h"
 #include "metrics/score.h"
 

@@ -29,10 +29,11 @@ struct ShotAnswer {
     std::vector<AnswerPoint> tied;        ///< ranked ones that are not distinguishable from `best`
     std::vector<AnswerPoint> unranked;    ///< measured, without an interval that holds all noise; the least error first
     std::optional<AnswerPoint> baseline;  ///< `none`, where it was run: no reflections but the environment's
-    std::optional<AnswerPoint> limit;  ///< error of the truth ladder's rung on_screen: see groundtruth/truth_ladder.h
-    std::vector<AnswerPoint> front;    ///< that no other beats in both error and time, by ascending time; a hint, by
-                                       ///< means and medians alone
-    bool is_clock_proven = false;      ///< that timed the shot; false where nothing was timed
+    std::optional<AnswerPoint>
+        limit;  ///< error of the truth ladder's rung on_screen: see groundtruth/reference/truth_ladder.h
+    std::vector<AnswerPoint> front;  ///< that no other beats in both error and time, by ascending time; a hint, by
+                                     ///< means and medians alone
+    bool is_clock_proven = false;    ///< that timed the shot; false where nothing was timed
     std::string sentence, perceptual_sentence;  ///< the latter is empty where no perceptual error was measured
 };
 

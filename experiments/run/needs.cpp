@@ -2,7 +2,7 @@
 
 #include "core/gbuffer/rasterizer.h"
 #include "experiments/measuring/render_variant.h"
-#include "groundtruth/path_tracer.h"
+#include "groundtruth/paths/path_tracer.h"
 #include "variants/registry.h"
 
 #include <algorithm>

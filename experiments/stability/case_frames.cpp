@@ -3,7 +3,7 @@
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "experiments/stability/changed_shot.h"
-#include "groundtruth/reference_cache.h"
+#include "groundtruth/reference/reference_cache.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "core/gpu/device.h"
 #include "experiments/measuring/frames/frame_source.h"
 #include "experiments/stability/stability_case.h"
-#include "groundtruth/reference.h"
+#include "groundtruth/reference/reference.h"
 
 #include <functional>
 #include <memory>

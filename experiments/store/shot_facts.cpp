@@ -1,7 +1,7 @@
 #include "experiments/store/shot_facts.h"
 
-#include "groundtruth/reference_audit.h"
-#include "groundtruth/reference_error.h"
+#include "groundtruth/reference/reference_audit.h"
+#include "groundtruth/reference/reference_error.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/scene_facts.h"
 #include "experiments/config/config.h"
-#include "groundtruth/reference.h"
+#include "groundtruth/reference/reference.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #include "tests/gbuffer/agreement.h"
 
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "groundtruth/path_tracer.h"
+#include "groundtruth/paths/path_tracer.h"
 
 #include <gtest/gtest.h>
 #include <cstdio>

@@ -1,8 +1,8 @@
 #include "core/shared/brdf.h"
 
 #include "core/split_sum.h"
-#include "groundtruth/lobes.h"
-#include "groundtruth/sobol.h"
+#include "groundtruth/sampling/lobes.h"
+#include "groundtruth/sampling/sobol.h"
 #include "tests/groundtruth/ggx_densities.h"
 #include "tests/groundtruth/vectors.h"
 

@@ -1,4 +1,4 @@
-#include "groundtruth/traced_scene.h"
+#include "groundtruth/paths/traced_scene.h"
 #include "tests/groundtruth/test_scene.h"
 
 #include <gtest/gtest.h>
@@ -211,7 +211,10 @@ TEST(geometry, unlit_surfaces_radiate_their_colour_and_light_others) {
 
 TEST(geometry, alpha_mask_cuts_camera_rays_and_shadow_rays) {
     TestScene scene;
-    Texture half{.name = "half", .extent = {2, 1}, .rgba = make_texels({255, 255, 255, 255, 255, 255, 255, 0}), .is_nearest = true};
+    Texture half{.name = "half",
+                 .extent = {2, 1},
+                 .rgba = make_texels({255, 255, 255, 255, 255, 255, 255, 0}),
+                 .is_nearest = true};
     half.wrap_u = half.wrap_v = TextureWrap::clamp_to_edge;
     scene.scene.textures.push_back(half);
     Material mask = lambert_material(0.5f);

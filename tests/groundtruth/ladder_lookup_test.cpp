@@ -1,8 +1,8 @@
 // The rung `on_screen` against what a perfect technique would look up in a reference's own images: mirror rays,
 // projected to pixels, with the depth and the material there deciding what is shown.
 #include "core/scene/load_scene.h"
-#include "groundtruth/reference.h"
-#include "groundtruth/traced_scene.h"
+#include "groundtruth/paths/traced_scene.h"
+#include "groundtruth/reference/reference.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,6 +1,6 @@
 // What a reference says of its own errors: its halves against its variance, and light beyond the longest path.
-#include "groundtruth/reference_audit.h"
-#include "groundtruth/reference_error.h"
+#include "groundtruth/reference/reference_audit.h"
+#include "groundtruth/reference/reference_error.h"
 
 #include "core/scene/load_scene.h"
 

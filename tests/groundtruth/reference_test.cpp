@@ -2,9 +2,9 @@
 #include "core/error.h"
 #include "core/exr.h"
 #include "core/scene/load_scene.h"
-#include "groundtruth/reference_cache.h"
-#include "groundtruth/reference_error.h"
-#include "groundtruth/reference_file.h"
+#include "groundtruth/reference/reference_cache.h"
+#include "groundtruth/reference/reference_error.h"
+#include "groundtruth/reference/reference_file.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Renders with a target over integrands with known moments: who decides a pixel's samples, and that no bias comes of
 // it. And what time limits do.
-#include "groundtruth/sample_allocation.h"
+#include "groundtruth/reference/sample_allocation.h"
 
-#include "groundtruth/reference_guide.h"
-#include "groundtruth/reference_stopping.h"
-#include "groundtruth/sobol.h"
+#include "groundtruth/reference/reference_guide.h"
+#include "groundtruth/reference/reference_stopping.h"
+#include "groundtruth/sampling/sobol.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>

@@ -1,8 +1,8 @@
 #include "core/shared/environment.h"
-#include "groundtruth/alias_table.h"
-#include "groundtruth/environment_table.h"
-#include "groundtruth/sobol.h"
-#include "groundtruth/traced_scene.h"
+#include "groundtruth/lights/environment_table.h"
+#include "groundtruth/paths/traced_scene.h"
+#include "groundtruth/sampling/alias_table.h"
+#include "groundtruth/sampling/sobol.h"
 #include "tests/groundtruth/test_scene.h"
 
 #include <gtest/gtest.h>

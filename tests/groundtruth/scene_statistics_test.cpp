@@ -1,9 +1,9 @@
 #include "core/error.h"
 #include "core/scene/camera.h"
 #include "core/scene/load_scene.h"
-#include "groundtruth/embree_scene.h"
-#include "groundtruth/mirror_rays.h"
-#include "groundtruth/traced_scene.h"
+#include "groundtruth/paths/mirror_rays.h"
+#include "groundtruth/paths/traced_scene.h"
+#include "groundtruth/scene/embree_scene.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-#include "groundtruth/path_tracer.h"
-#include "groundtruth/reference_pixel.h"  // batch_count
+#include "groundtruth/paths/path_tracer.h"
+#include "groundtruth/reference/reference_pixel.h"  // batch_count
 
 #include <array>
 #include <vector>

@@ -4,9 +4,9 @@
 // groundtruth/README.md. Scenes are found as by `ssrlab`; what is nowhere is left out with a note.
 #include "core/error.h"
 #include "core/scene/load_scene.h"
-#include "groundtruth/path_tracer.h"
-#include "groundtruth/reference.h"
-#include "groundtruth/reference_error.h"
+#include "groundtruth/paths/path_tracer.h"
+#include "groundtruth/reference/reference.h"
+#include "groundtruth/reference/reference_error.h"
 #include "metrics/quantiles.h"
 
 #include <benchmark/benchmark.h>

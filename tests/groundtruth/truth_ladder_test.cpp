@@ -1,10 +1,10 @@
 // The truth ladder of whole references: its file, its bits, its errors, and the summary that is printed.
-#include "groundtruth/truth_ladder.h"
+#include "groundtruth/reference/truth_ladder.h"
 #include "core/error.h"
 #include "core/scene/load_scene.h"
-#include "groundtruth/camera_view.h"
-#include "groundtruth/reference_error.h"
-#include "groundtruth/reference_file.h"
+#include "groundtruth/reference/reference_error.h"
+#include "groundtruth/reference/reference_file.h"
+#include "groundtruth/scene/camera_view.h"
 #include "tests/groundtruth/test_scene.h"
 
 #include <gtest/gtest.h>

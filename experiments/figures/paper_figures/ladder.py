@@ -3,7 +3,7 @@
 from paper_figures import style
 from ssrlab.results import Measured
 
-RUNGS = {"on_screen": "limit of one frame", "camera_radiance": "camera's radiance"}  # groundtruth/truth_ladder.h
+RUNGS = {"on_screen": "limit of one frame", "camera_radiance": "camera's radiance"}  # groundtruth/reference/truth_ladder.h
 LOOKS = {"on_screen": ("#000000", "--"), "camera_radiance": ("#666666", ":")}
 
 

@@ -1,6 +1,6 @@
 """How many times the information limit of one frame an error is: rows for tables, as a study's files would hold them."""
 
-RUNG = "on_screen"  # groundtruth/truth_ladder.h
+RUNG = "on_screen"  # groundtruth/reference/truth_ladder.h
 
 
 def _limits(shots):

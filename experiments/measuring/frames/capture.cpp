@@ -7,7 +7,7 @@
 #include "core/gbuffer/pixel_position.h"
 #include "core/path_inside.h"
 #include "experiments/config/capture_folder.h"
-#include "groundtruth/reference_file.h"
+#include "groundtruth/reference/reference_file.h"
 
 #include <algorithm>
 #include <cmath>

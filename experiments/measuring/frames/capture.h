@@ -2,7 +2,7 @@
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/prefiltered_environment.h"
 #include "experiments/config/shot.h"
-#include "groundtruth/reference.h"
+#include "groundtruth/reference/reference.h"
 
 #include <memory>
 #include <optional>

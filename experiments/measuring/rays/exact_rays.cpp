@@ -1,7 +1,7 @@
 #include "experiments/measuring/rays/exact_rays.h"
 
 #include "core/error.h"
-#include "groundtruth/traced_scene.h"
+#include "groundtruth/paths/traced_scene.h"
 #include "variants/tracers/outcome.h"
 
 #include <tbb/parallel_for.h>

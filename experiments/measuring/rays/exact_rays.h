@@ -3,8 +3,8 @@
 #include "core/scene/scene.h"
 #include "core/shared/camera.h"
 #include "experiments/config/shot.h"
-#include "groundtruth/camera_view.h"
-#include "groundtruth/embree_scene.h"
+#include "groundtruth/scene/camera_view.h"
+#include "groundtruth/scene/embree_scene.h"
 
 /// What rays that start from the pixels of one frame meet in the scene.
 class ExactRays {

@@ -6,7 +6,7 @@
 #include "experiments/run/plan/growth.h"
 #include "experiments/run/shots/open_shot.h"
 #include "experiments/run/shots/point_renders.h"
-#include "groundtruth/reference.h"
+#include "groundtruth/reference/reference.h"
 #include "variants/registry.h"
 
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #include "experiments/measuring/rung_errors.h"
 #include "experiments/store/result_images.h"
 #include "experiments/store/shot_facts.h"
-#include "groundtruth/reference_cache.h"
+#include "groundtruth/reference/reference_cache.h"
 
 #include <cstdio>
 #include <map>

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/scene/load_scene.h"
-#include "groundtruth/reference_guide.h"
-#include "groundtruth/reference_passes.h"
+#include "groundtruth/reference/reference_guide.h"
+#include "groundtruth/reference/reference_passes.h"
 #include "metrics/masks.h"
 
 #include <tbb/parallel_for.h>

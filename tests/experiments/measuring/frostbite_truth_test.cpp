@@ -2,7 +2,7 @@
 // and the mean over seeds must be the truth's on-screen rung, if the rays are those of the whole lobe.
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
-#include "groundtruth/path_tracer.h"
+#include "groundtruth/paths/path_tracer.h"
 #include "variants/registry.h"
 
 #include <gtest/gtest.h>

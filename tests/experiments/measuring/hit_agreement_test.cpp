@@ -4,7 +4,7 @@
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
-#include "groundtruth/traced_scene.h"
+#include "groundtruth/paths/traced_scene.h"
 #include "variants/registry.h"
 
 #include <gtest/gtest.h>

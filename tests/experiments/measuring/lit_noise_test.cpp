@@ -2,7 +2,7 @@
 #include "experiments/measuring/lit_noise.h"
 #include "core/gpu/device.h"
 #include "experiments/run/shots/point_renders.h"
-#include "groundtruth/reference_cache.h"
+#include "groundtruth/reference/reference_cache.h"
 #include "tests/experiments/run/study_fixture.h"
 
 #include <random>

@@ -2,7 +2,7 @@
 // nothing.
 #include "core/error.h"
 #include "core/json.h"
-#include "groundtruth/reference_file.h"
+#include "groundtruth/reference/reference_file.h"
 #include "tests/experiments/run/study_fixture.h"
 
 #include <map>

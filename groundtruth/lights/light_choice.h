@@ -1,0 +1,53 @@
+#pragma once
+#include "groundtruth/sampling/learning_grid.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// What one light sample found, for a group that was chosen with the probability that it has before learning.
+struct LightObservation {
+    vec3 position;  ///< where the light arrives (m)
+    vec3 normal;    ///< geometric, on the side where it arrives
+    uint32_t group;
+    float contribution;  ///< luminance that it added to the pixel, weights and visibility included
+};
+
+/// With which probability a light sample chooses each group of lights, depending on where the light is to arrive: in
+/// proportion to what arrives from each on average, so that choosing adds the least variance. It is learnt from light
+/// samples of paths that a render does not use, in cells of space and of the normal's direction: unlike power, it knows
+/// what is hidden, far, or behind. (In proportion to the root of the mean square, which is best for independent
+/// samples, the rare bright ones decide, and stratified samples gain less.) Every group keeps a share everywhere, so
+/// that no render's mean depends on what was learnt.
+class LightChoice {
+public:
+    /// Nothing is learnt: each group has its share everywhere. `shares`: of each group, > 0; they add up to 1.
+    explicit LightChoice(std::vector<double> shares = {1.0});
+
+    /// `low`, `high`: bounds of the scene (m). The same observations in the same order give the same choice to the bit.
+    void learn(std::span<const LightObservation> observations, vec3 low, vec3 high);
+
+    /// The cell of a point (m) with a unit normal; 0 stands for the whole scene.
+    uint32_t cell(vec3 position, vec3 normal) const {
+        return cells_.empty() ? 0 : cells_[grid_.index(position, normal)];
+    }
+    float probability(uint32_t cell, uint32_t group) const {
+        const uint32_t* ends = &ends_[size_t(cell) * groups_];
+        return float(ends[group] - (group ? ends[group - 1] : 0)) * 0x1p-24f;
+    }
+
+    struct Choice {
+        uint32_t group, rest;  ///< rest: uniform 32-bit fixed point
+    };
+    /// A group with its probability(). `bits`: uniform 32-bit fixed point.
+    Choice sample(uint32_t cell, uint32_t bits) const;
+
+private:
+    void add_cell(std::span<const double> means);
+
+    std::vector<double> shares_;
+    uint32_t groups_;
+    LearningGrid grid_;
+    std::vector<uint32_t> cells_;  ///< of grid_; empty: nothing is learnt
+    std::vector<uint32_t> ends_;  ///< of each cell: sums of the groups' probabilities up to each (2^-24); the last is 1
+};

@@ -1,0 +1,282 @@
+#include "groundtruth/lights/light_sampler.h"
+
+#include "core/shared/punctual_light.h"
+#include "groundtruth/lights/light_groups.h"
+#include "groundtruth/sampling/lobes.h"
+#include "groundtruth/sampling/sobol.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+/// Share of a textured emitter's choice that does not depend on what its probes of the texture found, so that no bright
+/// texel between them is ever missed.
+constexpr double unprobed_share = 0.1;
+constexpr int probes_per_side = 4;
+
+constexpr size_t max_groups_of_a_kind = 16;
+/// Emissive triangles nearer to each other are not divided: a cell of LightChoice. As a share of the scene's
+/// diagonal.
+constexpr float least_extent = 1.0f / 48;
+/// Triangles that face opposite ways are as far apart as twice this share.
+constexpr float facing_scale = 0.05f;
+
+constexpr uint32_t in_environment = ~0u;
+
+/// Barycentrics that are uniform over a triangle (Turk 1990).
+glm::vec2 triangle_barycentrics(glm::vec2 u) {
+    const float root = std::sqrt(u.x);
+    return {root * (1.0f - u.y), root * u.y};
+}
+
+double mean_emission(const MaterialTable& materials, uint32_t instance, uint32_t triangle) {
+    double sum = 0;
+    for (int y = 0; y < probes_per_side; ++y)
+        for (int x = 0; x < probes_per_side; ++x) {
+            const glm::vec2 at = triangle_barycentrics((glm::vec2(x, y) + 0.5f) / float(probes_per_side));
+            sum += luminance(materials.emission(instance, triangle, at.x, at.y));
+        }
+    return sum / (probes_per_side * probes_per_side);
+}
+
+double punctual_power(const PunctualLight& light, double scene_radius) {
+    const double intensity = luminance(light.intensity);
+    if (light.type == LightType::directional) return intensity * M_PI * scene_radius * scene_radius;
+    if (light.type == LightType::point) return intensity * 4 * M_PI;
+    return intensity * 2 * M_PI * (1 - 0.5 * (light.inner_cone_cos + light.outer_cone_cos));
+}
+
+}  // namespace
+
+PunctualArrival arrival(const PunctualLight& light, glm::vec3 point) {
+    if (light.type == LightType::directional) return {-light.direction, light.intensity, true};
+    const glm::vec3 to_light = light.position - point;
+    const float distance = glm::length(to_light);
+    PunctualArrival arriving{to_light / distance, light.intensity * punctual_falloff(distance, light.range), false};
+    if (light.type == LightType::spot)
+        arriving.irradiance *= spot_attenuation(-glm::dot(arriving.direction, light.direction), light.inner_cone_cos,
+                                                light.outer_cone_cos);
+    return arriving;
+}
+
+LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry,
+                           const MaterialTable& materials, bool sample_environment, bool compensate)
+    : geometry_(geometry), materials_(materials), first_triangle_(scene.instances.size(), no_light) {
+    std::vector<double> powers;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i)
+        if (materials.emits(geometry.instance(i).material)) add_triangles(scene, i, powers);
+
+    triangle_count_ = uint32_t(triangles_.size());
+
+    const auto bounds = scene_bounds(scene, pose);
+    low_ = bounds[0];
+    high_ = bounds[1];
+    const float diagonal = glm::length(high_ - low_);
+    const double radius = 0.5 * double(diagonal);
+    for (const PunctualLight& light : pose.lights) {
+        if (light.intensity == glm::vec3(0.0f)) continue;
+        lights_.push_back(light);
+        // A direction of no length scale, or a scene without extent, still needs a chance.
+        powers.push_back(std::max(punctual_power(light, radius), 1e-6 * luminance(light.intensity)));
+    }
+    light_probabilities_.resize(lights_.size());
+    group_lights(powers, diagonal);
+
+    if (sample_environment && !scene.environment.is_black()) {
+        environment_ = EnvironmentTable(scene.environment, compensate);
+        environment_source_ = &scene.environment;
+    }
+    if (!empty()) choice_ = LightChoice(shares());
+    needs_more_ = !lights_.empty() || has_environment_table();
+    for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
+}
+
+/// Lamps and emissive triangles are divided by their places, triangles by where they face as well.
+void LightSampler::group_lights(std::span<const double> powers, float diagonal) {
+    if (!(diagonal > 0)) diagonal = 1;
+    std::vector<PlacedPower> triangles, lamps, suns;
+    for (uint32_t i = 0; i < triangle_count_; ++i) {
+        const Triangle& light = triangles_[i];
+        const glm::vec3 at = (light.position[0] + light.position[1] + light.position[2]) / (3 * diagonal);
+        const glm::vec3 facing = light.emits_behind ? glm::vec3(0.0f) : light.front_normal * facing_scale;
+        triangles.push_back({{at.x, at.y, at.z, facing.x, facing.y, facing.z}, powers[i]});
+    }
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        const bool is_sun = lights_[i].type == LightType::directional;
+        const glm::vec3 at = is_sun ? lights_[i].direction : lights_[i].position / diagonal;
+        const PlacedPower light{{at.x, at.y, at.z}, powers[triangle_count_ + i]}, none{{}, 0};
+        lamps.push_back(is_sun ? none : light);
+        suns.push_back(is_sun ? light : none);
+    }
+    for (auto& group : divide_lights(triangles, max_groups_of_a_kind, least_extent))
+        add_group(std::move(group), powers);
+    for (const auto& kind : {lamps, suns})
+        for (auto& group : divide_lights(kind, max_groups_of_a_kind, 0)) {
+            for (uint32_t& light : group) light += triangle_count_;
+            add_group(std::move(group), powers);
+        }
+}
+
+/// Of each group: all emissive triangles together, all parts of the environment together and each group of lamps have
+/// the same share, so that no kind of light is short of samples because another was divided into many groups.
+std::vector<double> LightSampler::shares() const {
+    uint32_t of_triangles = 0;
+    for (const Group& group : groups_) of_triangles += group.lights[0] < triangle_count_;
+    const uint32_t lamps = uint32_t(groups_.size()) - of_triangles, parts = environment_.part_count();
+    const double share = 1.0 / (lamps + (of_triangles > 0) + (parts > 0));
+    std::vector<double> shares(of_triangles, share / of_triangles);
+    shares.resize(groups_.size(), share);
+    shares.resize(group_count(), share / parts);
+    return shares;
+}
+
+/// `powers`: of all lights.
+void LightSampler::add_group(std::vector<uint32_t> lights, std::span<const double> powers) {
+    std::vector<double> weights;
+    for (const uint32_t light : lights) weights.push_back(powers[light]);
+    const AliasTable table(weights);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const float probability = float(table.probability(i));
+        if (lights[i] < triangle_count_) {
+            triangles_[lights[i]].area_pdf *= probability;
+            triangles_[lights[i]].group = uint32_t(groups_.size());
+        } else {
+            light_probabilities_[lights[i] - triangle_count_] = probability;
+        }
+    }
+    groups_.push_back({std::move(lights), table});
+}
+
+void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index, std::vector<double>& powers) {
+    const InstanceRecord& instance = geometry_.instance(instance_index);
+    first_triangle_[instance_index] = uint32_t(triangles_.size());
+    const bool varies = materials_.emission_varies(instance.material),
+               emits_behind = scene.materials[instance.material].is_double_sided;
+    for (uint32_t t = 0; t < instance.mesh->indices.size() / 3; ++t) {
+        Triangle& light = triangles_.emplace_back();
+        light.error = glm::vec3(0.0f);
+        light.group = 0;
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 position = instance.triangles[t].position[k];
+            light.position[k] =
+                instance.is_baked ? position : glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f));
+            light.error = glm::max(light.error, geometry_.point(instance_index, t, float(k == 1), float(k == 2)).error);
+        }
+        const glm::dvec3 p0(light.position[0]), p1(light.position[1]), p2(light.position[2]);
+        const double area = 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0));
+        light.instance = instance_index;
+        light.triangle = t;
+        light.emission_varies = varies;
+        light.emits_behind = emits_behind;
+        light.radiance = materials_.emission(instance_index, t, 1.0f / 3, 1.0f / 3);
+        light.front_normal = geometry_.point(instance_index, t, 1.0f / 3, 1.0f / 3).front_normal;
+        light.area_pdf = area > 0 ? float(1 / area) : 0.0f;
+        double emission = luminance(light.radiance);
+        if (varies)
+            emission = (1 - unprobed_share) * mean_emission(materials_, instance_index, t) +
+                       unprobed_share * luminance(materials_.greatest_emission(instance.material));
+        powers.push_back(area * emission * M_PI * (emits_behind ? 2 : 1));
+    }
+}
+
+void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& cell,
+                          const Lanes<uint32_t>& x, const Lanes<uint32_t>& y, LightLanes& lights) const {
+    Lanes<uint32_t> choice, rest, emits_behind;
+    LanesVec3 p0, p1, p2;
+    Lanes<float> u, v;
+    for (int lane = 0; lane < lane_count; ++lane) {
+        if (!is_wanted[lane]) continue;
+        const LightChoice::Choice group = choice_.sample(cell[lane], x[lane]);
+        lights.group[lane] = group.group;
+        if (group.group >= groups_.size()) {
+            choice[lane] = in_environment;
+            rest[lane] = group.rest;
+            continue;
+        }
+        const AliasTable::Choice chosen = groups_[group.group].table.sample(group.rest);
+        choice[lane] = groups_[group.group].lights[chosen.index];
+        rest[lane] = chosen.rest;
+        if (choice[lane] >= triangle_count_) continue;
+        const Triangle& light = triangles_[choice[lane]];
+        p0.set(lane, light.position[0]);
+        p1.set(lane, light.position[1]);
+        p2.set(lane, light.position[2]);
+        lights.error.set(lane, light.error);
+        lights.normal.set(lane, light.front_normal);
+        lights.radiance.set(lane, light.radiance);
+        lights.pdf[lane] = light.area_pdf * choice_.probability(cell[lane], group.group);
+        emits_behind[lane] = light.emits_behind;
+    }
+    FOR_EACH_LANE {
+        const glm::vec2 at = triangle_barycentrics({unit_float(rest[lane]), unit_float(y[lane])});
+        u[lane] = at.x;
+        v[lane] = at.y;
+        const glm::vec3 position = (1.0f - at.x - at.y) * p0.get(lane) + at.x * p1.get(lane) + at.y * p2.get(lane);
+        const glm::vec3 to_light = position - point.get(lane);
+        const float square = glm::dot(to_light, to_light);
+        const glm::vec3 direction = to_light * (1.0f / std::sqrt(square));
+        const float cosine = -glm::dot(direction, lights.normal.get(lane));
+        const bool is_lit = (cosine > 0.0f) | ((cosine < 0.0f) & (emits_behind[lane] != 0));
+        lights.position.set(lane, position);
+        lights.direction.set(lane, direction);
+        lights.pdf[lane] = is_lit ? lights.pdf[lane] * square / std::fabs(cosine) : 0.0f;
+        lights.is_delta[lane] = 0;
+        lights.is_infinite[lane] = 0;
+    }
+    for (int lane = 0; lane < lane_count && needs_more_; ++lane) {
+        if (!is_wanted[lane]) continue;
+        const uint32_t index = choice[lane];
+        if (index < triangle_count_) {
+            if (triangles_[index].emission_varies)
+                lights.radiance.set(lane, materials_.emission(triangles_[index].instance, triangles_[index].triangle,
+                                                              u[lane], v[lane]));
+            continue;
+        }
+        const uint32_t group = lights.group[lane];
+        const float probability = choice_.probability(cell[lane], group);
+        if (index == in_environment)
+            sample_environment(group, rest[lane], y[lane], probability, lane, lights);
+        else
+            sample_punctual(lights_[index - triangle_count_], point.get(lane),
+                            light_probabilities_[index - triangle_count_] * probability, lane, lights);
+    }
+}
+
+void LightSampler::sample_environment(uint32_t group, uint32_t x, uint32_t y, float probability, int lane,
+                                      LightLanes& lights) const {
+    float pdf;
+    const glm::vec3 direction = environment_.sample(group - uint32_t(groups_.size()), {x, y}, pdf);
+    lights.pdf[lane] = pdf * probability;
+    lights.direction.set(lane, direction);
+    lights.radiance.set(lane, environment_source_->radiance(direction));
+    lights.is_infinite[lane] = 1;
+}
+
+void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
+                                   LightLanes& lights) const {
+    const PunctualArrival arriving = arrival(light, point);
+    const bool is_apart = arriving.is_infinite || light.position != point;
+    lights.is_delta[lane] = 1;
+    lights.is_infinite[lane] = arriving.is_infinite;
+    lights.pdf[lane] = is_apart ? probability : 0.0f;
+    lights.direction.set(lane, arriving.direction);
+    lights.radiance.set(lane, arriving.irradiance);
+    lights.position.set(lane, light.position);
+    lights.error.set(lane, glm::vec3(0.0f));
+    lights.normal.set(lane, glm::vec3(0.0f));
+}
+
+float LightSampler::triangle_pdf(uint32_t cell, uint32_t instance, uint32_t triangle, glm::vec3 normal,
+                                 glm::vec3 direction, float distance) const {
+    if (first_triangle_[instance] == no_light || empty()) return 0.0f;
+    const Triangle& light = triangles_[first_triangle_[instance] + triangle];
+    const float cosine = std::abs(glm::dot(normal, direction));
+    return cosine > 0 ? light.area_pdf * choice_.probability(cell, light.group) * distance * distance / cosine : 0.0f;
+}
+
+float LightSampler::environment_pdf(uint32_t cell, glm::vec3 direction) const {
+    if (!has_environment_table()) return 0.0f;
+    const EnvironmentTable::Density density = environment_.density(direction);
+    return density.pdf * choice_.probability(cell, uint32_t(groups_.size()) + density.part);
+}

@@ -1,0 +1,104 @@
+#pragma once
+#include "groundtruth/lights/environment_table.h"
+#include "groundtruth/lights/light_choice.h"
+#include "groundtruth/sampling/alias_table.h"
+#include "groundtruth/sampling/lanes.h"
+#include "groundtruth/scene/material_table.h"
+
+/// Directions in which light may arrive at a point per lane, before visibility is known.
+struct LightLanes {
+    LanesVec3 direction;  ///< unit, towards the light
+    LanesVec3 radiance;   ///< of a delta light: irradiance at normal incidence; W sr^-1 m^-2 else
+    Lanes<float> pdf;  ///< sr^-1, times the probability of the choice; of a delta light: that probability; 0: no sample
+    LanesVec3 position, error,
+        normal;  ///< of the point on the light, if not infinite; a punctual light has no error and no normal
+    Lanes<uint32_t> is_delta, is_infinite;
+    Lanes<uint32_t> group;  ///< of lights, as LightChoice numbers them
+    // Of the rays that test visibility, filled in by aim_shadow_rays():
+    LanesVec3 shadow_origin, shadow_direction;
+    Lanes<float> shadow_far;  ///< in units of shadow_direction
+};
+
+/// What a punctual light sends to a point, before visibility is known.
+struct PunctualArrival {
+    glm::vec3 direction;   ///< unit, towards the light; not a number if the point is the light's own
+    glm::vec3 irradiance;  ///< at normal incidence (W m^-2)
+    bool is_infinite;      ///< the light is at no place
+};
+/// `point`: m, world space. Range and cone as KHR_lights_punctual has them.
+PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
+
+/// Chooses among emissive triangles, punctual lights and the environment: a group by LightChoice, and within it in
+/// proportion to power. Groups are neighbouring triangles, neighbouring lamps (each its own, if there are few) and the
+/// parts of the environment.
+class LightSampler {
+public:
+    /// `sample_environment`: also where it is constant or a gradient, which BSDF sampling finds as well.
+    /// `compensate`: see EnvironmentTable.
+    LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry, const MaterialTable& materials,
+                 bool sample_environment, bool compensate);
+
+    bool empty() const { return group_count() == 0; }
+    uint32_t group_count() const { return uint32_t(groups_.size()) + environment_.part_count(); }
+    /// See LightChoice::learn().
+    void learn(std::span<const LightObservation> observations) { choice_.learn(observations, low_, high_); }
+    /// The cell of LightChoice for a point (m) with a unit geometric normal on the side where light arrives.
+    uint32_t cell(glm::vec3 position, glm::vec3 normal) const { return choice_.cell(position, normal); }
+    glm::vec3 low() const { return low_; }  ///< bounds of the scene (m)
+    glm::vec3 high() const { return high_; }
+    const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< that shine
+    bool has_environment_table() const { return environment_.part_count() > 0; }
+
+    /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives; `cell`: its cell. The sampler must
+    /// not be empty(). Lanes that are not wanted get anything.
+    void sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& cell,
+                const Lanes<uint32_t>& x, const Lanes<uint32_t>& y, LightLanes& lights) const;
+
+    /// Density (sr^-1) with which sample() finds a point of an emissive triangle along `direction` at `distance` (m)
+    /// from a point of `cell`.
+    float triangle_pdf(uint32_t cell, uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
+                       float distance) const;
+    /// The same (sr^-1) of a unit direction to the environment; 0 where it is not sampled.
+    float environment_pdf(uint32_t cell, glm::vec3 direction) const;
+
+private:
+    struct Triangle {
+        glm::vec3 position[3];
+        glm::vec3 error;  ///< half extent of a box that holds the exact place of any of its points
+        glm::vec3 front_normal;
+        glm::vec3 radiance;  ///< constant emission
+        float area_pdf;      ///< probability of the choice within its group over the area (m^-2)
+        uint32_t instance, triangle, group;
+        bool emission_varies, emits_behind;
+    };
+    static constexpr uint32_t no_light = ~0u;
+
+    /// Lights that are chosen together, as indices of triangles_, then lights_.
+    struct Group {
+        std::vector<uint32_t> lights;
+        AliasTable table;
+    };
+
+    void add_triangles(const Scene& scene, uint32_t instance, std::vector<double>& powers);
+    void group_lights(std::span<const double> powers, float diagonal);
+    std::vector<double> shares() const;
+    void add_group(std::vector<uint32_t> lights, std::span<const double> powers);
+    void sample_environment(uint32_t group, uint32_t x, uint32_t y, float probability, int lane,
+                            LightLanes& lights) const;
+    void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
+                         LightLanes& lights) const;
+
+    const EmbreeScene& geometry_;
+    const MaterialTable& materials_;
+    std::vector<Triangle> triangles_;
+    uint32_t triangle_count_ = 0;
+    std::vector<uint32_t> first_triangle_;  ///< of each instance, or no_light
+    std::vector<PunctualLight> lights_;
+    std::vector<float> light_probabilities_;  ///< of lights_ within their groups
+    EnvironmentTable environment_;
+    const Environment* environment_source_ = nullptr;
+    bool needs_more_ = false;    ///< there is more to sample than triangles of constant emission
+    std::vector<Group> groups_;  ///< LightChoice counts these, then the parts of environment_
+    LightChoice choice_;
+    glm::vec3 low_{0.0f}, high_{0.0f};  ///< bounds of the scene (m)
+};

@@ -1,0 +1,273 @@
+#include "groundtruth/paths/path_lanes.h"
+
+#include <bit>
+#include <cmath>
+
+namespace {
+
+/// Roulette by what paths promise: one that is expected to bring 1 / promise_window of its pixel's light goes on, and
+/// one that is expected to bring nothing still with least_survival, since what is expected can be wrong. Measured over
+/// windows of 1, 1.5, 3 and 10.
+constexpr float promise_window = 2.0f, least_survival = 0.1f;
+
+constexpr uint32_t all_lanes = (1ull << lane_count) - 1;
+
+template <class Work>
+void for_each_bit(uint32_t bits, const Work& work) {
+    for (; bits != 0; bits &= bits - 1) work(std::countr_zero(bits));
+}
+
+uint32_t bits_of(const Lanes<uint32_t>& flags) {
+    uint32_t bits = 0;
+    for (int lane = 0; lane < lane_count; ++lane) bits |= flags[lane] << lane;
+    return bits;
+}
+
+/// The unit direction from a point to the camera; where that is behind the surface, to its mirror image before it, so
+/// that every surface has a lit colour on the side that was met. Branchless.
+vec3 to_camera(const CameraView& camera, vec3 position, vec3 normal) {
+    const vec3 to_eye = camera.to_eye(position);
+    const float height = dot(to_eye, normal), depth_behind = height < 0.0f ? height : 0.0f;
+    const vec3 towards = to_eye - (2.0f * depth_behind) * normal;
+    return towards * (1.0f / sqrt(dot(towards, towards)));
+}
+
+}  // namespace
+
+void PathLanes::start(const PathStart& path) {
+    while (busy_ == all_lanes) advance();
+    const int lane = std::countr_one(busy_);
+    busy_ |= 1u << lane;
+    origin_.set(lane, path.origin);
+    direction_.set(lane, path.direction);
+    throughput_.set(lane, vec3(1.0f));
+    radiance_.set(lane, vec3(0.0f));
+    weight_.set(lane, path.weight);
+    pdf_[lane] = path.pdf;
+    light_cell_[lane] = path.light_cell;
+    depth_[lane] = 1;
+    pair_[lane] = path.is_specular ? uint32_t(pair_first_free) : diffuse_stream;
+    reversed_sample_[lane] = path.reversed_sample;
+    is_specular_[lane] = path.is_specular;
+    per_estimate_[lane] = path.per_estimate;
+    ++estimate_.paths;
+}
+
+void PathLanes::finish() {
+    while (busy_ != 0) advance();
+}
+
+void PathLanes::trace_rays() {
+    RTCRayHit ray[lane_count];
+    uint32_t hits = 0;
+    for_each_bit(busy_, [&](int lane) {
+        const vec3 origin = origin_.get(lane), direction = direction_.get(lane);
+        ++estimate_.rays;
+        if (!intersect(scene_.geometry.handle(), origin, direction, ray[lane])) return;
+        hits |= 1u << lane;
+        scene_.geometry.prefetch(ray[lane].hit.instID[0], ray[lane].hit.primID);
+    });
+    if (scene_.materials.any_varies()) {
+        for_each_bit(
+            hits, [&](int lane) { scene_.materials.prefetch_corners(ray[lane].hit.instID[0], ray[lane].hit.primID); });
+        for_each_bit(hits, [&](int lane) {
+            const RTCHit& hit = ray[lane].hit;
+            scene_.materials.prefetch_texels(hit.instID[0], hit.primID, hit.u, hit.v);
+        });
+    }
+    if (scene_.has_environment || goal_ == PathGoal::lit_color)
+        for_each_bit(busy_ & ~hits, [&](int lane) { leave(lane); });
+    continues_ = {};
+    for_each_bit(hits, [&](int lane) { meet(lane, ray[lane]); });
+}
+
+/// A path that meets nothing sees the environment.
+void PathLanes::leave(int lane) {
+    const vec3 direction = direction_.get(lane);
+    if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
+        is_on_screen_[lane] = is_on_screen(scene_, direction, estimate_);
+    const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(light_cell_[lane], direction));
+    radiance_.set(lane,
+                  radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
+}
+
+/// Takes in the surface at the end of a ray, and its emission.
+void PathLanes::meet(int lane, const RTCRayHit& ray) {
+    const uint32_t instance = ray.hit.instID[0], triangle = ray.hit.primID;
+    const vec3 direction = direction_.get(lane);
+    const auto take = [&](const ShadedPoint& surface) {
+        if (surface.emitted != vec3(0.0f)) {
+            const float light_pdf = scene_.lights.triangle_pdf(light_cell_[lane], instance, triangle,
+                                                               surface.geometric_normal, direction, ray.ray.tfar);
+            const float weight = scene_.mis.of_bsdf(pdf_[lane], light_pdf);
+            radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * surface.emitted * weight);
+        }
+        position_.set(lane, surface.origin);
+        error_.set(lane, surface.error);
+        geometric_normal_.set(lane, surface.geometric_normal);
+        normal_.set(lane, surface.normal);
+        base_color_.set(lane, surface.base_color);
+        metalness_[lane] = surface.metalness;
+        roughness_[lane] = surface.roughness;
+        specular_[lane] = surface.specular;
+        continues_[lane] = !surface.is_unlit;
+        if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
+            is_on_screen_[lane] =
+                is_on_screen(scene_, surface.origin, surface.error, surface.geometric_normal, estimate_);
+    };
+    scene_.materials.shade(instance, triangle, ray.hit.u, ray.hit.v, -direction, ray.ray.tfar, take);
+}
+
+void PathLanes::sample_lights() {
+    Lanes<uint32_t> x, y;
+    FOR_EACH_LANE {
+        const glm::uvec2 bits = sequence_.bits(reversed_sample_[lane], pair_[lane]);
+        x[lane] = bits.x;
+        y[lane] = bits.y;
+    }
+    for (int lane = 0; lane < lane_count; ++lane)
+        if (continues_[lane]) light_cell_[lane] = scene_.lights.cell(position_.get(lane), geometric_normal_.get(lane));
+    scene_.lights.sample(continues_, position_, light_cell_, x, y, lights_);
+}
+
+void PathLanes::look_ahead() {
+    for (int lane = 0; lane < lane_count; ++lane)
+        if (continues_[lane])
+            promise_[lane] =
+                per_estimate_[lane] > 0
+                    ? per_estimate_[lane] * scene_.expected.at(position_.get(lane), geometric_normal_.get(lane))
+                    : 0.0f;
+}
+
+template <bool has_lights, PathGoal goal>
+void PathLanes::scatter() {
+    const bool has_roulette = scene_.settings.russian_roulette;
+    const ReflectionModel model = scene_.settings.model;
+    const uint32_t max_depth = scene_.settings.max_depth;
+    const MisHeuristic mis = scene_.mis;
+    const CameraView camera = scene_.camera;
+    FOR_EACH_LANE {
+        const vec3 geometric_normal = geometric_normal_.get(lane), throughput = throughput_.get(lane);
+        const mat3 world_from_local = basis_from_normal(unit_normal(normal_.get(lane), geometric_normal));
+        const bool is_lit_color = goal == PathGoal::lit_color && depth_[lane] == 1;
+        vec3 to_viewer = -direction_.get(lane);
+        if constexpr (goal == PathGoal::lit_color)
+            to_viewer = choose(is_lit_color, to_camera(camera, position_.get(lane), geometric_normal), to_viewer);
+        const vec3 o = to_viewer * world_from_local;
+        const Lobes lobes =
+            make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane], o, model);
+        const float q = is_lit_color ? 0.0f : lobes.specular_probability;
+        const float specular_share = is_lit_color ? 0.0f : 1.0f;       // the lit colour is without reflections
+        const bool reflects = (continues_[lane] != 0) & (o.z > 0.0f);  // the viewer may be below the shading horizon
+        const bool is_last = depth_[lane] >= max_depth;
+
+        if constexpr (has_lights) {
+            const vec3 to_light = lights_.direction.get(lane);
+            const LobeValues f = evaluate(lobes, to_light * world_from_local);
+            const float light_pdf = lights_.pdf[lane], bsdf_pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
+            const float weight = lights_.is_delta[lane] ? 1.0f : mis.of_light(light_pdf, bsdf_pdf);
+            const bool is_used =
+                reflects & !is_last & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
+            const vec3 direct = throughput * (f.diffuse + f.specular * specular_share) * lights_.radiance.get(lane) *
+                                (weight / light_pdf);
+            direct_.set(lane, keep_if(is_used, direct));
+            aim_shadow_ray(position_.get(lane), error_.get(lane), geometric_normal, lane, lights_);
+        }
+
+        // One number chooses the lobe and, stretched again, places the sample on it.
+        const vec2 u = sequence_.pair(reversed_sample_[lane], pair_[lane] + 1);
+        const bool is_specular = u.x < q;
+        const vec2 stretched(is_specular ? u.x / q : (u.x - q) / (1.0f - q), u.y);
+        const vec3 i =
+            choose(is_specular, sample_ggx_reflection_bounded(o, lobes.alpha, stretched), sample_cosine(stretched));
+        const LobeValues f = evaluate(lobes, i);
+        const float pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
+        const vec3 direction = world_from_local * i;
+        const vec3 next = throughput * (f.diffuse + f.specular * specular_share) * (1.0f / pdf);
+
+        const float greatest = max(next.x, max(next.y, next.z));
+        const bool by_promise = per_estimate_[lane] > 0.0f;
+        const float promised = promise_window * luminance(weight_.get(lane) * next) * promise_[lane];
+        const float chance = by_promise ? (promised > least_survival ? promised : least_survival) : greatest;
+        const bool plays = has_roulette & (by_promise | (depth_[lane] >= 2)) & (chance < 1.0f);
+        const float survival = plays ? chance : 1.0f;
+        const bool survives = sequence_.random(reversed_sample_[lane], pair_[lane]) < survival;
+        const bool goes_on =
+            reflects & (i.z > 0) & (dot(direction, geometric_normal) > 0) & (pdf > 0) & (greatest > 0) & survives;
+
+        continues_[lane] = goes_on & !is_last;
+        cut_.set(lane, keep_if(goes_on & is_last, next * (1.0f / survival)));
+        throughput_.set(lane, next * (1.0f / survival));
+        pdf_[lane] = pdf;
+        origin_.set(lane, offset_origin(position_.get(lane), error_.get(lane), geometric_normal, direction));
+        direction_.set(lane, direction);
+        depth_[lane] += 1;
+        pair_[lane] += pairs_per_vertex;
+    }
+}
+
+/// `reached`: the lanes whose path has a new vertex.
+void PathLanes::trace_shadow_rays(uint32_t reached) {
+    for_each_bit(reached, [&](int lane) {
+        const vec3 direct = direct_.get(lane);
+        const bool arrives = direct != vec3(0.0f) && is_visible(scene_, lights_, lane, estimate_);
+        if (arrives) radiance_.set(lane, radiance_.get(lane) + direct);
+        if (estimate_.light_record && depth_[lane] <= scene_.settings.max_depth) [[unlikely]]  // not the last vertex
+            estimate_.light_record->push_back({position_.get(lane), geometric_normal_.get(lane), lights_.group[lane],
+                                               arrives ? luminance(weight_.get(lane) * direct) : 0.0f});
+    });
+}
+
+/// One segment of every path: to the next vertex, light there, and a new direction.
+void PathLanes::advance() {
+    trace_rays();
+    const bool has_lights = !scene_.lights.empty();
+    look_ahead();
+    const uint32_t reached = bits_of(continues_);
+    if (has_lights) sample_lights();
+    if (goal_ == PathGoal::lit_color)
+        has_lights ? scatter<true, PathGoal::lit_color>() : scatter<false, PathGoal::lit_color>();
+    else
+        has_lights ? scatter<true, PathGoal::reflection>() : scatter<false, PathGoal::reflection>();
+    if (has_lights) trace_shadow_rays(reached);
+    const uint32_t continuing = bits_of(continues_);
+    for_each_bit(busy_ & ~continuing, [&](int lane) { end(lane); });
+    busy_ &= continuing;
+    if (estimate_.radiance_record) [[unlikely]]
+        record(continuing);
+}
+
+void PathLanes::record(uint32_t continuing) {
+    visits_.resize(lane_count);
+    for_each_bit(continuing, [&](int lane) {
+        visits_[lane].push_back({position_.get(lane), geometric_normal_.get(lane), luminance(throughput_.get(lane)),
+                                 luminance(radiance_.get(lane))});
+    });
+}
+
+void PathLanes::end(int lane) {
+    if (!visits_.empty()) [[unlikely]] {
+        for (const Visit& visit : visits_[lane]) {
+            const float brought = (luminance(radiance_.get(lane)) - visit.radiance) / visit.throughput;
+            if (std::isfinite(brought)) estimate_.radiance_record->push_back({visit.position, visit.normal, brought});
+        }
+        visits_[lane].clear();
+    }
+    if (const vec3 cut = weight_.get(lane) * cut_.get(lane);
+        goal_ == PathGoal::reflection && std::isfinite(cut.x + cut.y + cut.z))
+        estimate_.cut += glm::dvec3(cut);
+    const vec3 radiance = radiance_.get(lane), reflected = weight_.get(lane) * radiance;
+    if (!std::isfinite(reflected.x + reflected.y + reflected.z)) {
+        ++estimate_.non_finite;
+    } else if (goal_ == PathGoal::lit_color) {
+        estimate_.camera_radiance += glm::dvec3(radiance);
+        if (!is_on_screen_[lane]) return;
+        estimate_.on_screen += glm::dvec3(radiance);
+        ++estimate_.on_screen_samples;
+    } else if (is_specular_[lane]) {
+        estimate_.specular += glm::dvec3(reflected);
+        estimate_.incident += glm::dvec3(radiance);
+    } else {
+        estimate_.diffuse += glm::dvec3(reflected);
+    }
+}

@@ -1,0 +1,80 @@
+#pragma once
+#include "groundtruth/paths/traced_scene.h"
+#include "groundtruth/sampling/lanes.h"
+#include "groundtruth/sampling/sobol.h"
+
+/// Pairs of the Sobol' point that the first hit uses; each later vertex takes the next two of its path's stream.
+enum : uint32_t { pair_specular, pair_light, pair_diffuse, pair_first_free };
+inline constexpr uint32_t pairs_per_vertex = 2;
+inline constexpr uint32_t diffuse_stream = 1u << 16;  ///< pairs of the paths that leave along the diffuse lobe
+
+/// A path that leaves the first hit.
+struct PathStart {
+    glm::vec3 origin, direction;
+    glm::vec3 weight;          ///< f mu_i / pdf of its lobe
+    float pdf;                 ///< sr^-1, of its lobe
+    uint32_t light_cell;       ///< of the first hit: see LightSampler::cell()
+    uint32_t reversed_sample;  ///< the index of the sample, bits reversed
+    bool is_specular;          ///< it leaves along the specular lobe, else the diffuse one
+    /// 1 / luminance that the pixel is thought to hold of this lobe: roulette ends what promises little of it; 0: by
+    /// throughput.
+    float per_estimate;
+};
+
+/// What paths estimate.
+enum class PathGoal {
+    reflection,  ///< what they reflect at the first hit: `specular` and `incident`, or `diffuse`
+    lit_color    ///< the lit colour of what they meet first: `camera_radiance` and `on_screen`
+};
+
+/// Paths in flight. A lane whose path has ended takes the next one, so that all lanes stay busy until finish().
+class PathLanes {
+public:
+    PathLanes(const TracedScene& scene, const SobolSequence& sequence, PathGoal goal, PixelEstimate& estimate)
+        : scene_(scene), sequence_(sequence), goal_(goal), estimate_(estimate) {}
+
+    void start(const PathStart& path);
+    void finish();
+
+private:
+    void advance();
+    void trace_rays();
+    void leave(int lane);
+    void meet(int lane, const RTCRayHit& ray);
+    void sample_lights();
+    template <bool has_lights, PathGoal goal>
+    void scatter();
+    void trace_shadow_rays(uint32_t reached);
+    void look_ahead();
+    void record(uint32_t continuing);
+    void end(int lane);
+
+    struct Visit {
+        vec3 position, normal;
+        float throughput, radiance;  ///< luminance, when the path went on
+    };
+
+    const TracedScene& scene_;
+    const SobolSequence& sequence_;
+    const PathGoal goal_;
+    PixelEstimate& estimate_;
+    uint32_t busy_ = 0;                       ///< bit per lane: it holds a path
+    std::vector<std::vector<Visit>> visits_;  ///< of each lane, while what paths find is taken down
+
+    // Of each path:
+    LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
+    Lanes<float> pdf_;            ///< with which direction_ was drawn
+    Lanes<uint32_t> light_cell_;  ///< of the last vertex that took a light sample
+    Lanes<uint32_t> depth_, pair_, reversed_sample_, is_specular_;
+    Lanes<float> per_estimate_;
+    Lanes<uint32_t> is_on_screen_;  ///< what it met first
+    // Of the vertex that it has reached:
+    Lanes<uint32_t> continues_;  ///< 1 if there is one, and later if the path goes on from it, else 0
+    LanesVec3 position_, error_, geometric_normal_, normal_, base_color_;
+    Lanes<float> metalness_, roughness_, specular_;
+    LightLanes lights_;
+    LanesVec3 direct_;  ///< what the light sample adds, if it is visible
+    Lanes<float>
+        promise_;    ///< what a path of weight 1 is expected to bring beyond it, in parts of the pixel's; 0: unknown
+    LanesVec3 cut_;  ///< throughput with which the path would go on, were it not for max_depth
+};

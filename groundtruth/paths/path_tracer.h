@@ -1,0 +1,121 @@
+#pragma once
+#include "core/left_out.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+#include "groundtruth/sampling/lobes.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+struct PathTracerSettings {
+    unsigned max_depth = 64;  ///< reflections per path, at most; light that needs more is missing from the estimate
+    LightStrategy strategy = LightStrategy::power;
+    bool russian_roulette = true;
+    ReflectionModel model = ReflectionModel::gltf;
+    bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
+    bool learns_lights =
+        true;               ///< which lights reach which places, see LightChoice; else their groups share the samples
+    bool ladder = false;    ///< also estimate the lower rungs of the truth ladder, see PixelEstimate: twice the rays
+    bool keep_all = false;  ///< trace and evaluate also what left_out() names: the same image, slower
+};
+
+/// The surface that a camera ray through a pixel centre meets: what the G-buffer holds of it.
+struct FirstHit {
+    bool is_hit = false;
+    glm::vec3 position{0.0f};          ///< m, world space
+    float distance = 0.0f;             ///< along the ray (m)
+    float depth = 0.0f;                ///< along the view's -z (m)
+    glm::vec3 geometric_normal{0.0f};  ///< unit, towards the camera
+    glm::vec3 normal{0.0f};            ///< unit shading normal
+    glm::vec3 view{0.0f};              ///< unit, towards the camera
+    glm::vec3 base_color{0.0f};
+    float metalness = 0.0f, roughness = 0.0f, specular = 0.0f;
+    unsigned material = 0, instance = 0;  ///< indices into the scene
+    glm::vec3 emitted{0.0f};              ///< towards the camera; where nothing is hit, the environment
+    glm::vec3 position_error{0.0f};       ///< half extent of the box that holds the exact hit (m)
+    glm::vec3 ray_origin{0.0f};           ///< of rays that leave it, before their offset along the normal (m)
+    bool is_unlit = false;
+    glm::vec3 highlight{0.0f};  ///< radiance of the punctual lights that it reflects specularly, without any noise
+    unsigned shadow_rays = 0;   ///< traced for `highlight`
+    bool is_highlight_finite = true;  ///< else it counts as zero
+    // With PathTracerSettings::ladder:
+    glm::vec3 reflectance{0.0f};  ///< F0 A + F90 B, as the compositor has it
+    glm::vec3 fallback{0.0f};     ///< the environment over the specular lobe, as the G-buffer has it
+};
+
+struct LightObservation;
+struct RadianceObservation;
+
+/// Sums over the samples of one pixel, to be divided as written here.
+struct PixelEstimate {
+    /// / samples: diffusely reflected radiance; add FirstHit::emitted for the `diffuse` output
+    glm::dvec3 diffuse{0.0};
+    glm::dvec3 specular{0.0};  ///< / samples: specularly reflected radiance, without FirstHit::highlight
+    glm::dvec3 incident{0.0};  ///< / lobe_samples: mean incident radiance over the lobe above the horizon
+    // With PathTracerSettings::ladder:
+    glm::dvec3 camera_radiance{0.0};  ///< / lobe_samples: `incident`, with the lit colour of what the lobe meets
+    glm::dvec3 on_screen{0.0};  ///< / lobe_samples: the same, with nothing for what the camera's image does not show
+    uint64_t on_screen_samples = 0;  ///< samples of the lobe that meet what the image shows
+    /// / samples: throughput, first reflection included, with which paths would have gone on after max_depth
+    /// reflections
+    glm::dvec3 cut{0.0};
+    uint64_t samples = 0;
+    uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
+    /// Samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0.
+    uint64_t non_finite = 0;
+    uint64_t rays = 0;   ///< traced, of both kinds
+    uint64_t paths = 0;  ///< rays that left the first hit along a lobe
+    // Take down what each light sample found, and what each path beyond each vertex, if given.
+    std::vector<LightObservation>* light_record = nullptr;
+    std::vector<RadianceObservation>* radiance_record = nullptr;
+};
+
+/// Unbiased path tracer over Embree (next-event estimation and BSDF sampling combined by multiple importance sampling)
+/// for one frame of one camera. Building it builds the BVH, with all cores; afterwards all members are const and may be
+/// called from any number of threads, whose results do not depend on how the work is split.
+///
+/// `specular` and `incident` leave out what punctual lights send to the first hit itself: they are deltas, which a mean
+/// over directions cannot hold, which no ray ever meets, and which engines shade in closed form. That highlight is
+/// FirstHit::highlight. `diffuse` includes them, and all outputs do at later vertices.
+///
+/// Surfaces are seen from both sides, normals turned to the side of the viewer; the geometric normal says which side
+/// that is. Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below
+/// the horizon of the shading normal reflect nothing and are no part of the lobe; directions above it but below the
+/// geometric one meet the surface itself and carry no light. Unlit surfaces radiate their base colour and reflect
+/// nothing.
+class PathTracer {
+public:
+    /// `scene` must outlive the tracer. Fails with MachineError if Embree runs out of memory.
+    PathTracer(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
+               const PathTracerSettings& settings);
+    ~PathTracer();
+    PathTracer(const PathTracer&) = delete;
+    PathTracer& operator=(const PathTracer&) = delete;
+
+    /// From now on Russian roulette ends paths by what they are expected to bring to their pixel and not by their
+    /// throughput. `diffuse`, `specular`: about what each pixel holds (RGB), from other samples than those that will be
+    /// traced. The means stay the same. To be called before trace() is.
+    void expect(const HostImage& diffuse, const HostImage& specular);
+
+    /// The hit of the ray through the centre of pixel (x, y), y down.
+    FirstHit first_hit(unsigned x, unsigned y) const;
+
+    /// Adds samples [first_sample, first_sample + count) of the Owen-scrambled Sobol' sequence that (x, y, seed)
+    /// selects. Different seeds give independent scrambles; the error falls fastest when count is a power of two that
+    /// divides first_sample. Unlit hits and the background have nothing to estimate: only `samples` grows.
+    void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
+               PixelEstimate& estimate) const;
+
+    /// What this scene does not need; nothing with PathTracerSettings::keep_all.
+    const std::vector<LeftOut>& left_out() const;
+
+private:
+    void learn_light_choice();
+    template <class Observation>
+    std::vector<Observation> learn(uint64_t seed, unsigned wanted_samples,
+                                   std::vector<Observation>* PixelEstimate::*record) const;
+
+    struct State;
+    std::unique_ptr<State> state_;
+};

@@ -1,0 +1,28 @@
+#pragma once
+#include "groundtruth/paths/path_tracer.h"
+#include "groundtruth/reference/reference.h"
+
+/// What a pass needs of the path tracer, so that the statistics can also be proved on integrands with known moments.
+/// Both are called from any thread; `trace` is PathTracer::trace().
+struct PixelTracer {
+    std::function<FirstHit(unsigned x, unsigned y)> first_hit;
+    std::function<void(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample,
+                       unsigned count, PixelEstimate& estimate)>
+        trace;
+};
+
+inline constexpr unsigned batch_count = 16;  ///< per pass; the even ones make half A, the odd ones half B
+
+struct PixelCost {
+    uint64_t rays = 0, non_finite = 0;
+};
+
+/// Which of the independent sets of samples a pass draws from.
+enum class SampleSet : uint64_t { reference, guide };
+
+/// Adds batch_count batches of `batch_samples` samples to the outputs of one pixel that `reference` has, and writes its
+/// first-hit layers.
+/// The scrambles depend on seed, set, and how many samples the pixel has already, and so on nothing that threads or
+/// time decide.
+PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed,
+                      SampleSet set, unsigned batch_samples);
