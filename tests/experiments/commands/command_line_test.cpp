@@ -257,10 +257,9 @@ TEST_F(CommandLine, SavesGBuffers) {
 TEST_F(CommandLine, SaysAtCtrlCThatTheSameCommandContinues) {
     config(R"({"shots": [{"scene": "fence", "resolution": [96, 54]}], "reference": {"samples": 1000000}, "seeds": 1,
         "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
-    // With job control, as without it shells let what they start in the background ignore Ctrl-C.
+    // Shells let what they start in the background ignore Ctrl-C, and this program may be in one's background itself.
     write_text(folder / "stop.sh", "cd '" + folder.string() + R"('
-set -m
-SSRLAB_CACHE="$PWD/cache" ')" SSRLAB_PROGRAM R"(' run study.json > log 2>&1 &
+SSRLAB_CACHE="$PWD/cache" env --default-signal=INT ')" SSRLAB_PROGRAM R"(' run study.json > log 2>&1 &
 while kill -0 $! && ! grep -q 'fence, camera' log; do sleep 0.05; done
 kill -INT $!
 wait $!
