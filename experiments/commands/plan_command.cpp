@@ -95,6 +95,8 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
                                .search_path = scene_search_path(common.scene_path),
                                .keep_all = options.keep_all,
                                .cells = options.cells};
+    // Estimating takes minutes of a large study: what cannot be written is said before.
+    if (!options.json.empty()) create_folder(std::filesystem::absolute(options.json).parent_path());
     Device device(settings.device);
     const StudyPlan plan = plan_study(config, device.info(), settings.search_path, settings.keep_all);
     const CellStore store(settings.out,

@@ -72,7 +72,7 @@ TEST_F(Faults, WhatCannotBeWrittenIsNamed) {
         "variants": [{"variant": "mcguire_dda"}], "tune": {"axes": {"dda.stride": [1, 2]}}})");
     // No user can make a folder there.
     for (const char* command :
-         {"run study.json --out /proc/x", "merge study.json o --out /proc/x", "plan study.json --list --json /proc/x/y",
+         {"run study.json --out /proc/x", "merge study.json o --out /proc/x", "plan study.json --json /proc/x/y",
           "tables o --out /proc/x", "figures o --out /proc/x", "diff o o --csv /proc/x/y", "diff o o --page /proc/x/y",
           "gbuffer fence --size 8 8 --out /proc/x", "reference fence --size 8 8 --samples 16 --out /proc/x/y.exr",
           "compare a.exr a.exr --map /proc/x/y.exr", "stability --cases nan --out /proc/x",

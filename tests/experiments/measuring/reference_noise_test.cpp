@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace {
 
@@ -147,5 +148,42 @@ TEST(Effects, OnErrorsThatHoldTheNoiseAreJudged) {
         if (seeds == 0) {
             EXPECT_EQ(without.interval, interval::unknown_reference);
         }
+    }
+}
+
+/// Sums and growth are alternatives: of two points one may have none of the first.
+TEST(Effects, PairNoNoiseOfUnequalLengths) {
+    std::vector<ResultRow> rows;
+    std::vector<ReferenceNoise> noise;
+    for (const char* point : {"base", "better"}) {
+        rows.push_back({.shot = "s",
+                        .frame = "0",
+                        .variant = "v",
+                        .point = point,
+                        .target = "specular",
+                        .metric = "mse",
+                        .formula = "mse",
+                        .mask = "all",
+                        .value = 1.0,
+                        .floor = 0.1});
+        noise.push_back({.shot = "s",
+                         .frame = "0",
+                         .variant = "v",
+                         .point = point,
+                         .target = "specular",
+                         .metric = "mse",
+                         .mask = "all",
+                         .sums = std::vector<float>(noise_groups, 0.001f)});
+    }
+    const std::vector<VariantConfig> variants = {
+        {.variant = "v", .point = "base", .depends_on_seed = false, .is_baseline = true},
+        {.variant = "v", .point = "better", .depends_on_seed = false}};
+    mark_representative_rows(rows);
+    const auto interval_of = [&] { return std::string(paired_effects(rows, variants, {}, noise).at(0).interval); };
+    EXPECT_EQ(interval_of(), interval::reference);
+    for (ReferenceNoise& one : noise) {
+        const std::vector<float> sums = std::exchange(one.sums, {});
+        EXPECT_EQ(interval_of(), interval::unknown_reference) << one.point;
+        one.sums = sums;
     }
 }

@@ -55,6 +55,7 @@ std::vector<nlohmann::json> others(const nlohmann::json& value) {
          {nlohmann::json("x"), nlohmann::json(-1.5), nlohmann::json(true), nlohmann::json(nullptr),
           nlohmann::json::array({{{"x", 1}}}), nlohmann::json({{"x", nlohmann::json::array({1})}})})
         if (other.type() != value.type()) list.push_back(other);
+    if (value.is_number_unsigned()) list.push_back(-2);
     return list;
 }
 
