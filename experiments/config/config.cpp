@@ -39,6 +39,9 @@ Keys reference_keys() {
                        " at most"),
              "the same, in frames that techniques read and that no result is compared with: only their lit colour is "
              "rendered"},
+            {"lit_noise", flag(), true,
+             "false leaves out the two further plays of each point that measure what the noise of the lit colour adds "
+             "to its error, two thirds of the rendering with one seed: the error's interval then lacks it"},
             {"seconds", number(0, 1e7), Default(0, "no limit"), "for each frame, beside those of its guide"},
             {"target_relative_error", number(0, 1), Default(0, "none"),
              "the relative standard error of the specular light at a pixel"},
@@ -158,6 +161,7 @@ void read_reference(ConfigObject& study, Config& config) {
     ReferenceSettings& settings = config.reference;
     if (object.has("samples")) settings.max_samples = object.get<unsigned>("samples");
     if (object.has("lit_samples")) config.lit_samples = object.get<unsigned>("lit_samples");
+    config.measures_lit_noise = object.get<bool>("lit_noise");
     settings.max_seconds = object.get<float>("seconds");
     settings.target_relative_error = object.get<float>("target_relative_error");
     settings.max_depth = object.get<unsigned>("max_depth");

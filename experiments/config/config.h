@@ -109,6 +109,7 @@ struct Config {
     std::vector<VariantConfig> variants;
     ReferenceSettings reference;
     unsigned lit_samples = 0;   ///< per pixel of references of the lit colour alone; 0: as settings_of() says
+    bool measures_lit_noise = true;  ///< see LitNoise
     bool has_reference = true;  ///< else no error is measured: frames are timed and rays judged
     CompositeFormula composite = CompositeFormula::split_sum;
     TimingConfig timing;

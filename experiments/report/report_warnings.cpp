@@ -41,6 +41,10 @@ void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
         if (warning.is_string()) warnings.push_back("This study: " + ended(warning.get<std::string>()));
     if (!is_true(member(manifest, "is_complete")))
         warnings.push_back("This study is not finished: some variants or shots may be missing.");
+    if (member(member(member(manifest, "config"), "reference"), "lit_noise") == false)
+        warnings.push_back(
+            "This study did not measure what the noise of the lit colour adds to errors: intervals lack it "
+            "(reference.lit_noise).");
 }
 
 /// Whether the makers of the cells differ in `part`, in what `shown` says of it.

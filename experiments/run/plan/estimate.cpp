@@ -61,7 +61,7 @@ struct PointRates {
 
 /// How often a point is played besides its seeds: with the light of each half of a reference (point_run.cpp).
 unsigned plays_of_lit_noise(const Config& config, const ShotConfig& shot) {
-    return config.has_reference && !shot.direct_lit && shot.gbuffer.empty() ? 2 : 0;
+    return config.measures_lit_noise && config.has_reference && !shot.direct_lit && shot.gbuffer.empty() ? 2 : 0;
 }
 
 /// What was measured on small images.

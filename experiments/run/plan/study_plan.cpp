@@ -53,6 +53,7 @@ public:
         const VariantConfig& v = config_.variants[variant];
         std::vector<std::string> what = {v.variant, v.point, point.parameters};
         for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
+        if (!config_.measures_lit_noise) what.push_back("without lit noise");
         return name(sources, request, with_images(what));
     }
     std::string of_costs(const std::string& request, size_t variant) {

@@ -74,7 +74,8 @@ private:
     }
 
     void report_step() {
-        const size_t passes = point_.variant.seeds.size() + (reads_noisy_light(point_) ? 2 : 0);
+        const bool is_played_with_halves = point_.config.measures_lit_noise && reads_noisy_light(point_);
+        const size_t passes = point_.variant.seeds.size() + (is_played_with_halves ? 2 : 0);
         settings_.report(double(++rendered_) / double(point_.shot.steps.size() * passes));
     }
 
@@ -175,6 +176,7 @@ private:
             noise.add_none();
             return noise;
         }
+        if (!point_.config.measures_lit_noise) return noise;
         Renderer of_a = renderer(), of_b = renderer();
         for (const FrameStep& step : point_.shot.steps) {
             const FrameStore::Frame frame = store_.frame(step, point_.truth.lit(step));
