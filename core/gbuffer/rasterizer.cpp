@@ -69,10 +69,16 @@ Rasterizer::Rasterizer(Device& device, const Scene& scene, const RasterizerOptio
       facts_(material_facts(scene)),
       graph_(device, options.extent),
       drawn_(graph_, scene, options.keep_all),
-      environment_(graph_, scene.environment, options.keep_all || (facts_.has_geometry && facts_.has_environment)) {
+      environment_(graph_, reflected_environment(),
+                   options.keep_all || (facts_.has_geometry && !reflected_environment().is_black())) {
+    facts_.has_environment = !reflected_environment().is_black();
     if (!device.supports(format_of(options.depth_format)))
         fail_machine("the device ", device.info().name, " has no depth format ",
                      name_of(format_of(options.depth_format)), "; choose d32f or d16");
+}
+
+const Environment& Rasterizer::reflected_environment() const {
+    return options_.probe ? *options_.probe : scene_.environment;
 }
 
 bool Rasterizer::needs_fallback() const {

@@ -11,8 +11,11 @@ struct RasterizerOptions {
     unsigned normal_bits = 0;       ///< of each of the two numbers that the shading normal is stored in
                                     ///< (core/shaders/gbuffer/octahedral.glsl), 2 to 16; 0: floats
     bool has_depth_layers = false;  ///< also GBuffer::second_depth and ::back_depth
-    bool is_still = false;          ///< in all frames that will be asked for neither camera nor scene moves
-    bool keep_all = false;          ///< run and compile also what left_out() names: the same images, slower
+    /// What reflections show where nothing is found for them, in place of the scene's environment: a reflection probe.
+    /// It must outlive the rasteriser.
+    const Environment* probe = nullptr;
+    bool is_still = false;  ///< in all frames that will be asked for neither camera nor scene moves
+    bool keep_all = false;  ///< run and compile also what left_out() names: the same images, slower
 };
 
 /// What a rasteriser leaves out of frames with these facts.
@@ -47,6 +50,7 @@ public:
 
 private:
     bool needs_fallback() const;
+    const Environment& reflected_environment() const;
     struct Frame;
     Frame pose(const SceneCamera& camera, const FrameView& view) const;
     GBuffer draw(const Frame& frame);

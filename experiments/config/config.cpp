@@ -37,11 +37,14 @@ Keys reference_keys() {
             {"lit_samples", whole(16, 1 << 24),
              otherwise("`samples`; with `target_relative_error` " + std::to_string(ReferenceSettings::default_samples) +
                        " at most"),
-             "the same, in frames that techniques read and that no result is compared with: only their lit colour is "
-             "rendered"},
+             "the same of the lit colour alone, which techniques read: the rest of `samples` is of the specular light. "
+             "In frames that no result is compared with nothing else is rendered"},
             {"lit_noise", flag(), true,
              "false leaves out the two further plays of each point that measure what the noise of the lit colour adds "
              "to its error, two thirds of the rendering with one seed: the error's interval then lacks it"},
+            {"guide_samples", whole(16, 4096), plain.guide_samples,
+             "per pixel of the guide, which weighs relative errors and tells roulette what to expect, rounded up to "
+             "16 x 2^k: 16 serve where `mse` alone is judged"},
             {"seconds", number(0, 1e7), Default(0, "no limit"), "for each frame, beside those of its guide"},
             {"target_relative_error", number(0, 1), Default(0, "none"),
              "the relative standard error of the specular light at a pixel"},
@@ -160,13 +163,24 @@ void read_reference(ConfigObject& study, Config& config) {
     ConfigObject object = study.object("reference");
     ReferenceSettings& settings = config.reference;
     if (object.has("samples")) settings.max_samples = object.get<unsigned>("samples");
-    if (object.has("lit_samples")) config.lit_samples = object.get<unsigned>("lit_samples");
+    if (object.has("lit_samples")) settings.lit_samples = object.get<unsigned>("lit_samples");
     config.measures_lit_noise = object.get<bool>("lit_noise");
+    settings.guide_samples = object.get<unsigned>("guide_samples");
     settings.max_seconds = object.get<float>("seconds");
     settings.target_relative_error = object.get<float>("target_relative_error");
     settings.max_depth = object.get<unsigned>("max_depth");
     settings.seed = object.get<unsigned>("seed");
     object.finish();
+}
+
+/// The truth ladder falls back to the scene's environment, and an ambient term is no probe's.
+void check_probes(ConfigObject& study, const Config& config) {
+    if (std::ranges::none_of(config.shots, &ShotConfig::has_probe)) return;
+    if (std::ranges::find(config.targets, "on_screen") != config.targets.end())
+        fail(study.at("targets"),
+             ": the target 'on_screen' falls back to the environment: leave it out, or \"fallback\": \"probe\"");
+    if (std::ranges::any_of(config.shots, [](const ShotConfig& shot) { return shot.has_probe && shot.direct_lit; }))
+        fail(config.file.string(), ": \"fallback\": \"probe\" needs path-traced light: leave out \"lit\": \"direct\"");
 }
 
 void read_timing(ConfigObject timing, TimingConfig& config) {
@@ -273,6 +287,7 @@ Config read_config(const std::filesystem::path& file) {
                          : study["images"] == "played" ? KeptImages::played
                                                        : KeptImages::last;
     read_measures(study, config);
+    check_probes(study, config);
     check_tables(study, config);
     check_frozen(study, config);
     check_tune(study, config);

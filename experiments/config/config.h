@@ -30,10 +30,11 @@ struct ShotConfig {
 
     bool direct_lit = false;           ///< SSR reads rasterised direct light in place of the path-traced lit colour
     bool lit_has_environment = false;  ///< that image also holds the environment's specular reflections
+    bool has_probe = false;  ///< reflections fall back to a probe (reflection_probe.h), else to the environment
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     unsigned normal_bits = 0;  ///< RasterizerOptions::normal_bits
-    std::string name_suffix;   ///< of these five, those that are not the study's own: ".d16.reversed"
+    std::string name_suffix;   ///< of these six, those that are not the study's own: ".d16.reversed"
 
     std::string label, group;  ///< how tables and figures show it, and what it belongs to; "": its name, nothing
 
@@ -108,9 +109,8 @@ struct Config {
     std::vector<ShotConfig> shots;
     std::vector<VariantConfig> variants;
     ReferenceSettings reference;
-    unsigned lit_samples = 0;   ///< per pixel of references of the lit colour alone; 0: as settings_of() says
     bool measures_lit_noise = true;  ///< see LitNoise
-    bool has_reference = true;  ///< else no error is measured: frames are timed and rays judged
+    bool has_reference = true;       ///< else no error is measured: frames are timed and rays judged
     CompositeFormula composite = CompositeFormula::split_sum;
     TimingConfig timing;
     std::optional<JudgedRays> hits;  ///< none: no ray is judged

@@ -45,6 +45,13 @@ void for_each_choice(Use use) {
                                          "replaces it in the composite",
                                          {{"none", false}, {"environment", true}},
                                          &ShotConfig::lit_has_environment};
+    static const Words<bool> fallback = {
+        "fallback",
+        "what reflections show where a technique finds nothing: the `environment`, or a reflection `probe` as engines "
+        "place them in rooms, path traced at the camera's place in the shot's first frame. Without one, what a miss "
+        "takes from a bright sky decides the error in a room",
+        {{"environment", false}, {"probe", true}},
+        &ShotConfig::has_probe};
     static const Words<DepthFormat> formats = {
         "depth_format",
         "of the depth buffer",
@@ -61,7 +68,7 @@ void for_each_choice(Use use) {
         "and `octahedral_8` (Cigolle et al. 2014). The truth has its own",
         {{"float", 0}, {"octahedral_16", 16}, {"octahedral_8", 8}},
         &ShotConfig::normal_bits};
-    use(lit), use(specular), use(formats), use(directions), use(normals);
+    use(lit), use(specular), use(fallback), use(formats), use(directions), use(normals);
 }
 
 Values extents() {

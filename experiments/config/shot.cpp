@@ -47,6 +47,7 @@ Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path
               .steps = timeline(config)};
     shot.camera = shot.scene.camera(config.camera);
     shot.facts = derive_facts(shot.scene, shot.camera, config.frames);
+    shot.facts.has_environment |= config.has_probe;
     return shot;
 }
 

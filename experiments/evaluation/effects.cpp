@@ -222,7 +222,7 @@ void judge(EffectRow& e, double p_holm, size_t count) {
     const double factor = adjustment_factor(*e.p, p_holm, count);
     const bool is_exact = e.estimate.standard_error == 0;
     const auto [low, high] = is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor);
-    e.low_holm = low, e.high_holm = high;
+    if (std::isfinite(high)) e.low_holm = low, e.high_holm = high;  // else it is wider than any number
 }
 
 using Table = std::map<Quantity, std::map<Point, SeedsOfPoint>>;

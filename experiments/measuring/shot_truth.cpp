@@ -77,8 +77,8 @@ ReferenceSettings settings_of(const Config& config, ReferenceUse use, bool keep_
     if (use.is_compared) return settings;
     settings.lit_only = true;
     const bool has_target = std::exchange(settings.target_relative_error, 0.0f) > 0;
-    if (config.lit_samples > 0)
-        settings.max_samples = config.lit_samples;
+    if (const unsigned lit = std::exchange(settings.lit_samples, 0u); lit > 0)
+        settings.max_samples = lit;
     else if (has_target && (settings.max_samples == 0 || settings.max_samples > ReferenceSettings::default_samples))
         settings.max_samples = ReferenceSettings::default_samples;
     return settings;

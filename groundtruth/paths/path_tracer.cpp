@@ -337,6 +337,7 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
     const TracedScene& scene = state_->scene;
     FirstVertex vertex{.hit = hit};
     if (!prepare(scene, vertex)) return;
+    vertex.wants_diffuse = vertex.wants_diffuse && estimate.has_diffuse;
     for (const int lobe : {0, 1})
         if (const HostImage& image = state_->per_estimate[lobe]; !image.values.empty())
             vertex.per_estimate[lobe] = *image.pixel(x, y);

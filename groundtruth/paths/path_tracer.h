@@ -64,8 +64,9 @@ struct PixelEstimate {
     uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
     /// Samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0.
     uint64_t non_finite = 0;
-    uint64_t rays = 0;   ///< traced, of both kinds
-    uint64_t paths = 0;  ///< rays that left the first hit along a lobe
+    uint64_t rays = 0;        ///< traced, of both kinds
+    uint64_t paths = 0;       ///< rays that left the first hit along a lobe
+    bool has_diffuse = true;  ///< false: samples are of the specular light alone, and `diffuse` stays as it is
     // Take down what each light sample found, and what each path beyond each vertex, if given.
     std::vector<LightObservation>* light_record = nullptr;
     std::vector<RadianceObservation>* radiance_record = nullptr;

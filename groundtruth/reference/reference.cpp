@@ -54,6 +54,12 @@ void check(glm::uvec2 extent, const ReferenceSettings& settings) {
         fail("max_samples of a reference is ", settings.max_samples, ", but can be ", max_sample_limit, " at most");
     if (settings.lit_only && (settings.ladder || settings.target_relative_error > 0))
         fail("a reference of the lit colour alone has no truth ladder and no target, which are of the specular light");
+    if (settings.lit_samples > max_sample_limit)
+        fail("lit_samples of a reference is ", settings.lit_samples, ", but can be ", max_sample_limit, " at most");
+    if (settings.lit_only && settings.lit_samples > 0)
+        fail("lit_samples of a reference of the lit colour alone are its max_samples");
+    if (settings.guide_samples == 0 || settings.guide_samples > max_sample_limit)
+        fail("guide_samples of a reference is ", settings.guide_samples, ", but must be 1 to ", max_sample_limit);
     if (settings.max_depth == 0) fail("max_depth of a reference is 0, but must be at least 1");
 }
 
@@ -88,8 +94,10 @@ std::string reference_request(const Scene& scene, const ScenePose& pose, const C
     hash.add(scene.content_hash);
     add(hash, pose);
     add(hash, camera);
-    for (const unsigned value : {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder),
-                                 unsigned(settings.lit_only), unsigned(settings.keep_all)})
+    for (const unsigned value :
+         {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder), unsigned(settings.lit_only),
+          unsigned(settings.keep_all), settings.lit_samples > 0 ? unsigned(rounded_samples(settings.lit_samples)) : 0u,
+          settings.lit_only ? 0u : unsigned(rounded_samples(settings.guide_samples))})
         hash.add(value);
     return hash.hex();
 }
@@ -146,7 +154,7 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
     // Of the lit colour alone few samples are asked, and a guide would take more than roulette by it saves.
     if (!settings.lit_only) {
         if (state.reference.guide.specular.values.empty() || needs_guide_variance) {
-            RenderedGuide guide = render_guide(tracer, extent, run);
+            RenderedGuide guide = render_guide(tracer, extent, unsigned(rounded_samples(settings.guide_samples)), run);
             state.reference.guide = std::move(guide.means);
             if (needs_guide_variance) state.guide_variance = std::move(guide.specular_variance);
         }

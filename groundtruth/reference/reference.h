@@ -64,11 +64,11 @@ struct Reference {
     /// RGB, without noise: the punctual lights that the first hit reflects specularly. No part of `specular`, since no
     /// ray meets them and engines shade them in closed form.
     HostImage highlights;
-    /// One channel: share of the pixel's radiance that is missing since paths end after max_depth reflections, if what
-    /// they would have met were as bright as the pixel itself; exact where light is the same everywhere, as between
-    /// mirrors.
+    /// One channel, from the samples of all light: share of the pixel's radiance that is missing since paths end after
+    /// max_depth reflections, if what they would have met were as bright as the pixel itself; exact where light is the
+    /// same everywhere, as between mirrors.
     HostImage cut_share;
-    HostImage sample_count;  ///< one channel
+    HostImage sample_count;  ///< one channel; of `diffuse` ReferenceSettings::lit_samples at most
     HostImage lobe_samples;  ///< two channels: how many samples of half A and of half B are above the horizon
     HostImage depth;         ///< one channel: distance along -z (m), 0 where nothing was hit
     HostImage geometric_normal, normal;  ///< XYZ, world space, as in the G-buffer
@@ -109,12 +109,18 @@ struct ReferenceSettings {
 
     /// Per pixel, at most; rounded up to 16 * 2^k <= 2^24. 0: no such limit, or default_samples if there is no other.
     unsigned max_samples = 0;
+    /// Per pixel of `diffuse`, at most, rounded up as max_samples: techniques read it, and the specular light is what
+    /// they are judged by. The rest is traced for the specular light alone. 0: as many as of that.
+    unsigned lit_samples = 0;
     /// Wall clock, over all continued runs, without the guide's; 0: unlimited. At least one pass of 16 is made.
     double max_seconds = 0;
     float target_relative_error =
         0;  ///< relative standard error of `specular` at each pixel, see relative_error(); 0: no such stop
     unsigned max_depth = 64;  ///< reflections per path
     unsigned seed = 0x5eed;
+    /// Per pixel of the guide, rounded up to 16 * 2^k. 16 are enough for roulette (`truth_benchmark --table`); weights
+    /// of relative errors want more, see reference_guide.h.
+    unsigned guide_samples = 64;
     /// `diffuse` alone, for frames that techniques read and that nothing is compared with: `image`, `specular`,
     /// `incident` and the guide are empty, and cut_share is of the diffuse light. Without a ladder and a target.
     bool lit_only = false;

@@ -85,6 +85,8 @@ std::map<std::string, std::string> attributes(const Reference& reference, const 
         {"ssrlab.target_relative_error", shortest_digits(settings.target_relative_error)},
         {"ssrlab.max_depth", shortest_digits(settings.max_depth)},
         {"ssrlab.seed", shortest_digits(settings.seed)},
+        {"ssrlab.lit_samples", shortest_digits(settings.lit_samples)},
+        {"ssrlab.guide_samples", shortest_digits(settings.guide_samples)},
         {"ssrlab.lit_only", shortest_digits(unsigned(reference.is_lit_only()))},
         {"ssrlab.ladder", shortest_digits(unsigned(!reference.ladder.is_empty()))},
         {"ssrlab.keep_all", shortest_digits(unsigned(settings.keep_all))},
@@ -204,6 +206,8 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
     header.read("target_relative_error", state.settings.target_relative_error);
     header.read("max_depth", state.settings.max_depth);
     header.read("seed", state.settings.seed);
+    header.read("lit_samples", state.settings.lit_samples);
+    header.read("guide_samples", state.settings.guide_samples);
     state.settings.lit_only = layers.attributes.contains("ssrlab.lit_only") && header.flag("lit_only");
     state.settings.ladder = header.flag("ladder");
     state.settings.keep_all = header.flag("keep_all");

@@ -11,26 +11,26 @@ namespace {
 constexpr uint64_t guide_seed = 0x9d1de;  ///< with a sample set of its own, so that no reference shares its samples
 constexpr unsigned band = 16;             ///< rows between two looks at the clock
 
-void render_band(Reference& guide, const PixelTracer& tracer, unsigned first_row, std::atomic<uint64_t>& rays) {
+void render_band(Reference& guide, const PixelTracer& tracer, unsigned first_row, unsigned samples,
+                 std::atomic<uint64_t>& rays) {
     const unsigned end = std::min(first_row + band, guide.extent.y), width = guide.extent.x;
     tbb::parallel_for(first_row * width, end * width, [&](unsigned pixel) {
-        rays += add_samples(guide, tracer, pixel % width, pixel / width, guide_seed, SampleSet::guide,
-                            guide_samples / batch_count)
+        rays += add_samples(guide, tracer, pixel % width, pixel / width,
+                            {.seed = guide_seed, .set = SampleSet::guide, .batch_samples = samples / batch_count})
                     .rays;
     });
 }
 
 }  // namespace
 
-RenderedGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, const ReferenceRun& run) {
-    static_assert(guide_samples % batch_count == 0);
+RenderedGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, unsigned samples, const ReferenceRun& run) {
     ReferenceState state = empty_state(extent, {});
     const auto start = std::chrono::steady_clock::now();
     auto last_report = start;
     const auto seconds = [](auto from, auto to) { return std::chrono::duration<double>(to - from).count(); };
     std::atomic<uint64_t> rays = 0;
     for (unsigned y = 0; y < extent.y; y += band) {
-        render_band(state.reference, tracer, y, rays);
+        render_band(state.reference, tracer, y, samples, rays);
         const auto now = std::chrono::steady_clock::now();
         if (!run.progress || seconds(last_report, now) < run.seconds_between_reports) continue;
         last_report = now;

@@ -1,6 +1,7 @@
 #include "groundtruth/reference/reference_passes.h"
 
 #include "core/elapsed.h"
+#include "groundtruth/reference/reference_stopping.h"
 #include "groundtruth/sampling/flush_denormals.h"
 
 #include <tbb/parallel_for.h>
@@ -83,8 +84,11 @@ void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& t
             const size_t pixel = size_t(y) * reference.extent.x + x;
             const unsigned samples = unsigned(state.sample_goal.values[pixel] - reference.sample_count.values[pixel]);
             if (samples == 0) continue;
-            const PixelCost cost =
-                add_samples(reference, tracer, x, y, state.settings.seed, SampleSet::reference, samples / batch_count);
+            const PixelCost cost = add_samples(
+                reference, tracer, x, y,
+                {.seed = state.settings.seed,
+                 .batch_samples = samples / batch_count,
+                 .most_lit = state.settings.lit_samples > 0 ? rounded_samples(state.settings.lit_samples) : 0});
             if (!state.rays_per_sample.values.empty())
                 state.rays_per_sample.values[pixel] = float(double(cost.rays) / samples);
             counts.rays += cost.rays;

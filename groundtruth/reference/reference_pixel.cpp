@@ -1,6 +1,8 @@
 #include "groundtruth/reference/reference_pixel.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace {
 
@@ -107,22 +109,41 @@ void write_first_hit(Reference& reference, size_t pixel, const FirstHit& hit) {
     reference.ladder.fallback.set_rgb(pixel, hit.fallback);
 }
 
-}  // namespace
+/// The sum of an image whose specular light was sampled further than its diffuse light. What both shared of their
+/// samples makes them depend on each other: `covariance`, of the means of both that the pixel has now.
+void add_up(Reference& reference, size_t pixel, glm::dvec3 covariance) {
+    const ReferenceOutput &diffuse = reference.diffuse, &specular = reference.specular;
+    const glm::vec3 highlight = reference.highlights.rgb(pixel);
+    ReferenceOutput& image = reference.image;
+    for (const auto half : {&ReferenceOutput::half_a, &ReferenceOutput::half_b, &ReferenceOutput::mean})
+        (image.*half).set_rgb(pixel, (diffuse.*half).rgb(pixel) + (specular.*half).rgb(pixel) + highlight);
+    const glm::dvec3 variance =
+        glm::dvec3(diffuse.variance.rgb(pixel)) + glm::dvec3(specular.variance.rgb(pixel)) + 2.0 * covariance;
+    image.variance.set_rgb(pixel, glm::vec3(max(variance, glm::dvec3(0.0))));
+}
 
-PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed,
-                      SampleSet set, unsigned batch_samples) {
+/// Of the means of both that the pixel has now.
+glm::dvec3 covariance_of_both(const Reference& reference, size_t pixel) {
+    return 0.5 * (glm::dvec3(reference.image.variance.rgb(pixel)) - glm::dvec3(reference.diffuse.variance.rgb(pixel)) -
+                  glm::dvec3(reference.specular.variance.rgb(pixel)));
+}
+
+/// `batch_samples` in each batch, all with the diffuse light or all without.
+PixelCost add_alike(Reference& reference, const PixelTracer& tracer, glm::uvec2 at, const SampleRequest& request,
+                    unsigned batch_samples, bool has_diffuse) {
+    const auto [x, y] = std::pair(at.x, at.y);
     const size_t pixel = size_t(y) * reference.extent.x + x;
     const FirstHit hit = tracer.first_hit(x, y);
     write_first_hit(reference, pixel, hit);
 
     const double samples_before = reference.sample_count.values[pixel];
-    const uint64_t pass_seed = mix(mix(seed) ^ mix(uint64_t(set) + 1) ^ uint64_t(samples_before));
+    const uint64_t pass_seed = mix(mix(request.seed) ^ mix(uint64_t(request.set) + 1) ^ uint64_t(samples_before));
     PixelCost cost{.rays = 1 + hit.shadow_rays, .non_finite = !hit.is_highlight_finite};
     Batches diffuse, specular, image, incident, camera_radiance, on_screen;
     double on_screen_samples = 0;
     glm::dvec3 cut(0.0);
     for (unsigned b = 0; b < batch_count; ++b) {
-        PixelEstimate estimate;
+        PixelEstimate estimate{.has_diffuse = has_diffuse};
         if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, mix(pass_seed + b), 0, batch_samples, estimate);
         diffuse.sums[b] = estimate.diffuse + glm::dvec3(hit.emitted) * double(batch_samples);
         specular.sums[b] = estimate.specular;
@@ -142,15 +163,19 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
     const double old_weight[2] = {samples_before / 2, samples_before / 2};
     const double samples = double(batch_samples) * batch_count;
     const bool is_lit_only = reference.is_lit_only();
-    const PassMeans diffuse_means = means(diffuse), image_means = is_lit_only ? diffuse_means : means(image);
-    merge(reference.diffuse, pixel, diffuse_means, old_weight);
-    float& cut_share = reference.cut_share.values[pixel];
-    const double its_share = share_of_light(cut / samples, 0.5 * (image_means.half[0] + image_means.half[1]));
-    cut_share = float((cut_share * samples_before + its_share * samples) / (samples_before + samples));
+    if (has_diffuse) {
+        const PassMeans diffuse_means = means(diffuse), image_means = is_lit_only ? diffuse_means : means(image);
+        merge(reference.diffuse, pixel, diffuse_means, old_weight);
+        if (!is_lit_only) merge(reference.image, pixel, image_means, old_weight);
+        float& cut_share = reference.cut_share.values[pixel];
+        const double its_share = share_of_light(cut / samples, 0.5 * (image_means.half[0] + image_means.half[1]));
+        cut_share = float((cut_share * samples_before + its_share * samples) / (samples_before + samples));
+    }
     reference.sample_count.values[pixel] += float(samples);
     if (is_lit_only) return cost;
+    const glm::dvec3 covariance = covariance_of_both(reference, pixel) * (samples_before / (samples_before + samples));
     merge(reference.specular, pixel, means(specular), old_weight);
-    merge(reference.image, pixel, image_means, old_weight);
+    if (!has_diffuse) add_up(reference, pixel, covariance);
 
     float* lobe_samples = &reference.lobe_samples.values[pixel * 2];
     const double old_lobe_weight[2] = {lobe_samples[0], lobe_samples[1]};
@@ -172,5 +197,22 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
         if (total > 0) share = float((share * before + on_screen_samples) / total);
     }
     for (unsigned h = 0; h < 2; ++h) lobe_samples[h] += float(incident_means.weight[h]);
+    return cost;
+}
+
+}  // namespace
+
+PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y,
+                      const SampleRequest& request) {
+    const auto held = uint64_t(reference.sample_count.values[size_t(y) * reference.extent.x + x]);
+    const uint64_t lit = request.most_lit > 0 ? std::max(request.most_lit, held) - held : ~uint64_t(0);
+    const unsigned with_diffuse = unsigned(std::min<uint64_t>(request.batch_samples, lit / batch_count));
+    PixelCost cost;
+    for (const bool has_diffuse : {true, false}) {
+        const unsigned samples = has_diffuse ? with_diffuse : request.batch_samples - with_diffuse;
+        if (samples == 0) continue;
+        const PixelCost added = add_alike(reference, tracer, {x, y}, request, samples, has_diffuse);
+        cost.rays += added.rays, cost.non_finite += added.non_finite;
+    }
     return cost;
 }

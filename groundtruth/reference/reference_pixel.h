@@ -20,9 +20,16 @@ struct PixelCost {
 /// Which of the independent sets of samples a pass draws from.
 enum class SampleSet : uint64_t { reference, guide };
 
-/// Adds batch_count batches of `batch_samples` samples to the outputs of one pixel that `reference` has, and writes its
-/// first-hit layers.
+/// What is added to a pixel.
+struct SampleRequest {
+    uint64_t seed = 0;
+    SampleSet set = SampleSet::reference;
+    unsigned batch_samples = 1;  ///< in each of batch_count batches
+    uint64_t most_lit = 0;  ///< samples of `diffuse` that the pixel may have, a multiple of batch_count; 0: no limit
+};
+
+/// Adds samples to the outputs of one pixel that `reference` has, and writes its first-hit layers.
 /// The scrambles depend on seed, set, and how many samples the pixel has already, and so on nothing that threads or
 /// time decide.
-PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y, uint64_t seed,
-                      SampleSet set, unsigned batch_samples);
+PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y,
+                      const SampleRequest& request);

@@ -1,7 +1,6 @@
 #include "groundtruth/reference/sample_allocation.h"
 
 #include "groundtruth/reference/reference_error.h"
-#include "groundtruth/reference/reference_guide.h"
 #include "groundtruth/reference/reference_stopping.h"
 
 #include <algorithm>
@@ -100,7 +99,8 @@ double need_of_guide(const ReferenceState& state, size_t pixel, double floor, do
     const double radiance = std::max(rgb_mean(state.reference.guide.specular, pixel), floor);
     if (radiance <= 0) return 0;
     const double unit = std::pow(state.settings.target_relative_error * radiance, 2);
-    return rgb_mean(state.guide_variance, pixel) / unit * std::pow(double(guide_samples), exponent);
+    return rgb_mean(state.guide_variance, pixel) / unit *
+           std::pow(double(rounded_samples(state.settings.guide_samples)), exponent);
 }
 
 double decay_exponent(const std::vector<Knowledge>& knowledge, const std::vector<size_t>& informers) {

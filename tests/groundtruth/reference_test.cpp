@@ -300,6 +300,64 @@ TEST_F(References, OfTheLitColorAloneHaveItsLightAndNoOther) {
     EXPECT_THROW(render({.target_relative_error = 0.1f, .lit_only = true}), Error);
 }
 
+TEST_F(References, HaveABudgetForTheLitColour) {
+    constexpr ReferenceSettings settings{.max_samples = 1024, .lit_samples = 64, .seed = 1};
+    const Reference r = render(settings), few = render(samples(64, 1)), whole = render(samples(1024, 2));
+    // Its first samples are those of a reference that has no more; then the specular light goes on alone.
+    EXPECT_EQ(r.diffuse.mean.values, few.diffuse.mean.values);
+    EXPECT_EQ(r.diffuse.variance.values, few.diffuse.variance.values);
+    EXPECT_LT(r.rays, 0.8 * whole.rays);
+    EXPECT_NE(r.stream, render(samples(16, 1)).stream);  // no cache takes one for the other
+    // As in OfOtherSeedsDifferByTheirStatedVariance.
+    EXPECT_NEAR(mean_z_squared(r.specular, whole.specular), 1.0, 0.2);
+    EXPECT_NEAR(mean_of(r.specular.mean) / mean_of(whole.specular.mean), 1.0, 0.01);
+    EXPECT_NEAR(mean_z_squared(r.image, whole.image), 1.0, 0.2) << "the sum's variance is that of both";
+    for (size_t i = 0; i < r.image.mean.values.size(); ++i)
+        for (const auto half : {&ReferenceOutput::half_a, &ReferenceOutput::half_b, &ReferenceOutput::mean})
+            ASSERT_NEAR((r.image.*half).values[i],
+                        (r.diffuse.*half).values[i] + (r.specular.*half).values[i] + r.highlights.values[i],
+                        1e-5f * (1 + (r.image.*half).values[i]));  // float32 rounding of two numbers
+
+    ReferenceSettings more = settings;
+    more.max_samples = 2048;
+    EXPECT_EQ(cached_reference(scene, pose, camera, extent, settings, folder).specular.mean.values,
+              r.specular.mean.values);
+    EXPECT_EQ(cached_reference(scene, pose, camera, extent, more, folder).image.variance.values,
+              render(more).image.variance.values)
+        << "extended from the file";
+    EXPECT_THROW(render({.max_samples = 16, .lit_samples = 16, .lit_only = true}), Error);
+}
+
+/// The variance of an image whose parts share some of their samples, from many seeds.
+TEST_F(References, OfImagesWhosePartsHaveBudgetsStateTheirVariance) {
+    constexpr unsigned seeds = 64;
+    std::vector<double> sum(size_t(extent.x) * extent.y * 3), squares(sum.size()), stated(sum.size());
+    for (unsigned seed = 1; seed <= seeds; ++seed) {
+        const Reference r = render({.max_samples = 32, .lit_samples = 16, .seed = seed, .guide_samples = 16});
+        for (size_t i = 0; i < sum.size(); ++i) {
+            const double value = r.image.mean.values[i];
+            sum[i] += value, squares[i] += value * value, stated[i] += double(r.image.variance.values[i]) / seeds;
+        }
+    }
+    double ratio = 0, count = 0;
+    for (size_t i = 0; i < sum.size(); ++i) {
+        const double found = (squares[i] - sum[i] * sum[i] / seeds) / (seeds - 1);
+        if (stated[i] <= 0) continue;
+        ratio += found / stated[i], ++count;
+    }
+    // The mean over some 500 noisy pixels of a ratio whose deviation is about 0.2 (63 degrees of freedom).
+    EXPECT_NEAR(ratio / count, 1.0, 0.05) << count;
+}
+
+TEST_F(References, WithFewGuideSamplesAreUnbiased) {
+    const ReferenceSettings settings{.max_samples = 1024, .seed = 1, .guide_samples = 16};
+    const Reference r = render(settings), whole = render(samples(1024, 2));
+    EXPECT_NE(r.guide.specular.values, whole.guide.specular.values);
+    EXPECT_NEAR(mean_z_squared(r.specular, whole.specular), 1.0, 0.2);
+    EXPECT_NEAR(mean_of(r.specular.mean) / mean_of(whole.specular.mean), 1.0, 0.01);
+    EXPECT_THROW(render({.max_samples = 16, .guide_samples = 0}), Error);
+}
+
 TEST_F(References, WithoutAGuideSayWhatToDo) {
     Reference r = render(samples(16));
     write_reference(folder / "new.exr", r, samples(16));

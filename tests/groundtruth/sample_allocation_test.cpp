@@ -48,7 +48,7 @@ Reference render(const PixelTracer& tracer, const ReferenceSettings& settings, d
                  const PixelTracer& guide_tracer) {
     const ReferenceRun run;
     ReferenceState state = empty_state(extent, settings);
-    RenderedGuide guide = render_guide(guide_tracer, extent, run);
+    RenderedGuide guide = render_guide(guide_tracer, extent, ReferenceSettings().guide_samples, run);
     state.reference.guide = std::move(guide.means);
     state.guide_variance = std::move(guide.specular_variance);
     RenderClock clock{.run = run, .seconds_before = seconds_before};

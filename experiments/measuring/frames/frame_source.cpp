@@ -16,13 +16,14 @@ bool needs_depth_layers(const VariantConfig& variant) {
 
 class SceneSource final : public FrameSource {
 public:
-    SceneSource(Device& device, const Shot& shot, const Config& config, bool keep_all)
+    SceneSource(Device& device, const Shot& shot, const Config& config, bool keep_all, const Environment* probe)
         : shot_(shot),
           rasterizer_(device, shot.scene,
                       {.extent = shot.config.extent,
                        .depth_format = shot.config.depth_format,
                        .normal_bits = shot.config.normal_bits,
                        .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
+                       .probe = probe,
                        .is_still = shot.facts.is_still(),
                        .keep_all = keep_all}),
           compositor_(rasterizer_.graph()) {}
@@ -95,8 +96,11 @@ private:
 
 }  // namespace
 
-std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all) {
-    return std::make_unique<SceneSource>(device, shot, config, keep_all);
+std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all,
+                                          const Environment* probe) {
+    if (shot.config.has_probe && !probe)
+        fail(shot.name(), ": reflection probes are made by `ssrlab run` alone: leave out \"fallback\": \"probe\"");
+    return std::make_unique<SceneSource>(device, shot, config, keep_all, probe);
 }
 std::unique_ptr<FrameSource> capture_source(Device& device, Capture& capture, const Shot& shot, bool reads_own_lit) {
     return std::make_unique<CaptureSource>(device, capture, shot, reads_own_lit);

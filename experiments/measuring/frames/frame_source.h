@@ -22,8 +22,10 @@ public:
 };
 
 /// Rasterises shot.scene. With shot.config.direct_lit its lit colour is rasterised direct light, and `lit` is not
-/// looked at.
-std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all);
+/// looked at. `probe`: what reflections fall back to, which outlives the source; none: the environment, and Error for a
+/// shot that asks for a probe.
+std::unique_ptr<FrameSource> scene_source(Device& device, const Shot& shot, const Config& config, bool keep_all,
+                                          const Environment* probe = nullptr);
 
 /// The frames of a capture. With `reads_own_lit` their lit colour is the files', and `lit` is not looked at.
 std::unique_ptr<FrameSource> capture_source(Device& device, Capture& capture, const Shot& shot, bool reads_own_lit);

@@ -26,7 +26,8 @@ constexpr std::array<glm::uvec2, 3> calibration_extents = {glm::uvec2(64, 36), g
 using OfTwoSizes = std::array<double, 2>;
 using OfAllSizes = std::array<double, calibration_extents.size()>;
 constexpr unsigned few_samples = 32, many_samples = 128;
-constexpr double lit_share = 0.6;  ///< of a reference's time without its guide is that of its lit colour alone
+/// Of a reference's time without its guide is that of its lit colour alone, and that of its specular light alone.
+constexpr double lit_share = 0.6, specular_share = 0.5;
 constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
 
 double seconds_of(const std::function<void()>& work) {
@@ -82,7 +83,9 @@ public:
             auto [ends, is_new] = ends_of_kinds_.try_emplace(kind_of(variant), variant, variant);
             ends->second.second = variant;
         }
-        config_.reference = {.max_samples = few_samples, .max_depth = config.reference.max_depth};
+        config_.reference = {.max_samples = few_samples,
+                             .max_depth = config.reference.max_depth,
+                             .guide_samples = config.reference.guide_samples};
     }
     ~Calibration() {
         std::error_code error;
@@ -270,7 +273,9 @@ private:
         const auto [samples, seconds] = std::pair(settings.max_samples, settings.max_seconds);
         if (samples == 0 && seconds > 0) return seconds;
         // How many samples an error takes is not known: then those that a reference has by default.
-        const double traced = rates_.per_sample * pixels * (samples > 0 ? samples : ReferenceSettings::default_samples);
+        const unsigned of_specular = samples > 0 ? samples : ReferenceSettings::default_samples;
+        const unsigned of_both = settings.lit_samples > 0 ? std::min(settings.lit_samples, of_specular) : of_specular;
+        const double traced = rates_.per_sample * pixels * (of_both + specular_share * (of_specular - of_both));
         return seconds > 0 ? std::min(traced, double(seconds)) : traced;
     }
 

@@ -2,6 +2,7 @@
 
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "experiments/measuring/reflection_probe.h"
 #include "experiments/measuring/rung_errors.h"
 #include "experiments/store/result_images.h"
 #include "experiments/store/shot_facts.h"
@@ -29,20 +30,39 @@ struct Opening {
     }
 };
 
+ReferenceRun run_of(const Opening& opening, const std::string& what) {
+    ReferenceRun run;
+    run.progress = [&opening, what](double fraction, double rays_per_second, double) {
+        char rate[32];
+        std::snprintf(rate, sizeof rate, "%.1f Mray/s", rays_per_second * 1e-6);
+        opening.settings.report(fraction, opening.shot.shot.name() + ": " + what + ", " + rate);
+    };
+    run.notice = [&opening](const std::string& text) { opening.settings.say("note: " + text); };
+    return run;
+}
+
 /// Renders the reference of one frame, or takes it from the cache. Targets are of the last frame, so that only its
 /// reference needs a truth ladder.
 Reference obtain_reference(const Opening& opening, unsigned frame, ReferenceUse use) {
     const Shot& shot = opening.shot.shot;
     const ShotFrame now = shot_frame(shot, frame);
-    ReferenceRun run;
-    run.progress = [&](double fraction, double rays_per_second, double) {
-        char rate[32];
-        std::snprintf(rate, sizeof rate, "%.1f Mray/s", rays_per_second * 1e-6);
-        opening.settings.report(fraction, shot.name() + ": reference of frame " + std::to_string(frame) + ", " + rate);
-    };
-    run.notice = [&](const std::string& text) { opening.settings.say("note: " + text); };
     return cached_reference(shot.scene, now.scene, now.camera, shot.config.extent,
-                            settings_of(opening.config, use, opening.settings.keep_all), opening.settings.cache, run);
+                            settings_of(opening.config, use, opening.settings.keep_all), opening.settings.cache,
+                            run_of(opening, "reference of frame " + std::to_string(frame)));
+}
+
+/// What reflections fall back to, of a shot that asks for a probe.
+std::optional<Environment> obtain_probe(const Opening& opening) {
+    const Shot& shot = opening.shot.shot;
+    if (!shot.config.has_probe) return {};
+    const ShotFrame first = shot_frame(shot, shot.config.frames.front());
+    ReferenceSettings settings = opening.config.reference;
+    settings.keep_all = opening.settings.keep_all;
+    return reflection_probe(first.camera.world_from_view[3], settings,
+                            [&](const CameraPose& camera, glm::uvec2 extent, const ReferenceSettings& of_face) {
+                                return cached_reference(shot.scene, first.scene, camera, extent, of_face,
+                                                        opening.settings.cache, run_of(opening, "reflection probe"));
+                            });
 }
 
 /// Keeps for the manifest what is worth knowing of a reference, and writes its images if they are kept.
@@ -118,7 +138,9 @@ void open_scene(Opening& opening, const ShotConfig& config) {
     OpenShot& open = opening.shot;
     open.shot = load_shot(config, opening.settings.search_path);
     opening.settings.say(open.shot.scene.name + ", camera " + open.shot.camera.name);
-    open.source = scene_source(opening.device, open.shot, opening.config, opening.settings.keep_all);
+    open.probe = obtain_probe(opening);
+    open.source = scene_source(opening.device, open.shot, opening.config, opening.settings.keep_all,
+                               open.probe ? &*open.probe : nullptr);
     open.store = std::make_unique<FrameStore>(*open.source, open.shot.config.depth_format, max_stored_bytes);
     if (!opening.config.has_reference)
         open.truth = truth_of_lit(open.shot, [](unsigned) { return HostImage(); });

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct OpenShotSettings {
 struct OpenShot {
     Shot shot;
     std::unique_ptr<Capture> capture;  ///< null of a scene
+    std::optional<Environment> probe;  ///< what reflections fall back to, if the shot asks for one; outlives the source
     std::unique_ptr<FrameSource> source;
     std::unique_ptr<FrameStore> store;
     ShotTruth truth;

@@ -18,14 +18,14 @@ VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 TECHNIQUE = "mcguire_dda"
 AXES = {"dda.stride": [1, 2], "dda.thickness": {"log": [0.01, 1, 3]}}
 SAMPLE = {"count": 2, "seed": 1, "axes": {"dda.thickness": {"lin": [0.01, 1]}}}
-SETTINGS = {"lit": "path_traced", "lit_specular": "environment", "depth_format": ["d32f", "d16"], "depth_direction": "standard", "normal_encoding": "float"}
+SETTINGS = {"lit": "path_traced", "lit_specular": "environment", "fallback": "environment", "depth_format": ["d32f", "d16"], "depth_direction": "standard", "normal_encoding": "float"}
 PLAYED = {"warm_up": 1, "repeat": 9, "change": 1, "measure": "all", "measure_from": 0, "label": "{scene} {settings}", "group": "g", **SETTINGS}
 SCENE = {"scene": ["fence"], "camera": "main", "resolution": [[64, 36]], "frames": [{"from": 0, "to": 1}], **PLAYED}
 ROOMS = {"scene": ["room:*"], "count": 2, "first": 3}
 MEASURED = {"metrics": ["mse"], "masks": ["all", "roughness_0.1_0.2"], "targets": "image", "frame_metrics": "mse", "frame_masks": "all"}
 BASE = {
     "$schema": "x", "title": "t", "shots": [SCENE, ROOMS, {"gbuffer": "capture", "reference": "truth.exr", "frames": [0, 1], **PLAYED}],
-    "seeds": [0, 1], "reference": {"samples": 16, "lit_samples": 16, "lit_noise": True, "seconds": 1.5, "target_relative_error": 0.5, "max_depth": 4, "seed": 1},
+    "seeds": [0, 1], "reference": {"samples": 16, "lit_samples": 16, "lit_noise": True, "guide_samples": 16, "seconds": 1.5, "target_relative_error": 0.5, "max_depth": 4, "seed": 1},
     "primary": {"metric": "mse", "mask": "all", "target": "image"}, "composite": "split_sum", "resolution": [64, 36],
     "hits": {"every": 4, "seeds": 1}, "costs": True, "images": "all", "timing": {"frames": 15, "warm_up": 1, "copies": False, "most_share": 0.5},
     **MEASURED, **SETTINGS, "reflective_max_roughness": 0.5, "reflective_min_reflectance": 0.1,

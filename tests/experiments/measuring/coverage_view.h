@@ -25,13 +25,13 @@ struct View {
           tracer{[this](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
                  [this](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
                         PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }},
-          guide(render_guide(tracer, extent, {}).means) {}
+          guide(render_guide(tracer, extent, ReferenceSettings().guide_samples, {}).means) {}
 
     Reference reference(unsigned samples, unsigned seed) const {
         ReferenceState state = empty_state(extent, {.ladder = true});
         tbb::parallel_for(0u, extent.x * extent.y, [&](unsigned p) {
-            add_samples(state.reference, tracer, p % extent.x, p / extent.x, seed, SampleSet::reference,
-                        samples / batch_count);
+            add_samples(state.reference, tracer, p % extent.x, p / extent.x,
+                        {.seed = seed, .batch_samples = samples / batch_count});
         });
         state.reference.guide = guide;
         return std::move(state.reference);

@@ -163,3 +163,27 @@ TEST_F(StudyTest, DirectLightHasNoNoise) {
         for (const ResultRow& r : rows) EXPECT_EQ(r.lit_noise.has_value(), lit[1] == 'p') << r.mask;
     }
 }
+
+TEST_F(StudyTest, LitNoiseIsLeftOutWhereAskedAndSaidToBe) {
+    const auto study = [&](const std::string& reference, const std::string& out) {
+        write_text(
+            folder / "study.json",
+            R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}], "variants": [{"variant": "mcguire_dda"}],
+        "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, "reference": )" +
+                reference + "}");
+        return run(read_config(folder / "study.json"), out);
+    };
+    const auto with = study(R"({"samples": 16})", "with"),
+               without = study(R"({"samples": 16, "lit_noise": false})", "without");
+    const auto rows = read_rows<ResultRow>(with / "results.csv"), left = read_rows<ResultRow>(without / "results.csv");
+    ASSERT_EQ(rows.size(), left.size());
+    size_t known = 0;
+    for (size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(rows[i].value, left[i].value);
+        EXPECT_FALSE(left[i].lit_noise);
+        known += rows[i].lit_noise.has_value();
+    }
+    EXPECT_GT(known, 0u);
+    EXPECT_NE(read_text(without / "report.html").find("did not measure what the noise of the lit colour adds"),
+              std::string::npos);
+}
