@@ -168,7 +168,7 @@ TEST_F(StudyTest, LitNoiseIsLeftOutWhereAskedAndSaidToBe) {
     const auto study = [&](const std::string& reference, const std::string& out) {
         write_text(
             folder / "study.json",
-            R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}], "variants": [{"variant": "mcguire_dda"}],
+            R"({"shots": [{"scene": "roughness_gradient", "resolution": [48, 27]}], "variants": [{"variant": "mcguire_dda"}],
         "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, "reference": )" +
                 reference + "}");
         return run(read_config(folder / "study.json"), out);

@@ -35,7 +35,7 @@ TEST(ReflectionProbes, OfASkyAreThatSky) {
 
 TEST_F(StudyTest, ReflectionsFallBackToAProbeWhereAsked) {
     write_text(folder / "study.json",
-               R"({"shots": [{"scene": "corridor", "resolution": [48, 27]}], "fallback": ["environment", "probe"],
+               R"({"shots": [{"scene": "dark_room", "resolution": [48, 27]}], "fallback": ["environment", "probe"],
         "variants": [{"variant": "none"}], "metrics": "mse", "targets": "specular", "masks": "reflective",
         "reference": {"samples": 64}, "timing": {"frames": 0}})");
     std::map<bool, double> errors;
@@ -45,7 +45,7 @@ TEST_F(StudyTest, ReflectionsFallBackToAProbeWhereAsked) {
     EXPECT_LT(errors[true], 0.5 * errors[false]);
     const auto refused = [&](const std::string& more) {
         write_text(folder / "study.json",
-                   R"({"shots": [{"scene": "corridor", "fallback": "probe"}], "variants": [{"variant": "none"}], )" + more + "}");
+                   R"({"shots": [{"scene": "dark_room", "fallback": "probe"}], "variants": [{"variant": "none"}], )" + more + "}");
         return error_message([&] { read_config(folder / "study.json"); });
     };
     EXPECT_NE(refused(R"("targets": ["specular", "on_screen"])").find("falls back to the environment"),
